@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Elliptic integrals and functions of Jacobi by the complementary parameter m_c = 1 − m = 1 − k², which keeps its
+// digits where the period grows without bound (m_c → 0); K = K(m), K' = K(m_c).
+// Sources: NIST Digital Library of Mathematical Functions, chapters 19, 20 and 22; Bulirsch, Numerische Mathematik 7
+// (1965) 78–90 (sn, cn, dn); Carlson, Numerical Algorithms 10 (1995) 13–26 (R_F).
+#pragma once
+
+#include <array>
+
+namespace polhode {
+
+/// The complete integral K(m) = ∫ dθ/√(1 − m sin²θ) over [0, π/2], for 0 ≤ m_c ≤ 1; infinite at m_c = 0.
+double elliptic_k(double m_c);
+
+/// The incomplete integral F(φ | m) for 0 ≤ m_c ≤ 1, φ = atan2(sine, cosine) in [−π, π]; `sine` and `cosine` may have
+/// any common factor. The cosine carries the digits near φ = π/2, where F grows like log(1/√m_c).
+double elliptic_f(double sine, double cosine, double m_c);
+
+/// The same for any phase φ in rad.
+double elliptic_f(double phi, double m_c);
+
+/// sn, cn and dn of any real u for one 0 ≤ m_c ≤ 1; at m_c = 0 they are tanh, sech, sech.
+class JacobiElliptic {
+ public:
+  struct Values {
+    double sn, cn, dn;
+  };
+
+  explicit JacobiElliptic(double m_c);
+
+  /// Costs one sine, one cosine and two divisions per level: about 0.1 µs.
+  Values operator()(double u) const;
+
+  /// K, infinite at m_c = 0.
+  double quarter_period() const { return quarter_period_; }
+
+ private:
+  static constexpr int max_levels = 16;  // the smallest double m_c needs 12
+  int levels_ = 0;                       // 0: m_c = 0
+  std::array<double, max_levels> arithmetic_{}, geometric_{};
+  double mean_ = 0;
+  double quarter_period_ = 0;
+};
+
+/// The direction in the complex plane of θ(u) = ϑ4(π(u + iβ)/2K, nome exp(−2πK'/K)), for real u and a fixed β in
+/// [0, K']. It carries an integral of the third kind without loss of digits: with c = cn(β | m_c)/dn(β | m_c),
+///   ∫ du/(1 + c dn u) = const · u − 2c/√((1 − c²)(1 − m_c c²)) · arg θ(u) + const;
+/// arg θ is odd and has the period 2K.
+class ThetaDirection {
+ public:
+  /// The angle of θ is `turn` + atan2(im, re), of which no caller needs the arctangent.
+  struct Values {
+    double turn, re, im;
+  };
+
+  /// m and m_c = 1 − m each with its own digits.
+  ThetaDirection(double m, double m_c, double beta);
+
+  Values operator()(double u) const;
+
+  /// The derivative of the angle with respect to u at u = 0.
+  double slope_at_zero() const { return slope_at_zero_; }
+
+ private:
+  // By the nome while K < 2K', else by the nome of Jacobi's imaginary transformation; three terms beside the first give
+  // full digits in both.
+  static constexpr int terms = 3;
+  bool transformed_ = false;
+  double half_period_ = 0;  // K
+  double frequency_ = 0;    // π/K, transformed: π/2K'
+  double turn_ = 0;         // turn per unit of u
+  double slope_at_zero_ = 0;
+  std::array<double, terms + 1> re_{}, im_{}, nome_power_{};  // nome_power_: p^n
+};
+
+}  // namespace polhode

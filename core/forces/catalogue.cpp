@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/forces/catalogue.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/forces/constant_force.hpp"
+#include "core/forces/constant_torque.hpp"
+#include "core/forces/damper.hpp"
+#include "core/forces/drag.hpp"
+#include "core/forces/point_gravity.hpp"
+#include "core/forces/spring.hpp"
+#include "core/forces/uniform_gravity.hpp"
+
+namespace polhode {
+
+const std::vector<ForceEntry>& force_catalogue() {
+  static const std::vector<ForceEntry> entries = {
+      force_entry<UniformGravity>(), force_entry<PointGravity>(),  force_entry<Spring>(),
+      force_entry<Damper>(),         force_entry<Drag>(),          force_entry<ConstantForce>(),
+      force_entry<ConstantTorque>(),
+  };
+  return entries;
+}
+
+const ForceEntry* find_force(std::string_view name) {
+  const auto& all = force_catalogue();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const ForceEntry& e) { return e.kind.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+namespace {
+const ForceEntry& entry_of(const ForceParameters& parameters) {
+  const ForceEntry* entry = find_force(parameters.kind);
+  if (!entry) throw std::invalid_argument("no force of the kind '" + parameters.kind + "'");
+  return *entry;
+}
+}  // namespace
+
+template <>
+ForcePointer<float> make_force<float>(const ForceParameters& p, std::span<const Body> bodies) {
+  return entry_of(p).make_float(p, bodies);
+}
+template <>
+ForcePointer<double> make_force<double>(const ForceParameters& p, std::span<const Body> bodies) {
+  return entry_of(p).make_double(p, bodies);
+}
+template <>
+ForcePointer<long double> make_force<long double>(const ForceParameters& p, std::span<const Body> bodies) {
+  return entry_of(p).make_long_double(p, bodies);
+}
+
+}  // namespace polhode

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The catalogue of forces: what a scenario may name under [[force]].
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "core/force_kind.hpp"
+
+namespace polhode {
+
+const std::vector<ForceEntry>& force_catalogue();
+
+/// The entry of that name, or null.
+const ForceEntry* find_force(std::string_view name);
+
+/// Builds a force on the scalar S from its parameters; kinds are checked by the reader of scenarios.
+template <class S>
+ForcePointer<S> make_force(const ForceParameters& parameters, std::span<const Body> bodies);
+
+}  // namespace polhode

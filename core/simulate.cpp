@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/simulate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <stdexcept>
+
+namespace polhode {
+namespace {
+
+// t_end counts as a whole number of steps when it is one to this relative accuracy: 10/0.1 must not leave a step of
+// 1e-15 s behind.
+constexpr double whole_tolerance = 1e-9;
+// How many steps may pass between two looks at the request to stop, and how many are measured in one call.
+constexpr std::int64_t steps_between_looks = 4096;
+constexpr std::int64_t longest_stretch = 64;
+
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.12g", x);
+  return text;
+}
+
+// Positive numbers only, so that a NaN or an infinity anywhere makes it false; no short circuit, so that it vectorises.
+template <class S>
+bool is_finite(const VectorX<S>& y) {
+  constexpr S largest = std::numeric_limits<S>::max();
+  bool finite = true;
+  for (Eigen::Index i = 0; i < y.size(); ++i) finite &= std::abs(y[i]) <= largest;
+  return finite;
+}
+
+// The double state that observers see: the run's own one, or a copy.
+template <class S>
+struct View {
+  State<double> copy;
+  const State<double>& of(const State<S>& state) {
+    copy.t = state.t;
+    copy.y = state.y.template cast<double>();
+    return copy;
+  }
+};
+template <>
+struct View<double> {
+  const State<double>& of(const State<double>& state) { return state; }
+};
+
+bool is_finite(const Sample& s) {
+  const Measurement<double>& m = s.seen;
+  return std::isfinite(m.energy() + m.orientation_defect + m.linear_momentum.sum() + m.angular_momentum.sum() + s.work);
+}
+
+template <class S>
+class Loop {
+ public:
+  Loop(const System<S>& system, const System<double>& truth, Integrator<S>& integrator, State<S>& state,
+       const Schedule& schedule, Observer& observer, const std::atomic<bool>* stop)
+      : system_(system),
+        truth_(truth),
+        integrator_(integrator),
+        state_(state),
+        schedule_(schedule),
+        observer_(observer),
+        stop_(stop),
+        account_(schedule.normalise && system.projection_changes_energy()) {}
+
+  RunOutcome run() {
+    integrator_.begin(state_);
+    const Sample start = measure(state_);
+    observer_.look(view_.of(state_), start);
+    if (take_samples({&start, 1}) && !interrupted()) {
+      if (schedule_.adaptive) adaptive();
+      else fixed();
+    }
+    outcome_.t = state_.t;
+    outcome_.evaluations = integrator_.evaluations();
+    return outcome_;
+  }
+
+ private:
+  Sample measure(const State<S>& state) {
+    const State<double>& seen = view_.of(state);
+    return {seen.t, truth_.measure(seen.y), seen.y[seen.y.size() - 1], projection_energy_};
+  }
+
+  /// Hands samples to the observer; false ends the run as diverged.
+  bool take_samples(std::span<const Sample> samples) {
+    std::size_t finite = 0;
+    while (finite < samples.size() && is_finite(samples[finite])) ++finite;
+    const std::size_t taken = observer_.observe(samples.first(finite));
+    if (taken == samples.size()) return true;
+    state_.t = samples[taken].t;
+    diverged(taken < finite ? "the energy grew beyond all bounds" : "the state ceased to be finite");
+    outcome_.steps -= static_cast<std::int64_t>(samples.size() - taken) - 1;
+    return false;
+  }
+
+  void diverged(const char* why) {
+    outcome_.status = RunStatus::diverged;
+    outcome_.message = std::string(why) + " at t = " + number(state_.t) + " s";
+  }
+
+  bool interrupted() {
+    if (!stop_ || !stop_->load(std::memory_order_relaxed)) return false;
+    outcome_.status = RunStatus::interrupted;
+    outcome_.message = "interrupted at t = " + number(state_.t) + " s";
+    return true;
+  }
+
+  /// One step by the method, then projection and the check for NaN; false ends the run.
+  bool take_step(double h, std::optional<double> t_after) {
+    const StepResult result = integrator_.step(state_, h);
+    if (!result.ok()) {
+      outcome_.status = RunStatus::failed;
+      outcome_.message = result.failure + " at t = " + number(state_.t) + " s";
+      return false;
+    }
+    if (t_after) state_.t = *t_after;  // t_k = k h, never accumulated
+    ++outcome_.steps;
+    if (!is_finite(state_.y)) {
+      diverged("the state ceased to be finite");
+      return false;
+    }
+    if (schedule_.normalise) {
+      const double before = account_ ? energy() : 0.0;
+      system_.project(state_.y);
+      if (account_) projection_energy_ += energy() - before;
+      integrator_.discard_history(state_);
+    }
+    return outcome_.steps % steps_between_looks != 0 || !interrupted();
+  }
+
+  double energy() { return truth_.measure(view_.of(state_).y).energy(); }
+
+  bool observe_now() { return observe(state_); }
+  bool observe(const State<S>& state) {
+    const Sample sample = measure(state);
+    if (!take_samples({&sample, 1})) return false;
+    if (sample.t >= observer_.next_look()) observer_.look(view_.of(state), sample);
+    return true;
+  }
+
+  void fixed() {
+    const StepPlan plan = plan_steps(schedule_.t_end, schedule_.dt);
+    const std::int64_t steps = plan.whole + (plan.last > 0 ? 1 : 0);
+    const std::int64_t stride = schedule_.samples ? steps / *schedule_.samples : 1;
+    std::int64_t k = 0;
+    // All whole steps but the last of the run go by stretches where the method takes them and every step is seen.
+    if (integrator_.takes_stretches() && stride == 1) {
+      const std::int64_t until = plan.last > 0 ? plan.whole : plan.whole - 1;
+      while (k < until) {
+        const std::int64_t n = std::min(longest_stretch, std::min(until, step_of_next_look(k)) - k);
+        if (!take_stretch(k, n)) return;
+        k += n;
+      }
+    }
+    while (k < steps) {
+      ++k;
+      const double h = k <= plan.whole ? schedule_.dt : plan.last;
+      if (!take_step(h, k == steps ? schedule_.t_end : static_cast<double>(k) * schedule_.dt)) return;
+      if (k % stride == 0 && !observe_now()) return;
+    }
+  }
+
+  /// The first step after the k-th at whose end the observer wants to look.
+  std::int64_t step_of_next_look(std::int64_t k) const {
+    const double at = std::ceil(observer_.next_look() / schedule_.dt);
+    if (!(at < 9e15)) return std::numeric_limits<std::int64_t>::max();
+    return std::max(k + 1, static_cast<std::int64_t>(at));
+  }
+
+  bool take_stretch(std::int64_t k, std::int64_t n) {
+    const Stretch stretch{schedule_.dt, n, 0, k, schedule_.normalise, samples_.data()};
+    const StepResult result = integrator_.advance(state_, stretch);
+    if (!result.ok()) {
+      outcome_.status = RunStatus::failed;
+      outcome_.message = result.failure + " at t = " + number(state_.t) + " s";
+      return false;
+    }
+    outcome_.steps += n;
+    const std::span<Sample> samples(samples_.data(), static_cast<std::size_t>(n));
+    for (Sample& s : samples) s.projection = projection_energy_ += s.projection;
+    if (!take_samples(samples)) return false;
+    if (samples.back().t >= observer_.next_look()) observer_.look(view_.of(state_), samples.back());
+    return outcome_.steps % steps_between_looks >= n || !interrupted();
+  }
+
+  void adaptive() {
+    const auto sample_time = [&](std::int64_t k) {
+      return k == *schedule_.samples ? schedule_.t_end
+                                     : static_cast<double>(k) * schedule_.t_end / static_cast<double>(*schedule_.samples);
+    };
+    State<S> between = state_;
+    std::int64_t next = 1;
+    // A method that is projected, or has no dense output, must end its steps on the samples themselves.
+    const bool shorten = schedule_.samples && (schedule_.normalise || !integrator_.has_dense_output());
+    while (state_.t < schedule_.t_end) {
+      const double target = shorten ? sample_time(next) : schedule_.t_end;
+      if (!take_step(target - state_.t, std::nullopt)) return;
+      if (!schedule_.samples) {
+        if (!observe_now()) return;
+        continue;
+      }
+      for (; next <= *schedule_.samples && sample_time(next) <= state_.t; ++next) {
+        if (sample_time(next) == state_.t) {
+          if (!observe_now()) return;
+        } else if (integrator_.interpolate(sample_time(next), between)) {
+          if (!observe(between)) return;
+        } else {
+          outcome_.status = RunStatus::failed;
+          outcome_.message = "no dense output at t = " + number(sample_time(next)) + " s";
+          return;
+        }
+      }
+    }
+  }
+
+  const System<S>& system_;
+  const System<double>& truth_;
+  Integrator<S>& integrator_;
+  State<S>& state_;
+  const Schedule& schedule_;
+  Observer& observer_;
+  const std::atomic<bool>* stop_;
+  const bool account_;  ///< projections can change the energy, so it is measured around them
+  View<S> view_;
+  double projection_energy_ = 0;
+  std::array<Sample, longest_stretch> samples_;
+  RunOutcome outcome_;
+};
+
+}  // namespace
+
+StepPlan plan_steps(double t_end, double dt) {
+  if (!(dt > 0) || !std::isfinite(dt)) throw std::invalid_argument("dt must be a positive number of seconds");
+  if (!(t_end > 0) || !std::isfinite(t_end)) throw std::invalid_argument("t_end must be a positive number of seconds");
+  const double ratio = t_end / dt;
+  if (ratio > 9e15) throw std::invalid_argument("dt is too small for t_end: more than 9e15 steps");
+  StepPlan plan;
+  const double nearest = std::round(ratio);
+  if (nearest >= 1 && std::abs(ratio - nearest) <= whole_tolerance * std::max(1.0, nearest * 1e-3)) {
+    plan.whole = static_cast<std::int64_t>(nearest);
+    return plan;
+  }
+  plan.whole = static_cast<std::int64_t>(std::floor(ratio));
+  plan.last = t_end - static_cast<double>(plan.whole) * dt;
+  return plan;
+}
+
+std::string sampling_problem(const Schedule& schedule) {
+  if (schedule.adaptive || !schedule.samples) return {};
+  const StepPlan plan = plan_steps(schedule.t_end, schedule.dt);
+  const std::int64_t n = *schedule.samples;
+  if (plan.last == 0 && plan.whole % n == 0) return {};
+  const double spacing = schedule.t_end / static_cast<double>(n);
+  const double fitting = spacing / std::max(1.0, std::round(spacing / schedule.dt));
+  return std::to_string(n) + " samples of " + number(schedule.t_end) + " s do not fall on whole steps of " +
+         number(schedule.dt) + " s; dt = " + number(fitting) + " would fit, or leave --samples out to see every step";
+}
+
+template <class S>
+RunOutcome simulate(const System<S>& system, const System<double>& truth, Integrator<S>& integrator, State<S>& state,
+                    const Schedule& schedule, Observer& observer, const std::atomic<bool>* stop) {
+  return Loop<S>(system, truth, integrator, state, schedule, observer, stop).run();
+}
+
+template RunOutcome simulate(const System<float>&, const System<double>&, Integrator<float>&, State<float>&,
+                             const Schedule&, Observer&, const std::atomic<bool>*);
+template RunOutcome simulate(const System<double>&, const System<double>&, Integrator<double>&, State<double>&,
+                             const Schedule&, Observer&, const std::atomic<bool>*);
+template RunOutcome simulate(const System<long double>&, const System<double>&, Integrator<long double>&,
+                             State<long double>&, const Schedule&, Observer&, const std::atomic<bool>*);
+
+}  // namespace polhode

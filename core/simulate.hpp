@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The loop: steps a method over a system, projects, observes, and stops where the numbers end.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/integrator.hpp"
+#include "core/system.hpp"
+
+namespace polhode {
+
+/// When a run steps, looks and ends.
+struct Schedule {
+  double t_end = 1;                     ///< s
+  double dt = 1e-3;                     ///< s, of fixed-step methods; the last step is shortened if it does not divide
+  bool adaptive = false;                ///< the method chooses its steps; dt is not read
+  std::optional<std::int64_t> samples;  ///< observe at k t_end/samples, hit exactly; absent: after every step
+  bool normalise = false;               ///< project every orientation after each step
+};
+
+enum class RunStatus {
+  ok,
+  diverged,    ///< the state ceased to be finite, or the observer called it off
+  failed,      ///< the method gave up
+  interrupted  ///< asked to stop from outside; nothing can be said of the run
+};
+
+struct RunOutcome {
+  RunStatus status = RunStatus::ok;
+  std::string message;
+  double t = 0;                  ///< s, reached
+  std::int64_t steps = 0;
+  std::int64_t evaluations = 0;  ///< right-hand sides
+};
+
+/// Sees the start and every sample, in double whatever the scalar of the run.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  /// Some samples in order, the first of all being the start; `projection` is summed over the run. Returns how many of
+  /// them it took: fewer than all call the run off as diverged at the next one.
+  virtual std::size_t observe(std::span<const Sample> samples) = 0;
+  /// The whole state at the sample seen last. Called for the start, before observe(), and for the first sample at or
+  /// after next_look().
+  virtual void look(const State<double>&, const Sample&) {}
+  /// s; 0 for every sample. A method may take many steps in one call up to then.
+  virtual double next_look() const { return std::numeric_limits<double>::infinity(); }
+};
+
+/// The plan of fixed steps: n whole steps of dt, then one of `last` if it is not zero.
+struct StepPlan {
+  std::int64_t whole = 0;
+  double last = 0;
+};
+/// Throws std::invalid_argument unless 0 < dt and 0 < t_end, both finite.
+StepPlan plan_steps(double t_end, double dt);
+
+/// Empty if the samples of the schedule fall on whole steps; otherwise says what would.
+std::string sampling_problem(const Schedule& schedule);
+
+/// Runs from `state` (at t = 0) to schedule.t_end. Energies are measured on `truth`, the same system in double.
+/// Memory does not depend on the number of steps. `stop`, when given, is looked at every few thousand steps.
+template <class S>
+RunOutcome simulate(const System<S>& system, const System<double>& truth, Integrator<S>& integrator, State<S>& state,
+                    const Schedule& schedule, Observer& observer, const std::atomic<bool>* stop = nullptr);
+
+}  // namespace polhode

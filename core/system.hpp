@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A mechanical system behind one type: what the driver, the library integrators and the measurements need of it.
+// Methods of our own are templates over the concrete RigidBodies (core/rigid_bodies.hpp), so that their loops inline.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "core/formulation.hpp"
+#include "core/problem.hpp"
+#include "core/state.hpp"
+
+namespace polhode {
+
+/// What can be said of a state without knowing its future or past.
+template <class S>
+struct Measurement {
+  S kinetic{};    ///< J: ½ m v² + ½ Ω·IΩ, Ω = Rᵀω with R as stored; with L as the state ½ L·(R I⁻¹ Rᵀ L)
+  S potential{};  ///< J
+  Vector3<S> linear_momentum = Vector3<S>::Zero();  ///< kg m/s; pinned bodies count nothing
+  /// kg m²/s, world axes; of one body about its reference point, of several about the world's origin. L = R I Ω.
+  Vector3<S> angular_momentum = Vector3<S>::Zero();
+  S orientation_defect{};  ///< largest over the bodies: | |q| − 1 |, or the Frobenius norm of RᵀR − 1
+
+  S energy() const { return kinetic + potential; }
+};
+
+/// One body as a trajectory shows it, world axes, SI units.
+template <class S>
+struct BodySnapshot {
+  Vector3<S> position;          ///< of the mass centre
+  Quaternion<S> orientation;    ///< as stored; from the matrix by Shepperd's method
+  Matrix3<S> rotation;          ///< the matrix that the equations use
+  Vector3<S> velocity;          ///< of the mass centre
+  Vector3<S> angular_velocity;  ///< ω
+  Vector3<S> angular_momentum;  ///< about the reference point
+};
+
+template <class S>
+class System {
+ public:
+  using Scalar = S;
+
+  System(const System&) = delete;
+  System& operator=(const System&) = delete;
+  virtual ~System() = default;
+
+  const Problem& problem() const { return problem_; }
+  const Formulation& formulation() const { return formulation_; }
+  const Layout& layout() const { return layout_; }
+  std::size_t moving() const { return layout_.slots.size(); }
+  const std::vector<ForcePointer<S>>& forces() const { return forces_; }
+  bool has_forces() const { return !forces_.empty(); }
+  bool forces_do_work() const { return forces_do_work_; }
+  bool forces_exert_torques() const { return forces_exert_torques_; }
+  bool forces_read_rotation() const { return forces_read_rotation_; }
+
+  /// Registers a force beyond those that the problem names: before a run, never during one.
+  void add_force(ForcePointer<S> force) {
+    forces_do_work_ = forces_do_work_ || force->does_work();
+    for (std::size_t i = 0; i < moving(); ++i) {
+      forces_exert_torques_ = forces_exert_torques_ || force->effect_on(i).torque;
+    }
+    forces_read_rotation_ = forces_read_rotation_ || force->reads_rotation();
+    forces_.push_back(std::move(force));
+  }
+
+  /// The state in which the problem starts, at t = 0.
+  virtual State<S> start() const = 0;
+
+  /// The flat ODE ẏ = f(t, y), y and dy of layout().size() numbers: what SUNDIALS and Odeint see.
+  virtual void rate(S t, const S* y, S* dy) const = 0;
+
+  virtual Measurement<S> measure(const VectorX<S>& y) const = 0;
+  virtual BodySnapshot<S> snapshot(const VectorX<S>& y, std::size_t body) const = 0;
+
+  /// Moves every orientation to the nearest one on its manifold: q/|q|, or the polar factor of R.
+  virtual void project(VectorX<S>& y) const = 0;
+
+  /// True when project() can change the energy. It cannot where the equations read q/|q| only.
+  bool projection_changes_energy() const {
+    return formulation_.orientation == Orientation::matrix || formulation_.rotation_from == RotationFrom::stored;
+  }
+
+ protected:
+  System(Problem problem, const Formulation& formulation);
+
+ private:
+  Problem problem_;
+  Formulation formulation_;
+  Layout layout_;
+  std::vector<ForcePointer<S>> forces_;
+  bool forces_do_work_ = false;
+  bool forces_exert_torques_ = false;
+  bool forces_read_rotation_ = false;
+};
+
+/// Builds the instantiation that fits: one free body, or many. Throws std::invalid_argument, with the reason, for a
+/// formulation that makes no sense (gyroscopic off with momentum_world) and for a problem without a moving body.
+template <class S>
+std::unique_ptr<System<S>> make_system(const Problem& problem, const Formulation& formulation);
+
+}  // namespace polhode

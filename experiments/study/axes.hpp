@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The values of an axis as the command line writes them: lists a,b,c and ranges first:last:count[:log].
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace polhode::study {
+
+/// Splits at the separator; blanks around items are dropped. Throws InputError, naming `option`, on an empty list or item.
+std::vector<std::string> split_list(std::string_view text, char separator, const std::string& option);
+
+/// Numbers: 0.1,0.2 or 1e-4:1e-1:10 (evenly spaced, ends included) or 1e-4:1e-1:10:log. Throws InputError.
+std::vector<double> numbers(std::string_view text, const std::string& option);
+
+/// TOML values: [1,2,3];[4,5,6], or numbers as above, or text items, for --vary.
+std::vector<std::string> toml_values(std::string_view text, const std::string& option);
+
+/// The shortest text that reads back as the same double.
+std::string exact(double x);
+
+}  // namespace polhode::study

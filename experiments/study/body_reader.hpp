@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads one [[body]] of a scenario: its matter (mass, inertia, mass centre) and how it starts.
+#pragma once
+
+#include "core/body.hpp"
+#include "experiments/study/toml_cursor.hpp"
+
+namespace polhode::study {
+
+struct ReadBody {
+  Body body;
+  BodyStart start;
+  bool has_mass = false;  ///< false of a static body that is given none
+};
+
+/// `index` gives the name of a body that has none: body0, body1, … Throws a Fault.
+ReadBody read_body(const TomlCursor& table, std::size_t index);
+
+}  // namespace polhode::study

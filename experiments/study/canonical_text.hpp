@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The canonical text of a scenario: everything that decides how a run goes, one line for each body and force.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/problem.hpp"
+
+namespace polhode::study {
+
+/// What Scenario::canonical holds. Bodies and forces in their order, the keys of a force and the invariants sorted.
+std::string canonical_text(const Problem& problem, const std::vector<std::string>& invariants);
+
+}  // namespace polhode::study

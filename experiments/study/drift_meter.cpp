@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/drift_meter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace polhode::study {
+namespace {
+
+constexpr int exact_instants = 50;
+constexpr double hopeless = 1e6;  ///< relative energy drift beyond which a run is called off as diverged
+
+/// max(a, |x|) that a NaN does not get lost in.
+void raise(double& worst, double x) {
+  const double size = std::abs(x);
+  if (!(size <= worst)) worst = size;
+}
+
+std::optional<double> finite(double x) { return std::isfinite(x) ? std::optional(x) : std::nullopt; }
+
+}  // namespace
+
+void ThinnedSeries::add(double t, double energy, double linear2, double angular2, double defect) {
+  if (in_open_ == 0 || !(std::abs(energy) <= std::abs(open_.energy_drift_rel))) {
+    open_.t = t;
+    open_.energy_drift_rel = energy;
+  }
+  if (in_open_ == 0) {
+    open_.linear_momentum_drift_rel = linear2;
+    open_.angular_momentum_drift_rel = angular2;
+    open_.orientation_defect = defect;
+  } else {
+    open_.linear_momentum_drift_rel = std::max(open_.linear_momentum_drift_rel, linear2);
+    open_.angular_momentum_drift_rel = std::max(open_.angular_momentum_drift_rel, angular2);
+    open_.orientation_defect = std::max(open_.orientation_defect, defect);
+  }
+  if (++in_open_ == per_point_) close();
+}
+
+void ThinnedSeries::close() {
+  points_.push_back(open_);
+  in_open_ = 0;
+  if (points_.size() == capacity) merge();
+}
+
+void ThinnedSeries::merge() {
+  for (std::size_t i = 0; i < capacity / 2; ++i) {
+    const SeriesPoint &a = points_[2 * i], &b = points_[2 * i + 1];
+    SeriesPoint p = std::abs(a.energy_drift_rel) >= std::abs(b.energy_drift_rel) ? a : b;
+    p.linear_momentum_drift_rel = std::max(a.linear_momentum_drift_rel, b.linear_momentum_drift_rel);
+    p.angular_momentum_drift_rel = std::max(a.angular_momentum_drift_rel, b.angular_momentum_drift_rel);
+    p.orientation_defect = std::max(a.orientation_defect, b.orientation_defect);
+    points_[i] = p;
+  }
+  points_.resize(capacity / 2);
+  per_point_ *= 2;
+}
+
+std::vector<SeriesPoint> ThinnedSeries::finish(double energy_scale, double linear_scale, double angular_scale) {
+  std::vector<SeriesPoint> points = points_;
+  if (in_open_ > 0) points.push_back(open_);
+  for (SeriesPoint& p : points) {
+    p.energy_drift_rel /= energy_scale;
+    p.linear_momentum_drift_rel = std::sqrt(p.linear_momentum_drift_rel) / linear_scale;
+    p.angular_momentum_drift_rel = std::sqrt(p.angular_momentum_drift_rel) / angular_scale;
+  }
+  return points;
+}
+
+DriftMeter::DriftMeter(const System<double>& system, const std::vector<std::string>& invariants, double t_end,
+                       bool exact_at_samples)
+    : system_(system),
+      t_end_(t_end),
+      exact_at_samples_(exact_at_samples),
+      conserved_(conserved_momenta(system)),
+      exact_(system),
+      has_exact_(exact_.has_attitude() || exact_.has_position()) {
+  for (const std::string& name : invariants) invariants_.push_back({find_invariant(name)});
+}
+
+void DriftMeter::start(const State<double>& state, const Sample& sample) {
+  const Measurement<double>& m = sample.seen;
+  started_ = true;
+  energy_start_ = m.energy() - sample.work - sample.projection;
+  // Against |E0|; where kinetic and potential energy cancel in it, against the larger of the two; at rest at zero
+  // potential, against 1 J.
+  const double larger = std::max(std::abs(m.kinetic), std::abs(m.potential));
+  energy_scale_ = std::abs(energy_start_) >= 1e-9 * larger ? std::abs(energy_start_) : larger;
+  if (energy_scale_ == 0) energy_scale_ = 1;
+  linear_start_ = m.linear_momentum;
+  angular_start_ = m.angular_momentum;
+  // Against the size of the momentum; where the bodies' momenta cancel, or nothing moves, against the sum of their
+  // sizes, and then against 1 kg m/s or 1 kg m²/s.
+  double linear_sum = 0, angular_sum = 0;
+  for (std::size_t i = 0; i < system_.moving(); ++i) {
+    const BodySnapshot<double> body = system_.snapshot(state.y, i);
+    const double p = system_.problem().bodies[i].mass * body.velocity.norm();
+    linear_sum += p;
+    angular_sum += body.angular_momentum.norm() + (system_.moving() > 1 ? p * body.position.norm() : 0.0);
+  }
+  const auto scale = [](double size, double sum) {
+    const double s = size >= 1e-9 * sum ? size : sum;
+    return s > 0 ? s : 1.0;
+  };
+  linear_scale_ = scale(linear_start_.norm(), linear_sum);
+  angular_scale_ = scale(angular_start_.norm(), angular_sum);
+  for (Watched& w : invariants_) {
+    const BodySnapshot<double> body = system_.snapshot(state.y, 0);
+    w.start = w.kind->value(system_.problem(), body);
+    w.scale = w.kind->scale(system_.problem(), body);
+  }
+}
+
+std::size_t DriftMeter::observe(std::span<const Sample> samples) {
+  const double bound = hopeless * energy_scale_, per_t_end = 1 / t_end_;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Sample& sample = samples[i];
+    const Measurement<double>& m = sample.seen;
+    const double energy = (m.energy() - sample.work - sample.projection) - energy_start_;
+    const double linear2 = conserved_.linear ? (m.linear_momentum - linear_start_).squaredNorm() : 0.0;
+    const double angular2 = conserved_.angular ? (m.angular_momentum - angular_start_).squaredNorm() : 0.0;
+    raise(worst_energy_, energy);
+    raise(worst_linear2_, linear2);
+    raise(worst_angular2_, angular2);
+    raise(worst_defect_, m.orientation_defect);
+    last_energy_ = energy;
+    series_.add(sample.t, energy, linear2, angular2, m.orientation_defect);
+    const double s = sample.t * per_t_end;
+    sum_t_ += s;
+    sum_tt_ += s * s;
+    sum_d_ += energy;
+    sum_td_ += s * energy;
+    ++samples_;
+    if (!(std::abs(energy) <= bound)) return i;
+  }
+  return samples.size();
+}
+
+double DriftMeter::next_look() const {
+  if (!invariants_.empty() || (has_exact_ && exact_at_samples_)) return 0;
+  return has_exact_ ? next_exact_ : std::numeric_limits<double>::infinity();
+}
+
+void DriftMeter::look(const State<double>& state, const Sample& sample) {
+  if (!started_) start(state, sample);
+  if (!invariants_.empty()) measure_further(state);
+  if (!has_exact_ || (!exact_at_samples_ && state.t < next_exact_)) return;
+  measure_errors(state);
+  while (next_exact_ <= state.t) {
+    next_exact_ = exact_count_ < exact_instants ? static_cast<double>(++exact_count_) * t_end_ / exact_instants
+                                                : std::numeric_limits<double>::infinity();
+  }
+}
+
+void DriftMeter::measure_further(const State<double>& state) {
+  const BodySnapshot<double> body = system_.snapshot(state.y, 0);
+  for (Watched& w : invariants_) raise(w.worst, (w.kind->value(system_.problem(), body) - w.start) / w.scale);
+}
+
+void DriftMeter::measure_errors(const State<double>& state) {
+  const ExactMotion::Error e = exact_.error(system_, state);
+  const auto keep = [](std::optional<double>& worst, const std::optional<double>& now) {
+    if (now && !(worst && *now <= *worst)) worst = now;
+  };
+  keep(worst_error_.position, e.position);
+  keep(worst_error_.attitude, e.attitude);
+  keep(worst_error_.angular_velocity, e.angular_velocity);
+}
+
+void DriftMeter::report(RunResult& result) {
+  result.energy_initial = finite(energy_start_);
+  result.energy_drift_max_rel = finite(worst_energy_ / energy_scale_);
+  result.energy_drift_final_rel = finite(last_energy_ / energy_scale_);
+  const double n = static_cast<double>(samples_);
+  const double spread = n * sum_tt_ - sum_t_ * sum_t_;
+  if (samples_ > 2 && spread > 0) {
+    result.energy_drift_rate = finite((n * sum_td_ - sum_t_ * sum_d_) / spread / t_end_);
+  }
+  if (conserved_.linear) result.linear_momentum_drift_max_rel = finite(std::sqrt(worst_linear2_) / linear_scale_);
+  if (conserved_.angular) result.angular_momentum_drift_max_rel = finite(std::sqrt(worst_angular2_) / angular_scale_);
+  for (const Watched& w : invariants_) {
+    if (std::isfinite(w.worst)) result.invariant_drift_max_rel[w.kind->name] = w.worst;
+  }
+  result.orientation_defect_max = finite(worst_defect_);
+  const auto only_finite = [](const std::optional<double>& x) { return x ? finite(*x) : std::nullopt; };
+  result.position_error_max = only_finite(worst_error_.position);
+  result.attitude_error_max = only_finite(worst_error_.attitude);
+  result.angular_velocity_error_max_rel = only_finite(worst_error_.angular_velocity);
+  result.series = series_.finish(energy_scale_, linear_scale_, angular_scale_);
+  result.drift_class = result.status == "ok" ? classify_drift(result.series) : "";
+}
+
+std::string classify_drift(const std::vector<SeriesPoint>& series) {
+  if (series.size() < 32) return {};
+  const double end = series.back().t;
+  double early = 0, largest = 0;
+  for (const SeriesPoint& p : series) {
+    raise(largest, p.energy_drift_rel);
+    if (p.t <= end / 16) early = largest;
+  }
+  if (!std::isfinite(largest)) return {};
+  if (largest <= 1e-13) return "round-off";
+  if (early == 0) return {};
+  const double exponent = std::log2(largest / early) / 4;
+  if (exponent < 0.25) return "bounded";
+  if (exponent < 0.75) return "random walk";
+  if (exponent < 1.5) return "linear";
+  if (exponent < 2.5) return "quadratic";
+  return "faster";
+}
+
+}  // namespace polhode::study

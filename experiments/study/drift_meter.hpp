@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Watches a run and measures how far its invariants drift and how far it is from the exact motion.
+//
+// Energy is a ledger: E = kinetic + potential − work of non-conservative forces − energy injected by projection. Its
+// drift is what the ledger cannot explain. Each relative drift is taken against a scale that is never zero.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/exact_motion.hpp"
+#include "core/invariants.hpp"
+#include "core/simulate.hpp"
+#include "experiments/study/run_record.hpp"
+
+namespace polhode::study {
+
+/// The history of a run in a fixed number of stretches, however long it is: when all are in use, neighbours merge.
+class ThinnedSeries {
+ public:
+  /// In any units: energy signed, the squares of the momenta's changes.
+  void add(double t, double energy, double linear2, double angular2, double defect);
+  /// Energy and momenta over these scales.
+  std::vector<SeriesPoint> finish(double energy_scale, double linear_scale, double angular_scale);
+
+ private:
+  static constexpr std::size_t capacity = 256;
+  void close();
+  void merge();
+
+  std::vector<SeriesPoint> points_;
+  SeriesPoint open_;
+  std::size_t in_open_ = 0;
+  std::size_t per_point_ = 1;  ///< samples in one stretch
+};
+
+class DriftMeter final : public Observer {
+ public:
+  /// `exact_at_samples`: the errors against the exact motion are taken at every sample; otherwise at 50 instants spread
+  /// evenly over the run (the first sample at or after each) and at its end, since they cost more than a step.
+  DriftMeter(const System<double>& system, const std::vector<std::string>& invariants, double t_end,
+             bool exact_at_samples);
+
+  std::size_t observe(std::span<const Sample> samples) override;
+  void look(const State<double>& state, const Sample& sample) override;
+  double next_look() const override;
+
+  /// Fills the measured part of the result.
+  void report(RunResult& result);
+
+ private:
+  void start(const State<double>& state, const Sample& sample);
+  void measure_further(const State<double>& state);
+  void measure_errors(const State<double>& state);
+
+  struct Watched {
+    const InvariantKind* kind;
+    double start = 0, scale = 1, worst = 0;
+  };
+
+  const System<double>& system_;
+  double t_end_;
+  bool exact_at_samples_;
+  ConservedMomenta conserved_;
+  std::vector<Watched> invariants_;
+  ExactMotion exact_;
+  bool has_exact_;
+  bool started_ = false;
+
+  std::int64_t samples_ = 0;
+  double energy_start_ = 0, energy_scale_ = 1;
+  Vector3<double> linear_start_, angular_start_;
+  double linear_scale_ = 1, angular_scale_ = 1;
+  // In J, and the squares of kg m/s and kg m²/s: divided by their scales in the end.
+  double worst_energy_ = 0, last_energy_ = 0, worst_linear2_ = 0, worst_angular2_ = 0, worst_defect_ = 0;
+  double next_exact_ = 0;
+  std::int64_t exact_count_ = 0;
+  ExactMotion::Error worst_error_;
+  /// Sums for the least-squares slope of the drift, over t/t_end.
+  double sum_t_ = 0, sum_tt_ = 0, sum_d_ = 0, sum_td_ = 0;
+  ThinnedSeries series_;
+};
+
+/// How a drift grows, from its thinned history: "round-off" (never above 1e-13), or by the exponent p with which its
+/// largest value so far grows over the last 15/16 of the run, |drift| ~ t^p: "bounded" (p < 0.25), "random walk"
+/// (p < 0.75), "linear" (p < 1.5), "quadratic" (p < 2.5), "faster". Empty: fewer than 32 points.
+std::string classify_drift(const std::vector<SeriesPoint>& series);
+
+}  // namespace polhode::study

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/listing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/forces/catalogue.hpp"
+#include "core/invariants.hpp"
+#include "core/shape_inertia.hpp"
+#include "experiments/study/builtin_scenarios.hpp"
+#include "experiments/study/input_error.hpp"
+#include "experiments/study/scenario.hpp"
+#include "experiments/study/suggestion.hpp"
+#include "integrators/catalogue.hpp"
+
+namespace polhode::study {
+namespace {
+
+std::string line(const std::string& name, const std::string& text) { return fmt::format("  {:<22} {}\n", name, text); }
+
+std::string integrators() {
+  std::string text;
+  for (const IntegratorEntry& e : integrator_catalogue()) {
+    const Declaration& d = e.declaration;
+    const std::string order = d.order > 0 ? fmt::format("order {}", d.order) : "variable order";
+    text += line(d.name, fmt::format("{} ({}, {}, {}{})", d.summary, d.family, order,
+                                     d.implicit ? "implicit" : "explicit", d.adaptive ? ", takes --tolerance" : ""));
+  }
+  return text;
+}
+
+std::string scenarios() {
+  std::string text;
+  for (const BuiltinScenario& b : builtin_scenarios()) {
+    const Scenario s = ScenarioSource::open(std::string(b.name)).resolve();
+    text += line(s.name, s.title + (s.description.empty() ? "" : ": " + s.description));
+  }
+  return text;
+}
+
+std::string keys(const std::vector<Parameter>& parameters) {
+  std::string text;
+  for (const Parameter& p : parameters) {
+    text += (text.empty() ? "" : ", ") + p.key + (p.unit.empty() ? "" : " [" + p.unit + "]");
+  }
+  return text;
+}
+
+std::string forces() {
+  std::string text;
+  for (const ForceEntry& e : force_catalogue()) text += line(e.kind.name, e.kind.summary + "; keys: " + keys(e.kind.parameters));
+  return text;
+}
+
+std::string shapes() {
+  std::string text;
+  for (const ShapeKind& s : shape_catalogue()) text += line(s.name, s.summary + "; keys: " + keys(s.parameters));
+  return text;
+}
+
+std::string invariants() {
+  std::string text;
+  for (const InvariantKind& i : invariant_catalogue()) text += line(i.name, i.summary + " [" + i.unit + "]");
+  return text;
+}
+
+std::string nothing() { return "  none in this version\n"; }
+
+std::string metrics() {
+  return line("energy_drift_*", "ledger: kinetic + potential - work of non-conservative forces - energy injected by projection") +
+         line("linear_momentum_*", "|P - P0| over |P0|, where the forces conserve it") +
+         line("angular_momentum_*", "|L - L0| over |L0|: one body about its mass centre or pivot, several about the origin") +
+         line("<invariant>_*", "each further invariant that a scenario declares, over its scale") +
+         line("orientation_defect_max", "| |q| - 1 |, or the Frobenius norm of R^T R - 1") +
+         line("position_error_max_m", "distance from the exact mass centre") +
+         line("attitude_error_max_rad", "angle between the attitude and the exact one") +
+         line("angular_velocity_error_*", "|w - w exact| over |w0|") +
+         line("drift_class", "exponent of the drift's growth: round-off, bounded, random walk, linear, quadratic, faster");
+}
+
+struct Section {
+  const char* name;
+  std::string (*text)();
+};
+constexpr Section sections[] = {{"integrators", integrators},   {"scenarios", scenarios},
+                                {"forces", forces},             {"shapes", shapes},
+                                {"invariants", invariants},     {"metrics", metrics},
+                                {"broad-phases", nothing},      {"narrow-phases", nothing},
+                                {"responses", nothing}};
+
+}  // namespace
+
+std::string listing(const std::string& what) {
+  std::string text;
+  std::vector<std::string_view> known;
+  for (const Section& s : sections) {
+    known.emplace_back(s.name);
+    if (what.empty() || what == s.name) text += (what.empty() ? std::string(s.name) + "\n" : "") + s.text();
+  }
+  if (text.empty()) throw InputError("--list: no catalogue '" + what + "'" + suggestion(what, "There are", known));
+  return text;
+}
+
+}  // namespace polhode::study

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "experiments/study/input_error.hpp"
+
+namespace polhode::study {
+namespace {
+
+std::string quoted(const std::string& word) {
+  if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%") ==
+                           std::string::npos) {
+    return word;
+  }
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+struct AxisHelp {
+  const char* name;
+  const char* values;
+  const char* meaning;
+};
+// The order is that of axis_names().
+constexpr AxisHelp axis_help[] = {
+    {"scenario", "NAME|FILE", "scenario, built in or a TOML file (see --list scenarios)"},
+    {"integrator", "NAME", "method, or all (see --list integrators)"},
+    {"orientation", "quaternion|matrix", "chart of the orientation"},
+    {"angular-state", "velocity_world|velocity_body|momentum_world", "what stands for the rotation in the state"},
+    {"gyroscopic", "on|off", "the term w x Iw, which both source documents leave out"},
+    {"normalize", "never|step", "project the orientation after each step"},
+    {"rotation-from", "normalised|stored", "what a quaternion off the unit sphere stands for"},
+    {"precision", "float|double|long_double", "arithmetic; our own methods only"},
+    {"dt", "S", "step of fixed-step methods, in s"},
+    {"tolerance", "X", "relative and absolute tolerance of adaptive methods"},
+    {"t-end", "S", "duration in s (default: the scenario's)"},
+    {"samples", "N", "measure at k t_end/N only (default: after every step)"},
+    {"broad-phase", "NAME", "broad phase of collisions (none in this version)"},
+    {"narrow-phase", "NAME", "narrow phase of collisions (none in this version)"},
+    {"response", "NAME", "contact response (none in this version)"},
+    {"impact-timing", "NAME", "timing of impacts (none in this version)"},
+};
+
+/// A complaint of CLI11 as one line.
+std::string one_line(const std::string& text) {
+  std::string line = text.substr(0, text.find('\n'));
+  return line + "; see --help";
+}
+
+}  // namespace
+
+const std::vector<std::string>& axis_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const AxisHelp& axis : axis_help) all.emplace_back(axis.name);
+    return all;
+  }();
+  return names;
+}
+
+ParsedOptions parse_options(const Experiment& experiment, int argc, const char* const* argv) {
+  ParsedOptions parsed;
+  Options& options = parsed.options;
+  CLI::App app{experiment.question + "\n\nAxes take a list (a,b,c) or a range (1e-4:1e-1:10, or 1e-4:1e-1:10:log); the "
+                                     "study is their product. SI units throughout.",
+               experiment.name};
+  app.get_formatter()->column_width(40);
+  std::map<std::string, std::string> given;
+  for (const AxisHelp& axis : axis_help) {
+    std::string meaning = axis.meaning;
+    const auto preset = experiment.defaults.find(axis.name);
+    if (preset != experiment.defaults.end()) meaning += " (default: " + preset->second + ")";
+    app.add_option_function<std::string>(
+           std::string("--") + axis.name, [&given, name = axis.name](const std::string& text) { given[name] = text; },
+           meaning)
+        ->type_name(axis.values)
+        ->group("Axes");
+  }
+  std::vector<std::string> vary;
+  app.add_option("--vary", vary, "any key of the scenario as an axis: body.0.inertia.1=0.5:3:20, or whole vectors: "
+                                 "'body.0.angular_velocity=[0,1,0];[1,0,0]'")
+      ->type_name("KEY=VALUES")
+      ->allow_extra_args(false)
+      ->group("Axes");
+  std::string study_file;
+  app.add_option("--study", study_file, "read axes from a TOML file; the command line overrides it")
+      ->type_name("FILE")
+      ->group("Axes");
+  app.add_option("--out", options.out, "folder of the results (default: results/<experiment>-<scenario>-<hash>)")
+      ->type_name("FOLDER")
+      ->group("Results");
+  app.add_flag("--force", options.force, "overwrite the results of a different study in that folder")->group("Results");
+  std::string trajectory = experiment.one_run ? "csv" : "none";
+  app.add_option("--trajectory", trajectory, "write the motion of every run (default: " + trajectory + ")")
+      ->type_name("none|csv|hdf5")
+      ->check(CLI::IsMember({"none", "csv", "hdf5"}))
+      ->group("Results");
+  app.add_flag("!--no-figures", options.figures, "no figures")->group("Results");
+  app.add_option("--jobs", options.jobs, "runs at a time (default: one for each core)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096))
+      ->group("Running");
+  app.add_option("--seed", options.seed, "seed of random studies (default: 1)")->type_name("N")->group("Running");
+  app.add_flag("--dry-run", options.dry_run, "print the plan and write nothing")->group("Running");
+  std::string list;
+  CLI::Option* list_option =
+      app.add_option("--list", list, "print the catalogue: integrators, scenarios, forces, shapes, invariants, "
+                                     "broad-phases, narrow-phases, responses or metrics (default: all)")
+          ->type_name("[WHAT]")
+          ->expected(0, 1)
+          ->group("Running");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    parsed.exit_status = app.exit(help);
+    return parsed;
+  } catch (const CLI::ParseError& error) {
+    throw InputError(one_line(error.what()));
+  }
+  if (*list_option) options.list = list;
+  options.trajectory = trajectory == "csv"    ? TrajectoryFormat::csv
+                       : trajectory == "hdf5" ? TrajectoryFormat::hdf5
+                                              : TrajectoryFormat::none;
+  options.command = experiment.name;
+  for (int i = 1; i < argc; ++i) options.command += " " + quoted(argv[i]);
+  options.axes = experiment.defaults;
+  if (!study_file.empty()) read_study_file(study_file, options);
+  for (const auto& [name, text] : given) options.axes[name] = text;
+  for (const std::string& item : vary) {
+    const auto equals = item.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw InputError("--vary " + item + ": it takes KEY=VALUES, for example body.0.inertia.1=0.5:3:20");
+    }
+    const std::string key = item.substr(0, equals);
+    std::erase_if(options.vary, [&](const auto& v) { return v.first == key; });
+    options.vary.emplace_back(key, item.substr(equals + 1));
+  }
+  return parsed;
+}
+
+}  // namespace polhode::study

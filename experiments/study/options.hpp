@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line that all experiments share.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/study/experiment.hpp"
+#include "experiments/study/trajectory.hpp"
+
+namespace polhode::study {
+
+struct Options {
+  /// By option name without dashes, as written: {"dt", "1e-3,1e-2"}; defaults filled in.
+  std::map<std::string, std::string> axes;
+  std::vector<std::pair<std::string, std::string>> vary;  ///< key of the scenario and its values, as written
+  std::uint64_t seed = 1;
+  std::string out;       ///< empty: results/<experiment>-<scenarios>-<hash>
+  bool force = false;
+  int jobs = 0;          ///< 0: one for each core
+  TrajectoryFormat trajectory = TrajectoryFormat::none;
+  bool figures = true;
+  bool dry_run = false;
+  std::optional<std::string> list;  ///< what to list, "" for everything
+  std::string command;   ///< the command line, quoted for a shell
+};
+
+/// Either the options, or an exit status where the command line said it all (--help).
+struct ParsedOptions {
+  Options options;
+  std::optional<int> exit_status;
+};
+
+/// Throws InputError.
+ParsedOptions parse_options(const Experiment& experiment, int argc, const char* const* argv);
+
+/// The axes and other settings of a study file (TOML), as the command line would write them. Throws InputError.
+/// Keys: those of the options, without dashes; `vary` is a table from scenario keys to lists.
+void read_study_file(const std::string& path, Options& options);
+
+/// The names of the axes that options take, in the order in which they are varied, the slowest first.
+const std::vector<std::string>& axis_names();
+
+}  // namespace polhode::study

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/plan.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "experiments/study/axes.hpp"
+#include "experiments/study/input_error.hpp"
+#include "experiments/study/run.hpp"
+#include "experiments/study/suggestion.hpp"
+#include "integrators/catalogue.hpp"
+
+namespace polhode::study {
+namespace {
+
+/// Raised whenever a change of the code changes a digit of a result: stored runs of an older version are then made anew.
+constexpr int results_version = 1;
+constexpr std::size_t most_runs = 10'000'000;
+
+std::string hash(std::string_view text) { return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size())); }
+
+/// The items of an axis whose values are names.
+std::vector<std::string> names(const Options& options, const std::string& axis, const std::vector<std::string>& known) {
+  const auto found = options.axes.find(axis);
+  if (found == options.axes.end()) return {};
+  std::vector<std::string> items;
+  for (const std::string& item : split_list(found->second, ',', "--" + axis)) {
+    if (std::find(known.begin(), known.end(), item) == known.end()) {
+      if (known.empty()) throw InputError("--" + axis + ": there is none in this version; leave the option out");
+      throw InputError("--" + axis + ": no '" + item + "'" + suggestion(item, "There are", {known.begin(), known.end()}));
+    }
+    if (std::find(items.begin(), items.end(), item) == items.end()) items.push_back(item);
+  }
+  return items;
+}
+
+template <class T>
+std::vector<T> choices(const Options& options, const std::string& axis, const std::vector<std::pair<std::string, T>>& all,
+                       T preset) {
+  std::vector<std::string> known;
+  for (const auto& [text, value] : all) known.push_back(text);
+  std::vector<T> values;
+  for (const std::string& item : names(options, axis, known)) {
+    for (const auto& [text, value] : all) {
+      if (text == item) values.push_back(value);
+    }
+  }
+  if (values.empty()) values.push_back(preset);
+  return values;
+}
+
+std::vector<double> positive(const Options& options, const std::string& axis, const char* unit) {
+  const auto found = options.axes.find(axis);
+  if (found == options.axes.end()) return {};
+  std::vector<double> values = numbers(found->second, "--" + axis);
+  for (const double x : values) {
+    if (!(x > 0)) throw InputError(fmt::format("--{}: {} is not positive; it must be a positive number{}", axis, x, unit));
+  }
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+/// The values of all axes but the scenario's.
+struct Axes {
+  std::vector<std::string> integrators;
+  std::vector<Orientation> orientations;
+  std::vector<AngularState> angular_states;
+  std::vector<bool> gyroscopic, normalise;
+  std::vector<RotationFrom> rotation_from;
+  std::vector<Precision> precisions;
+  std::vector<double> steps, tolerances, durations;
+  std::vector<std::optional<std::int64_t>> samples;
+};
+
+std::vector<std::string> integrator_names(const Options& options) {
+  std::vector<std::string> known;
+  for (const IntegratorEntry& e : integrator_catalogue()) known.push_back(e.declaration.name);
+  if (options.axes.at("integrator") == "all") return known;
+  return names(options, "integrator", known);
+}
+
+Axes read_axes(const Options& options) {
+  Axes axes;
+  axes.integrators = integrator_names(options);
+  axes.orientations = choices<Orientation>(
+      options, "orientation", {{"quaternion", Orientation::quaternion}, {"matrix", Orientation::matrix}},
+      Orientation::quaternion);
+  axes.angular_states = choices<AngularState>(options, "angular-state",
+                                              {{"velocity_world", AngularState::velocity_world},
+                                               {"velocity_body", AngularState::velocity_body},
+                                               {"momentum_world", AngularState::momentum_world}},
+                                              AngularState::velocity_world);
+  axes.gyroscopic = choices<bool>(options, "gyroscopic", {{"on", true}, {"off", false}}, true);
+  axes.normalise = choices<bool>(options, "normalize", {{"never", false}, {"step", true}}, false);
+  axes.rotation_from = choices<RotationFrom>(
+      options, "rotation-from", {{"normalised", RotationFrom::normalised}, {"stored", RotationFrom::stored}},
+      RotationFrom::normalised);
+  axes.precisions = choices<Precision>(
+      options, "precision",
+      {{"float", Precision::single}, {"double", Precision::dual}, {"long_double", Precision::extended}}, Precision::dual);
+  axes.steps = positive(options, "dt", " of seconds");
+  axes.tolerances = positive(options, "tolerance", "");
+  for (const double x : axes.tolerances) {
+    if (x >= 1) throw InputError(fmt::format("--tolerance: {} is too large; it must be below 1", x));
+  }
+  axes.durations = positive(options, "t-end", " of seconds");
+  for (const double n : positive(options, "samples", "")) {
+    if (n != std::floor(n) || n > 1e9) throw InputError(fmt::format("--samples: {} is not a whole number below 1e9", n));
+    axes.samples.emplace_back(static_cast<std::int64_t>(n));
+  }
+  if (axes.samples.empty()) axes.samples.emplace_back(std::nullopt);
+  for (const char* none : {"broad-phase", "narrow-phase", "response", "impact-timing"}) names(options, none, {});
+  return axes;
+}
+
+/// The product of the varied keys.
+std::vector<std::vector<Override>> variants(const Options& options) {
+  auto vary = options.vary;
+  std::sort(vary.begin(), vary.end());
+  std::vector<std::vector<Override>> all = {{}};
+  for (const auto& [key, text] : vary) {
+    std::vector<std::vector<Override>> longer;
+    for (const auto& prefix : all) {
+      for (const std::string& value : toml_values(text, "--vary " + key)) {
+        longer.push_back(prefix);
+        longer.back().push_back({key, value});
+      }
+    }
+    all = std::move(longer);
+    if (all.size() > most_runs) throw InputError("--vary: more than 10 million runs");
+  }
+  return all;
+}
+
+std::string on_off(bool on) { return on ? "on" : "off"; }
+
+/// Numbers in numerical order, texts after them in alphabetical order, empty cells first.
+bool cell_less(const std::string& a, const std::string& b) {
+  double x = 0, y = 0;
+  const auto number = [](const std::string& s, double& v) {
+    const auto r = std::from_chars(s.data(), s.data() + s.size(), v);
+    return !s.empty() && r.ec == std::errc() && r.ptr == s.data() + s.size();
+  };
+  const bool a_number = number(a, x), b_number = number(b, y);
+  if (a_number && b_number && x != y) return x < y;
+  if (a_number != b_number && !a.empty() && !b.empty()) return a_number;
+  return a < b;
+}
+
+double cost_of(const RunConfig& config) {
+  if (!config.dt) return 200 * config.t_end * (1 - std::log10(*config.tolerance));
+  const int stages = std::max(1, find_integrator(config.integrator)->declaration.evaluations_per_step);
+  return config.t_end / *config.dt * (stages + 1);
+}
+
+class Planner {
+ public:
+  Planner(const Experiment& experiment, const Options& options)
+      : experiment_(experiment), axes_(read_axes(options)), variants_(variants(options)) {
+    for (const auto& [key, text] : options.vary) plan_.varied_keys.push_back(key);
+    std::sort(plan_.varied_keys.begin(), plan_.varied_keys.end());
+    std::set<std::string> seen;
+    for (const std::string& name : split_list(options.axes.at("scenario"), ',', "--scenario")) {
+      const ScenarioSource source = ScenarioSource::open(name);
+      if (!seen.insert(source.name()).second) throw InputError("--scenario: '" + source.name() + "' is named twice");
+      add_scenario(source);
+    }
+  }
+
+  Plan finish() {
+    std::sort(plan_.invariants.begin(), plan_.invariants.end());
+    plan_.invariants.erase(std::unique(plan_.invariants.begin(), plan_.invariants.end()), plan_.invariants.end());
+    sort();
+    if (experiment_.one_run && plan_.runs.size() != 1) {
+      throw InputError(fmt::format("{} makes one run, and this is {}; give each axis one value, or use energy_drift",
+                                   experiment_.name, plan_.runs.size()));
+    }
+    const auto sense = [](const PlannedRun& r) { return r.refusal.empty(); };
+    if (std::none_of(plan_.runs.begin(), plan_.runs.end(), sense)) {
+      throw InputError(plan_.runs.front().config.integrator + " on " + plan_.runs.front().config.scenario + ": " +
+                       plan_.runs.front().refusal);
+    }
+    std::string all;
+    for (const PlannedRun& run : plan_.runs) all += run.id;
+    plan_.identity = hash(all);
+    return std::move(plan_);
+  }
+
+ private:
+  void add_scenario(const ScenarioSource& source) {
+    plan_.scenarios.push_back(source.resolve());
+    for (const std::string& invariant : plan_.scenarios.back().invariants) plan_.invariants.push_back(invariant);
+    for (const auto& variant : variants_) {
+      const auto scenario = std::make_shared<const Scenario>(source.resolve(variant));
+      RunConfig config;
+      config.scenario = source.name();
+      config.varied = variant;
+      for (const std::string& name : axes_.integrators) {
+        config.integrator = name;
+        add_formulations(config, scenario);
+      }
+    }
+  }
+
+  void add_formulations(RunConfig config, const std::shared_ptr<const Scenario>& scenario) {
+    for (const Orientation o : axes_.orientations) {
+      for (const AngularState a : axes_.angular_states) {
+        for (const bool g : axes_.gyroscopic) {
+          for (const RotationFrom r : axes_.rotation_from) {
+            // A matrix is used as stored: the axis means nothing to it.
+            config.formulation = {o, a, g, o == Orientation::matrix ? RotationFrom::normalised : r};
+            add_settings(config, scenario);
+          }
+        }
+      }
+    }
+  }
+
+  void add_settings(RunConfig config, const std::shared_ptr<const Scenario>& scenario) {
+    const bool adaptive = find_integrator(config.integrator)->declaration.adaptive;
+    const std::vector<double>& sizes = adaptive ? axes_.tolerances : axes_.steps;
+    if (sizes.empty()) throw InputError(config.integrator + " needs " + (adaptive ? "--tolerance" : "--dt"));
+    const std::vector<double> durations =
+        axes_.durations.empty() ? std::vector<double>{scenario->t_end} : axes_.durations;
+    for (const bool normalise : axes_.normalise) {
+      for (const Precision precision : axes_.precisions) {
+        for (const double size : sizes) {
+          for (const double t_end : durations) {
+            for (const auto& samples : axes_.samples) {
+              config.normalise = normalise;
+              config.precision = precision;
+              (adaptive ? config.tolerance : config.dt) = size;
+              config.t_end = t_end;
+              config.samples = samples;
+              add_run(config, scenario);
+            }
+          }
+        }
+      }
+    }
+  }
+
+  void add_run(const RunConfig& config, const std::shared_ptr<const Scenario>& scenario) {
+    std::string text = fmt::format("{}\n{}\n", results_version, scenario->canonical);
+    for (const std::string& cell : config_cells(config)) text += cell + "\n";
+    if (config.samples) text += std::to_string(*config.samples);
+    PlannedRun run;
+    run.id = hash(text);
+    if (!ids_.insert(run.id).second) return;  // the same run by another way: counted once
+    run.config = config;
+    run.scenario = scenario;
+    try {
+      run.refusal = refusal(config, *scenario);
+    } catch (const std::invalid_argument& error) {
+      throw InputError("--dt: " + std::string(error.what()));
+    }
+    run.cost = cost_of(config);
+    plan_.runs.push_back(std::move(run));
+    if (plan_.runs.size() > most_runs) throw InputError("more than 10 million runs; make the axes shorter");
+  }
+
+  void sort() {
+    std::vector<std::pair<std::vector<std::string>, std::size_t>> keys;
+    for (std::size_t i = 0; i < plan_.runs.size(); ++i) keys.emplace_back(config_cells(plan_.runs[i].config), i);
+    std::sort(keys.begin(), keys.end(), [this](const auto& a, const auto& b) {
+      for (std::size_t k = 0; k < a.first.size(); ++k) {
+        if (a.first[k] != b.first[k]) return cell_less(a.first[k], b.first[k]);
+      }
+      return plan_.runs[a.second].id < plan_.runs[b.second].id;
+    });
+    std::vector<PlannedRun> sorted;
+    for (const auto& [cells, i] : keys) sorted.push_back(std::move(plan_.runs[i]));
+    plan_.runs = std::move(sorted);
+  }
+
+  const Experiment& experiment_;
+  Axes axes_;
+  std::vector<std::vector<Override>> variants_;
+  std::set<std::string> ids_;
+  Plan plan_;
+};
+
+}  // namespace
+
+Plan make_plan(const Experiment& experiment, const Options& options) { return Planner(experiment, options).finish(); }
+
+std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys) {
+  std::vector<std::string> columns = {"scenario",      "integrator",    "orientation",  "angular_state",
+                                      "gyroscopic",    "normalize",     "rotation_from", "precision",
+                                      "dt_s",          "tolerance",     "t_end_s",      "broad_phase",
+                                      "narrow_phase",  "response",      "impact_timing"};
+  columns.insert(columns.end(), varied_keys.begin(), varied_keys.end());
+  return columns;
+}
+
+std::vector<std::string> config_cells(const RunConfig& config) {
+  const Formulation& f = config.formulation;
+  std::vector<std::string> cells = {config.scenario,
+                                    config.integrator,
+                                    std::string(name(f.orientation)),
+                                    std::string(name(f.angular_state)),
+                                    on_off(f.gyroscopic),
+                                    config.normalise ? "step" : "never",
+                                    f.orientation == Orientation::quaternion ? std::string(name(f.rotation_from)) : "",
+                                    std::string(name(config.precision)),
+                                    config.dt ? exact(*config.dt) : "",
+                                    config.tolerance ? exact(*config.tolerance) : "",
+                                    exact(config.t_end),
+                                    "",
+                                    "",
+                                    "",
+                                    ""};
+  for (const Override& o : config.varied) cells.push_back(o.value);
+  return cells;
+}
+
+}  // namespace polhode::study

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The plan of a study: the product of its axes, each run with its identity, before anything is run or written.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "experiments/study/options.hpp"
+#include "experiments/study/run_record.hpp"
+
+namespace polhode::study {
+
+struct PlannedRun {
+  std::string id;
+  RunConfig config;
+  std::shared_ptr<const Scenario> scenario;
+  std::string refusal;  ///< why it makes no sense; empty if it does
+  double cost = 0;      ///< a guess of its share of the work, in right-hand sides
+};
+
+struct Plan {
+  std::vector<Scenario> scenarios;       ///< each one of the study once, without overrides
+  std::vector<std::string> varied_keys;  ///< sorted
+  std::vector<std::string> invariants;   ///< further declared invariants of all scenarios, sorted
+  std::vector<PlannedRun> runs;          ///< sorted by configuration, none twice
+  std::string identity;                  ///< hash over the ids of all runs
+};
+
+/// Throws InputError on anything that is wrong with the input, and when every run of the plan makes no sense.
+Plan make_plan(const Experiment& experiment, const Options& options);
+
+/// The configuration of a run as the cells of runs.csv, in the order of config_columns().
+std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys);
+std::vector<std::string> config_cells(const RunConfig& config);
+
+}  // namespace polhode::study

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A figure before it is drawn: panels of curves with their axes already laid out. gnuplot and PGFPlots draw the same one.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace polhode::study::report {
+
+enum class Scale {
+  linear,
+  logarithmic,
+  symlog  ///< sgn(y) asinh(|y|/threshold)/ln 10: logarithmic on both sides of zero, linear below the threshold
+};
+
+struct Tick {
+  double at = 0;
+  std::string label;  ///< plain, or with an exponent: "10^{-4}", "−10^{-4}"
+};
+
+struct Axis {
+  std::string label{};  ///< with its unit
+  Scale scale = Scale::linear;
+  double low = 0, high = 1;
+  double threshold = 1e-16;  ///< of symlog
+  std::vector<Tick> ticks{};
+  bool labelled = true;      ///< false: the panel to the left shows the same axis
+
+  /// Where a value stands on the axis, in decades where it is logarithmic.
+  double place(double value) const;
+  double value_at(double place) const;
+};
+
+/// How a point is drawn.
+enum class Mark {
+  value,  ///< where it is
+  zero,   ///< exactly zero on a logarithmic axis: at the floor
+  edge    ///< diverged, failed or off the scale: a cross at the edge of the panel
+};
+constexpr const char* name(Mark m) { return m == Mark::value ? "value" : m == Mark::zero ? "zero" : "edge"; }
+
+/// A relative drift above this says no more than that the motion is lost: it stands at the edge.
+constexpr double off_scale_above = 1000;
+
+struct Point {
+  double x = 0;
+  double value = 0;  ///< as measured; not finite where there is none
+  double drawn = 0;  ///< where it stands on the y axis
+  Mark mark = Mark::value;
+};
+
+struct PlottedCurve {
+  std::string label{};
+  std::size_t method = 0;   ///< index of the study's methods: decides colour and marker
+  std::size_t variant = 0;  ///< index in the figure's variants: decides the dashes
+  std::vector<Point> points{};
+};
+
+/// A straight line in log–log that shows a slope.
+struct Guide {
+  double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  std::string label;   ///< "h^{2}"; on the right of the second end
+  double label_y = 0;  ///< at the second end, or a little above where another label stands there
+};
+
+struct Panel {
+  std::size_t row = 0, column = 0;
+  std::vector<std::string> title{};  ///< lines
+  Axis x{}, y{};
+  std::string x_column{}, y_column{};  ///< names in the data file, with units
+  std::vector<PlottedCurve> curves{};
+  std::vector<Guide> guides{};
+};
+
+struct Figure {
+  std::string name;       ///< of its files
+  std::string title;
+  std::string caption{};  ///< what it shows, what was left out, what the marks mean
+  std::size_t rows = 1, columns = 1;
+  std::vector<Panel> panels{};
+  std::vector<std::string> methods{};  ///< of the whole study
+  std::vector<std::size_t> used_methods{};
+  std::vector<std::string> variants{};  ///< told apart by dashes; one entry where there is nothing to tell apart
+  bool has_zero_marks = false, has_edge_marks = false;
+};
+
+/// All figures of a study, and why the others were not made.
+struct FigureSet {
+  struct Absent {
+    std::string name, title, reason;
+  };
+  std::vector<Figure> figures;
+  std::vector<Absent> absent;
+};
+
+}  // namespace polhode::study::report

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/report/gyroscopic.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "experiments/study/report/extremes.hpp"
+#include "experiments/study/report/notation.hpp"
+
+namespace polhode::study::report {
+
+namespace {
+
+constexpr double perfect_energy = 1e-10;
+constexpr double lost_momentum = 1e-6;
+
+bool leaves_gyroscopic_out(const Curve& curve) { return !curve.runs.front()->config.formulation.gyroscopic; }
+
+/// The runs of one motion and formulation in which energy is kept and angular momentum is not.
+struct Deceived {
+  std::vector<const Curve*> curves;
+  std::size_t runs = 0;
+  std::set<double> steps;
+  double energy = 0;
+  double momentum_low = std::numeric_limits<double>::infinity(), momentum_high = 0;
+
+  void add(const Curve& curve, const RunRecord& run, double energy_drift, double momentum_drift) {
+    if (curves.empty() || curves.back() != &curve) curves.push_back(&curve);
+    ++runs;
+    if (abscissa(run)) steps.insert(*abscissa(run));
+    energy = std::max(energy, energy_drift);
+    momentum_low = std::min(momentum_low, momentum_drift);
+    momentum_high = std::max(momentum_high, momentum_drift);
+  }
+};
+
+std::string where(const Grouping& grouping, const Curve& curve) {
+  const auto& variant = grouping.variants[curve.variant_index];
+  std::string text = grouping.cases[curve.case_index].label();
+  if (!variant.empty()) text += ", " + variant;
+  const bool said = variant.find("gyroscopic") != std::string::npos;
+  return leaves_gyroscopic_out(curve) && !said ? text + ", gyroscopic off" : text;
+}
+
+/// "at every step size", where the runs have several.
+std::string every_step(const Deceived& d) {
+  if (d.steps.size() < 2) return "";
+  const auto adaptive = std::count_if(d.curves.begin(), d.curves.end(), [](const auto* curve) { return curve->adaptive; });
+  if (adaptive == 0) return " at every step size";
+  return static_cast<std::size_t>(adaptive) == d.curves.size() ? " at every tolerance" : " at every step size and tolerance";
+}
+
+std::string momentum_words(const Deceived& d) {
+  if (d.momentum_high - d.momentum_low <= 0.01 * d.momentum_high) {
+    return fmt::format("drifts by {}{}", number(d.momentum_high), every_step(d));
+  }
+  return fmt::format("drifts by {} to {}", number(d.momentum_low), number(d.momentum_high));
+}
+
+std::string caution(const Grouping& grouping, const Deceived& d) {
+  const auto& first = *d.curves.front();
+  std::set<std::size_t> methods;
+  for (const auto* curve : d.curves) methods.insert(curve->method_index);
+  std::vector<std::string> names;
+  for (const auto m : methods) names.push_back(grouping.methods[m]);
+  const auto kept = d.energy > 0 ? fmt::format("drifts by no more than {}", number(d.energy)) : std::string("does not drift at all");
+  return fmt::format("{}: energy alone would call {} perfect ({} of {}), since it {}; but the angular momentum {}. {}",
+                     where(grouping, first), d.runs == 1 ? "this run" : "these runs", count(d.runs, "run"), words(names), kept,
+                     momentum_words(d),
+                     leaves_gyroscopic_out(first) ? "That is the missing gyroscopic term, which the energy cannot show."
+                                                  : "A method can keep one invariant and lose another: look at both.");
+}
+
+std::vector<std::string> gyroscopic_not_checked(const Grouping& grouping) {
+  std::set<std::string> motions;
+  for (const auto& curve : grouping.curves) {
+    const bool measured = std::any_of(curve.runs.begin(), curve.runs.end(), [](const auto* run) {
+      return value(*run, quantity::angular_momentum_drift()).has_value();
+    });
+    const bool ran = std::any_of(curve.runs.begin(), curve.runs.end(), [](const auto* run) { return completed(*run); });
+    if (leaves_gyroscopic_out(curve) && ran && !measured) motions.insert(grouping.cases[curve.case_index].scenario);
+  }
+  if (motions.empty()) return {};
+  return {fmt::format("{}: the gyroscopic term is left out, and the forces do not conserve the angular momentum that would show "
+                      "it. A small energy drift says nothing about it here.",
+                      words({motions.begin(), motions.end()}))};
+}
+
+/// What two curves must share to be compared: everything but the gyroscopic term.
+auto comparison_key(const Curve& curve) {
+  const auto& c = curve.runs.front()->config;
+  return std::tuple(curve.case_index, curve.method_index, curve.adaptive, c.formulation.orientation, c.formulation.angular_state,
+                    c.formulation.rotation_from, c.normalise, c.precision);
+}
+
+/// The runs of both at the smallest step that both completed.
+std::pair<const RunRecord*, const RunRecord*> smallest_common(const Curve& with, const Curve& without) {
+  for (auto a = with.runs.rbegin(); a != with.runs.rend(); ++a) {
+    for (const auto* b : without.runs) {
+      if (completed(**a) && completed(*b) && abscissa(**a) == abscissa(*b)) return {*a, b};
+    }
+  }
+  return {nullptr, nullptr};
+}
+
+std::string printed(const RunRecord& run, const Quantity& quantity) {
+  const auto found = value(run, quantity);
+  return found ? number(*found) : "";
+}
+
+std::vector<std::string> comparison_row(const Grouping& grouping, const Curve& curve, const RunRecord& with, const RunRecord& without) {
+  std::vector<std::string> row = {grouping.methods[curve.method_index], grouping.cases[curve.case_index].label(), step_label(with)};
+  for (const auto& quantity : {quantity::energy_drift(), quantity::angular_momentum_drift(), quantity::attitude_error()}) {
+    row.push_back(printed(with, quantity));
+    row.push_back(printed(without, quantity));
+  }
+  return row;
+}
+
+}  // namespace
+
+std::vector<std::string> cautions(const Grouping& grouping) {
+  std::map<std::pair<std::size_t, std::size_t>, Deceived> groups;
+  for (const auto& curve : grouping.curves) {
+    for (const auto* run : curve.runs) {
+      const auto energy = value(*run, quantity::energy_drift()), momentum = value(*run, quantity::angular_momentum_drift());
+      if (!energy || !momentum || *energy >= perfect_energy || *momentum <= lost_momentum) continue;
+      groups[{curve.case_index, curve.variant_index}].add(curve, *run, *energy, *momentum);
+    }
+  }
+  std::vector<std::string> sentences;
+  for (const auto& [key, deceived] : groups) sentences.push_back(caution(grouping, deceived));
+  for (auto& sentence : gyroscopic_not_checked(grouping)) sentences.push_back(std::move(sentence));
+  return sentences;
+}
+
+std::optional<Table> gyroscopic_comparison(const Grouping& grouping) {
+  using Kind = Column::Kind;
+  Table table{.caption = "The same runs with the gyroscopic term (on) and without it (off), at the smallest step that both completed",
+              .columns = {{"method", "", Kind::name},
+                          {"motion", "", Kind::text},
+                          {"step", "", Kind::text},
+                          {"energy drift, on"},
+                          {"energy drift, off"},
+                          {"angular momentum drift, on"},
+                          {"angular momentum drift, off"},
+                          {"attitude error, on", "rad"},
+                          {"attitude error, off", "rad"}},
+              .rows = {}};
+  for (const auto& with : grouping.curves) {
+    if (leaves_gyroscopic_out(with)) continue;
+    for (const auto& without : grouping.curves) {
+      if (!leaves_gyroscopic_out(without) || comparison_key(with) != comparison_key(without)) continue;
+      const auto [a, b] = smallest_common(with, without);
+      if (a != nullptr) table.rows.push_back(comparison_row(grouping, with, *a, *b));
+    }
+  }
+  if (table.rows.empty()) return std::nullopt;
+  return without_empty_columns(std::move(table));
+}
+
+}  // namespace polhode::study::report

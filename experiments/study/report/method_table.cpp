@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/report/method_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "experiments/study/report/notation.hpp"
+#include "integrators/catalogue.hpp"
+
+namespace polhode::study::report {
+
+namespace {
+
+std::string declared_order(const std::string& method) {
+  const auto* entry = find_integrator(method);
+  if (entry == nullptr) return "";
+  return entry->declaration.order == 0 ? "variable" : fmt::format("{}", entry->declaration.order);
+}
+
+std::string slope_text(const Curve& curve, const Quantity& quantity) {
+  const auto slope = observed_slope(curve, quantity);
+  if (!slope) return "";
+  const double p = std::abs(slope->p) < 0.005 ? 0 : slope->p;  // no "-0.00"
+  return fmt::format("{:.2f} ({})", p, slope->points);
+}
+
+std::string printed(const RunRecord& run, const Quantity& quantity) {
+  const auto found = value(run, quantity);
+  return found ? number(*found) : "";
+}
+
+std::string largest(const Curve& curve, const Quantity& quantity) {
+  std::optional<double> most;
+  for (const auto* run : curve.runs) {
+    if (const auto found = value(*run, quantity)) most = std::max(most.value_or(0), *found);
+  }
+  return most ? number(*most) : "";
+}
+
+std::string range_of_steps(const Curve& curve) {
+  const auto first = abscissa(*curve.runs.front()), last = abscissa(*curve.runs.back());
+  if (!first || !last) return "";
+  const auto range = *first == *last ? number(*first, 6) : fmt::format("{} … {}", number(*first, 6), number(*last, 6));
+  return curve.adaptive ? "tol. " + range : range + " s";
+}
+
+}  // namespace
+
+std::string energy_trend(const RunRecord& run) {
+  const auto most = value(run, quantity::energy_drift());
+  if (!most) return "";
+  if (*most <= round_off_level(run)) return "round-off";
+  const double end = run.result.energy_drift_final_rel.value_or(0);
+  if (!(std::abs(end) >= 0.1 * *most)) return "comes back";
+  return end > 0 ? "gains" : "loses";
+}
+
+std::string energy_trend(const Curve& curve) {
+  std::set<std::string> trends;
+  for (const auto* run : curve.runs) {
+    if (auto trend = energy_trend(*run); !trend.empty()) trends.insert(std::move(trend));
+  }
+  if (trends.size() > 1) trends.erase("round-off");
+  if (trends.size() > 1) trends.erase("comes back");
+  return fmt::format("{}", fmt::join(trends, " or "));
+}
+
+Table method_table(const Grouping& grouping) {
+  using Kind = Column::Kind;
+  Table table{.caption = "In brackets: the number of points behind a slope. The energy column says where the energy ends",
+              .columns = {{"method", "", Kind::name},
+                          {"motion", "", Kind::text},
+                          {"formulation", "", Kind::text},
+                          {"steps", "", Kind::text},
+                          {"energy drift, largest step"},
+                          {"energy drift, smallest step"},
+                          {"slope, energy drift"},
+                          {"slope, attitude error"},
+                          {"declared order"},
+                          {"energy", "", Kind::text},
+                          {"angular momentum drift, largest"},
+                          {"orientation defect, largest"}},
+              .rows = {}};
+  for (const auto& curve : grouping.curves) {
+    const auto& method = grouping.methods[curve.method_index];
+    const auto energy = quantity::energy_drift();
+    const bool several = curve.runs.size() > 1;
+    table.rows.push_back({method, grouping.cases.size() > 1 ? grouping.cases[curve.case_index].label() : "",
+                          grouping.variants[curve.variant_index], range_of_steps(curve), printed(*curve.runs.front(), energy),
+                          several ? printed(*curve.runs.back(), energy) : "", slope_text(curve, energy),
+                          slope_text(curve, quantity::attitude_error()), declared_order(method), energy_trend(curve),
+                          largest(curve, quantity::angular_momentum_drift()), largest(curve, quantity::orientation_defect())});
+  }
+  return without_empty_columns(std::move(table));
+}
+
+}  // namespace polhode::study::report

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A whole file as it is, if it is there.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace polhode::study::report {
+
+/// Absent: there is no such file, or it cannot be read.
+std::optional<std::string> read_file(const std::filesystem::path& path);
+
+}  // namespace polhode::study::report

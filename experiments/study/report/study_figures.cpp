@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/report/study_figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "experiments/study/report/notation.hpp"
+#include "experiments/study/report/selection.hpp"
+#include "experiments/study/report/step_panels.hpp"
+#include "experiments/study/report/time_panels.hpp"
+
+namespace polhode::study::report {
+
+namespace {
+
+/// Puts panels that share a y axis into rows below what the figure has; only the leftmost of a row labels that axis.
+void add_rows(Figure& figure, std::vector<Panel> panels, std::size_t columns) {
+  const std::size_t first_row = figure.panels.empty() ? 0 : figure.rows;
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    panels[i].row = first_row + i / columns;
+    panels[i].column = i % columns;
+    panels[i].y.labelled = panels[i].column == 0;
+    figure.rows = panels[i].row + 1;
+    figure.columns = std::max(figure.columns, panels[i].column + 1);
+    figure.panels.push_back(std::move(panels[i]));
+  }
+}
+
+/// Rows of several panels as they are; single panels two abreast.
+void add_time_rows(Figure& figure, std::vector<std::vector<Panel>> rows) {
+  if (rows.empty()) return;
+  if (std::any_of(rows.begin(), rows.end(), [](const auto& row) { return row.size() > 1; })) {
+    for (auto& row : rows) {
+      const auto columns = row.size();
+      add_rows(figure, std::move(row), columns);
+    }
+    return;
+  }
+  std::vector<Panel> singles;
+  for (auto& row : rows) singles.push_back(std::move(row.front()));
+  const std::size_t first = figure.panels.size();
+  add_rows(figure, std::move(singles), 2);
+  for (std::size_t i = first; i < figure.panels.size(); ++i) figure.panels[i].y.labelled = true;  // each has its own axis
+}
+
+void note_marks(Figure& figure) {
+  std::set<std::size_t> used;
+  for (const auto& panel : figure.panels) {
+    for (const auto& curve : panel.curves) {
+      used.insert(curve.method);
+      for (const auto& point : curve.points) {
+        figure.has_zero_marks = figure.has_zero_marks || point.mark == Mark::zero;
+        figure.has_edge_marks = figure.has_edge_marks || point.mark == Mark::edge;
+      }
+    }
+  }
+  figure.used_methods = {used.begin(), used.end()};
+}
+
+std::string marks_caption(const Figure& figure) {
+  std::string text;
+  if (figure.variants.size() > 1) text += " Dashes tell the variants of the formulation apart.";
+  if (figure.has_zero_marks) text += " An open triangle at the level 0 is a value of exactly zero.";
+  if (figure.has_edge_marks) {
+    text += fmt::format(" A cross at the edge is a run that diverged or failed, or a value above {}.", off_scale_above);
+  }
+  return text;
+}
+
+std::string time_caption(const Figure& figure) {
+  std::string text =
+      " Each point stands for a stretch of the run and holds the largest value in it. The axis is logarithmic on both "
+      "sides of zero and linear about it.";
+  if (figure.columns == 2) text += " The larger step (looser tolerance) stands on the left.";
+  if (figure.columns == 3) {
+    text += " Left to right: the largest, the middle and the smallest step (tolerance); others of the study are left out.";
+  }
+  return text;
+}
+
+class Figures {
+ public:
+  Figures(const StudyView& study, const Grouping& grouping) : study_(study), grouping_(grouping) {
+    several_steps_ = std::any_of(grouping.curves.begin(), grouping.curves.end(), has_several_steps);
+  }
+
+  FigureSet all() && {
+    drift_against_time();
+    drift_against_step();
+    momentum();
+    orientation_defect();
+    invariants();
+    error_against_step();
+    return std::move(set_);
+  }
+
+ private:
+  bool defined(const Quantity& quantity) const {
+    return std::any_of(grouping_.curves.begin(), grouping_.curves.end(),
+                       [&](const auto& curve) { return has_value(curve, quantity); });
+  }
+
+  std::vector<Quantity> defined(std::vector<Quantity> quantities) const {
+    std::erase_if(quantities, [&](const auto& quantity) { return !defined(quantity); });
+    return quantities;
+  }
+
+  void absent(const Figure& figure, std::string reason) {
+    set_.absent.push_back({figure.name, figure.title, std::move(reason)});
+  }
+
+  void finish(Figure figure, const Selection& selection) {
+    figure.methods = grouping_.methods;
+    figure.variants = selection.dashed_variants();
+    note_marks(figure);
+    figure.caption += marks_caption(figure) + selection.omissions();
+    set_.figures.push_back(std::move(figure));
+  }
+
+  /// Each quantity begins a row of its own.
+  void against_step(Figure figure, const std::vector<Quantity>& quantities, bool guides) {
+    const Selection selection(grouping_, [&](const Curve& curve) {
+      return std::any_of(quantities.begin(), quantities.end(), [&](const auto& q) { return has_mark(curve, q); });
+    });
+    bool adaptive = false;
+    for (const auto& quantity : quantities) {
+      auto panels = panels_against_step(selection, quantity, guides);
+      for (const auto& panel : panels) adaptive = adaptive || panel.x_column == "tolerance";
+      add_rows(figure, std::move(panels), 2);
+    }
+    if (adaptive) figure.caption += " Adaptive methods stand against their tolerance.";
+    if (guides) figure.caption += " Gray lines show slopes.";
+    finish(std::move(figure), selection);
+  }
+
+  void against_time(Figure figure, const std::vector<SeriesQuantity>& quantities) {
+    const Selection selection(grouping_, has_series);
+    if (selection.empty()) return absent(figure, "no run left a time series");
+    for (const auto& quantity : quantities) add_time_rows(figure, panels_against_time(selection, quantity));
+    figure.caption += time_caption(figure);
+    finish(std::move(figure), selection);
+  }
+
+  void drift_against_time() {
+    against_time({.name = "drift_against_time",
+                  .title = "Energy drift against time",
+                  .caption = "Energy drift, relative and with its sign, against time."},
+                 {{"energy_drift_rel", "energy drift (relative)", [](const SeriesPoint& p) { return p.energy_drift_rel; }}});
+  }
+
+  void drift_against_step() {
+    Figure figure{.name = "drift_against_step",
+                  .title = "Energy drift against the step",
+                  .caption = "The largest relative energy drift of each run against its step."};
+    if (!defined(quantity::energy_drift())) return absent(figure, "no run has an energy drift");
+    if (!several_steps_) return absent(figure, "the study has one step size only");
+    against_step(std::move(figure), {quantity::energy_drift()}, true);
+  }
+
+  void momentum() {
+    Figure figure{.name = "momentum", .title = "Drift of the momenta"};
+    const auto angular = quantity::angular_momentum_drift(), linear = quantity::linear_momentum_drift();
+    const auto quantities = defined({angular, linear});
+    if (quantities.empty()) return absent(figure, "the forces conserve neither the linear nor the angular momentum");
+    figure.caption = fmt::format("The largest drift of a momentum, relative, against {}.", several_steps_ ? "the step" : "time");
+    for (const auto& quantity : {angular, linear}) {
+      if (defined(quantity)) continue;
+      figure.caption += fmt::format(" No {} is drawn: the forces, or the pivot, do not conserve that momentum.", quantity.words);
+    }
+    if (several_steps_) return against_step(std::move(figure), quantities, false);
+    std::vector<SeriesQuantity> series;
+    if (defined(angular)) {
+      series.push_back({"angular_momentum_drift_rel", angular.axis,
+                        [](const SeriesPoint& p) { return p.angular_momentum_drift_rel; }});
+    }
+    if (defined(linear)) {
+      series.push_back(
+          {"linear_momentum_drift_rel", linear.axis, [](const SeriesPoint& p) { return p.linear_momentum_drift_rel; }});
+    }
+    against_time(std::move(figure), series);
+  }
+
+  void orientation_defect() {
+    const auto defect = quantity::orientation_defect();
+    Figure figure{.name = "orientation_defect",
+                  .title = "Orientation defect",
+                  .caption = "How far the stored orientation is from a rotation: ||q| − 1| of a quaternion, the "
+                             "Frobenius norm of RᵀR − 1 of a matrix."};
+    if (!defined(defect)) return absent(figure, "no run has an orientation defect");
+    if (several_steps_) return against_step(std::move(figure), {defect}, false);
+    against_time(std::move(figure),
+                 {{"orientation_defect", defect.axis, [](const SeriesPoint& p) { return p.orientation_defect; }}});
+  }
+
+  void invariants() {
+    if (study_.invariants.empty()) return;
+    std::vector<Quantity> quantities;
+    for (const auto& name : study_.invariants) quantities.push_back(quantity::invariant_drift(name));
+    Figure figure{.name = "invariants",
+                  .title = "Further invariants",
+                  .caption = fmt::format("The largest relative drift of {} against the step.", words(study_.invariants))};
+    if (defined(quantities).empty()) return absent(figure, "no run has a value for them");
+    if (!several_steps_) return absent(figure, "the study has one step size only; the table of runs has the values");
+    against_step(std::move(figure), defined(quantities), false);
+  }
+
+  void error_against_step() {
+    const auto quantities = defined({quantity::attitude_error(), quantity::position_error()});
+    Figure figure{.name = "error_against_step",
+                  .title = "Error against the step",
+                  .caption = "The largest distance of each run from the exact motion, against its step."};
+    if (quantities.empty()) return absent(figure, "no exact solution is known for these motions");
+    if (!several_steps_) return absent(figure, "the study has one step size only; the table of runs has the errors");
+    against_step(std::move(figure), quantities, true);
+  }
+
+  const StudyView& study_;
+  const Grouping& grouping_;
+  bool several_steps_ = false;
+  FigureSet set_;
+};
+
+}  // namespace
+
+FigureSet figures_of(const StudyView& study, const Grouping& grouping) { return Figures(study, grouping).all(); }
+
+}  // namespace polhode::study::report

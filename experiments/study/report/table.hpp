@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A table of texts, printed as HTML, Markdown or LaTeX.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace polhode::study::report {
+
+struct Column {
+  enum class Kind { name, number, text };
+  std::string header;
+  std::string unit{};  ///< printed behind the header; empty: none
+  Kind kind = Kind::number;
+};
+
+struct Table {
+  std::string caption;
+  std::vector<Column> columns;
+  std::vector<std::vector<std::string>> rows;  ///< numbers as number() and exact() print them; empty: not defined
+};
+
+/// The table without the columns in which every cell is empty.
+Table without_empty_columns(Table table);
+
+std::string html(const Table& table);
+std::string markdown(const Table& table);
+/// A tabular in booktabs style; a longtable above 40 rows.
+std::string latex(const Table& table);
+
+}  // namespace polhode::study::report

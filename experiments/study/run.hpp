@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Carries out one run: puts system, method and meter together and says what came out.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+
+#include "experiments/study/run_record.hpp"
+#include "experiments/study/trajectory.hpp"
+
+namespace polhode::study {
+
+/// Why this run makes no sense, in one line; empty if it does.
+std::string refusal(const RunConfig& config, const Scenario& scenario);
+
+struct TrajectoryRequest {
+  TrajectoryFormat format = TrajectoryFormat::none;
+  std::filesystem::path folder;
+};
+
+/// Never throws for what a method does; throws std::runtime_error when a trajectory cannot be written. A run stopped
+/// from outside has the status "interrupted" and must not be kept.
+RunResult carry_out(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory,
+                    const std::atomic<bool>* stop);
+
+}  // namespace polhode::study

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One run of a study: what was asked for and what came out. Tables, figures and the report are made from these alone.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/formulation.hpp"
+#include "experiments/study/scenario.hpp"
+
+namespace polhode::study {
+
+enum class Precision { single, dual, extended };
+constexpr std::string_view name(Precision p) {
+  return p == Precision::single ? "float" : p == Precision::dual ? "double" : "long_double";
+}
+
+struct RunConfig {
+  std::string scenario;             ///< name
+  std::vector<Override> varied;     ///< the varied keys of the scenario with this run's values, in the axes' order
+  std::string integrator;
+  Formulation formulation;
+  bool normalise = false;           ///< --normalize step
+  Precision precision = Precision::dual;
+  std::optional<double> dt;         ///< s; fixed-step methods only
+  std::optional<double> tolerance;  ///< adaptive methods only
+  double t_end = 1;                 ///< s
+  std::optional<std::int64_t> samples;  ///< absent: observed after every step
+};
+
+/// How the run went over time, thinned: each point stands for a stretch of the run and holds the largest value in it.
+/// At most 256 points, however long the run.
+struct SeriesPoint {
+  double t = 0;                ///< s, where the energy drift of this stretch was largest
+  double energy_drift_rel = 0; ///< signed, the one of largest magnitude
+  double linear_momentum_drift_rel = 0;   ///< 0 where that momentum is not conserved
+  double angular_momentum_drift_rel = 0;
+  double orientation_defect = 0;
+};
+
+struct RunResult {
+  std::string status;   ///< "ok", "diverged", "failed", "refused"
+  std::string message;  ///< why, when not ok
+  double t_reached = 0; ///< s
+  std::int64_t steps = 0;
+  std::int64_t evaluations = 0;
+  std::optional<double> energy_initial;         ///< J
+  std::optional<double> energy_drift_max_rel;   ///< max |E − E0| over the declared scale, E from the ledger
+  std::optional<double> energy_drift_final_rel; ///< signed
+  std::optional<double> energy_drift_rate;      ///< W, least-squares slope of the drift
+  std::string drift_class;                      ///< "round-off", "bounded", "linear", "quadratic", … or empty
+  std::optional<double> linear_momentum_drift_max_rel;   ///< absent: the forces do not conserve it
+  std::optional<double> angular_momentum_drift_max_rel;
+  std::map<std::string, double> invariant_drift_max_rel; ///< by name, of the scenario's declared invariants
+  std::optional<double> orientation_defect_max;
+  std::optional<double> position_error_max;     ///< m, absent without an exact solution
+  std::optional<double> attitude_error_max;     ///< rad
+  std::optional<double> angular_velocity_error_max_rel;
+  double seconds = 0;                           ///< wall time; goes to timings.csv only
+  std::vector<SeriesPoint> series;
+};
+
+struct RunRecord {
+  std::string id;  ///< 16 hexadecimal digits: hash of the resolved scenario, the options and the results version
+  RunConfig config;
+  RunResult result;
+};
+
+}  // namespace polhode::study

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/scenario_keys.hpp"
+
+#include <algorithm>
+
+namespace polhode::study {
+
+namespace {
+
+TomlValue zero() { return TomlValue::of({0, 0, 0}); }
+TomlValue empty_list() { return TomlValue::of(std::vector<double>{}); }
+
+}  // namespace
+
+const std::vector<ScenarioKey>& root_keys() {
+  static const std::vector<ScenarioKey> keys = {
+      {"title", std::nullopt, false},  // the scenario's name
+      {"description", TomlValue::of(""), false},
+      {"gravity", zero()},
+      {"t_end", std::nullopt},
+      {"invariants", empty_list()},
+      {"body", std::nullopt},
+      {"force", empty_list()},
+  };
+  return keys;
+}
+
+const std::vector<ScenarioKey>& body_keys() {
+  static const std::vector<ScenarioKey> keys = {
+      {"name", std::nullopt, false},  // body0, body1, …
+      {"mass", std::nullopt},
+      {"shape", std::nullopt},
+      {"inertia", std::nullopt},
+      {"unphysical_inertia", TomlValue::of(false)},
+      {"point_masses", std::nullopt},
+      {"position", zero()},
+      {"orientation", TomlValue::of({1, 0, 0, 0})},
+      {"velocity", zero()},
+      {"angular_velocity", zero()},
+      {"angular_velocity_frame", TomlValue::of("world")},
+      {"pinned", TomlValue::of(false)},
+      {"center_of_mass", zero()},
+      {"static", TomlValue::of(false)},
+      {"restitution", TomlValue::of(0.0), false},  // as long as there are no collisions
+      {"friction", TomlValue::of(0.0), false},
+  };
+  return keys;
+}
+
+std::vector<std::string_view> names(const std::vector<ScenarioKey>& keys) {
+  std::vector<std::string_view> all;
+  for (const ScenarioKey& key : keys) all.push_back(key.name);
+  return all;
+}
+
+const ScenarioKey* find_key(const std::vector<ScenarioKey>& keys, std::string_view name) {
+  const auto found = std::find_if(keys.begin(), keys.end(), [&](const ScenarioKey& key) { return key.name == name; });
+  return found == keys.end() ? nullptr : &*found;
+}
+
+const TomlValue& otherwise(const std::vector<ScenarioKey>& keys, std::string_view name) {
+  return find_key(keys, name)->otherwise.value();
+}
+
+TomlValue to_toml(const ParameterValue& value) {
+  if (const double* number = std::get_if<double>(&value)) return TomlValue::of(*number);
+  if (const std::string* text = std::get_if<std::string>(&value)) return TomlValue::of(*text);
+  const auto& v = std::get<Vector3<double>>(value);
+  return TomlValue::of({v[0], v[1], v[2]});
+}
+
+}  // namespace polhode::study

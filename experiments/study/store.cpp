@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/store.hpp"
+
+#include <sqlite3.h>
+
+#include <cstring>
+#include <stdexcept>
+
+#include "experiments/study/axes.hpp"
+
+namespace polhode::study {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, sqlite3* db) {
+  throw std::runtime_error(path.string() + ": " + (db ? sqlite3_errmsg(db) : "out of memory"));
+}
+
+/// A prepared statement with typed binding and reading; columns and parameters are taken in order.
+class Statement {
+ public:
+  Statement(const std::filesystem::path& path, sqlite3* db, const char* sql) : path_(path), db_(db) {
+    if (sqlite3_prepare_v2(db, sql, -1, &statement_, nullptr) != SQLITE_OK) fail(path_, db_);
+  }
+  ~Statement() { sqlite3_finalize(statement_); }
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  void bind(const std::string& text) {
+    sqlite3_bind_text(statement_, ++at_, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
+  }
+  void bind(std::int64_t n) { sqlite3_bind_int64(statement_, ++at_, n); }
+  void bind(double x) { sqlite3_bind_double(statement_, ++at_, x); }
+  void bind(const std::optional<double>& x) {
+    if (x) bind(*x);
+    else sqlite3_bind_null(statement_, ++at_);
+  }
+  void bind(const std::vector<SeriesPoint>& series) {
+    static_assert(std::is_trivially_copyable_v<SeriesPoint>);
+    sqlite3_bind_blob(statement_, ++at_, series.data(), static_cast<int>(series.size() * sizeof(SeriesPoint)),
+                      SQLITE_TRANSIENT);
+  }
+
+  /// True while there are rows.
+  bool step() {
+    column_ = 0;
+    const int code = sqlite3_step(statement_);
+    if (code != SQLITE_ROW && code != SQLITE_DONE) fail(path_, db_);
+    return code == SQLITE_ROW;
+  }
+  void reset() {
+    sqlite3_reset(statement_);
+    at_ = 0;
+  }
+
+  std::string text() {
+    const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column_));
+    const int n = sqlite3_column_bytes(statement_, column_++);
+    return bytes ? std::string(bytes, static_cast<std::size_t>(n)) : std::string();
+  }
+  std::int64_t integer() { return sqlite3_column_int64(statement_, column_++); }
+  double real() { return sqlite3_column_double(statement_, column_++); }
+  std::optional<double> optional_real() {
+    if (sqlite3_column_type(statement_, column_) == SQLITE_NULL) {
+      ++column_;
+      return std::nullopt;
+    }
+    return real();
+  }
+  std::vector<SeriesPoint> series() {
+    const void* bytes = sqlite3_column_blob(statement_, column_);
+    const auto n = static_cast<std::size_t>(sqlite3_column_bytes(statement_, column_++));
+    std::vector<SeriesPoint> points(n / sizeof(SeriesPoint));
+    if (!points.empty()) std::memcpy(points.data(), bytes, points.size() * sizeof(SeriesPoint));
+    return points;
+  }
+
+ private:
+  const std::filesystem::path& path_;
+  sqlite3* db_;
+  sqlite3_stmt* statement_ = nullptr;
+  int at_ = 0, column_ = 0;
+};
+
+/// name=value, separated by blanks; names are identifiers and numbers read back exactly.
+std::string pack(const std::map<std::string, double>& values) {
+  std::string text;
+  for (const auto& [name, value] : values) text += name + "=" + exact(value) + " ";
+  return text;
+}
+std::map<std::string, double> unpack(const std::string& text) {
+  std::map<std::string, double> values;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const auto equals = text.find('=', at), end = text.find(' ', at);
+    values[text.substr(at, equals - at)] = std::stod(text.substr(equals + 1, end - equals - 1));
+    at = end + 1;
+  }
+  return values;
+}
+
+}  // namespace
+
+void Store::Close::operator()(sqlite3* db) const { sqlite3_close(db); }
+
+Store::Store(const std::filesystem::path& folder) : path_(folder / file_name) {
+  sqlite3* db = nullptr;
+  const int code = sqlite3_open(path_.c_str(), &db);
+  db_.reset(db);
+  if (code != SQLITE_OK) fail(path_, db);
+  sqlite3_busy_timeout(db, 5000);
+  // A commit survives the death of the process without waiting for the disk; the disk is waited for at checkpoints.
+  execute("PRAGMA journal_mode=WAL");
+  execute("PRAGMA synchronous=NORMAL");
+  execute(
+      "CREATE TABLE IF NOT EXISTS runs (id TEXT PRIMARY KEY, status TEXT, message TEXT, t_reached_s REAL, steps INTEGER,"
+      " rhs_evaluations INTEGER, energy_initial_J REAL, energy_drift_max_rel REAL, energy_drift_final_rel REAL,"
+      " energy_drift_rate_W REAL, drift_class TEXT, linear_momentum_drift_max_rel REAL,"
+      " angular_momentum_drift_max_rel REAL, invariant_drifts_max_rel TEXT, orientation_defect_max REAL,"
+      " position_error_max_m REAL, attitude_error_max_rad REAL, angular_velocity_error_max_rel REAL, wall_s REAL,"
+      " series BLOB)");
+}
+
+Store::~Store() = default;
+
+void Store::execute(const char* sql) const {
+  if (sqlite3_exec(db_.get(), sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail(path_, db_.get());
+}
+
+std::map<std::string, RunResult> Store::load() const {
+  std::map<std::string, RunResult> results;
+  Statement rows(path_, db_.get(), "SELECT * FROM runs");
+  while (rows.step()) {
+    RunResult& r = results[rows.text()];
+    r.status = rows.text();
+    r.message = rows.text();
+    r.t_reached = rows.real();
+    r.steps = rows.integer();
+    r.evaluations = rows.integer();
+    r.energy_initial = rows.optional_real();
+    r.energy_drift_max_rel = rows.optional_real();
+    r.energy_drift_final_rel = rows.optional_real();
+    r.energy_drift_rate = rows.optional_real();
+    r.drift_class = rows.text();
+    r.linear_momentum_drift_max_rel = rows.optional_real();
+    r.angular_momentum_drift_max_rel = rows.optional_real();
+    r.invariant_drift_max_rel = unpack(rows.text());
+    r.orientation_defect_max = rows.optional_real();
+    r.position_error_max = rows.optional_real();
+    r.attitude_error_max = rows.optional_real();
+    r.angular_velocity_error_max_rel = rows.optional_real();
+    r.seconds = rows.real();
+    r.series = rows.series();
+  }
+  return results;
+}
+
+void Store::keep(std::span<const RunRecord> records) {
+  execute("BEGIN IMMEDIATE");
+  try {
+    Statement insert(path_, db_.get(),
+                     "INSERT OR REPLACE INTO runs VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+    for (const RunRecord& record : records) {
+      const RunResult& r = record.result;
+      insert.bind(record.id);
+      insert.bind(r.status);
+      insert.bind(r.message);
+      insert.bind(r.t_reached);
+      insert.bind(r.steps);
+      insert.bind(r.evaluations);
+      insert.bind(r.energy_initial);
+      insert.bind(r.energy_drift_max_rel);
+      insert.bind(r.energy_drift_final_rel);
+      insert.bind(r.energy_drift_rate);
+      insert.bind(r.drift_class);
+      insert.bind(r.linear_momentum_drift_max_rel);
+      insert.bind(r.angular_momentum_drift_max_rel);
+      insert.bind(pack(r.invariant_drift_max_rel));
+      insert.bind(r.orientation_defect_max);
+      insert.bind(r.position_error_max);
+      insert.bind(r.attitude_error_max);
+      insert.bind(r.angular_velocity_error_max_rel);
+      insert.bind(r.seconds);
+      insert.bind(r.series);
+      insert.step();
+      insert.reset();
+    }
+    execute("COMMIT");
+  } catch (...) {
+    sqlite3_exec(db_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
+    throw;
+  }
+}
+
+void Store::forget_all_but(const std::set<std::string>& ids) {
+  for (const auto& [id, result] : load()) {
+    if (ids.contains(id)) continue;
+    Statement remove(path_, db_.get(), "DELETE FROM runs WHERE id = ?");
+    remove.bind(id);
+    remove.step();
+  }
+}
+
+std::set<std::string> Store::ids_in(const std::filesystem::path& folder) {
+  std::set<std::string> ids;
+  const std::filesystem::path path = folder / file_name;
+  if (!std::filesystem::exists(path)) return ids;
+  sqlite3* db = nullptr;
+  const int code = sqlite3_open_v2(path.c_str(), &db, SQLITE_OPEN_READWRITE, nullptr);
+  const std::unique_ptr<sqlite3, Close> guard(db);
+  if (code != SQLITE_OK) fail(path, db);
+  Statement rows(path, db, "SELECT id FROM runs");
+  while (rows.step()) ids.insert(rows.text());
+  return ids;
+}
+
+}  // namespace polhode::study

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+#include <thread>
+
+#include "experiments/study/axes.hpp"
+#include "experiments/study/input_error.hpp"
+#include "experiments/study/listing.hpp"
+#include "experiments/study/options.hpp"
+#include "experiments/study/plan.hpp"
+#include "experiments/study/progress.hpp"
+#include "experiments/study/result_folder.hpp"
+#include "experiments/study/results.hpp"
+#include "experiments/study/run.hpp"
+#include "experiments/study/store.hpp"
+#include "experiments/study/summary.hpp"
+#include "experiments/study/workers.hpp"
+
+namespace polhode::study {
+namespace {
+
+constexpr int bad_input = 2, not_carried_out = 3, interrupted = 130;
+
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free);  // so that a signal handler may set it
+
+/// The first Ctrl-C stops the study in good order; a second one kills it.
+void stop_on_signals() {
+  struct sigaction action = {};
+  action.sa_handler = [](int) { stop_requested = true; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+std::filesystem::path folder_of(const Experiment& experiment, const Options& options, const Plan& plan) {
+  if (!options.out.empty()) return options.out;
+  const std::string what = plan.scenarios.size() == 1 ? plan.scenarios[0].name
+                                                      : std::to_string(plan.scenarios.size()) + "_scenarios";
+  return std::filesystem::path("results") / (experiment.name + "-" + what + "-" + plan.identity.substr(0, 8));
+}
+
+std::string plan_text(const Experiment& experiment, const Plan& plan, const std::filesystem::path& folder) {
+  double cost = 0;
+  std::size_t refused = 0;
+  for (const PlannedRun& run : plan.runs) {
+    cost += run.cost;
+    refused += run.refusal.empty() ? 0 : 1;
+  }
+  std::string text = fmt::format("{}: {} runs, about {:.2g} right-hand sides, into {}\n", experiment.name,
+                                 plan.runs.size(), cost, folder.string());
+  if (refused > 0) text += fmt::format("{} of them make no sense and will be refused\n", refused);
+  const auto names = config_columns(plan.varied_keys);
+  std::vector<std::vector<std::string>> cells;
+  for (const PlannedRun& run : plan.runs) cells.push_back(config_cells(run.config));
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    std::vector<std::string> values;
+    for (const auto& c : cells) {
+      if (!c[k].empty() && std::find(values.begin(), values.end(), c[k]) == values.end()) values.push_back(c[k]);
+    }
+    if (values.empty()) continue;
+    std::string line;
+    for (const std::string& v : values) line += (line.empty() ? "" : ", ") + v;
+    text += fmt::format("  {:<15} {}\n", names[k], line);
+  }
+  return text;
+}
+
+TrajectoryRequest trajectory_of(const Experiment& experiment, const Options& options, const std::filesystem::path& folder,
+                                const PlannedRun& run) {
+  return {options.trajectory, experiment.one_run ? folder : folder / "trajectories" / run.id};
+}
+
+bool has_trajectory(const TrajectoryRequest& request) {
+  switch (request.format) {
+    case TrajectoryFormat::csv: return std::filesystem::exists(request.folder / "trajectory.csv");
+    case TrajectoryFormat::hdf5: return std::filesystem::exists(request.folder / "trajectory.h5");
+    default: return true;
+  }
+}
+
+/// Carries out what the store does not hold yet. Returns false when it was interrupted.
+bool carry_out_missing(const Experiment& experiment, const Options& options, const Plan& plan,
+                       const std::filesystem::path& folder, Store& store, std::map<std::string, RunResult>& results) {
+  std::vector<const PlannedRun*> missing;
+  for (const PlannedRun& run : plan.runs) {
+    const bool done = results.contains(run.id) && has_trajectory(trajectory_of(experiment, options, folder, run));
+    if (run.refusal.empty() && !done) missing.push_back(&run);
+  }
+  if (missing.empty()) return true;
+  const std::size_t kept = plan.runs.size() - missing.size();
+  if (!results.empty()) fmt::print(stderr, "{}: {} of {} runs are there already\n", experiment.name, kept, plan.runs.size());
+  const auto work = [&](const PlannedRun& run) {
+    return carry_out(run.config, *run.scenario, trajectory_of(experiment, options, folder, run), &stop_requested);
+  };
+  run_all(experiment.name, missing, work, options.jobs, store, stop_requested, results);
+  if (!stop_requested) return true;
+  const auto here = std::count_if(plan.runs.begin(), plan.runs.end(), [&](const auto& r) { return results.contains(r.id); });
+  fmt::print(stderr, "{}: interrupted; {} of {} runs are kept in {}; the same command goes on from there\n",
+             experiment.name, here, plan.runs.size(), folder.string());
+  return false;
+}
+
+StudyView view_of(const Experiment& experiment, const Options& options, const Plan& plan,
+                  const std::filesystem::path& folder, std::map<std::string, RunResult>& results) {
+  StudyView view;
+  view.experiment = experiment.name;
+  view.question = experiment.question;
+  view.command = options.command;
+  view.scenarios = plan.scenarios;
+  view.varied_keys = plan.varied_keys;
+  view.invariants = plan.invariants;
+  view.folder = folder;
+  for (const PlannedRun& run : plan.runs) {
+    RunRecord record{run.id, run.config, {}};
+    if (!run.refusal.empty()) {
+      record.result.status = "refused";
+      record.result.message = run.refusal;
+    } else {
+      record.result = std::move(results.at(run.id));
+    }
+    view.runs.push_back(std::move(record));
+  }
+  return view;
+}
+
+void write_everything(const StudyView& view, const Options& options, const Plan& plan) {
+  write_runs_csv(view);
+  write_timings_csv(view);
+  write_manifest(view, options, plan);
+  write_tables(view);
+  if (options.figures) {
+    const std::string skipped = write_figures(view);
+    if (!skipped.empty()) fmt::print(stderr, "{}: {}\n", view.experiment, skipped);
+  }
+  write_report(view);
+}
+
+int run_study(const Experiment& experiment, const Options& options) {
+  const Plan plan = make_plan(experiment, options);
+  const std::filesystem::path folder = folder_of(experiment, options, plan);
+  if (options.dry_run) {
+    fmt::print("{}", plan_text(experiment, plan, folder));
+    return 0;
+  }
+  std::set<std::string> ids;
+  for (const PlannedRun& run : plan.runs) ids.insert(run.id);
+  const ResultFolder held(folder, ids, options.force);
+  stop_on_signals();
+  Store store(folder);
+  if (options.force) store.forget_all_but(ids);
+  auto results = store.load();
+  if (!carry_out_missing(experiment, options, plan, folder, store, results)) return interrupted;
+  const StudyView view = view_of(experiment, options, plan, folder, results);
+  write_everything(view, options, plan);
+  fmt::print("{}\n{}\n", summary_table(view), (folder / "report.html").string());
+  const bool all = std::all_of(view.runs.begin(), view.runs.end(), [](const RunRecord& r) {
+    return r.result.status == "ok" || r.result.status == "diverged";
+  });
+  return all ? 0 : not_carried_out;
+}
+
+}  // namespace
+
+int run_experiment(const Experiment& experiment, int argc, const char* const* argv) {
+  try {
+    const ParsedOptions parsed = parse_options(experiment, argc, argv);
+    if (parsed.exit_status) return *parsed.exit_status;
+    if (parsed.options.list) {
+      fmt::print("{}", listing(*parsed.options.list));
+      return 0;
+    }
+    return run_study(experiment, parsed.options);
+  } catch (const InputError& error) {
+    fmt::print(stderr, "{}: {}\n", experiment.name, error.what());
+    return bad_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}: {}; finished runs are kept, and the same command goes on from there\n", experiment.name,
+               error.what());
+    return not_carried_out;
+  }
+}
+
+}  // namespace polhode::study

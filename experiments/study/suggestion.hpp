@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// "did you mean …": the name nearest to one that does not exist.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace polhode::study {
+
+/// The fewest insertions, deletions, replacements and swaps of neighbours that make b of a (Damerau 1964).
+int edit_distance(std::string_view a, std::string_view b);
+
+/// The known name nearest to this one, if it is near: one edit, and one more per four letters. Empty: none.
+std::string_view nearest(std::string_view name, const std::vector<std::string_view>& known);
+
+/// "; did you mean 'mass'? A body has: mass, name, …", the question only if a name is near.
+/// `introduction` is "A body has".
+std::string suggestion(std::string_view name, std::string_view introduction,
+                       const std::vector<std::string_view>& known);
+
+}  // namespace polhode::study

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// tables/ of a study: the table of runs in LaTeX and Markdown, and every number as a LaTeX command.
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "experiments/study/report/notation.hpp"
+#include "experiments/study/report/run_table.hpp"
+#include "experiments/study/report/tex_values.hpp"
+#include "experiments/study/study_view.hpp"
+#include "experiments/study/text_file.hpp"
+
+namespace polhode::study {
+
+void write_tables(const StudyView& study) {
+  using namespace report;
+  const auto folder = study.folder / "tables";
+  std::filesystem::create_directories(folder);
+  const auto table = run_table(study, Extent::summary, std::numeric_limits<std::size_t>::max());
+  const auto title = fmt::format("{}: {}", study.experiment, study.question);
+  write_text(folder / "summary.tex",
+             fmt::format("% {}\n% The preamble needs \\usepackage[T1]{{fontenc}}\\usepackage{{booktabs,longtable}}. "
+                         "A dash: not defined for that run.\n% runs.csv has all digits and all options.\n{}",
+                         one_line(title), latex(table)));
+  write_text(folder / "summary.md",
+             fmt::format("# {}\n\n{}\n\nAn empty cell is not defined for that run; runs.csv has all digits and all options.\n\n{}",
+                         markdown(study.experiment), markdown(study.question), markdown(table)));
+  write_text(folder / "values.tex", tex_values(study));
+}
+
+}  // namespace polhode::study

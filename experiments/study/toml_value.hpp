@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A TOML document as a tree of plain values that know where they stand. The TOML library itself is slow to compile and
+// stays in the .cpp.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace polhode::study {
+
+/// Where a value was written: line and column of the text (from 1), or the override that set it.
+struct TomlPlace {
+  int line = 0;
+  int column = 0;
+  int from_override = -1;  ///< index among the overrides; −1: from the text
+};
+
+struct TomlEntry;
+
+/// One value. Whole numbers count as numbers: 1 and 1.0 are the same.
+struct TomlValue {
+  enum class Type { boolean, number, text, list, table, date };
+
+  Type type = Type::table;
+  TomlPlace place;
+  bool boolean = false;
+  double number = 0;
+  std::string text;
+  std::vector<TomlValue> items;    ///< of a list
+  std::vector<TomlEntry> entries;  ///< of a table, sorted by key
+
+  static TomlValue of(bool value);
+  static TomlValue of(double value);
+  static TomlValue of(std::string_view value);
+  static TomlValue of(const char* value);  // else it would turn into a bool
+  static TomlValue of(const std::vector<double>& values);
+
+  const TomlValue* find(std::string_view key) const;
+  TomlValue* find(std::string_view key);
+  TomlEntry& insert(std::string key, TomlValue value);
+};
+
+struct TomlEntry {
+  std::string key;
+  TomlPlace key_place;
+  TomlValue value;
+};
+
+/// The text is not TOML: a duplicate key, a bracket that is not closed. The message is one sentence.
+struct TomlSyntaxError {
+  TomlPlace place;
+  std::string message;
+};
+
+/// Throws TomlSyntaxError.
+TomlValue parse_toml(std::string_view text);
+
+}  // namespace polhode::study

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/workers.hpp"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "experiments/study/progress.hpp"
+
+namespace polhode::study {
+namespace {
+
+constexpr std::chrono::milliseconds between_commits{80};
+
+/// The thread that commits what the workers have finished and reports the progress.
+class Keeper {
+ public:
+  Keeper(const std::string& name, std::size_t runs, double cost, Store& store, std::atomic<bool>& stop,
+         std::map<std::string, RunResult>& results)
+      : store_(store), stop_(stop), results_(results), progress_(name, runs, cost), thread_([this] { loop(); }) {}
+
+  void add(RunRecord record, double cost) {
+    const std::lock_guard lock(mutex_);
+    pending_.push_back(std::move(record));
+    cost_done_ += cost;
+  }
+
+  /// Waits for the last commit; rethrows what went wrong.
+  void finish() {
+    {
+      const std::lock_guard lock(mutex_);
+      finished_ = true;
+    }
+    wake_.notify_one();
+    thread_.join();
+    progress_.finish();
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  void loop() {
+    for (bool last = false; !last;) {
+      std::vector<RunRecord> records;
+      double cost = 0;
+      {
+        std::unique_lock lock(mutex_);
+        wake_.wait_for(lock, between_commits, [this] { return finished_; });
+        last = finished_;
+        records.swap(pending_);
+        cost = cost_done_;
+      }
+      keep(records);
+      progress_.report(done_, cost);
+    }
+  }
+
+  void keep(std::vector<RunRecord>& records) {
+    if (records.empty() || failure_) return;
+    try {
+      store_.keep(records);
+      done_ += records.size();
+      for (RunRecord& r : records) results_[r.id] = std::move(r.result);
+    } catch (...) {
+      failure_ = std::current_exception();
+      stop_ = true;
+    }
+  }
+
+  Store& store_;
+  std::atomic<bool>& stop_;
+  std::map<std::string, RunResult>& results_;
+  Progress progress_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::vector<RunRecord> pending_;
+  double cost_done_ = 0;
+  std::size_t done_ = 0;
+  bool finished_ = false;
+  std::exception_ptr failure_;
+  std::thread thread_;  // last: it uses all of the above
+};
+
+}  // namespace
+
+void run_all(const std::string& name, const std::vector<const PlannedRun*>& runs,
+             const std::function<RunResult(const PlannedRun&)>& work, int jobs, Store& store, std::atomic<bool>& stop,
+             std::map<std::string, RunResult>& results) {
+  // The longest first, so that no core is left alone with a long one at the end.
+  std::vector<const PlannedRun*> order = runs;
+  std::stable_sort(order.begin(), order.end(), [](const auto* a, const auto* b) { return a->cost > b->cost; });
+  double cost = 0;
+  for (const PlannedRun* run : order) cost += run->cost;
+  Keeper keeper(name, order.size(), cost, store, stop, results);
+  std::atomic<std::size_t> next{0};
+  std::mutex failure_mutex;
+  std::exception_ptr failure;
+  const auto worker = [&](int) {
+    for (std::size_t i = next++; i < order.size() && !stop; i = next++) {
+      try {
+        RunResult result = work(*order[i]);
+        if (result.status == "interrupted") return;
+        keeper.add({order[i]->id, order[i]->config, std::move(result)}, order[i]->cost);
+      } catch (...) {
+        const std::lock_guard lock(failure_mutex);
+        if (!failure) failure = std::current_exception();
+        stop = true;
+      }
+    }
+  };
+  const int cores = std::max(1, jobs > 0 ? jobs : static_cast<int>(std::thread::hardware_concurrency()));
+  const int count = std::min(cores, static_cast<int>(std::min<std::size_t>(order.size(), 4096)));
+  if (count <= 1) {
+    worker(0);
+  } else {
+    tbb::task_arena arena(count);
+    arena.execute([&] { tbb::parallel_for(0, count, worker); });
+  }
+  keeper.finish();
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace polhode::study

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Carries out runs on several cores and keeps what is finished, at least ten times a second.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "experiments/study/plan.hpp"
+#include "experiments/study/store.hpp"
+
+namespace polhode::study {
+
+/// Runs `work` on each of the runs, `jobs` at a time (0: one for each core), and puts the results into the store and
+/// into `results`. Returns early, with what is finished kept, when `stop` is set; rethrows what a worker or the store
+/// threw.
+void run_all(const std::string& name, const std::vector<const PlannedRun*>& runs,
+             const std::function<RunResult(const PlannedRun&)>& work, int jobs, Store& store, std::atomic<bool>& stop,
+             std::map<std::string, RunResult>& results);
+
+}  // namespace polhode::study

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a fixed-step method written as a template becomes an entry of the catalogue.
+//
+// Method<System> has a constructor Method(const System&) and step(system, t, h, y), which advances the flat state y by
+// h. The step sees the concrete system, so it inlines; the state of one body stays in registers and on the stack while
+// a run advances, through projection and measurement too.
+#pragma once
+
+#include <type_traits>
+#include <utility>
+
+#include "core/flatten.hpp"
+#include "core/rigid_bodies.hpp"
+#include "integrators/catalogue.hpp"
+
+namespace polhode {
+
+template <template <class> class Method, MechanicalSystem System>
+class FixedStep final : public Integrator<typename System::Scalar> {
+ public:
+  using S = typename System::Scalar;
+  using Flat = typename System::Flat;
+
+  FixedStep(const System& system, int evaluations_per_step)
+      : system_(system), method_(system), evaluations_per_step_(evaluations_per_step) {}
+
+  void begin(const State<S>&) override { steps_ = 0; }
+  StepResult step(State<S>& state, double h) override { return this->advance(state, h, 1); }
+
+  bool takes_stretches() const override { return std::is_same_v<S, double>; }
+
+  using Integrator<S>::advance;
+
+  // Flattened: without it the compiler leaves calls between the stages, which doubles the cost of a step of one body.
+  POLHODE_FLATTEN StepResult advance(State<S>& state, const Stretch& stretch) override {
+    if constexpr (System::is_one) {
+      // Local copies, which the compiler can keep in registers.
+      Flat y = Eigen::Map<const Flat>(state.y.data());
+      Method<System> method = method_;
+      take(method, stretch, y);
+      method_ = method;
+      Eigen::Map<Flat>{state.y.data()} = y;
+    } else {
+      take(method_, stretch, state.y);
+    }
+    state.t = stretch.time(stretch.count);
+    steps_ += stretch.count;
+    return {};
+  }
+
+  std::int64_t evaluations() const override { return steps_ * evaluations_per_step_; }
+
+ private:
+  void take(Method<System>& method, const Stretch& stretch, Flat& y) const {
+    for (std::int64_t k = 1; k <= stretch.count; ++k) {
+      method.step(system_, S(stretch.time(k - 1)), S(stretch.h), y);
+      if constexpr (std::is_same_v<S, double>) finish_step(stretch, k, y);
+    }
+  }
+
+  /// Projection and measurement, as the driver does them for methods that take no stretches.
+  void finish_step(const Stretch& stretch, std::int64_t k, Flat& y) const {
+    double injected = 0;
+    if (stretch.project) {
+      const bool account = stretch.samples && system_.projection_changes_energy();
+      const double before = account ? system_.measure_flat(y.data()).energy() : 0.0;
+      system_.project_flat(y.data());
+      if (account) injected = system_.measure_flat(y.data()).energy() - before;
+    }
+    if (stretch.samples) {
+      stretch.samples[k - 1] = {stretch.time(k), system_.measure_flat(y.data()), y[y.size() - 1], injected};
+    }
+  }
+
+  const System& system_;
+  Method<System> method_;
+  int evaluations_per_step_;
+  std::int64_t steps_ = 0;
+};
+
+/// The one line that registers a fixed-step method: fixed_step<Rk4>({.name = "rk4", …}).
+template <template <class> class Method>
+IntegratorEntry fixed_step(Declaration declaration) {
+  const int evaluations = declaration.evaluations_per_step;
+  const auto maker = [evaluations]<class S>(const System<S>& system) -> IntegratorPointer<S> {
+    return visit_system(system, [&]<class Concrete>(const Concrete& concrete) -> IntegratorPointer<S> {
+      return std::make_unique<FixedStep<Method, Concrete>>(concrete, evaluations);
+    });
+  };
+  return {std::move(declaration),
+          [maker](const System<double>& s, const IntegratorSettings&) { return maker(s); },
+          [maker](const System<float>& s, const IntegratorSettings&) { return maker(s); },
+          [maker](const System<long double>& s, const IntegratorSettings&) { return maker(s); }};
+}
+
+}  // namespace polhode

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Explicit midpoint rule: y' = y + h f(t + h/2, y + (h/2) f(t, y)).
+// Source: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.1 (Runge 1895).
+#include "integrators/fixed_step.hpp"
+
+namespace polhode {
+
+template <class System>
+class ExplicitMidpoint {
+ public:
+  using S = typename System::Scalar;
+  using Flat = typename System::Flat;
+
+  explicit ExplicitMidpoint(const System& system) : rate_(system.zero()), middle_(system.zero()) {}
+
+  void step(const System& system, S t, S h, Flat& y) {
+    const S half = h / S(2);
+    system.rate(t, y, rate_);
+    middle_ = y + half * rate_;
+    system.rate(t + half, middle_, rate_);
+    y += h * rate_;
+  }
+
+ private:
+  Flat rate_, middle_;
+};
+
+IntegratorEntry explicit_midpoint() {
+  return fixed_step<ExplicitMidpoint>({.name = "explicit_midpoint",
+                                       .family = "textbook",
+                                       .summary = "y' = y + h f(t + h/2, y + h/2 f(t, y))",
+                                       .order = 2,
+                                       .evaluations_per_step = 2});
+}
+
+}  // namespace polhode
