@@ -60,6 +60,12 @@ class Attachment {
     if (two_) wrenches[other_].add_at_point(bodies[other_], s.to, -f);
   }
 
+  /// The commonest case on its own, since a step of one body feels every load and store: from the reference point of
+  /// one body to a point of the world.
+  bool one_center() const { return !two_ && !off_center_; }
+  Vector3<S> from_center(std::span<const BodyMotion<S>> bodies) const { return far_ - bodies[body_].position; }
+  void apply_at_center(const Vector3<S>& f, std::span<Wrench<S>> wrenches) const { wrenches[body_].force += f; }
+
   bool internal() const { return internal_; }
   bool reads_rotation() const { return off_center_ || two_; }
 

@@ -30,8 +30,13 @@ class Spring final : public ForceModel<S> {
 
   POLHODE_FLATTEN void add_wrench(S, std::span<const BodyMotion<S>> bodies,
                                    std::span<Wrench<S>> wrenches) const override {
+    const bool linear = rest_length_ == S(0) && damping_ == S(0);  // f = k d needs no direction
+    if (linear && ends_.one_center()) {
+      ends_.apply_at_center(stiffness_ * ends_.from_center(bodies), wrenches);
+      return;
+    }
     const auto s = ends_.span(bodies);
-    if (rest_length_ == S(0) && damping_ == S(0)) {  // f = k d needs no direction
+    if (linear) {
       ends_.apply(s, stiffness_ * s.d, bodies, wrenches);
       return;
     }
@@ -45,6 +50,7 @@ class Spring final : public ForceModel<S> {
 
   POLHODE_FLATTEN S potential_energy(std::span<const BodyMotion<S>> bodies) const override {
     using std::sqrt;
+    if (rest_length_ == S(0) && ends_.one_center()) return stiffness_ * ends_.from_center(bodies).squaredNorm() / S(2);
     const auto s = ends_.span(bodies);
     if (rest_length_ == S(0)) return stiffness_ * s.d.squaredNorm() / S(2);
     const S stretch = sqrt(s.d.squaredNorm()) - rest_length_;

@@ -12,8 +12,8 @@
 #include "experiments/study/report/gnuplot_figure.hpp"
 #include "experiments/study/report/notation.hpp"
 #include "experiments/study/report/pgfplots_figure.hpp"
-#include "experiments/study/report/study_figures.hpp"
 #include "experiments/study/report/read_file.hpp"
+#include "experiments/study/report/study_figures.hpp"
 #include "experiments/study/study_view.hpp"
 #include "experiments/study/text_file.hpp"
 
@@ -64,8 +64,8 @@ void finish_gnuplot(ChildProcess& child, const std::string& name, const fs::path
   const auto outcome = child.wait();
   const auto file = folder / name;
   if (outcome.exit_status != 0) {
-    throw std::runtime_error(
-        fmt::format("gnuplot failed on {}.gp with exit status {}: {}", file.string(), outcome.exit_status, one_line(outcome.printed)));
+    throw std::runtime_error(fmt::format("gnuplot failed on {}.gp with exit status {}: {}", file.string(),
+                                         outcome.exit_status, one_line(outcome.printed)));
   }
   for (const auto* ending : {".svg", ".pdf"}) {
     const fs::path made = file.string() + ending;

@@ -27,12 +27,12 @@ struct AxisHelp {
 constexpr AxisHelp axis_help[] = {
     {"scenario", "NAME|FILE", "scenario, built in or a TOML file (see --list scenarios)"},
     {"integrator", "NAME", "method, or all (see --list integrators)"},
-    {"orientation", "quaternion|matrix", "chart of the orientation"},
-    {"angular-state", "velocity_world|velocity_body|momentum_world", "what stands for the rotation in the state"},
-    {"gyroscopic", "on|off", "the term w x Iw, which both source documents leave out"},
-    {"normalize", "never|step", "project the orientation after each step"},
-    {"rotation-from", "normalised|stored", "what a quaternion off the unit sphere stands for"},
-    {"precision", "float|double|long_double", "arithmetic; our own methods only"},
+    {"orientation", "quaternion|matrix", "chart of the orientation (default: quaternion)"},
+    {"angular-state", "velocity_world|velocity_body|momentum_world", "what stands for the rotation in the state (default: velocity_world)"},
+    {"gyroscopic", "on|off", "the term w x Iw, which both source documents leave out (default: on)"},
+    {"normalize", "never|step", "project the orientation after each step (default: never)"},
+    {"rotation-from", "normalised|stored", "what a quaternion off the unit sphere stands for (default: normalised)"},
+    {"precision", "float|double|long_double", "arithmetic; other than double for our own methods only (default: double)"},
     {"dt", "S", "step of fixed-step methods, in s"},
     {"tolerance", "X", "relative and absolute tolerance of adaptive methods"},
     {"t-end", "S", "duration in s (default: the scenario's)"},
@@ -95,12 +95,12 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   std::string trajectory = experiment.one_run ? "csv" : "none";
   app.add_option("--trajectory", trajectory, "write the motion of every run (default: " + trajectory + ")")
       ->type_name("none|csv|hdf5")
-      ->check(CLI::IsMember({"none", "csv", "hdf5"}))
+      ->check(CLI::IsMember({"none", "csv", "hdf5"}).description(""))
       ->group("Results");
   app.add_flag("!--no-figures", options.figures, "no figures")->group("Results");
   app.add_option("--jobs", options.jobs, "runs at a time (default: one for each core)")
       ->type_name("N")
-      ->check(CLI::Range(1, 4096))
+      ->check(CLI::Range(1, 4096).description(""))
       ->group("Running");
   app.add_option("--seed", options.seed, "seed of random studies (default: 1)")->type_name("N")->group("Running");
   app.add_flag("--dry-run", options.dry_run, "print the plan and write nothing")->group("Running");

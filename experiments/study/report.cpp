@@ -11,6 +11,7 @@
 #include "experiments/study/build_info.hpp"
 #include "experiments/study/report/findings.hpp"
 #include "experiments/study/report/gnuplot_figure.hpp"
+#include "experiments/study/report/how_to_read.hpp"
 #include "experiments/study/report/method_table.hpp"
 #include "experiments/study/report/notation.hpp"
 #include "experiments/study/report/page_style.hpp"
@@ -27,7 +28,8 @@ namespace {
 
 using namespace report;
 
-constexpr std::size_t open_rows = 40;         // a table up to here stands open, a longer one folded
+constexpr std::size_t open_rows = 40;  // a table up to here stands open, a longer one folded
+constexpr std::size_t most_open_rows_in_text = 8;
 constexpr std::size_t most_runs_shown = 400;  // of thousands: runs.csv has them all
 constexpr std::size_t most_curves_shown = 300;
 
@@ -35,7 +37,8 @@ constexpr std::size_t most_curves_shown = 300;
 std::string title_of(const StudyView& study) {
   std::string title = study.experiment;
   std::replace(title.begin(), title.end(), '_', ' ');
-  if (!title.empty() && title.front() >= 'a' && title.front() <= 'z') title.front() = static_cast<char>(title.front() - 'a' + 'A');
+  if (!title.empty() && title.front() >= 'a' && title.front() <= 'z')
+    title.front() = static_cast<char>(title.front() - 'a' + 'A');
   return title;
 }
 
@@ -60,60 +63,38 @@ std::string folded(const std::string& summary, const std::string& content, bool 
 std::string head(const StudyView& study) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{} – polhode</title>\n<style>{}</style>\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{} – "
+      "polhode</title>\n<style>{}</style>\n"
       "</head>\n<body>\n<header>\n<h1>{}</h1>\n<p class=\"question\">{}</p>\n"
-      "<nav aria-label=\"Contents\"><ul><li><a href=\"#seen\">What is seen</a></li><li><a href=\"#figures\">Figures</a></li>"
+      "<nav aria-label=\"Contents\"><ul><li><a href=\"#seen\">What is seen</a></li><li><a "
+      "href=\"#figures\">Figures</a></li>"
       "<li><a href=\"#methods\">Method by method</a></li><li><a href=\"#run\">What was run</a></li>"
       "<li><a href=\"#runs\">All runs</a></li></ul></nav>\n</header>\n<main>\n",
       html(title_of(study)), page_style, html(title_of(study)), html(study.question));
 }
 
 std::string what_is_seen(const Findings& findings) {
-  std::string out = fmt::format("<section id=\"seen\">\n<h2>What is seen</h2>\n<p class=\"outcome\">{}</p>\n", html(findings.outcome));
+  std::string out = fmt::format("<section id=\"seen\">\n<h2>What is seen</h2>\n<p class=\"outcome\">{}</p>\n",
+                                html(findings.outcome));
   for (const auto& caution : findings.cautions) {
     out += fmt::format("<div class=\"caution\" role=\"note\"><strong>Caution</strong> {}</div>\n", prose(caution));
   }
   for (const auto& topic : findings.topics) {
     out += fmt::format("<h3>{}</h3>\n", html(topic.heading));
     if (!topic.sentences.empty()) out += list(topic.sentences);
-    for (const auto& table : topic.tables) out += html(table);
+    for (const auto& table : topic.tables) {
+      out += table.rows.size() > most_open_rows_in_text ? folded(table.caption, html(table, Caption::spoken), false)
+                                                        : html(table);
+    }
   }
   return out + "</section>\n";
-}
-
-std::string how_to_read() {
-  return R"(<aside class="box" aria-labelledby="reading">
-<h2 id="reading">How to read this</h2>
-<dl>
-<dt>Energy drift</dt>
-<dd>Energy is a ledger: kinetic + potential − work of non-conservative forces − energy injected by projection. Its drift is what
-the ledger cannot explain, relative to the energy at the start (to the larger of kinetic and potential energy where they cancel).
-A positive drift is energy that the method made.</dd>
-<dt>Momentum drift</dt>
-<dd>The size of the change of the momentum vector, relative to its size at the start; only where the forces conserve it.</dd>
-<dt>Orientation defect</dt>
-<dd>How far the stored numbers are from a rotation: ||q| − 1| of a quaternion, the Frobenius norm of RᵀR − 1 of a matrix.</dd>
-<dt>Attitude error</dt>
-<dd>The angle between the exact and the computed attitude, where an exact solution is known.</dd>
-<dt>Against time</dt>
-<dd>Long runs are thinned: each point stands for a stretch of the run and holds the largest value in it. The vertical axis is
-logarithmic on both sides of zero and linear about it, so that signs and many orders of magnitude are seen at once.</dd>
-<dt>Slope</dt>
-<dd>p in drift ∝ step<sup>p</sup>: a straight line fitted by least squares to the logarithms of completed runs whose value is above
-round-off and below 1, without the smallest steps where a value no longer falls. The declared order is that of the motion’s error; an invariant may drift by a higher power.</dd>
-<dt>Round-off</dt>
-<dd>A value below 16 ε √steps, what rounding errors alone may add up to (ε = 2.2e-16 in double precision).</dd>
-<dt>– in a table</dt>
-<dd>Not defined for that run: no exact solution is known, the forces do not conserve that momentum, or the run ended too early.</dd>
-</dl>
-</aside>
-)";
 }
 
 /// The picture, if it was drawn from these very data: an older one in the folder may show another study.
 std::optional<std::string> picture(const StudyView& study, const Figure& figure) {
   const auto file = (study.folder / "figures" / figure.name).string();
-  if (read_file(file + ".gp") != gnuplot_script(figure) || read_file(file + ".dat") != gnuplot_data(figure)) return std::nullopt;
+  if (read_file(file + ".gp") != gnuplot_script(figure) || read_file(file + ".dat") != gnuplot_data(figure))
+    return std::nullopt;
   return read_file(file + ".svg");
 }
 
@@ -131,14 +112,16 @@ std::string figure_html(const StudyView& study, const Figure& figure) {
       svg ? fmt::format("<div class=\"drawing\"><img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\"></div>",
                         html(figure.title + ". " + figure.caption), base64(*svg))
           : std::string("<p class=\"none\">Not drawn: figures were not asked for, or gnuplot is not installed.</p>");
-  return fmt::format("<figure id=\"{}\">\n{}\n<figcaption><b>{}.</b> {}{}</figcaption>\n</figure>\n", figure.name, drawing,
-                     html(figure.title), html(figure.caption), svg ? fmt::format(" Files: {}.", file_links(figure)) : "");
+  return fmt::format("<figure id=\"{}\">\n{}\n<figcaption><b>{}.</b> {}{}</figcaption>\n</figure>\n", figure.name,
+                     drawing, html(figure.title), html(figure.caption),
+                     svg ? fmt::format(" Files: {}.", file_links(figure)) : "");
 }
 
 std::string figures(const StudyView& study, const FigureSet& set) {
   std::string out = "<section id=\"figures\">\n<h2>Figures</h2>\n";
   for (const auto& figure : set.figures) out += figure_html(study, figure);
-  for (const auto& absent : set.absent) out += paragraph(fmt::format("There is no figure “{}”: {}.", absent.title, absent.reason));
+  for (const auto& absent : set.absent)
+    out += paragraph(fmt::format("There is no figure “{}”: {}.", absent.title, absent.reason));
   return out + "</section>\n";
 }
 
@@ -148,7 +131,8 @@ std::string methods(const Grouping& grouping) {
   if (all > most_curves_shown) table.rows.resize(most_curves_shown);
   std::string out = "<section id=\"methods\">\n<h2>Method by method</h2>\n";
   if (all > open_rows) {
-    const auto summary = all > most_curves_shown ? fmt::format("The first {} of {} rows", most_curves_shown, all) : fmt::format("{} rows", all);
+    const auto summary = all > most_curves_shown ? fmt::format("The first {} of {} rows", most_curves_shown, all)
+                                                 : fmt::format("{} rows", all);
     out += folded(summary, html(table), false);
   } else {
     out += html(table);
@@ -164,8 +148,9 @@ std::string bodies_and_forces(const Scenario& scenario) {
       bodies.push_back(fmt::format("{} more", scenario.problem.bodies.size() - 6));
       break;
     }
-    bodies.push_back(body.fixed ? fmt::format("{} (static)", body.name)
-                                : fmt::format("{} ({} kg{})", body.name, exact(body.mass), body.pinned ? ", pinned" : ""));
+    bodies.push_back(body.fixed
+                         ? fmt::format("{} (static)", body.name)
+                         : fmt::format("{} ({} kg{})", body.name, exact(body.mass), body.pinned ? ", pinned" : ""));
   }
   std::set<std::string> forces;
   for (const auto& force : scenario.problem.forces) forces.insert(force.kind);
@@ -177,7 +162,8 @@ std::string scenarios(const StudyView& study) {
   std::string out = "<h3>Scenarios</h3>\n<dl>\n";
   for (const auto& scenario : study.scenarios) {
     out += fmt::format("<dt>{} <code>{}</code></dt>\n<dd>{}{}{}</dd>\n", html(scenario.title), html(scenario.name),
-                       html(scenario.description), scenario.description.empty() ? "" : "<br>", html(bodies_and_forces(scenario)));
+                       html(scenario.description), scenario.description.empty() ? "" : "<br>",
+                       html(bodies_and_forces(scenario)));
   }
   return out + "</dl>\n";
 }
@@ -185,7 +171,10 @@ std::string scenarios(const StudyView& study) {
 std::string catalogue_table(const Grouping& grouping) {
   using Kind = Column::Kind;
   Table table{.caption = "The methods",
-              .columns = {{"name", "", Kind::name}, {"family", "", Kind::text}, {"order"}, {"step", "", Kind::text},
+              .columns = {{"name", "", Kind::name},
+                          {"family", "", Kind::text},
+                          {"order"},
+                          {"step", "", Kind::text},
                           {"what it is", "", Kind::text}},
               .rows = {}};
   for (const auto& name : grouping.methods) {
@@ -195,7 +184,8 @@ std::string catalogue_table(const Grouping& grouping) {
       continue;
     }
     const auto& d = entry->declaration;
-    table.rows.push_back({name, d.family, d.order > 0 ? std::to_string(d.order) : "variable", d.adaptive ? "chosen to a tolerance" : "fixed",
+    table.rows.push_back({name, d.family, d.order > 0 ? std::to_string(d.order) : "variable",
+                          d.adaptive ? "chosen to a tolerance" : "fixed",
                           fmt::format("{}{}", d.summary, d.implicit ? " (implicit)" : "")});
   }
   return html(table);
@@ -254,26 +244,33 @@ std::string options_html(const StudyView& study) {
 }
 
 std::string what_was_run(const StudyView& study, const Grouping& grouping) {
-  return fmt::format("<section id=\"run\">\n<h2>What was run</h2>\n{}<h3>Methods</h3>\n{}{}<h3>The command that makes this again</h3>\n"
-                     "<pre><code>{}</code></pre>\n</section>\n",
-                     scenarios(study), catalogue_table(grouping), options_html(study), html(study.command));
+  return fmt::format(
+      "<section id=\"run\">\n<h2>What was run</h2>\n{}<h3>Methods</h3>\n{}{}<h3>The command that makes this "
+      "again</h3>\n"
+      "<pre><code>{}</code></pre>\n</section>\n",
+      scenarios(study), catalogue_table(grouping), options_html(study), html(study.command));
 }
 
 std::string all_runs(const StudyView& study) {
   auto table = run_table(study, Extent::all, most_runs_shown);
   table.caption = "In the order of runs.csv";
   const auto n = study.runs.size();
-  std::string out = "<section id=\"runs\">\n<h2>All runs</h2>\n<p>All digits and all options: <a href=\"runs.csv\">runs.csv</a>; for a text: "
-                    "<a href=\"tables/summary.tex\">LaTeX</a>, <a href=\"tables/summary.md\">Markdown</a>, "
-                    "<a href=\"tables/values.tex\">LaTeX commands</a>; what made them: <a href=\"manifest.json\">manifest.json</a>.</p>\n";
-  const auto summary = n > most_runs_shown ? fmt::format("The first {} of {} runs", most_runs_shown, n) : count(n, "run");
+  std::string out =
+      "<section id=\"runs\">\n<h2>All runs</h2>\n<p>All digits and all options: <a href=\"runs.csv\">runs.csv</a>; for "
+      "a text: "
+      "<a href=\"tables/summary.tex\">LaTeX</a>, <a href=\"tables/summary.md\">Markdown</a>, "
+      "<a href=\"tables/values.tex\">LaTeX commands</a>; what made them: <a "
+      "href=\"manifest.json\">manifest.json</a>.</p>\n";
+  const auto summary =
+      n > most_runs_shown ? fmt::format("The first {} of {} runs", most_runs_shown, n) : count(n, "run");
   return out + folded(summary, html(table), n <= open_rows) + "</section>\n";
 }
 
 std::string foot() {
   const auto& build = build_info();
-  return fmt::format("</main>\n<footer><p>Made by polhode {}, commit {}. SI units throughout.</p></footer>\n</body>\n</html>\n",
-                     html(build.version), html(build.commit));
+  return fmt::format(
+      "</main>\n<footer><p>Made by polhode {}, commit {}. SI units throughout.</p></footer>\n</body>\n</html>\n",
+      html(build.version), html(build.commit));
 }
 
 }  // namespace
@@ -281,8 +278,9 @@ std::string foot() {
 void write_report(const StudyView& study) {
   const auto grouping = group(study);
   const auto set = figures_of(study, grouping);
-  write_text(study.folder / "report.html", head(study) + what_is_seen(findings_of(study, grouping)) + how_to_read() + figures(study, set) +
-                                               methods(grouping) + what_was_run(study, grouping) + all_runs(study) + foot());
+  write_text(study.folder / "report.html", head(study) + what_is_seen(findings_of(study, grouping)) +
+                                               std::string(how_to_read) + figures(study, set) + methods(grouping) +
+                                               what_was_run(study, grouping) + all_runs(study) + foot());
 }
 
 }  // namespace polhode::study

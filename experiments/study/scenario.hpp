@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenarios: TOML files, or the built-in ones, read into a Problem. Keys, units and defaults are in experiments/README.md.
+// Scenarios: TOML files, or the built-in ones, read into a Problem. Keys, units and defaults are in
+// experiments/README.md.
 #pragma once
 
 #include <memory>
@@ -14,7 +15,8 @@ namespace polhode::study {
 
 /// One key of a scenario set from outside: --vary body.0.inertia.1=… or the axis of a study file.
 struct Override {
-  std::string key;    ///< dotted path, numbers count from 0: "body.0.angular_velocity", "force.1.stiffness", "gravity.2"
+  /// Dotted path; numbers count from 0, a body may be named: "body.0.angular_velocity", "body.box.mass", "gravity.2".
+  std::string key;
   std::string value;  ///< TOML text: "0.5", "[0.01, 1, 0.01]"
   bool operator==(const Override&) const = default;
 };

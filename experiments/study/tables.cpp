@@ -22,9 +22,11 @@ void write_tables(const StudyView& study) {
              fmt::format("% {}\n% The preamble needs \\usepackage[T1]{{fontenc}}\\usepackage{{booktabs,longtable}}. "
                          "A dash: not defined for that run.\n% runs.csv has all digits and all options.\n{}",
                          one_line(title), latex(table)));
-  write_text(folder / "summary.md",
-             fmt::format("# {}\n\n{}\n\nAn empty cell is not defined for that run; runs.csv has all digits and all options.\n\n{}",
-                         markdown(study.experiment), markdown(study.question), markdown(table)));
+  write_text(
+      folder / "summary.md",
+      fmt::format(
+          "# {}\n\n{}\n\nAn empty cell is not defined for that run; runs.csv has all digits and all options.\n\n{}",
+          markdown(study.experiment), markdown(study.question), markdown(table)));
   write_text(folder / "values.tex", tex_values(study));
 }
 

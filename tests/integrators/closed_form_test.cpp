@@ -25,7 +25,6 @@ using V3 = Vector3<double>;
 
 constexpr Formulation world_quaternion{};
 constexpr Formulation body_quaternion{Orientation::quaternion, AngularState::velocity_body};
-constexpr Formulation world_matrix{Orientation::matrix, AngularState::velocity_world};
 constexpr Formulation body_matrix{Orientation::matrix, AngularState::velocity_body};
 
 /// A run that a test steps by hand; state.t = k h as the driver counts it.
@@ -99,7 +98,7 @@ Problem peters_hsu() {
   return p;
 }
 
-/// A mass on a spring of no rest length at its centre: ω² = k/m, along one axis.
+/// A mass on a spring of no rest length at its centre: ω² = k/m.
 constexpr double oscillator_rate = 2.0;  // rad/s
 Problem oscillator() {
   Problem p;
@@ -108,8 +107,6 @@ Problem oscillator() {
   p.forces.push_back(force("spring", {0}, {{"stiffness", 0.5 * oscillator_rate * oscillator_rate}}));
   return p;
 }
-
-// ---- growth and phase of the charts (REFERENCE: quaternion and matrix kinematics) ------------------------------------
 
 class Textbook : public testing::TestWithParam<AngularState> {};
 INSTANTIATE_TEST_SUITE_P(ConstantRotation, Textbook,
@@ -154,7 +151,8 @@ TEST_P(Textbook, ExplicitEulerOnTheMatrix) {
 
 // The growth is exact for any sequence of angular velocities: products of 1 + θ_n²/4 and of 1 + θ_n².
 TEST(ExplicitEuler, GrowsByTheAngularVelocityOfEachStep) {
-  for (const AngularState a : {AngularState::velocity_world, AngularState::velocity_body, AngularState::momentum_world}) {
+  for (const AngularState a :
+       {AngularState::velocity_world, AngularState::velocity_body, AngularState::momentum_world}) {
     Motion q("explicit_euler", hairer_vilmart(), {Orientation::quaternion, a});
     Motion r("explicit_euler", hairer_vilmart(), {Orientation::matrix, a});
     const double h = 0.02;
@@ -211,12 +209,11 @@ TEST_P(Textbook, Rk4PhaseErrorPerStep) {
       return rotation_vector(product(conjugate(exact), run.attitude())).dot(turning.normalized()) / n;
     };
     const double of_quaternion = phase_error(Orientation::quaternion), of_matrix = phase_error(Orientation::matrix);
-    EXPECT_NEAR(of_quaternion, -std::pow(theta, 5) / 1920 + 2 * std::pow(theta / 2, 7) / 336, 2e-16 + 5e-3 * std::pow(theta / 2, 9));
+    EXPECT_NEAR(of_quaternion, -std::pow(theta, 5) / 1920 + 2 * std::pow(theta / 2, 7) / 336,
+                2e-16 + 5e-3 * std::pow(theta / 2, 9));
     EXPECT_NEAR(of_matrix, -std::pow(theta, 5) / 120 + std::pow(theta, 7) / 336, 2e-16 + 5e-3 * std::pow(theta, 9));
   }
 }
-
-// ---- energy and momentum on Euler's equations ------------------------------------------------------------------------
 
 // Explicit Euler: ΔE = (h²/2) Ω̇·JΩ̇ ≥ 0 and Δ|y|² = h²|ẏ|², exactly, at every step. Semi-implicit Euler does the same to
 // the body rates: with Ω as the state it is explicit Euler.
@@ -230,7 +227,8 @@ TEST(ExplicitEuler, FeedsEulersEquations) {
       const double energy = run.energy();
       run.steps(h, 1);
       semi.steps(h, 1);
-      EXPECT_NEAR(run.energy() - energy, h * h / 2 * rate.dot(hairer_vilmart_moments.cwiseProduct(rate)), 4e-15 * energy);
+      EXPECT_NEAR(run.energy() - energy, h * h / 2 * rate.dot(hairer_vilmart_moments.cwiseProduct(rate)),
+                  4e-15 * energy);
       const double before = hairer_vilmart_moments.cwiseProduct(spin).squaredNorm();
       const double after = hairer_vilmart_moments.cwiseProduct(run.angular_state()).squaredNorm();
       EXPECT_NEAR(after - before, h * h * hairer_vilmart_moments.cwiseProduct(rate).squaredNorm(), 4e-15 * before);
@@ -301,14 +299,13 @@ TEST(GyroscopicTermLeftOut, KeepsTheEnergyAndLosesTheMomentum) {
   }
 }
 
-// ---- translation -----------------------------------------------------------------------------------------------------
-
-// Explicit Euler multiplies the energy of an oscillator by 1 + (hω)² at each step, the explicit midpoint by 1 + (hω)⁴/4.
+// Explicit Euler multiplies the energy of an oscillator by 1 + (hω)² at each step, the explicit midpoint by 1 +
+// (hω)⁴/4.
 TEST(Oscillator, ExplicitMethodsFeedIt) {
   for (const double h : {0.01, 0.3, 1.0}) {
     const double x = h * oscillator_rate;
-    Motion euler("explicit_euler", oscillator(), world_quaternion), midpoint("explicit_midpoint", oscillator(), world_quaternion),
-        rk4("rk4", oscillator(), world_quaternion);
+    Motion euler("explicit_euler", oscillator(), world_quaternion),
+        midpoint("explicit_midpoint", oscillator(), world_quaternion), rk4("rk4", oscillator(), world_quaternion);
     const double start = euler.energy();
     for (int n = 1; n <= 50; ++n) {
       euler.steps(h, 1);
@@ -372,7 +369,8 @@ TEST(FreeFall, ModifiedEnergies) {
   }
 }
 
-// Peters & Hsu: the position error of semi-implicit Euler is ½ g h T, and of the two half steps of Simbody's half of it.
+// Peters & Hsu: the position error of semi-implicit Euler is ½ g h T, and of the two half steps of Simbody's half of
+// it.
 TEST(FreeFall, PositionErrorOfSemiImplicitEuler) {
   for (const double h : {1e-4, 1e-3}) {
     Motion run("semi_implicit_euler", peters_hsu(), world_quaternion);
@@ -381,8 +379,6 @@ TEST(FreeFall, PositionErrorOfSemiImplicitEuler) {
     EXPECT_NEAR((run.position() - exact).norm(), 0.5 * 9.8 * h * 10, 1e-9);
   }
 }
-
-// ---- rotation under torque ---------------------------------------------------------------------------------------------
 
 // A constant torque about a principal axis: ω = ω0 + τt/I, of every method; the angle ω0 t + τt²/2I.
 TEST(AxialTorque, SpinIsLinearInTime) {
@@ -400,36 +396,39 @@ TEST(AxialTorque, SpinIsLinearInTime) {
         const std::string what = std::string(method) + ", " + label(f) + ", " + frame;
         // A matrix or a stored quaternion that has grown changes what the torque does, at the method's order.
         const bool exact = f.orientation == Orientation::quaternion && f.rotation_from == RotationFrom::normalised;
-        const double order = method == std::string("rk4") ? 1e-11 : method == std::string("explicit_midpoint") ? 1e-5 : 1e-2;
+        const double order = method == std::string("rk4")                 ? 1e-11
+                             : method == std::string("explicit_midpoint") ? 1e-5
+                                                                          : 1e-2;
         EXPECT_NEAR(run.body().angular_velocity[1], rate, exact ? 1e-12 : order) << what;
-        const V3 turned = rotation_vector(product(
-            conjugate(quaternion_from_rotation_vector<double>(V3(0, angle, 0))), run.body().orientation));
+        const V3 turned = rotation_vector(
+            product(conjugate(quaternion_from_rotation_vector<double>(V3(0, angle, 0))), run.body().orientation));
         EXPECT_LT(turned.norm(), order) << what;
       }
     }
   }
 }
 
-// Peters & Hsu, complex case, exact state at t = 10: RK4 reaches it in every formulation. With the matrix and the world
-// angular velocity its error is the largest, a hundred times that of the others: the equations read R RᵀR where R is
-// no rotation.
+// Peters & Hsu, complex case, exact state at t = 10: RK4 reaches it in every formulation. The motion passes near the
+// intermediate axis again and again, which makes 1e-8 of the round-off where the state is in world axes; with the
+// matrix and the world angular velocity, where the equations read R RᵀR, the error of the method is a hundred times
+// larger too.
 TEST(PetersHsu, EndStateInEveryFormulation) {
   const Quaternion<double> attitude(0.2251644204565, -0.6199276265891, -0.2770289703668, 0.6987457843377);
   const V3 spin(2.7558388762, -3.7359651567, -3.1618072245);
   for (const Formulation& f : gyroscopic_formulations()) {
     Motion run("rk4", peters_hsu(), f);
-    const bool matrix_and_world = f.orientation == Orientation::matrix && f.angular_state == AngularState::velocity_world;
+    const bool matrix_and_world =
+        f.orientation == Orientation::matrix && f.angular_state == AngularState::velocity_world;
     const double h = matrix_and_world ? 1e-4 : 2e-4;
+    const double tolerance = f.angular_state == AngularState::velocity_body ? 1e-8 : 5e-8;
     run.steps(h, std::lround(10 / h));
     const BodySnapshot<double> end = run.body();
     const double sign = end.orientation.dot(attitude) < 0 ? -1 : 1;
-    EXPECT_LT((sign * end.orientation - attitude).cwiseAbs().maxCoeff(), 1e-8) << label(f);
-    EXPECT_LT((end.rotation.transpose() * end.angular_velocity - spin).cwiseAbs().maxCoeff(), 1e-8) << label(f);
+    EXPECT_LT((sign * end.orientation - attitude).cwiseAbs().maxCoeff(), tolerance) << label(f);
+    EXPECT_LT((end.rotation.transpose() * end.angular_velocity - spin).cwiseAbs().maxCoeff(), tolerance) << label(f);
     EXPECT_LT((run.position() - V3(-20, 20, 80 - 490)).norm(), 1e-8) << label(f);
   }
 }
-
-// ---- invariants of tops -------------------------------------------------------------------------------------------------
 
 struct Drift {
   double energy = 0, p_phi = 0, p_psi = 0, kovalevskaya = 0;  // relative
@@ -445,7 +444,8 @@ Drift drift_of_top(const Problem& p, const Formulation& f, double k) {
     v.energy = run.energy();
     v.p_phi = s.angular_momentum[2];
     v.p_psi = (to_body * s.angular_momentum)[2];
-    v.kovalevskaya = std::pow(w[0] * w[0] - w[1] * w[1] - k * gamma[0], 2) + std::pow(2 * w[0] * w[1] - k * gamma[1], 2);
+    v.kovalevskaya =
+        std::pow(w[0] * w[0] - w[1] * w[1] - k * gamma[0], 2) + std::pow(2 * w[0] * w[1] - k * gamma[1], 2);
     return v;
   };
   const Drift start = values();
@@ -469,7 +469,8 @@ Problem top(const V3& moments, int axis) {
   Problem p;
   V3 center = V3::Zero();
   center[axis] = 0.4;
-  p.bodies.push_back({.name = "top", .mass = 1.5, .inertia = moments.asDiagonal(), .pinned = true, .center_of_mass = center});
+  p.bodies.push_back(
+      {.name = "top", .mass = 1.5, .inertia = moments.asDiagonal(), .pinned = true, .center_of_mass = center});
   p.starts.push_back({.orientation = Quaternion<double>(0.8, 0.3, -0.4, 0.2).normalized(),
                       .angular_velocity = {1.5, -0.7, 2.5},
                       .angular_velocity_in_body = true});

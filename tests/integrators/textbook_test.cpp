@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The textbook schemes against an independent evaluation of the same ten steps in 50 digits: textbook_reference.py, from
-// which the numbers of the problem below come.
+// The textbook schemes against an independent evaluation of the same ten steps in 50 digits: textbook_reference.py,
+// from which the numbers of the problem below come.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -25,8 +25,7 @@ Problem box(const std::string& inertia) {
   Matrix3<double> full;
   full << 0.7, 0.1, -0.15, 0.1, 0.9, 0.2, -0.15, 0.2, 0.6;
   Problem p;
-  p.bodies.push_back(
-      {.name = "box", .mass = 2, .inertia = inertia == "full" ? full : laws::diagonal(0.5, 0.8, 1.1)});
+  p.bodies.push_back({.name = "box", .mass = 2, .inertia = inertia == "full" ? full : laws::diagonal(0.5, 0.8, 1.1)});
   p.starts.push_back({.position = {0.2, -0.1, 0.4},
                       .orientation = {0.1, 0.7, -0.5, 0.5},
                       .velocity = {0.5, -1, 0.25},
@@ -38,8 +37,7 @@ Problem box(const std::string& inertia) {
                             {"rest_length", 0.5},
                             {"anchor_body", V3(0.1, 0.25, -0.4)},
                             {"anchor_world", V3(0.5, 0, 2)}}));
-  p.forces.push_back(
-      force("constant_torque", {0}, {{"torque", V3(0.3, -0.2, 0.5)}, {"frame", std::string("body")}}));
+  p.forces.push_back(force("constant_torque", {0}, {{"torque", V3(0.3, -0.2, 0.5)}, {"frame", std::string("body")}}));
   return p;
 }
 

@@ -18,11 +18,11 @@ namespace polhode::laws {
 template <class S>
 struct PlainBody {
   Matrix3<S> inertia_body, rotation;
-  Vector3<S> position, velocity;   ///< of the reference point
-  Vector3<S> state;                ///< the angular state as stored
-  Vector3<S> angular_velocity;     ///< ω
+  Vector3<S> position, velocity;     ///< of the reference point
+  Vector3<S> state;                  ///< the angular state as stored
+  Vector3<S> angular_velocity;       ///< ω
   Vector3<S> angular_velocity_body;  ///< Ω, of which energy and momentum are made
-  Vector3<S> angular_momentum;     ///< about the reference point
+  Vector3<S> angular_momentum;       ///< about the reference point
   S kinetic{};
 };
 
@@ -61,7 +61,7 @@ std::vector<PlainBody<S>> plain_bodies(const System<S>& system, const VectorX<S>
     const Matrix3<S> inverse = inertia.fullPivLu().inverse();
     b.inertia_body = inertia;
     b.rotation = plain_rotation(system.formulation(), y.data() + slot.orientation);
-    const Matrix3<S> &r = b.rotation, rt = r.transpose();
+    const Matrix3<S>&r = b.rotation, rt = r.transpose();
     b.state = y.template segment<3>(slot.angular);
     switch (system.formulation().angular_state) {
       case AngularState::velocity_world:
@@ -168,7 +168,8 @@ VectorX<S> plain_rate(const System<S>& system, S t, const VectorX<S>& y) {
         angular = inverse * m;
         break;
       }
-      default: angular = torque;
+      default:
+        angular = torque;
     }
     dy.template segment<3>(slot.angular) = angular;
     if (slot.position >= 0) {

@@ -80,8 +80,8 @@ inline Problem box_on_spring(const Matrix3<double>& inertia = diagonal(0.5, 0.8,
                             {"rest_length", 0.5},
                             {"anchor_body", Vector3<double>(0.1, 0.25, -0.4)},
                             {"anchor_world", Vector3<double>(0.5, 0, 2)}}));
-  p.forces.push_back(force("constant_torque", {0},
-                           {{"torque", Vector3<double>(0.3, -0.2, 0.5)}, {"frame", std::string("body")}}));
+  p.forces.push_back(
+      force("constant_torque", {0}, {{"torque", Vector3<double>(0.3, -0.2, 0.5)}, {"frame", std::string("body")}}));
   return p;
 }
 
@@ -89,8 +89,7 @@ inline Problem box_on_spring(const Matrix3<double>& inertia = diagonal(0.5, 0.8,
 inline Problem two_bodies() {
   Problem p;
   p.bodies.push_back({.name = "a", .mass = 3, .inertia = diagonal(0.6, 0.8, 1.0)});
-  p.bodies.push_back(
-      {.name = "b", .mass = 1, .inertia = turned_inertia({0.3, 0.25, 0.45}, {0.6, 0.4, -0.2, 0.3})});
+  p.bodies.push_back({.name = "b", .mass = 1, .inertia = turned_inertia({0.3, 0.25, 0.45}, {0.6, 0.4, -0.2, 0.3})});
   p.starts.push_back({.position = {-0.25, 0, 0.1}, .velocity = {0, -0.3, 0}, .angular_velocity = {0.5, 1, -2}});
   p.starts.push_back({.position = {1, 0.2, 0},
                       .orientation = Quaternion<double>(0.2, 0.9, -0.1, 0.4).normalized(),
@@ -109,9 +108,8 @@ inline Problem five_bodies() {
                       .inertia = turned_inertia({0.5, 0.8, 0.4}, {0.9, 0.1, -0.3, 0.2}),
                       .pinned = true,
                       .center_of_mass = {0.1, -0.05, 0.3}});
-  p.bodies.push_back({.name = "free 2",
-                      .mass = 1.5,
-                      .inertia = turned_inertia({0.3, 0.25, 0.45}, {0.6, 0.4, -0.2, 0.3})});
+  p.bodies.push_back(
+      {.name = "free 2", .mass = 1.5, .inertia = turned_inertia({0.3, 0.25, 0.45}, {0.6, 0.4, -0.2, 0.3})});
   p.bodies.push_back({.name = "pinned 2",
                       .mass = 0.75,
                       .inertia = diagonal(0.9, 0.7, 0.5),
@@ -140,14 +138,18 @@ inline Problem five_bodies() {
                             {"rest_length", 0.75},
                             {"anchor_body", Vector3<double>(0.1, 0.2, -0.1)},
                             {"anchor_body_2", Vector3<double>(-0.2, 0.1, 0.3)}}));
-  p.forces.push_back(force("spring", {1, 3}, {{"stiffness", 2.0}, {"anchor_body", Vector3<double>(0.4, 0.2, -0.3)},
-                                              {"anchor_body_2", Vector3<double>(0.3, 0.5, 0.1)}}));
-  p.forces.push_back(force("damper", {2, 4}, {{"damping", 0.4},
-                                              {"anchor_body", Vector3<double>(0.1, -0.3, 0.2)},
-                                              {"anchor_body_2", Vector3<double>(0.5, 0, 0.25)}}));
+  p.forces.push_back(force("spring", {1, 3},
+                           {{"stiffness", 2.0},
+                            {"anchor_body", Vector3<double>(0.4, 0.2, -0.3)},
+                            {"anchor_body_2", Vector3<double>(0.3, 0.5, 0.1)}}));
+  p.forces.push_back(force("damper", {2, 4},
+                           {{"damping", 0.4},
+                            {"anchor_body", Vector3<double>(0.1, -0.3, 0.2)},
+                            {"anchor_body_2", Vector3<double>(0.5, 0, 0.25)}}));
   p.forces.push_back(force("drag", {0, 1, 2}, {{"linear", 0.1}, {"quadratic", 0.05}, {"angular", 0.02}}));
-  p.forces.push_back(force("constant_force", {2, 3}, {{"force", Vector3<double>(0.4, -0.3, 0.6)}, {"frame", body},
-                                                      {"anchor_body", Vector3<double>(0.2, 0.1, -0.3)}}));
+  p.forces.push_back(force(
+      "constant_force", {2, 3},
+      {{"force", Vector3<double>(0.4, -0.3, 0.6)}, {"frame", body}, {"anchor_body", Vector3<double>(0.2, 0.1, -0.3)}}));
   p.forces.push_back(force("constant_torque", {0, 3}, {{"torque", Vector3<double>(0.2, 0.1, -0.3)}}));
   return p;
 }

@@ -164,9 +164,9 @@ TEST_P(SystemLaw, MeasurementIsThePlainEquations) {
         kinetic += b.kinetic;
         // m × the velocity of the mass centre, of a pinned body too: its orbit about the world's origin.
         const Vector3<Real> p =
-            Real(body.mass) * (body.pinned
-                                   ? Vector3<Real>(b.angular_velocity.cross(b.rotation * body.center_of_mass.cast<Real>()))
-                                   : b.velocity);
+            Real(body.mass) *
+            (body.pinned ? Vector3<Real>(b.angular_velocity.cross(b.rotation * body.center_of_mass.cast<Real>()))
+                         : b.velocity);
         if (!body.pinned) linear += p;
         angular += b.angular_momentum;
         if (bodies.size() > 1) angular += b.position.cross(p);
@@ -265,7 +265,9 @@ TEST_P(SystemLaw, MomentaChangeByForceAndTorque) {
     const auto wrenches = plain_wrenches(*system, instant, y);
     Vector3<Real> force = Vector3<Real>::Zero();
     for (std::size_t i = 0; i < problem.moving(); ++i) {
-      const auto momentum = [&s = *system, i](const Flat& at) { return Vector3<Real>(s.snapshot(at, i).angular_momentum); };
+      const auto momentum = [&s = *system, i](const Flat& at) {
+        return Vector3<Real>(s.snapshot(at, i).angular_momentum);
+      };
       Vector3<Real> expected = wrenches[i].torque;
       if (!GetParam().gyroscopic) expected += system->snapshot(y, i).angular_velocity.cross(momentum(y));
       EXPECT_LT(difference(derivative_along(momentum, y, dy), expected), 1e-11);
@@ -376,7 +378,9 @@ TEST_P(SystemLaw, ProjectionChangesTheEnergyWhereTheSystemSaysSo) {
   for_every_problem([&](const Problem& problem) {
     const auto [system, on] = instance(problem, GetParam());
     Flat y = off_manifold(*system, on, 0.05, 23);
-    const auto energy = [&s = *system](const Flat& at) { return Real(s.measure(at).kinetic + s.measure(at).potential); };
+    const auto energy = [&s = *system](const Flat& at) {
+      return Real(s.measure(at).kinetic + s.measure(at).potential);
+    };
     const Real before = energy(y);
     system->project(y);
     const Real change = std::abs(energy(y) - before) / (1 + std::abs(before));
@@ -394,7 +398,9 @@ TEST_P(SystemLaw, ProjectionChangesTheEnergyWhereTheSystemSaysSo) {
 // α = dω/dt is the same in all formulations that say the same (with or without the gyroscopic term), at any state.
 Vector3<Real> angular_acceleration(const Problem& problem, const Formulation& formulation, std::size_t body) {
   const auto [system, y] = instance(problem, formulation);
-  const auto velocity = [&s = *system, body](const Flat& at) { return Vector3<Real>(s.snapshot(at, body).angular_velocity); };
+  const auto velocity = [&s = *system, body](const Flat& at) {
+    return Vector3<Real>(s.snapshot(at, body).angular_velocity);
+  };
   return derivative_along(velocity, y, rate(*system, y));
 }
 

@@ -56,17 +56,23 @@ std::vector<Tick> decade_ticks(int low, int high) {
 
 double Axis::place(double value) const {
   switch (scale) {
-    case Scale::linear: return value;
-    case Scale::logarithmic: return std::log10(value);
-    default: return std::copysign(std::asinh(std::abs(value) / threshold), value) / std::numbers::ln10;
+    case Scale::linear:
+      return value;
+    case Scale::logarithmic:
+      return std::log10(value);
+    default:
+      return std::copysign(std::asinh(std::abs(value) / threshold), value) / std::numbers::ln10;
   }
 }
 
 double Axis::value_at(double place) const {
   switch (scale) {
-    case Scale::linear: return place;
-    case Scale::logarithmic: return std::pow(10.0, place);
-    default: return std::copysign(threshold * std::sinh(std::abs(place) * std::numbers::ln10), place);
+    case Scale::linear:
+      return place;
+    case Scale::logarithmic:
+      return std::pow(10.0, place);
+    default:
+      return std::copysign(threshold * std::sinh(std::abs(place) * std::numbers::ln10), place);
   }
 }
 
@@ -74,7 +80,10 @@ Axis time_axis(double high) {
   Axis axis{.label = "time (s)", .low = 0, .high = high};
   const double rough = high / 5;
   const double unit = decade(floor_decade(rough));
-  const double step = rough / unit < 1.5 ? unit : rough / unit < 3.5 ? 2 * unit : rough / unit < 7.5 ? 5 * unit : 10 * unit;
+  const double step = rough / unit < 1.5   ? unit
+                      : rough / unit < 3.5 ? 2 * unit
+                      : rough / unit < 7.5 ? 5 * unit
+                                           : 10 * unit;
   for (int k = 0; k * step <= high * (1 + 1e-9); ++k) axis.ticks.push_back({k * step, number(k * step, 6)});
   return axis;
 }
@@ -107,7 +116,8 @@ Axis log_axis(std::string label, const std::vector<double>& values, Needs needs)
 }
 
 double floor_of(const Axis& axis) {
-  const auto zero = std::find_if(axis.ticks.begin(), axis.ticks.end(), [](const auto& tick) { return tick.label == "0"; });
+  const auto zero =
+      std::find_if(axis.ticks.begin(), axis.ticks.end(), [](const auto& tick) { return tick.label == "0"; });
   return zero == axis.ticks.end() ? axis.low : zero->at;
 }
 
@@ -119,7 +129,8 @@ double edge_of(const Axis& axis, bool up) {
 Axis symlog_axis(std::string label, double lowest, double highest, double smallest_curve) {
   Axis axis{.label = std::move(label), .scale = Scale::symlog};
   axis.threshold = smallest_curve > 0 ? std::max(1e-16, decade(floor_decade(smallest_curve) - 2)) : 1e-16;
-  const double above = axis.place(std::max(highest, axis.threshold)), below = axis.place(std::min(lowest, -axis.threshold));
+  const double above = axis.place(std::max(highest, axis.threshold)),
+               below = axis.place(std::min(lowest, -axis.threshold));
   const double margin = 0.04 * (above - below);
   axis.high = axis.value_at(above + margin);
   axis.low = axis.value_at(below - margin);

@@ -24,8 +24,9 @@ Axis log_axis(std::string label, const std::vector<double>& values, Needs needs)
 double floor_of(const Axis& axis);
 double edge_of(const Axis& axis, bool up);
 
-/// Of signed values; `smallest_curve` is the smallest of the curves' largest magnitudes (0: all are zero). The threshold
-/// is a hundredth of it, as a power of ten, so that the quietest curve can be told from zero; never below 1e-16.
+/// Of signed values; `smallest_curve` is the smallest of the curves' largest magnitudes (0: all are zero). The
+/// threshold is a hundredth of it, as a power of ten, so that the quietest curve can be told from zero; never below
+/// 1e-16.
 Axis symlog_axis(std::string label, double lowest, double highest, double smallest_curve);
 
 /// Gives panels one y axis and puts their points on it.

@@ -40,7 +40,8 @@ struct Attributes {
     for (const int signal : {SIGINT, SIGTERM, SIGPIPE}) sigaddset(&usual, signal);
     check(posix_spawnattr_setsigmask(&attributes, &none), "posix_spawnattr_setsigmask");
     check(posix_spawnattr_setsigdefault(&attributes, &usual), "posix_spawnattr_setsigdefault");
-    check(posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF), "posix_spawnattr_setflags");
+    check(posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF),
+          "posix_spawnattr_setflags");
   }
   Attributes(const Attributes&) = delete;
   Attributes& operator=(const Attributes&) = delete;
@@ -71,14 +72,17 @@ std::string read_all(int file) {
   std::array<char, 4096> buffer{};
   for (;;) {
     const auto n = ::read(file, buffer.data(), buffer.size());
-    if (n > 0) text.append(buffer.data(), static_cast<std::size_t>(n));
-    else if (n == 0 || errno != EINTR) return text;
+    if (n > 0)
+      text.append(buffer.data(), static_cast<std::size_t>(n));
+    else if (n == 0 || errno != EINTR)
+      return text;
   }
 }
 
 }  // namespace
 
-std::optional<ChildProcess> ChildProcess::start(const std::vector<std::string>& command, const std::filesystem::path& folder,
+std::optional<ChildProcess> ChildProcess::start(const std::vector<std::string>& command,
+                                                const std::filesystem::path& folder,
                                                 const std::vector<std::pair<std::string, std::string>>& environment) {
   std::array<int, 2> ends{};
   // Close-on-exec, so that a second child does not hold the first one's pipe open.
@@ -92,8 +96,8 @@ std::optional<ChildProcess> ChildProcess::start(const std::vector<std::string>& 
   auto arguments = command;
   auto variables = environment_with(environment);
   pid_t pid = -1;
-  const int error = posix_spawnp(&pid, command.front().c_str(), &files.actions, &attributes.attributes, pointers(arguments).data(),
-                                 pointers(variables).data());
+  const int error = posix_spawnp(&pid, command.front().c_str(), &files.actions, &attributes.attributes,
+                                 pointers(arguments).data(), pointers(variables).data());
   ::close(ends[1]);
   if (error != 0) ::close(ends[0]);
   if (error == ENOENT && std::filesystem::is_directory(folder)) return std::nullopt;

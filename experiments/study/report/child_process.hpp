@@ -2,10 +2,11 @@
 // A program run as a child of this one, in a folder, with what it prints kept.
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <sys/types.h>
 #include <utility>
 #include <vector>
 

@@ -60,11 +60,30 @@ class Options {
   std::vector<Describe> varying_;
 };
 
-Options duration_options(const std::vector<RunRecord>& runs) {
-  return {runs,
-          {[](const RunConfig& c) { return fmt::format("t_end = {} s", number(c.t_end, 6)); },
-           [](const RunConfig& c) { return c.samples ? fmt::format("{} samples", *c.samples) : "every step seen"; }}};
-}
+/// How long, and seen how often, of scenarios whose runs differ in that. Scenarios of different length need no telling
+/// apart by it.
+class Durations {
+ public:
+  explicit Durations(const std::vector<RunRecord>& runs) {
+    for (const auto& run : runs) {
+      ends_[run.config.scenario].insert(run.config.t_end);
+      samples_[run.config.scenario].insert(run.config.samples);
+    }
+  }
+
+  std::vector<std::string> describe(const RunConfig& config) const {
+    std::vector<std::string> details;
+    if (ends_.at(config.scenario).size() > 1) details.push_back(fmt::format("t_end = {} s", number(config.t_end, 6)));
+    if (samples_.at(config.scenario).size() > 1) {
+      details.push_back(config.samples ? fmt::format("{} samples", *config.samples) : "every step seen");
+    }
+    return details;
+  }
+
+ private:
+  std::map<std::string, std::set<double>> ends_;
+  std::map<std::string, std::set<std::optional<std::int64_t>>> samples_;
+};
 
 Options variant_options(const std::vector<RunRecord>& runs) {
   return {runs,
@@ -83,7 +102,7 @@ std::string shown_value(const std::string& text) {
   return end != text.c_str() && *end == '\0' ? number(number_in_it, 6) : text;
 }
 
-Case case_of(const RunConfig& config, const Options& durations) {
+Case case_of(const RunConfig& config, const Durations& durations) {
   Case found{.scenario = config.scenario, .details = {}};
   for (const auto& varied : config.varied) {
     found.details.push_back(fmt::format("{} = {}", varied.key, shown_value(varied.value)));
@@ -109,16 +128,18 @@ std::pair<std::size_t, bool> index_of(std::map<Key, std::size_t>& seen, const Ke
 }
 
 void sort_by_step(Curve& curve) {
-  std::stable_sort(curve.runs.begin(), curve.runs.end(), [](const auto* a, const auto* b) {
-    return abscissa(*a).value_or(0) > abscissa(*b).value_or(0);
-  });
+  std::stable_sort(curve.runs.begin(), curve.runs.end(),
+                   [](const auto* a, const auto* b) { return abscissa(*a).value_or(0) > abscissa(*b).value_or(0); });
 }
 
 double epsilon(Precision precision) {
   switch (precision) {
-    case Precision::single: return std::numeric_limits<float>::epsilon();
-    case Precision::dual: return std::numeric_limits<double>::epsilon();
-    default: return static_cast<double>(std::numeric_limits<long double>::epsilon());
+    case Precision::single:
+      return std::numeric_limits<float>::epsilon();
+    case Precision::dual:
+      return std::numeric_limits<double>::epsilon();
+    default:
+      return static_cast<double>(std::numeric_limits<long double>::epsilon());
   }
 }
 
@@ -137,21 +158,27 @@ LogPoints points_above_round_off(const Curve& curve, const Quantity& quantity) {
   return points;
 }
 
-/// A curve that no longer falls below this has come to round-off: about 1e-9 in double.
-double lowest_trusted_plateau(Precision precision) { return std::min(4e6 * epsilon(precision), 1e-2); }
+/// The slope between a point and the one before it.
+double slope_at(const LogPoints& points, std::size_t i) {
+  return (points[i - 1].second - points[i].second) / (points[i - 1].first - points[i].first);
+}
 
-/// Where kinetic and potential energy nearly cancel, rounding shows far above ε: at the small steps a curve then stops
-/// falling, or rises again. Takes those points away, and the one before them, in which rounding has begun to show.
-void drop_floor(LogPoints& points, double plateau) {
-  constexpr double least_fall = 0.3;  // as a slope
+/// Rounding shows far above ε where energies nearly cancel or a motion is unstable: at the small steps a curve then
+/// stops falling, or rises again. Takes those points away, and the last one left if rounding has begun to show in it.
+void drop_floor(LogPoints& points, Precision precision) {
+  const double plateau = std::log(std::min(4e6 * epsilon(precision), 1e-2));  // about 1e-9 in double
+  const double highest_rise = plateau + std::log(1e4);
+  constexpr double least_fall = 0.3, least_rise = 0.1;
+  if (points.empty()) return;
   const auto full = points.size();
-  while (points.size() >= 2) {
-    const auto& [x, y] = points.back();
-    const auto& [x_before, y_before] = points[points.size() - 2];
-    if (y > std::log(plateau) || y_before - y > least_fall * (x_before - x)) break;
+  const auto least =
+      std::min_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (least->second < highest_rise && points.back().second > least->second + least_rise)
+    points.erase(least + 1, points.end());
+  while (points.size() >= 2 && points.back().second < plateau && slope_at(points, points.size() - 1) < least_fall)
     points.pop_back();
-  }
-  if (points.size() < full && points.size() > 2) points.pop_back();
+  const auto n = points.size();
+  if (n < full && n >= 3 && slope_at(points, n - 1) < 0.5 * slope_at(points, n - 2)) points.pop_back();
 }
 
 }  // namespace
@@ -171,7 +198,7 @@ Grouping group(const StudyView& study) {
   std::map<std::string, std::size_t> method_index, cases, variants;
   for (const auto& method : grouping.methods) method_index.emplace(method, method_index.size());
   std::map<std::tuple<std::size_t, std::size_t, std::size_t, bool>, std::size_t> curves;
-  const auto durations = duration_options(study.runs);
+  const Durations durations(study.runs);
   const auto formulations = variant_options(study.runs);
 
   for (const auto& run : study.runs) {
@@ -196,32 +223,61 @@ Grouping group(const StudyView& study) {
 namespace quantity {
 
 Quantity energy_drift() {
-  return {"energy_drift_max_rel", "energy drift", "largest energy drift (relative)", "", 0, true,
-          [](const RunResult& r) { return r.energy_drift_max_rel; }};
+  return {
+      "energy_drift_max_rel", "energy drift", "largest energy drift (relative)", "", 0, true, [](const RunResult& r) {
+        return r.energy_drift_max_rel;
+      }};
 }
 Quantity linear_momentum_drift() {
-  return {"linear_momentum_drift_max_rel", "linear momentum drift", "linear momentum drift (relative)", "", 0, true,
+  return {"linear_momentum_drift_max_rel",
+          "linear momentum drift",
+          "linear momentum drift (relative)",
+          "",
+          0,
+          true,
           [](const RunResult& r) { return r.linear_momentum_drift_max_rel; }};
 }
 Quantity angular_momentum_drift() {
-  return {"angular_momentum_drift_max_rel", "angular momentum drift", "angular momentum drift (relative)", "", 0, true,
+  return {"angular_momentum_drift_max_rel",
+          "angular momentum drift",
+          "angular momentum drift (relative)",
+          "",
+          0,
+          true,
           [](const RunResult& r) { return r.angular_momentum_drift_max_rel; }};
 }
 Quantity orientation_defect() {
-  return {"orientation_defect_max", "orientation defect", "orientation defect (1)", "", 0, true,
-          [](const RunResult& r) { return r.orientation_defect_max; }};
+  return {
+      "orientation_defect_max", "orientation defect", "orientation defect (1)", "", 0, true, [](const RunResult& r) {
+        return r.orientation_defect_max;
+      }};
 }
 Quantity position_error() {
   // A metre has no scale of its own: positions of some hundred metres carry rounding of 1e-13 m a step.
-  return {"position_error_max_m", "position error", "largest position error (m)", " m", 1e-10, false,
+  return {"position_error_max_m",
+          "position error",
+          "largest position error (m)",
+          " m",
+          1e-10,
+          false,
           [](const RunResult& r) { return r.position_error_max; }};
 }
 Quantity attitude_error() {
-  return {"attitude_error_max_rad", "attitude error", "largest attitude error (rad)", " rad", 0, true,
+  return {"attitude_error_max_rad",
+          "attitude error",
+          "largest attitude error (rad)",
+          " rad",
+          0,
+          true,
           [](const RunResult& r) { return r.attitude_error_max; }};
 }
 Quantity invariant_drift(const std::string& name) {
-  return {name + "_drift_max_rel", name + " drift", name + " drift (relative)", "", 0, true,
+  return {name + "_drift_max_rel",
+          name + " drift",
+          name + " drift (relative)",
+          "",
+          0,
+          true,
           [name](const RunResult& r) -> std::optional<double> {
             const auto at = r.invariant_drift_max_rel.find(name);
             return at == r.invariant_drift_max_rel.end() ? std::nullopt : std::optional(at->second);
@@ -262,7 +318,7 @@ double round_off_level(const RunRecord& run, const Quantity& quantity) {
 
 std::optional<Slope> observed_slope(const Curve& curve, const Quantity& quantity) {
   auto points = points_above_round_off(curve, quantity);
-  drop_floor(points, lowest_trusted_plateau(curve.runs.front()->config.precision));
+  drop_floor(points, curve.runs.front()->config.precision);
   const auto n = static_cast<double>(points.size());
   double x_mean = 0, y_mean = 0, xx = 0, xy = 0;
   for (const auto& [x, y] : points) x_mean += x / n, y_mean += y / n;

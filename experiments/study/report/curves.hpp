@@ -16,8 +16,9 @@ namespace polhode::study::report {
 
 struct Case {
   std::string scenario;
-  std::vector<std::string> details;  ///< what tells it from other cases of the scenario: "body.0.mass = 2", "t_end = 5 s"
-  std::string label() const;         ///< on one line
+  std::vector<std::string>
+      details;                ///< what tells it from other cases of the scenario: "body.0.mass = 2", "t_end = 5 s"
+  std::string label() const;  ///< on one line
 };
 
 struct Curve {
@@ -30,9 +31,10 @@ struct Curve {
 
 /// Points into the records of the study, which must outlive it.
 struct Grouping {
-  std::vector<std::string> methods;   ///< in the catalogue's order: a method has one colour in all figures
-  std::vector<Case> cases;            ///< in the order of the runs, like the rest
-  std::vector<std::string> variants;  ///< what tells them apart: "matrix, gyroscopic off"; empty text where nothing does
+  std::vector<std::string> methods;  ///< in the catalogue's order: a method has one colour in all figures
+  std::vector<Case> cases;           ///< in the order of the runs, like the rest
+  std::vector<std::string>
+      variants;  ///< what tells them apart: "matrix, gyroscopic off"; empty text where nothing does
   std::vector<Curve> curves;
 
   /// "rk4", or "rk4 (matrix)" where there are variants.
@@ -43,12 +45,12 @@ Grouping group(const StudyView& study);
 
 /// A number of a run's result, as figures and sentences name it.
 struct Quantity {
-  std::string column;  ///< of runs.csv
-  std::string words;   ///< "energy drift"
-  std::string axis;    ///< label of an axis, with its unit
-  std::string unit;    ///< behind a number in a sentence: " rad"
-  double round_off = 0;   ///< a value below this is round-off whatever the number of steps
-  bool bounded = true;    ///< a value of 1 or more says that the motion is lost: relative drifts, defects, angles
+  std::string column;    ///< of runs.csv
+  std::string words;     ///< "energy drift"
+  std::string axis;      ///< label of an axis, with its unit
+  std::string unit;      ///< behind a number in a sentence: " rad"
+  double round_off = 0;  ///< a value below this is round-off whatever the number of steps
+  bool bounded = true;   ///< a value of 1 or more says that the motion is lost: relative drifts, defects, angles
   std::function<std::optional<double>(const RunResult&)> of;
 };
 namespace quantity {

@@ -15,7 +15,8 @@ namespace polhode::study::report {
 
 namespace {
 
-constexpr std::size_t most_groups_told_one_by_one = 6;
+constexpr std::size_t most_told_one_by_one = 2;  // motions and formulations
+constexpr std::size_t most_table_rows = 60;
 
 /// Curves that may be compared: one motion, one formulation, all fixed steps or all tolerances.
 struct Group {
@@ -41,7 +42,8 @@ std::vector<Group> groups_of(const Grouping& grouping, const Quantity& quantity)
   }
   std::erase_if(groups, [&](const Group& g) {
     return std::none_of(g.curves.begin(), g.curves.end(), [&](const auto* curve) {
-      return std::any_of(curve->runs.begin(), curve->runs.end(), [&](const auto* run) { return value(*run, quantity).has_value(); });
+      return std::any_of(curve->runs.begin(), curve->runs.end(),
+                         [&](const auto* run) { return value(*run, quantity).has_value(); });
     });
   });
   std::stable_sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
@@ -66,7 +68,7 @@ struct Ranking {
     std::string method;
     double value;
   };
-  std::vector<Entry> above;             ///< above round-off, least first
+  std::vector<Entry> above;  ///< above round-off, least first
   std::vector<std::string> at_round_off;
   double largest_round_off = 0;
   std::vector<std::string> ended_early;
@@ -91,7 +93,8 @@ Ranking ranking(const Grouping& grouping, const Group& group, const Quantity& qu
       }
     }
   }
-  std::stable_sort(found.above.begin(), found.above.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
+  std::stable_sort(found.above.begin(), found.above.end(),
+                   [](const auto& a, const auto& b) { return a.value < b.value; });
   return found;
 }
 
@@ -103,16 +106,18 @@ std::string least_and_most(const Ranking& r, const Quantity& quantity) {
     for (const auto& entry : r.above) methods.push_back(entry.method);
     return fmt::format("the {} of {} is {}", quantity.words, words(methods), number(most.value) + quantity.unit);
   }
-  if (!r.at_round_off.empty()) return fmt::format("{} has the most ({})", most.method, number(most.value) + quantity.unit);
-  return fmt::format("{} has the least {} ({}) and {} the most ({})", least.method, quantity.words, number(least.value) + quantity.unit, most.method,
-                     number(most.value) + quantity.unit + quantity.unit);
+  if (!r.at_round_off.empty())
+    return fmt::format("{} has the most ({})", most.method, number(most.value) + quantity.unit);
+  return fmt::format("{} has the least {} ({}) and {} the most ({})", least.method, quantity.words,
+                     number(least.value) + quantity.unit, most.method, number(most.value) + quantity.unit);
 }
 
 std::string described(const Ranking& r, const Quantity& quantity) {
   std::vector<std::string> parts;
   if (!r.at_round_off.empty()) {
     parts.push_back(fmt::format("the {} of {} is at round-off ({}{})", quantity.words, words(r.at_round_off),
-                                r.largest_round_off > 0 ? "at most " : "", number(r.largest_round_off) + quantity.unit));
+                                r.largest_round_off > 0 ? "at most " : "",
+                                number(r.largest_round_off) + quantity.unit));
   }
   if (!r.above.empty()) parts.push_back(least_and_most(r, quantity));
   if (!r.ended_early.empty()) {
@@ -121,6 +126,12 @@ std::string described(const Ranking& r, const Quantity& quantity) {
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
+std::string end_name(bool adaptive, bool largest) {
+  if (adaptive) return largest ? "the loosest" : "the tightest";
+  return largest ? "the largest step" : "the smallest step";
+}
+
+/// "heavy_top, matrix: " where the study has several.
 std::string prefix(const Grouping& grouping, const Group& group) {
   std::vector<std::string> parts;
   if (grouping.cases.size() > 1) parts.push_back(grouping.cases[group.case_index].label());
@@ -128,71 +139,121 @@ std::string prefix(const Grouping& grouping, const Group& group) {
   return parts.empty() ? "" : fmt::format("{}: ", fmt::join(parts, ", "));
 }
 
-const char* end_name(bool adaptive, bool largest) {
-  if (adaptive) return largest ? "the loosest" : "the tightest";
-  return largest ? "the largest step" : "the smallest step";
-}
-
-void tell_one_by_one(const Grouping& grouping, const Group& group, const Quantity& quantity, std::vector<std::string>& sentences) {
+/// Sentences for one motion and formulation.
+void tell(const Grouping& grouping, const Group& group, const Quantity& quantity, std::vector<std::string>& sentences) {
   const auto steps = steps_of(group);
-  const auto tell = [&](double step, const std::string& which) {
-    const auto r = ranking(grouping, group, quantity, step);
-    if (r.above.empty() && r.at_round_off.empty() && r.ended_early.empty()) return;
+  for (const bool largest : {true, false}) {
+    if (steps.empty() || (!largest && steps.size() == 1)) continue;
+    const auto r = ranking(grouping, group, quantity, largest ? *steps.rbegin() : *steps.begin());
+    if (r.above.empty() && r.at_round_off.empty() && r.ended_early.empty()) continue;
+    const auto which = steps.size() == 1 ? std::string() : fmt::format(", {}", end_name(group.adaptive, largest));
     const auto about = prefix(grouping, group);
-    sentences.push_back(fmt::format("{}{} {}{}: {}.", about, about.empty() ? "At" : "at", r.step, which, described(r, quantity)));
-  };
-  if (steps.empty()) return;
-  if (steps.size() == 1) return tell(*steps.begin(), "");
-  tell(*steps.rbegin(), fmt::format(", {}", end_name(group.adaptive, true)));
-  tell(*steps.begin(), fmt::format(", {}", end_name(group.adaptive, false)));
+    sentences.push_back(
+        fmt::format("{}{} {}{}: {}.", about, about.empty() ? "At" : "at", r.step, which, described(r, quantity)));
+  }
 }
 
-/// "rk4 in 12 of 20 and dmv in 8 of 20".
+/// "rk4 (12 of 20) and dmv (8 of 20)".
 std::string counted(const std::map<std::string, std::size_t>& counts, std::size_t total) {
   std::vector<std::pair<std::string, std::size_t>> order(counts.begin(), counts.end());
   std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
   std::vector<std::string> parts;
-  for (const auto& [method, n] : order) parts.push_back(n == total ? fmt::format("{} in all {}", method, n) : fmt::format("{} in {} of {}", method, n, total));
+  for (const auto& [method, n] : order) {
+    parts.push_back(n == total ? fmt::format("{} (all {})", method, n)
+                               : fmt::format("{} ({} of {})", method, n, total));
+  }
   return words(parts);
 }
 
-void tell_counts(const Grouping& grouping, const std::vector<Group>& groups, const Quantity& quantity, bool adaptive, bool largest,
-                 std::vector<std::string>& sentences) {
-  std::map<std::string, std::size_t> best, worst;
+/// Who is least and who is most at one end of the steps, counted over the groups.
+struct Count {
+  std::string least, most;
+};
+Count count_end(const Grouping& grouping, const std::vector<Group>& groups, const Quantity& quantity, bool adaptive,
+                bool largest) {
+  std::map<std::string, std::size_t> least, most;
   std::size_t total = 0;
   for (const auto& group : groups) {
     const auto steps = steps_of(group);
     if (group.adaptive != adaptive || steps.empty()) continue;
     const auto r = ranking(grouping, group, quantity, largest ? *steps.rbegin() : *steps.begin());
-    if (r.above.empty() && r.at_round_off.empty()) continue;
+    if (r.above.size() + r.at_round_off.size() < 2) continue;  // nothing to compare
     ++total;
-    for (const auto& method : r.at_round_off) ++best[method];
-    if (r.at_round_off.empty()) ++best[r.above.front().method];
-    if (!r.above.empty()) ++worst[r.above.back().method];
+    for (const auto& method : r.at_round_off) ++least[method];
+    if (r.at_round_off.empty()) ++least[r.above.front().method];
+    if (!r.above.empty()) ++most[r.above.back().method];
   }
-  if (total == 0) return;
-  std::string text = fmt::format("Over {} motions and formulations, each at its {}: the {} is least, or at round-off, for {}", total,
-                                 adaptive ? (largest ? "loosest tolerance" : "tightest tolerance") : (largest ? "largest step" : "smallest step"),
-                                 quantity.words, counted(best, total));
-  if (!worst.empty()) text += fmt::format("; it is largest for {}", counted(worst, total));
-  sentences.push_back(text + ".");
+  if (total == 0) return {};
+  const auto where = fmt::format("at {}{} ", end_name(adaptive, largest), adaptive ? " tolerance" : "");
+  return {where + counted(least, total), most.empty() ? "" : where + counted(most, total)};
 }
 
-}  // namespace
-
-std::vector<std::string> extremes(const Grouping& grouping, const Quantity& quantity) {
-  const auto groups = groups_of(grouping, quantity);
-  std::vector<std::string> sentences;
-  if (groups.size() <= most_groups_told_one_by_one) {
-    for (const auto& group : groups) tell_one_by_one(grouping, group, quantity, sentences);
-  } else {
-    for (const bool adaptive : {false, true}) {
-      for (const bool largest : {true, false}) tell_counts(grouping, groups, quantity, adaptive, largest, sentences);
+std::vector<std::string> counts(const Grouping& grouping, const std::vector<Group>& groups, const Quantity& quantity) {
+  std::vector<std::string> least, most;
+  for (const bool adaptive : {false, true}) {
+    for (const bool largest : {true, false}) {
+      auto found = count_end(grouping, groups, quantity, adaptive, largest);
+      if (!found.least.empty()) least.push_back(std::move(found.least));
+      if (!found.most.empty()) most.push_back(std::move(found.most));
     }
   }
+  std::vector<std::string> sentences;
+  if (!least.empty()) {
+    sentences.push_back(fmt::format("Least {}, or at round-off, counted over motions and formulations: {}.",
+                                    quantity.words, fmt::join(least, "; ")));
+  }
+  if (!most.empty()) sentences.push_back(fmt::format("Most {}: {}.", quantity.words, fmt::join(most, "; ")));
   return sentences;
 }
 
+std::vector<std::string> table_row(const Grouping& grouping, const Group& group, const Ranking& r) {
+  std::string least, most;
+  if (!r.at_round_off.empty()) {
+    least = fmt::format("{} (round-off)", words(r.at_round_off));
+  } else if (!r.above.empty()) {
+    least = fmt::format("{} ({})", r.above.front().method, number(r.above.front().value));
+  }
+  if (r.above.size() + r.at_round_off.size() > 1 && !r.above.empty()) {
+    most = fmt::format("{} ({})", r.above.back().method, number(r.above.back().value));
+  }
+  return {grouping.cases[group.case_index].label(),
+          grouping.variants[group.variant_index],
+          r.step,
+          least,
+          most,
+          words(r.ended_early)};
+}
+
+Table table_of(const Grouping& grouping, const std::vector<Group>& groups, const Quantity& quantity) {
+  using Kind = Column::Kind;
+  Table table{.caption = fmt::format("Least and most {}", quantity.words),
+              .columns = {{"motion", "", Kind::text},
+                          {"formulation", "", Kind::text},
+                          {"at", "", Kind::text},
+                          {"least", "", Kind::text},
+                          {"most", "", Kind::text},
+                          {"did not reach the end", "", Kind::text}},
+              .rows = {}};
+  for (const auto& group : groups) {
+    const auto steps = steps_of(group);
+    for (const bool largest : {true, false}) {
+      if (steps.empty() || (!largest && steps.size() == 1)) continue;
+      if (table.rows.size() == most_table_rows) {
+        table.caption += fmt::format("; the first {} rows", most_table_rows);
+        return without_empty_columns(std::move(table));
+      }
+      table.rows.push_back(
+          table_row(grouping, group, ranking(grouping, group, quantity, largest ? *steps.rbegin() : *steps.begin())));
+    }
+  }
+  return without_empty_columns(std::move(table));
+}
+
+/// The curves for which the quantity is defined in some completed run, and those of them at round-off in every such
+/// run.
+struct RoundOff {
+  std::vector<const Curve*> kept, all;
+};
 RoundOff at_round_off(const Grouping& grouping, const Quantity& quantity) {
   RoundOff found;
   for (const auto& curve : grouping.curves) {
@@ -202,22 +263,97 @@ RoundOff at_round_off(const Grouping& grouping, const Quantity& quantity) {
       defined += measured.has_value();
       below += measured && *measured <= round_off_level(*run, quantity);
     }
-    if (defined > 0) (below == defined ? found.kept : found.not_kept).push_back(&curve);
+    if (defined > 0) found.all.push_back(&curve);
+    if (defined > 0 && below == defined) found.kept.push_back(&curve);
   }
   return found;
 }
 
-std::string method_names(const Grouping& grouping, const std::vector<const Curve*>& curves) {
-  std::map<std::size_t, std::set<std::size_t>> variants, all_variants;
-  for (const auto* curve : curves) variants[curve->method_index].insert(curve->variant_index);
-  for (const auto& curve : grouping.curves) all_variants[curve.method_index].insert(curve.variant_index);
+std::size_t motions_and_formulations(const std::vector<Group>& groups) {
+  std::set<std::pair<std::size_t, std::size_t>> all;
+  for (const auto& group : groups) all.emplace(group.case_index, group.variant_index);
+  return all.size();
+}
+
+/// Which of a method's curves are meant, where not all are: "matrix", "heavy_top", "matrix, 3 of 20 motions".
+std::string part_of(const Grouping& grouping, const std::vector<const Curve*>& some,
+                    const std::vector<const Curve*>& all) {
+  std::map<std::size_t, std::set<std::size_t>> in, of;  // cases by variant
+  for (const auto* curve : some) in[curve->variant_index].insert(curve->case_index);
+  for (const auto* curve : all) of[curve->variant_index].insert(curve->case_index);
+  const bool alike = in.size() == of.size() && std::all_of(in.begin(), in.end(), [&](const auto& entry) {
+                       return entry.second == in.begin()->second && of[entry.first] == of.begin()->second;
+                     });
+  if (alike) return case_names(grouping, in.begin()->second);
+  std::vector<std::string> parts;
+  for (const auto& [variant, cases] : in) {
+    std::vector<std::string> part;
+    if (!grouping.variants[variant].empty()) part.push_back(grouping.variants[variant]);
+    if (cases != of[variant]) part.push_back(case_names(grouping, cases));
+    parts.push_back(fmt::format("{}", fmt::join(part, ", ")));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+}  // namespace
+
+std::set<std::size_t> quiet_cases(const std::vector<const Curve*>& kept, const std::vector<const Curve*>& all) {
+  std::set<std::size_t> cases;
+  for (const auto* curve : all) cases.insert(curve->case_index);
+  for (const auto* curve : all) {
+    if (std::find(kept.begin(), kept.end(), curve) == kept.end()) cases.erase(curve->case_index);
+  }
+  return cases;
+}
+
+Extremes extremes(const Grouping& grouping, const Quantity& quantity) {
+  Extremes found;
+  auto round_off = at_round_off(grouping, quantity);
+  if (round_off.all.empty()) return found;
+  if (round_off.kept.size() == round_off.all.size()) {
+    found.sentences.push_back(fmt::format("The {} is at round-off in all runs that have one.", quantity.words));
+    return found;
+  }
+  auto groups = groups_of(grouping, quantity);
+  if (const auto quiet = quiet_cases(round_off.kept, round_off.all); !quiet.empty()) {
+    found.sentences.push_back(
+        fmt::format("The {} is at round-off in all runs of {}.", quantity.words, case_names(grouping, quiet)));
+    const auto is_quiet = [&](const auto* curve) { return quiet.contains(curve->case_index); };
+    std::erase_if(round_off.kept, is_quiet);
+    std::erase_if(round_off.all, is_quiet);
+    std::erase_if(groups, [&](const Group& group) { return quiet.contains(group.case_index); });
+  }
+  if (motions_and_formulations(groups) <= most_told_one_by_one) {
+    for (const auto& group : groups) tell(grouping, group, quantity, found.sentences);
+    return found;
+  }
+  if (!round_off.kept.empty()) {
+    found.sentences.push_back(fmt::format("The {} is at round-off at every step for {}.", quantity.words,
+                                          method_names(grouping, round_off.kept, round_off.all)));
+  }
+  for (auto& sentence : counts(grouping, groups, quantity)) found.sentences.push_back(std::move(sentence));
+  found.table = table_of(grouping, groups, quantity);
+  return found;
+}
+
+std::string case_names(const Grouping& grouping, const std::set<std::size_t>& cases) {
+  if (cases.size() > 4) return fmt::format("{} of {} motions", cases.size(), grouping.cases.size());
   std::vector<std::string> names;
-  for (const auto& [method, in] : variants) {
-    if (in == all_variants[method]) {
-      names.push_back(grouping.methods[method]);
-      continue;
-    }
-    for (const auto variant : in) names.push_back(fmt::format("{} ({})", grouping.methods[method], grouping.variants[variant]));
+  for (const auto c : cases) names.push_back(grouping.cases[c].label());
+  return words(names);
+}
+
+std::string method_names(const Grouping& grouping, const std::vector<const Curve*>& some,
+                         const std::vector<const Curve*>& all) {
+  std::map<std::size_t, std::vector<const Curve*>> in, of;
+  for (const auto* curve : some) in[curve->method_index].push_back(curve);
+  for (const auto* curve : all) of[curve->method_index].push_back(curve);
+  std::vector<std::string> names;
+  for (const auto& [method, curves] : in) {
+    const auto& name = grouping.methods[method];
+    names.push_back(curves.size() == of[method].size()
+                        ? name
+                        : fmt::format("{} ({})", name, part_of(grouping, curves, of[method])));
   }
   return words(names);
 }

@@ -2,25 +2,33 @@
 // Which method has the least and which the most of a quantity, at the largest and at the smallest step.
 #pragma once
 
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "experiments/study/report/curves.hpp"
+#include "experiments/study/report/table.hpp"
 
 namespace polhode::study::report {
 
-/// A sentence for each end of the steps and of the tolerances, of each motion and formulation; where there are many of
-/// those, sentences that count over them. Methods whose value is at round-off are named together.
-std::vector<std::string> extremes(const Grouping& grouping, const Quantity& quantity);
-
-/// Curves that are at round-off in every completed run, and those that are not; without the curves for which the
-/// quantity is not defined.
-struct RoundOff {
-  std::vector<const Curve*> kept, not_kept;
+/// Of one or two motions and formulations: sentences. Of more: sentences that count over them, and a table of each.
+/// Methods whose value is at round-off are named together.
+struct Extremes {
+  std::vector<std::string> sentences;
+  std::optional<Table> table;
 };
-RoundOff at_round_off(const Grouping& grouping, const Quantity& quantity);
+Extremes extremes(const Grouping& grouping, const Quantity& quantity);
 
-/// Names of methods, each once: "rk4 and dmv"; with the variant where a method is among the curves in some variants only.
-std::string method_names(const Grouping& grouping, const std::vector<const Curve*>& curves);
+/// The cases in which all of these curves are among the kept ones.
+std::set<std::size_t> quiet_cases(const std::vector<const Curve*>& kept, const std::vector<const Curve*>& all);
+
+/// "peters_hsu and heavy_top"; of many "5 of 20 motions".
+std::string case_names(const Grouping& grouping, const std::set<std::size_t>& cases);
+
+/// Names of the methods of `some` curves out of `all`: "rk4 and dmv". Where only a part of a method's curves is among
+/// them the name says which: "rk4 (matrix)", "rk4 (heavy_top)", "rk4 (3 of 20 motions)".
+std::string method_names(const Grouping& grouping, const std::vector<const Curve*>& some,
+                         const std::vector<const Curve*>& all);
 
 }  // namespace polhode::study::report

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A figure before it is drawn: panels of curves with their axes already laid out. gnuplot and PGFPlots draw the same one.
+// A figure before it is drawn: panels of curves with their axes already laid out. gnuplot and PGFPlots draw the same
+// one.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +26,7 @@ struct Axis {
   double low = 0, high = 1;
   double threshold = 1e-16;  ///< of symlog
   std::vector<Tick> ticks{};
-  bool labelled = true;      ///< false: the panel to the left shows the same axis
+  bool labelled = true;  ///< false: the panel to the left shows the same axis
 
   /// Where a value stands on the axis, in decades where it is logarithmic.
   double place(double value) const;
@@ -74,7 +75,7 @@ struct Panel {
 };
 
 struct Figure {
-  std::string name;       ///< of its files
+  std::string name;  ///< of its files
   std::string title;
   std::string caption{};  ///< what it shows, what was left out, what the marks mean
   std::size_t rows = 1, columns = 1;

@@ -41,6 +41,7 @@ constexpr int point_type(std::size_t method, std::size_t variant) {
 constexpr double rank(std::size_t method) { return static_cast<double>(method % colours.size()); }
 constexpr double line_width(std::size_t method) { return 2.3 - 0.16 * rank(method); }
 constexpr double point_size(std::size_t method) { return 0.95 - 0.05 * rank(method); }
+constexpr double mark_size(std::size_t method) { return 1.6 - 0.14 * rank(method); }
 constexpr std::string_view pgf_mark(std::size_t method, std::size_t variant) {
   return variant % 2 == 0 ? shape(method).pgf_filled : shape(method).pgf_open;
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "experiments/study/report/extremes.hpp"
@@ -21,7 +22,8 @@ namespace polhode::study::report {
 namespace {
 
 constexpr std::size_t few_runs = 3;              // each is described in a sentence of its own
-constexpr std::size_t most_troubled_runs = 100;  // rows of the table of runs that did not finish
+constexpr std::size_t most_characters = 500;     // of a sentence that names methods
+constexpr std::size_t most_troubled_rows = 100;  // of the table of runs that did not finish
 
 void append(std::vector<std::string>& all, std::vector<std::string> more) {
   for (auto& sentence : more) all.push_back(std::move(sentence));
@@ -31,11 +33,12 @@ std::string outcome(const StudyView& study) {
   std::map<std::string, std::size_t> counts;
   for (const auto& run : study.runs) ++counts[run.result.status];
   std::vector<std::string> parts;
-  for (const auto& [status, text] : {std::pair("ok", "completed"), std::pair("diverged", "diverged"), std::pair("failed", "failed"),
-                                     std::pair("refused", "refused")}) {
+  for (const auto& [status, text] : {std::pair("ok", "completed"), std::pair("diverged", "diverged"),
+                                     std::pair("failed", "failed"), std::pair("refused", "refused")}) {
     if (counts[status] > 0) parts.push_back(fmt::format("{} {}", counts[status], text));
   }
-  if (study.runs.size() > 1 && counts["ok"] == study.runs.size()) return fmt::format("{} runs, all completed.", study.runs.size());
+  if (study.runs.size() > 1 && counts["ok"] == study.runs.size())
+    return fmt::format("{} runs, all completed.", study.runs.size());
   return fmt::format("{}: {}.", count(study.runs.size(), "run"), parts.empty() ? "none completed" : words(parts));
 }
 
@@ -43,22 +46,27 @@ std::string drift_phrase(const RunRecord& run) {
   const auto drift = value(run, quantity::energy_drift());
   if (!drift) return "no energy drift was measured";
   std::string text = fmt::format("the largest energy drift is {}", number(*drift));
-  if (run.result.energy_initial) text += fmt::format(" (of an initial energy of {} J)", number(*run.result.energy_initial, 6));
+  if (run.result.energy_initial)
+    text += fmt::format(" (of an initial energy of {} J)", number(*run.result.energy_initial, 6));
   const auto trend = energy_trend(run);
   if (trend == "gains" || trend == "loses") text += fmt::format("; the run {} energy", trend);
   if (trend == "comes back") text += "; at the end the drift is back below a tenth of that";
   if (trend == "round-off") text += ", which is round-off";
-  if (!run.result.drift_class.empty() && trend != "round-off") text += fmt::format(", and the drift's growth is {}", run.result.drift_class);
+  if (!run.result.drift_class.empty() && trend != "round-off")
+    text += fmt::format(", and the drift's growth is {}", run.result.drift_class);
   return text;
 }
 
 /// A run in one sentence, for studies of a few.
 std::string run_sentence(const Grouping& grouping, const Curve& curve, const RunRecord& run) {
   const auto label = run_label(grouping, curve, run);
-  if (!completed(run)) return fmt::format("{}: {}.", label, run.result.message.empty() ? run.result.status : run.result.message);
+  if (!completed(run))
+    return fmt::format("{}: {}.", label, run.result.message.empty() ? run.result.status : run.result.message);
   std::vector<std::string> parts = {drift_phrase(run)};
-  for (const auto& quantity : {quantity::angular_momentum_drift(), quantity::linear_momentum_drift(), quantity::orientation_defect()}) {
-    if (const auto found = value(run, quantity)) parts.push_back(fmt::format("the {} is {}", quantity.words, number(*found)));
+  for (const auto& quantity :
+       {quantity::angular_momentum_drift(), quantity::linear_momentum_drift(), quantity::orientation_defect()}) {
+    if (const auto found = value(run, quantity))
+      parts.push_back(fmt::format("the {} is {}", quantity.words, number(*found)));
   }
   if (const auto found = value(run, quantity::attitude_error())) {
     parts.push_back(fmt::format("the attitude is off the exact one by up to {} rad", number(*found)));
@@ -66,7 +74,8 @@ std::string run_sentence(const Grouping& grouping, const Curve& curve, const Run
   if (const auto found = value(run, quantity::position_error())) {
     parts.push_back(fmt::format("the position by up to {} m", number(*found)));
   }
-  parts.push_back(fmt::format("it took {} steps and {} evaluations of the right-hand side", run.result.steps, run.result.evaluations));
+  parts.push_back(fmt::format("it took {} steps and {} evaluations of the right-hand side", run.result.steps,
+                              run.result.evaluations));
   return fmt::format("{}: {}.", label, fmt::join(parts, "; "));
 }
 
@@ -79,24 +88,46 @@ std::vector<std::string> run_sentences(const StudyView& study, const Grouping& g
   return sentences;
 }
 
-/// "Energy is gained by a and b, lost by c."
+constexpr std::array<std::pair<const char*, const char*>, 5> trend_words = {
+    {{"gains", "gained"},
+     {"loses", "lost"},
+     {"gains or loses", "gained or lost, depending on the step,"},
+     {"comes back", "neither gained nor lost for good (the drift comes back below a tenth of its largest value)"},
+     {"round-off", "kept to round-off"}}};
+
+/// "Energy at the end of the runs: gained by a and b; lost by c." Of many motions and formulations: numbers of curves.
 std::vector<std::string> trends(const Grouping& grouping) {
   std::map<std::string, std::vector<const Curve*>> by_trend;
+  std::vector<const Curve*> all;
   for (const auto& curve : grouping.curves) {
-    if (auto trend = energy_trend(curve); !trend.empty()) by_trend[trend].push_back(&curve);
+    const auto trend = energy_trend(curve);
+    if (trend.empty()) continue;
+    by_trend[trend].push_back(&curve);
+    all.push_back(&curve);
   }
-  std::vector<std::string> parts;
-  const auto tell = [&](const char* trend, const char* words_before) {
-    const auto at = by_trend.find(trend);
-    if (at != by_trend.end()) parts.push_back(fmt::format("{} {}", words_before, method_names(grouping, at->second)));
-  };
-  tell("gains", "gained by");
-  tell("loses", "lost by");
-  tell("gains or loses", "gained or lost, depending on the step, by");
-  tell("comes back", "neither gained nor lost for good (the drift comes back below a tenth of its largest value) by");
-  tell("round-off", "kept to round-off by");
-  if (parts.empty()) return {};
-  return {fmt::format("Energy at the end of the runs: {}.", fmt::join(parts, "; "))};
+  // Motions in which nothing drifts are told of elsewhere.
+  const auto quiet = quiet_cases(by_trend["round-off"], all);
+  const auto is_quiet = [&](const auto* curve) { return quiet.contains(curve->case_index); };
+  std::erase_if(all, is_quiet);
+  std::vector<std::string> by_name, by_number;
+  for (const auto& [trend, text] : trend_words) {
+    auto curves = by_trend[trend];
+    std::erase_if(curves, is_quiet);
+    if (curves.empty()) continue;
+    by_name.push_back(fmt::format("{} by {}", text, method_names(grouping, curves, all)));
+    by_number.push_back(fmt::format("{} in {}", text, curves.size()));
+  }
+  if (by_name.empty()) return {};
+  auto sentence = fmt::format("Energy at the end of the runs: {}.", fmt::join(by_name, "; "));
+  if (sentence.size() <= most_characters) return {sentence};
+  return {fmt::format("Energy at the end of the runs, of {}: {}. The table method by method says which.",
+                      count(all.size(), "curve"), fmt::join(by_number, "; "))};
+}
+
+/// "rk4 (matrix) on heavy_top".
+std::string curve_label(const Grouping& grouping, const Curve& curve) {
+  const auto label = grouping.label(curve);
+  return grouping.cases.size() > 1 ? fmt::format("{} on {}", label, grouping.cases[curve.case_index].label()) : label;
 }
 
 /// Methods whose quantity falls more slowly than their order, or a sentence that there is none.
@@ -108,28 +139,38 @@ std::vector<std::string> slope_sentences(const Grouping& grouping, const Quantit
     const auto* entry = find_integrator(grouping.methods[curve.method_index]);
     // Without the gyroscopic term another equation is solved: its distance from this one has no order.
     const bool same_equation = curve.runs.front()->config.formulation.gyroscopic;
-    if (!slope || slope->points < 3 || curve.adaptive || !same_equation || entry == nullptr || entry->declaration.order == 0) continue;
+    if (!slope || slope->points < 3 || curve.adaptive || !same_equation || entry == nullptr ||
+        entry->declaration.order == 0)
+      continue;
     ++compared;
     if (slope->p < entry->declaration.order - 0.25) {
-      slower.push_back(fmt::format("{} ({:.2f} over {} points, declared order {})", grouping.label(curve), slope->p, slope->points,
-                                   entry->declaration.order));
+      slower.push_back(fmt::format("{} ({:.2f} over {} points, declared order {})", curve_label(grouping, curve),
+                                   slope->p, slope->points, entry->declaration.order));
     }
   }
   if (compared == 0) return {};
   if (slower.empty()) {
-    return {fmt::format("Against the step, the {} falls at least as fast as the declared order wherever a slope can be seen ({}).",
-                        quantity.words, count(compared, "curve"))};
+    return {fmt::format(
+        "Against the step, the {} falls at least as fast as the declared order wherever a slope can be seen ({}).",
+        quantity.words, count(compared, "curve"))};
   }
   constexpr std::size_t most = 8;
   const std::size_t rest = slower.size() > most ? slower.size() - most : 0;
   if (rest > 0) slower.resize(most), slower.push_back(fmt::format("{} more", rest));
-  return {fmt::format("Against the step, the {} falls more slowly than the declared order for {}.", quantity.words, words(slower))};
+  return {fmt::format("Against the step, the {} falls more slowly than the declared order for {}.", quantity.words,
+                      words(slower))};
+}
+
+void add_extremes(Topic& topic, const Grouping& grouping, const Quantity& quantity) {
+  auto found = extremes(grouping, quantity);
+  append(topic.sentences, std::move(found.sentences));
+  if (found.table) topic.tables.push_back(std::move(*found.table));
 }
 
 Topic energy(const StudyView& study, const Grouping& grouping) {
   Topic topic{.heading = "Energy", .sentences = run_sentences(study, grouping)};
   if (study.runs.size() > 1) {
-    append(topic.sentences, extremes(grouping, quantity::energy_drift()));
+    add_extremes(topic, grouping, quantity::energy_drift());
     append(topic.sentences, trends(grouping));
     append(topic.sentences, slope_sentences(grouping, quantity::energy_drift()));
   }
@@ -160,53 +201,37 @@ std::vector<std::string> undefined_in(const StudyView& study, const Quantity& qu
 std::vector<std::string> not_conserved(const StudyView& study, const Quantity& quantity, std::string_view momentum) {
   std::vector<std::string> sentences;
   for (const auto& name : undefined_in(study, quantity)) {
-    const auto at = std::find_if(study.scenarios.begin(), study.scenarios.end(), [&](const auto& s) { return s.name == name; });
+    const auto at =
+        std::find_if(study.scenarios.begin(), study.scenarios.end(), [&](const auto& s) { return s.name == name; });
     const auto forces = at == study.scenarios.end() ? std::string() : force_kinds(*at);
-    sentences.push_back(fmt::format("In {} the {} is no invariant: {} not conserve it, so it has no drift.", name, momentum,
-                                    forces.empty() ? "the forces or the pivot do" : fmt::format("the forces ({}) do", forces)));
+    sentences.push_back(
+        fmt::format("In {} the {} is no invariant: {} not conserve it, so it has no drift.", name, momentum,
+                    forces.empty() ? "the forces or the pivot do" : fmt::format("the forces ({}) do", forces)));
   }
   return sentences;
 }
 
-void kept_sentence(std::vector<std::string>& sentences, const Grouping& grouping, const Quantity& quantity) {
-  const auto found = at_round_off(grouping, quantity);
-  if (found.kept.empty()) return;
-  sentences.push_back(found.not_kept.empty()
-                          ? fmt::format("The {} is at round-off in all runs.", quantity.words)
-                          : fmt::format("The {} is at round-off at every step for {}.", quantity.words, method_names(grouping, found.kept)));
-}
-
 Topic momenta(const StudyView& study, const Grouping& grouping) {
-  Topic topic{.heading = "Momenta", .sentences = {}};
-  for (const auto& [quantity, momentum] : {std::pair(quantity::angular_momentum_drift(), "angular momentum"),
-                                           std::pair(quantity::linear_momentum_drift(), "linear momentum")}) {
-    kept_sentence(topic.sentences, grouping, quantity);
-    if (!at_round_off(grouping, quantity).not_kept.empty() && study.runs.size() > 1) {
-      append(topic.sentences, extremes(grouping, quantity));
-    }
-    append(topic.sentences, not_conserved(study, quantity, momentum));
-  }
-  for (const auto& name : study.invariants) {
-    const auto quantity = quantity::invariant_drift(name);
-    kept_sentence(topic.sentences, grouping, quantity);
-    if (!at_round_off(grouping, quantity).not_kept.empty()) append(topic.sentences, extremes(grouping, quantity));
-  }
+  Topic topic{.heading = study.invariants.empty() ? "Momenta" : "Momenta and further invariants", .sentences = {}};
+  const auto angular = quantity::angular_momentum_drift(), linear = quantity::linear_momentum_drift();
+  if (study.runs.size() > 1) add_extremes(topic, grouping, angular);
+  append(topic.sentences, not_conserved(study, angular, "angular momentum"));
+  if (study.runs.size() > 1) add_extremes(topic, grouping, linear);
+  append(topic.sentences, not_conserved(study, linear, "linear momentum"));
+  for (const auto& name : study.invariants) add_extremes(topic, grouping, quantity::invariant_drift(name));
   return topic;
 }
 
 Topic orientation(const StudyView& study, const Grouping& grouping) {
   Topic topic{.heading = "Orientation", .sentences = {}};
-  kept_sentence(topic.sentences, grouping, quantity::orientation_defect());
-  if (!at_round_off(grouping, quantity::orientation_defect()).not_kept.empty() && study.runs.size() > 1) {
-    append(topic.sentences, extremes(grouping, quantity::orientation_defect()));
-  }
+  if (study.runs.size() > 1) add_extremes(topic, grouping, quantity::orientation_defect());
   return topic;
 }
 
 Topic errors(const StudyView& study, const Grouping& grouping) {
   Topic topic{.heading = "Distance from the exact motion", .sentences = {}};
   for (const auto& quantity : {quantity::attitude_error(), quantity::position_error()}) {
-    if (study.runs.size() > 1) append(topic.sentences, extremes(grouping, quantity));
+    if (study.runs.size() > 1) add_extremes(topic, grouping, quantity);
     append(topic.sentences, slope_sentences(grouping, quantity));
   }
   std::vector<std::string> without;
@@ -215,20 +240,22 @@ Topic errors(const StudyView& study, const Grouping& grouping) {
     if (std::find(no_position.begin(), no_position.end(), name) != no_position.end()) without.push_back(name);
   }
   if (!without.empty()) {
-    topic.sentences.push_back(fmt::format("No exact solution is known for {}, so {} runs have no errors against it.", words(without),
-                                          without.size() == 1 ? "its" : "their"));
+    topic.sentences.push_back(fmt::format("No exact solution is known for {}, so {} runs have no errors against it.",
+                                          words(without), without.size() == 1 ? "its" : "their"));
   }
   return topic;
 }
 
 Topic gyroscopic_term(const Grouping& grouping) {
   Topic topic{.heading = "With and without the gyroscopic term", .sentences = {}};
-  auto table = gyroscopic_comparison(grouping);
-  if (!table) return topic;
-  topic.sentences.push_back(
-      "Without the gyroscopic term another equation is solved, so its distance from the exact motion need not vanish with the step. "
-      "The table sets the same runs side by side.");
-  topic.tables.push_back(std::move(*table));
+  auto comparison = gyroscopic_comparison(grouping);
+  if (!comparison) return topic;
+  topic.sentences.push_back(comparison->differs
+                                ? "Without the gyroscopic term another equation is solved, so its distance from the "
+                                  "exact motion need not vanish with the "
+                                  "step. The table sets the same runs side by side."
+                                : "In these runs the gyroscopic term makes no difference to the digits shown.");
+  topic.tables.push_back(std::move(comparison->table));
   return topic;
 }
 
@@ -239,19 +266,68 @@ std::string divergence_sentence(const Grouping& grouping, const Curve& curve) {
     if (run->result.status == "diverged") diverged.push_back(run);
   }
   if (diverged.empty()) return "";
-  const auto first = *std::min_element(diverged.begin(), diverged.end(),
-                                       [](const auto* a, const auto* b) { return a->result.t_reached < b->result.t_reached; });
-  std::string label = grouping.label(curve);
-  if (grouping.cases.size() > 1) label += " on " + grouping.cases[curve.case_index].label();
-  return fmt::format("{} diverged in {} of {}; {}, at {}, at t = {} s.", label, diverged.size(), count(curve.runs.size(), "run"),
-                     diverged.size() == 1 ? "it did so" : "the first to do so", step_label(*first), number(first->result.t_reached));
+  const auto first = *std::min_element(diverged.begin(), diverged.end(), [](const auto* a, const auto* b) {
+    return a->result.t_reached < b->result.t_reached;
+  });
+  return fmt::format("{} diverged in {} of {}; {}, at {}, at t = {} s.", curve_label(grouping, curve), diverged.size(),
+                     count(curve.runs.size(), "run"), diverged.size() == 1 ? "it did so" : "the first to do so",
+                     step_label(*first), number(first->result.t_reached));
+}
+
+/// Runs that did not finish for one reason; refusals are the same for many methods.
+struct Trouble {
+  std::vector<std::string> methods;
+  const Curve* curve;
+  std::vector<const RunRecord*> runs;
+};
+
+std::vector<Trouble> troubles_of(const Grouping& grouping) {
+  std::vector<Trouble> found;
+  std::map<std::tuple<std::size_t, std::size_t, std::string, std::string, std::string>, std::size_t> places;
+  for (const auto& curve : grouping.curves) {
+    for (const auto* run : curve.runs) {
+      if (completed(*run)) continue;
+      const auto& method = grouping.methods[curve.method_index];
+      const bool refused = run->result.status == "refused";
+      const std::tuple key(curve.case_index, curve.variant_index, run->result.status, run->result.message,
+                           refused ? "" : method);
+      const auto [at, added] = places.emplace(key, found.size());
+      if (added) found.push_back({{}, &curve, {}});
+      auto& trouble = found[at->second];
+      if (trouble.methods.empty() || trouble.methods.back() != method) trouble.methods.push_back(method);
+      trouble.runs.push_back(run);
+    }
+  }
+  return found;
+}
+
+std::vector<std::string> trouble_row(const Grouping& grouping, const Trouble& trouble) {
+  const auto& first = *trouble.runs.front();
+  const auto steps = trouble.runs.size() == 1 ? step_label(first) : count(trouble.runs.size(), "run");
+  return {words(trouble.methods),
+          grouping.cases[trouble.curve->case_index].label(),
+          grouping.variants[trouble.curve->variant_index],
+          steps,
+          first.result.status,
+          ended_early(first) && trouble.runs.size() == 1 ? number(first.result.t_reached) : "",
+          first.result.message};
 }
 
 Topic troubles(const Grouping& grouping) {
   using Kind = Column::Kind;
   Topic topic{.heading = "Runs that did not finish", .sentences = {}};
+  constexpr std::size_t most_sentences = 10;
+  std::size_t sentences = 0;
+  for (const auto& curve : grouping.curves) {
+    auto sentence = divergence_sentence(grouping, curve);
+    if (sentence.empty() || ++sentences > most_sentences) continue;
+    topic.sentences.push_back(std::move(sentence));
+  }
+  if (sentences > most_sentences)
+    topic.sentences.push_back(fmt::format("{} more curves diverged.", sentences - most_sentences));
+
   Table table{.caption = "Diverged, failed and refused runs, with the reason",
-              .columns = {{"method", "", Kind::name},
+              .columns = {{"method", "", Kind::text},
                           {"motion", "", Kind::text},
                           {"formulation", "", Kind::text},
                           {"step", "", Kind::text},
@@ -259,21 +335,12 @@ Topic troubles(const Grouping& grouping) {
                           {"reached", "s"},
                           {"reason", "", Kind::text}},
               .rows = {}};
-  std::size_t all = 0;
-  for (const auto& curve : grouping.curves) {
-    if (auto sentence = divergence_sentence(grouping, curve); !sentence.empty() && topic.sentences.size() < 10) {
-      topic.sentences.push_back(std::move(sentence));
-    }
-    for (const auto* run : curve.runs) {
-      if (completed(*run) || ++all > most_troubled_runs) continue;
-      table.rows.push_back({grouping.methods[curve.method_index], grouping.cases[curve.case_index].label(),
-                            grouping.variants[curve.variant_index], step_label(*run), run->result.status,
-                            ended_early(*run) ? number(run->result.t_reached) : "", run->result.message});
-    }
+  const auto all = troubles_of(grouping);
+  for (const auto& trouble : all) {
+    if (table.rows.size() < most_troubled_rows) table.rows.push_back(trouble_row(grouping, trouble));
   }
-  if (all > most_troubled_runs) {
-    topic.sentences.push_back(fmt::format("The table shows {} of {}; runs.csv has them all.", most_troubled_runs, count(all, "such run")));
-  }
+  if (all.size() > most_troubled_rows)
+    table.caption += fmt::format("; the first {} of {} rows", most_troubled_rows, all.size());
   if (!table.rows.empty()) topic.tables.push_back(without_empty_columns(std::move(table)));
   return topic;
 }
@@ -282,8 +349,8 @@ Topic troubles(const Grouping& grouping) {
 
 Findings findings_of(const StudyView& study, const Grouping& grouping) {
   Findings found{.outcome = outcome(study), .cautions = cautions(grouping), .topics = {}};
-  for (auto& topic : std::array{energy(study, grouping), momenta(study, grouping), orientation(study, grouping), errors(study, grouping),
-                                gyroscopic_term(grouping), troubles(grouping)}) {
+  for (auto& topic : std::array{energy(study, grouping), momenta(study, grouping), orientation(study, grouping),
+                                errors(study, grouping), gyroscopic_term(grouping), troubles(grouping)}) {
     if (!topic.sentences.empty() || !topic.tables.empty()) found.topics.push_back(std::move(topic));
   }
   return found;

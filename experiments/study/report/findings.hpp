@@ -19,7 +19,7 @@ struct Topic {
 struct Findings {
   std::string outcome;                ///< "84 runs: 80 completed, 4 diverged."
   std::vector<std::string> cautions;  ///< what must not be overlooked
-  std::vector<Topic> topics;          ///< energy, momenta, orientation, errors, gyroscopic term, runs that did not finish
+  std::vector<Topic> topics;  ///< energy, momenta, orientation, errors, gyroscopic term, runs that did not finish
 };
 
 Findings findings_of(const StudyView& study, const Grouping& grouping);

@@ -104,12 +104,15 @@ void write_axis(std::string& out, char name, const Axis& axis) {
   line(out, "  set {}range [{}:{}]", name, axis.low, axis.high);
   if (axis.scale == Scale::logarithmic) line(out, "  set logscale {}", name);
   if (axis.scale == Scale::symlog) {
-    line(out, "  set nonlinear {0} via sgn({0})*asinh(abs({0})/{1})/log(10) inverse sgn({0})*{1}*sinh(abs({0})*log(10))", name,
-         axis.threshold);
+    line(out,
+         "  set nonlinear {0} via sgn({0})*asinh(abs({0})/{1})/log(10) inverse sgn({0})*{1}*sinh(abs({0})*log(10))",
+         name, axis.threshold);
   }
   line(out, "  set {}tics {}", name, ticks(axis, axis.labelled));
-  if (axis.labelled) line(out, "  set {}label {} noenhanced", name, gnuplot(axis.label));
-  else line(out, "  unset {}label", name);
+  if (axis.labelled)
+    line(out, "  set {}label {} noenhanced", name, gnuplot(axis.label));
+  else
+    line(out, "  unset {}label", name);
 }
 
 void write_title(std::string& out, const Panel& panel, std::size_t characters) {
@@ -146,8 +149,9 @@ void write_plot(std::string& out, const Panel& panel, int& block) {
     };
     const int number = style_number(curve.method, curve.variant);
     item(Mark::value, fmt::format("linespoints linestyle {}{}", number, over_time ? " pointnumber 6" : ""));
-    item(Mark::zero, fmt::format("points linestyle {} pointtype 10 pointsize 1", number));
-    item(Mark::edge, fmt::format("points linestyle {} pointtype 2 pointsize 1 linewidth 2.5", number));
+    const double size = style::mark_size(curve.method);
+    item(Mark::zero, fmt::format("points linestyle {} pointtype 10 pointsize {:.2f} linewidth 1.5", number, size));
+    item(Mark::edge, fmt::format("points linestyle {} pointtype 2 pointsize {:.2f} linewidth 2", number, size));
     ++block;
   }
   line(out, "  plot {}", fmt::join(items, ", \\\n       "));
@@ -180,11 +184,13 @@ void write_legend(std::string& out, const Figure& figure, const Layout& layout) 
   }
   if (figure.has_edge_marks) {
     entries.emplace_back(
-        "keyentry with points pointtype 2 pointsize 1 linewidth 2.5 linecolor rgb '#555555' "
+        "keyentry with points pointtype 2 pointsize 1 linewidth 2 linecolor rgb '#555555' "
         "title 'diverged or off scale'");
   }
   line(out, "\n  # legend");
-  line(out, "  unset logscale\n  unset nonlinear y\n  unset title\n  unset xlabel\n  unset ylabel\n  unset arrow\n  unset label");
+  line(out,
+       "  unset logscale\n  unset nonlinear y\n  unset title\n  unset xlabel\n  unset ylabel\n  unset arrow\n  unset "
+       "label");
   line(out, "  unset border\n  unset tics\n  unset grid");
   line(out, "  set lmargin at screen 0.01; set rmargin at screen 0.99");
   line(out, "  set bmargin at screen 0; set tmargin at screen {:.5f}", layout.legend_top());
@@ -198,7 +204,9 @@ void write_legend(std::string& out, const Figure& figure, const Layout& layout) 
 
 std::string gnuplot_style(const FigureSet& set) {
   std::string out;
-  line(out, "# How the figures of this folder look; every NAME.gp loads this file. Change it and run gnuplot NAME.gp again.");
+  line(
+      out,
+      "# How the figures of this folder look; every NAME.gp loads this file. Change it and run gnuplot NAME.gp again.");
   line(out, "# A method has one colour and one marker in all figures; a variant of the formulation has its dashes.");
   line(out, "font_face = 'sans-serif'");
   line(out, "font_size = {}", style::font_size);
@@ -238,11 +246,17 @@ std::string gnuplot_script(const Figure& figure) {
   line(out, "do for [kind in 'svg pdf'] {{");
   line(out, "  load '{}'", style_file);
   line(out, "  if (kind eq 'svg') {{");
-  line(out, "    set terminal svg size {:.0f},{:.0f} enhanced font sprintf('%s,%g', font_face, font_size) background rgb 'white' "
-            "name '{}'", layout.width(), layout.height(), figure.name);
+  line(out,
+       "    set terminal svg size {:.0f},{:.0f} enhanced font sprintf('%s,%g', font_face, font_size) background rgb "
+       "'white' "
+       "name '{}'",
+       layout.width(), layout.height(), figure.name);
   line(out, "  }} else {{");
-  line(out, "    set terminal pdfcairo size {:.4f}in,{:.4f}in enhanced font sprintf('%s,%g', font_face, font_size) fontscale 0.57 "
-            "linewidth 1.3", layout.width() / 96, layout.height() / 96);
+  line(out,
+       "    set terminal pdfcairo size {:.4f}in,{:.4f}in enhanced font sprintf('%s,%g', font_face, font_size) "
+       "fontscale 0.57 "
+       "linewidth 1.3",
+       layout.width() / 96, layout.height() / 96);
   line(out, "  }}");
   line(out, "  set output '{}.'.kind", figure.name);
   line(out, "  set multiplot");
@@ -257,8 +271,12 @@ std::string gnuplot_script(const Figure& figure) {
 std::string gnuplot_data(const Figure& figure) {
   std::string out;
   line(out, "# {}: {}", figure.name, one_line(figure.title));
-  line(out, "# One block for each curve (gnuplot: index 0, 1, ...), two empty lines between. SI units, in the columns' names.");
-  line(out, "# drawn_at: where the point stands on the figure's axis. mark: value; zero (exactly zero, drawn at the level 0);");
+  line(out,
+       "# One block for each curve (gnuplot: index 0, 1, ...), two empty lines between. SI units, in the columns' "
+       "names.");
+  line(out,
+       "# drawn_at: where the point stands on the figure's axis. mark: value; zero (exactly zero, drawn at the level "
+       "0);");
   line(out, "# edge (diverged, failed or off the scale, drawn at the edge; '-' where nothing was measured).");
   bool first = true;
   for (const auto& panel : figure.panels) {
@@ -269,8 +287,8 @@ std::string gnuplot_data(const Figure& figure) {
       line(out, "# {}{}", one_line(title), one_line(curve.label));
       line(out, "# {} {} drawn_at mark", panel.x_column, panel.y_column);
       for (const auto& point : curve.points) {
-        line(out, "{} {} {} {}", point.x, std::isfinite(point.value) ? fmt::format("{}", point.value) : "-", point.drawn,
-             name(point.mark));
+        line(out, "{} {} {} {}", point.x, std::isfinite(point.value) ? fmt::format("{}", point.value) : "-",
+             point.drawn, name(point.mark));
       }
     }
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A figure as a gnuplot script (for gnuplot 5.4) and its data file. In their folder `gnuplot NAME.gp` draws NAME.svg and
-// NAME.pdf.
+// A figure as a gnuplot script (for gnuplot 5.4) and its data file. In their folder `gnuplot NAME.gp` draws NAME.svg
+// and NAME.pdf.
 #pragma once
 
 #include <string>

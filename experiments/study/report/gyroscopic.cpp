@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <set>
@@ -51,9 +52,11 @@ std::string where(const Grouping& grouping, const Curve& curve) {
 /// "at every step size", where the runs have several.
 std::string every_step(const Deceived& d) {
   if (d.steps.size() < 2) return "";
-  const auto adaptive = std::count_if(d.curves.begin(), d.curves.end(), [](const auto* curve) { return curve->adaptive; });
+  const auto adaptive =
+      std::count_if(d.curves.begin(), d.curves.end(), [](const auto* curve) { return curve->adaptive; });
   if (adaptive == 0) return " at every step size";
-  return static_cast<std::size_t>(adaptive) == d.curves.size() ? " at every tolerance" : " at every step size and tolerance";
+  return static_cast<std::size_t>(adaptive) == d.curves.size() ? " at every tolerance"
+                                                               : " at every step size and tolerance";
 }
 
 std::string momentum_words(const Deceived& d) {
@@ -69,34 +72,64 @@ std::string caution(const Grouping& grouping, const Deceived& d) {
   for (const auto* curve : d.curves) methods.insert(curve->method_index);
   std::vector<std::string> names;
   for (const auto m : methods) names.push_back(grouping.methods[m]);
-  const auto kept = d.energy > 0 ? fmt::format("drifts by no more than {}", number(d.energy)) : std::string("does not drift at all");
+  const auto kept =
+      d.energy > 0 ? fmt::format("drifts by no more than {}", number(d.energy)) : std::string("does not drift at all");
   return fmt::format("{}: energy alone would call {} perfect ({} of {}), since it {}; but the angular momentum {}. {}",
-                     where(grouping, first), d.runs == 1 ? "this run" : "these runs", count(d.runs, "run"), words(names), kept,
-                     momentum_words(d),
+                     where(grouping, first), d.runs == 1 ? "this run" : "these runs", count(d.runs, "run"),
+                     words(names), kept, momentum_words(d),
                      leaves_gyroscopic_out(first) ? "That is the missing gyroscopic term, which the energy cannot show."
                                                   : "A method can keep one invariant and lose another: look at both.");
 }
 
-std::vector<std::string> gyroscopic_not_checked(const Grouping& grouping) {
-  std::set<std::string> motions;
+/// The runs of a scenario that leave the gyroscopic term out, where no angular momentum was measured.
+std::map<std::string, std::vector<const RunRecord*>> unchecked_runs(const Grouping& grouping) {
+  std::map<std::string, std::vector<const RunRecord*>> found;
   for (const auto& curve : grouping.curves) {
-    const bool measured = std::any_of(curve.runs.begin(), curve.runs.end(), [](const auto* run) {
-      return value(*run, quantity::angular_momentum_drift()).has_value();
-    });
-    const bool ran = std::any_of(curve.runs.begin(), curve.runs.end(), [](const auto* run) { return completed(*run); });
-    if (leaves_gyroscopic_out(curve) && ran && !measured) motions.insert(grouping.cases[curve.case_index].scenario);
+    if (!leaves_gyroscopic_out(curve)) continue;
+    for (const auto* run : curve.runs) {
+      const bool measured = value(*run, quantity::angular_momentum_drift()).has_value();
+      if (completed(*run) && !measured) found[run->config.scenario].push_back(run);
+    }
   }
-  if (motions.empty()) return {};
-  return {fmt::format("{}: the gyroscopic term is left out, and the forces do not conserve the angular momentum that would show "
-                      "it. A small energy drift says nothing about it here.",
-                      words({motions.begin(), motions.end()}))};
+  return found;
+}
+
+/// "the p_phi drift (at least 0.02)": what is large in every one of the runs, however small the step.
+std::vector<std::string> what_shows_it(const std::vector<const RunRecord*>& runs) {
+  std::vector<Quantity> candidates = {quantity::attitude_error()};
+  for (const auto& [name, drift] : runs.front()->result.invariant_drift_max_rel) {
+    candidates.push_back(quantity::invariant_drift(name));
+  }
+  std::vector<std::string> found;
+  for (const auto& quantity : candidates) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto* run : runs) least = std::min(least, value(*run, quantity).value_or(0));
+    if (least > lost_momentum)
+      found.push_back(fmt::format("the {} (at least {}{})", quantity.words, number(least), quantity.unit));
+  }
+  return found;
+}
+
+std::vector<std::string> gyroscopic_not_checked(const Grouping& grouping) {
+  std::vector<std::string> sentences;
+  for (const auto& [scenario, runs] : unchecked_runs(grouping)) {
+    const auto shown_by = what_shows_it(runs);
+    sentences.push_back(
+        fmt::format("{}: {} the gyroscopic term out, and the forces do not conserve the angular momentum that would "
+                    "show it. A small "
+                    "energy drift says nothing about it here. {}",
+                    scenario, runs.size() == 1 ? "1 run leaves" : fmt::format("{} runs leave", runs.size()),
+                    shown_by.empty() ? "No other number of this study shows it in every run."
+                                     : fmt::format("What shows it, in every one of these runs: {}.", words(shown_by))));
+  }
+  return sentences;
 }
 
 /// What two curves must share to be compared: everything but the gyroscopic term.
 auto comparison_key(const Curve& curve) {
   const auto& c = curve.runs.front()->config;
-  return std::tuple(curve.case_index, curve.method_index, curve.adaptive, c.formulation.orientation, c.formulation.angular_state,
-                    c.formulation.rotation_from, c.normalise, c.precision);
+  return std::tuple(curve.case_index, curve.method_index, curve.adaptive, c.formulation.orientation,
+                    c.formulation.angular_state, c.formulation.rotation_from, c.normalise, c.precision);
 }
 
 /// The runs of both at the smallest step that both completed.
@@ -114,9 +147,21 @@ std::string printed(const RunRecord& run, const Quantity& quantity) {
   return found ? number(*found) : "";
 }
 
-std::vector<std::string> comparison_row(const Grouping& grouping, const Curve& curve, const RunRecord& with, const RunRecord& without) {
-  std::vector<std::string> row = {grouping.methods[curve.method_index], grouping.cases[curve.case_index].label(), step_label(with)};
-  for (const auto& quantity : {quantity::energy_drift(), quantity::angular_momentum_drift(), quantity::attitude_error()}) {
+std::array<Quantity, 3> compared() {
+  return {quantity::energy_drift(), quantity::angular_momentum_drift(), quantity::attitude_error()};
+}
+
+bool differ(const RunRecord& with, const RunRecord& without) {
+  const auto quantities = compared();
+  return std::any_of(quantities.begin(), quantities.end(),
+                     [&](const auto& quantity) { return printed(with, quantity) != printed(without, quantity); });
+}
+
+std::vector<std::string> comparison_row(const Grouping& grouping, const Curve& curve, const RunRecord& with,
+                                        const RunRecord& without) {
+  std::vector<std::string> row = {grouping.methods[curve.method_index], grouping.cases[curve.case_index].label(),
+                                  step_label(with)};
+  for (const auto& quantity : compared()) {
     row.push_back(printed(with, quantity));
     row.push_back(printed(without, quantity));
   }
@@ -129,7 +174,8 @@ std::vector<std::string> cautions(const Grouping& grouping) {
   std::map<std::pair<std::size_t, std::size_t>, Deceived> groups;
   for (const auto& curve : grouping.curves) {
     for (const auto* run : curve.runs) {
-      const auto energy = value(*run, quantity::energy_drift()), momentum = value(*run, quantity::angular_momentum_drift());
+      const auto energy = value(*run, quantity::energy_drift()),
+                 momentum = value(*run, quantity::angular_momentum_drift());
       if (!energy || !momentum || *energy >= perfect_energy || *momentum <= lost_momentum) continue;
       groups[{curve.case_index, curve.variant_index}].add(curve, *run, *energy, *momentum);
     }
@@ -140,29 +186,34 @@ std::vector<std::string> cautions(const Grouping& grouping) {
   return sentences;
 }
 
-std::optional<Table> gyroscopic_comparison(const Grouping& grouping) {
+std::optional<GyroscopicComparison> gyroscopic_comparison(const Grouping& grouping) {
   using Kind = Column::Kind;
-  Table table{.caption = "The same runs with the gyroscopic term (on) and without it (off), at the smallest step that both completed",
-              .columns = {{"method", "", Kind::name},
-                          {"motion", "", Kind::text},
-                          {"step", "", Kind::text},
-                          {"energy drift, on"},
-                          {"energy drift, off"},
-                          {"angular momentum drift, on"},
-                          {"angular momentum drift, off"},
-                          {"attitude error, on", "rad"},
-                          {"attitude error, off", "rad"}},
-              .rows = {}};
+  bool differs = false;
+  Table table{
+      .caption =
+          "The same runs with the gyroscopic term (on) and without it (off), at the smallest step that both completed",
+      .columns = {{"method", "", Kind::name},
+                  {"motion", "", Kind::text},
+                  {"step", "", Kind::text},
+                  {"energy drift, on"},
+                  {"energy drift, off"},
+                  {"angular momentum drift, on"},
+                  {"angular momentum drift, off"},
+                  {"attitude error, on", "rad"},
+                  {"attitude error, off", "rad"}},
+      .rows = {}};
   for (const auto& with : grouping.curves) {
     if (leaves_gyroscopic_out(with)) continue;
     for (const auto& without : grouping.curves) {
       if (!leaves_gyroscopic_out(without) || comparison_key(with) != comparison_key(without)) continue;
       const auto [a, b] = smallest_common(with, without);
-      if (a != nullptr) table.rows.push_back(comparison_row(grouping, with, *a, *b));
+      if (a == nullptr) continue;
+      table.rows.push_back(comparison_row(grouping, with, *a, *b));
+      differs = differs || differ(*a, *b);
     }
   }
   if (table.rows.empty()) return std::nullopt;
-  return without_empty_columns(std::move(table));
+  return GyroscopicComparison{without_empty_columns(std::move(table)), differs};
 }
 
 }  // namespace polhode::study::report

@@ -16,8 +16,12 @@ namespace polhode::study::report {
 /// not; and one where the gyroscopic term is left out but no angular momentum is conserved that could show it.
 std::vector<std::string> cautions(const Grouping& grouping);
 
-/// The same runs with the gyroscopic term and without it, at the smallest step that both have; absent where the study
-/// has no such pair.
-std::optional<Table> gyroscopic_comparison(const Grouping& grouping);
+/// The same runs with the gyroscopic term and without it, at the smallest step that both completed.
+struct GyroscopicComparison {
+  Table table;
+  bool differs = false;  ///< in any digit shown
+};
+/// Absent where the study has no such pair.
+std::optional<GyroscopicComparison> gyroscopic_comparison(const Grouping& grouping);
 
 }  // namespace polhode::study::report

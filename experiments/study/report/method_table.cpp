@@ -70,29 +70,31 @@ std::string energy_trend(const Curve& curve) {
 
 Table method_table(const Grouping& grouping) {
   using Kind = Column::Kind;
-  Table table{.caption = "In brackets: the number of points behind a slope. The energy column says where the energy ends",
-              .columns = {{"method", "", Kind::name},
-                          {"motion", "", Kind::text},
-                          {"formulation", "", Kind::text},
-                          {"steps", "", Kind::text},
-                          {"energy drift, largest step"},
-                          {"energy drift, smallest step"},
-                          {"slope, energy drift"},
-                          {"slope, attitude error"},
-                          {"declared order"},
-                          {"energy", "", Kind::text},
-                          {"angular momentum drift, largest"},
-                          {"orientation defect, largest"}},
-              .rows = {}};
+  Table table{
+      .caption = "In brackets: the number of points behind a slope. The energy column says where the energy ends",
+      .columns = {{"method", "", Kind::name},
+                  {"motion", "", Kind::text},
+                  {"formulation", "", Kind::text},
+                  {"steps", "", Kind::text},
+                  {"energy drift, largest step"},
+                  {"energy drift, smallest step"},
+                  {"slope, energy drift"},
+                  {"slope, attitude error"},
+                  {"declared order"},
+                  {"energy", "", Kind::text},
+                  {"angular momentum drift, largest"},
+                  {"orientation defect, largest"}},
+      .rows = {}};
   for (const auto& curve : grouping.curves) {
     const auto& method = grouping.methods[curve.method_index];
     const auto energy = quantity::energy_drift();
     const bool several = curve.runs.size() > 1;
-    table.rows.push_back({method, grouping.cases.size() > 1 ? grouping.cases[curve.case_index].label() : "",
-                          grouping.variants[curve.variant_index], range_of_steps(curve), printed(*curve.runs.front(), energy),
-                          several ? printed(*curve.runs.back(), energy) : "", slope_text(curve, energy),
-                          slope_text(curve, quantity::attitude_error()), declared_order(method), energy_trend(curve),
-                          largest(curve, quantity::angular_momentum_drift()), largest(curve, quantity::orientation_defect())});
+    table.rows.push_back(
+        {method, grouping.cases.size() > 1 ? grouping.cases[curve.case_index].label() : "",
+         grouping.variants[curve.variant_index], range_of_steps(curve), printed(*curve.runs.front(), energy),
+         several ? printed(*curve.runs.back(), energy) : "", slope_text(curve, energy),
+         slope_text(curve, quantity::attitude_error()), declared_order(method), energy_trend(curve),
+         largest(curve, quantity::angular_momentum_drift()), largest(curve, quantity::orientation_defect())});
   }
   return without_empty_columns(std::move(table));
 }

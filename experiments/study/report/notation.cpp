@@ -31,9 +31,12 @@ std::string escaped(std::string_view text, Escape escape) {
   std::string out;
   out.reserve(text.size() + 8);
   for (const char c : text) {
-    if (is_control(c)) out += ' ';
-    else if (const std::string_view replacement = escape(c); !replacement.empty()) out += replacement;
-    else out += c;
+    if (is_control(c))
+      out += ' ';
+    else if (const std::string_view replacement = escape(c); !replacement.empty())
+      out += replacement;
+    else
+      out += c;
   }
   return out;
 }
@@ -77,12 +80,18 @@ std::string words(const std::vector<std::string>& items) {
 std::string html(std::string_view text) {
   return escaped(text, [](char c) -> std::string_view {
     switch (c) {
-      case '&': return "&amp;";
-      case '<': return "&lt;";
-      case '>': return "&gt;";
-      case '"': return "&quot;";
-      case '\'': return "&#39;";
-      default: return {};
+      case '&':
+        return "&amp;";
+      case '<':
+        return "&lt;";
+      case '>':
+        return "&gt;";
+      case '"':
+        return "&quot;";
+      case '\'':
+        return "&#39;";
+      default:
+        return {};
     }
   });
 }
@@ -90,15 +99,24 @@ std::string html(std::string_view text) {
 std::string markdown(std::string_view text) {
   return escaped(text, [](char c) -> std::string_view {
     switch (c) {
-      case '|': return "\\|";
-      case '_': return "\\_";
-      case '*': return "\\*";
-      case '`': return "\\`";
-      case '<': return "&lt;";
-      case '&': return "&amp;";
-      case '\\': return "\\\\";
-      case '[': return "\\[";
-      default: return {};
+      case '|':
+        return "\\|";
+      case '_':
+        return "\\_";
+      case '*':
+        return "\\*";
+      case '`':
+        return "\\`";
+      case '<':
+        return "&lt;";
+      case '&':
+        return "&amp;";
+      case '\\':
+        return "\\\\";
+      case '[':
+        return "\\[";
+      default:
+        return {};
     }
   });
 }
@@ -106,20 +124,34 @@ std::string markdown(std::string_view text) {
 std::string tex(std::string_view text) {
   return escaped(text, [](char c) -> std::string_view {
     switch (c) {
-      case '\\': return "\\textbackslash{}";
-      case '{': return "\\{";
-      case '}': return "\\}";
-      case '$': return "\\$";
-      case '&': return "\\&";
-      case '#': return "\\#";
-      case '%': return "\\%";
-      case '_': return "\\_";
-      case '^': return "\\textasciicircum{}";
-      case '~': return "\\textasciitilde{}";
-      case '<': return "\\textless{}";
-      case '>': return "\\textgreater{}";
-      case '"': return "\\textquotedbl{}";
-      default: return {};
+      case '\\':
+        return "\\textbackslash{}";
+      case '{':
+        return "\\{";
+      case '}':
+        return "\\}";
+      case '$':
+        return "\\$";
+      case '&':
+        return "\\&";
+      case '#':
+        return "\\#";
+      case '%':
+        return "\\%";
+      case '_':
+        return "\\_";
+      case '^':
+        return "\\textasciicircum{}";
+      case '~':
+        return "\\textasciitilde{}";
+      case '<':
+        return "\\textless{}";
+      case '>':
+        return "\\textgreater{}";
+      case '"':
+        return "\\textquotedbl{}";
+      default:
+        return {};
     }
   });
 }
@@ -159,7 +191,8 @@ std::string base64(std::string_view bytes) {
 }
 
 std::size_t length(std::string_view utf8) {
-  return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), [](char c) { return !continues_character(c); }));
+  return static_cast<std::size_t>(
+      std::count_if(utf8.begin(), utf8.end(), [](char c) { return !continues_character(c); }));
 }
 
 std::string shortened(std::string_view utf8, std::size_t characters) {

@@ -22,10 +22,14 @@ inline constexpr std::string_view page_style = R"css(
 html { -webkit-text-size-adjust: 100%; }
 body {
   margin: 0 auto; padding: 2rem 1.25rem 4rem; max-width: 64rem; background: var(--paper); color: var(--ink);
-  font: 1rem/1.55 system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", "Noto Sans", "DejaVu Sans", sans-serif;
+  font: 1rem/1.55
+    system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", "Noto Sans", "DejaVu Sans", sans-serif;
 }
 h1 { font-size: 1.9rem; line-height: 1.2; margin: 0 0 .4rem; }
-h2 { font-size: 1.35rem; line-height: 1.3; margin: 2.8rem 0 .8rem; padding-top: .8rem; border-top: 1px solid var(--rule); }
+h2 {
+  font-size: 1.35rem; line-height: 1.3; margin: 2.8rem 0 .8rem; padding-top: .8rem;
+  border-top: 1px solid var(--rule);
+}
 h3 { font-size: 1.08rem; margin: 1.6rem 0 .4rem; }
 p, ul, dl { margin: .5rem 0; }
 ul { padding-left: 1.3rem; }
@@ -34,7 +38,10 @@ a { color: var(--accent); }
 .question { font-size: 1.15rem; color: var(--soft); margin: 0 0 1rem; }
 .outcome { font-weight: 600; }
 nav ul { list-style: none; display: flex; flex-wrap: wrap; gap: .3rem 1.2rem; padding: 0; margin: 1rem 0 0; }
-.caution { background: var(--warn); border-left: 4px solid var(--warn-rule); padding: .7rem 1rem; margin: 1rem 0; overflow-wrap: anywhere; }
+.caution {
+  background: var(--warn); border-left: 4px solid var(--warn-rule);
+  padding: .7rem 1rem; margin: 1rem 0; overflow-wrap: anywhere;
+}
 .caution strong { display: block; }
 .box { background: var(--panel); border-radius: 6px; padding: .8rem 1.1rem 1rem; margin: 1.6rem 0; }
 .box h2 { border: 0; margin: 0 0 .4rem; padding: 0; font-size: 1.1rem; }
@@ -42,8 +49,13 @@ nav ul { list-style: none; display: flex; flex-wrap: wrap; gap: .3rem 1.2rem; pa
 .box dt, .box dd { margin: 0; }
 dt { font-weight: 600; margin-top: .6rem; }
 dd { margin: 0 0 0 1.2rem; overflow-wrap: anywhere; }
-pre { background: var(--panel); padding: .8rem 1rem; border-radius: 6px; overflow-x: auto; white-space: pre-wrap; overflow-wrap: anywhere; }
-code, pre, .name { font-family: ui-monospace, SFMono-Regular, Menlo, Consolas, "DejaVu Sans Mono", monospace; font-size: .88em; }
+pre {
+  background: var(--panel); padding: .8rem 1rem; border-radius: 6px;
+  overflow-x: auto; white-space: pre-wrap; overflow-wrap: anywhere;
+}
+code, pre, .name {
+  font-family: ui-monospace, SFMono-Regular, Menlo, Consolas, "DejaVu Sans Mono", monospace; font-size: .88em;
+}
 figure { margin: 1.6rem 0 2.2rem; }
 .drawing { background: #ffffff; border: 1px solid var(--rule); border-radius: 6px; padding: .5rem; overflow-x: auto; }
 .drawing img { display: block; width: 100%; min-width: 40rem; height: auto; }
@@ -62,7 +74,13 @@ td.text { min-width: 14rem; }
 .none { color: var(--soft); }
 summary { cursor: pointer; margin: .8rem 0; }
 footer { margin-top: 3rem; color: var(--soft); font-size: .88rem; }
-@media (max-width: 40rem) { .box dl { display: block; } .box dt { margin-top: .5rem; } body { padding: 1.2rem .9rem 3rem; } h1 { font-size: 1.55rem; } th, td { padding: .3rem .5rem; } }
+@media (max-width: 40rem) {
+  body { padding: 1.2rem .9rem 3rem; }
+  h1 { font-size: 1.55rem; }
+  .box dl { display: block; }
+  .box dt { margin-top: .5rem; }
+  th, td { padding: .3rem .5rem; }
+}
 @media print {
   :root { --paper: #fff; --ink: #000; --soft: #444; --rule: #bbb; --panel: #f4f4f4; --accent: #000; --warn: #fff; }
   body { max-width: none; padding: 0; font-size: 10pt; }

@@ -31,7 +31,9 @@ std::string tick_label(std::string label) {
   return "$" + label + "$";
 }
 
-std::string colour_name(std::size_t method) { return fmt::format("polhode{}", static_cast<char>('a' + method % style::colours.size())); }
+std::string colour_name(std::size_t method) {
+  return fmt::format("polhode{}", static_cast<char>('a' + method % style::colours.size()));
+}
 
 /// Values are written as their place on the axis (decades on logarithmic ones), which spares TeX the arithmetic.
 void write_axis(std::string& out, char name, const Axis& axis) {
@@ -54,12 +56,14 @@ void write_guides(std::string& out, const Panel& panel) {
   }
 }
 
-void write_points(std::string& out, const Panel& panel, const PlottedCurve& curve, Mark mark, const std::string& options) {
+void write_points(std::string& out, const Panel& panel, const PlottedCurve& curve, Mark mark,
+                  const std::string& options) {
   std::string points;
   int on_line = 0;
   for (const auto& point : curve.points) {
     if (point.mark != mark) continue;
-    points += fmt::format("{}({:.5g},{:.5g})", on_line++ % 6 == 0 ? "\n  " : " ", panel.x.place(point.x), panel.y.place(point.drawn));
+    points += fmt::format("{}({:.5g},{:.5g})", on_line++ % 6 == 0 ? "\n  " : " ", panel.x.place(point.x),
+                          panel.y.place(point.drawn));
   }
   if (!points.empty()) line(out, "\\addplot[{}, forget plot] coordinates {{{}\n}};", options, points);
 }
@@ -68,14 +72,18 @@ void write_curve(std::string& out, const Panel& panel, const PlottedCurve& curve
   const auto colour = colour_name(curve.method);
   const bool over_time = panel.x.scale == Scale::linear;
   const std::size_t repeat = over_time ? std::max<std::size_t>(1, curve.points.size() / 6) : 1;
+  const double size = style::mark_size(curve.method);
   line(out, "% {}", one_line(curve.label));
-  write_points(out, panel, curve, Mark::value,
-               fmt::format("{}, {}, line width={:.2f}pt, mark={}, mark size={:.2f}pt, mark options=solid, mark repeat={}", colour,
-                           style::dash(curve.variant).pgf, 0.45 * style::line_width(curve.method), style::pgf_mark(curve.method, curve.variant),
-                           2 * style::point_size(curve.method), repeat));
-  write_points(out, panel, curve, Mark::zero,
-               fmt::format("{}, only marks, mark=triangle, mark options={{rotate=180}}", colour));
-  write_points(out, panel, curve, Mark::edge, fmt::format("{}, only marks, mark=x, mark size=3pt, thick", colour));
+  write_points(
+      out, panel, curve, Mark::value,
+      fmt::format("{}, {}, line width={:.2f}pt, mark={}, mark size={:.2f}pt, mark options=solid, mark repeat={}",
+                  colour, style::dash(curve.variant).pgf, 0.45 * style::line_width(curve.method),
+                  style::pgf_mark(curve.method, curve.variant), 2 * style::point_size(curve.method), repeat));
+  write_points(
+      out, panel, curve, Mark::zero,
+      fmt::format("{}, only marks, mark=triangle, mark size={:.2f}pt, mark options={{rotate=180}}", colour, 2 * size));
+  write_points(out, panel, curve, Mark::edge,
+               fmt::format("{}, only marks, mark=x, mark size={:.2f}pt, thick", colour, 2 * size));
 }
 
 void write_legend(std::string& out, const Figure& figure) {
@@ -93,7 +101,9 @@ void write_legend(std::string& out, const Figure& figure) {
 }
 
 /// The legend stands below the first panel of the last row, the width of the figure.
-bool carries_legend(const Figure& figure, const Panel& panel) { return panel.row + 1 == figure.rows && panel.column == 0; }
+bool carries_legend(const Figure& figure, const Panel& panel) {
+  return panel.row + 1 == figure.rows && panel.column == 0;
+}
 
 std::size_t legend_columns(const Figure& figure) {
   std::size_t longest = figure.has_edge_marks ? 21 : 12;
@@ -112,7 +122,9 @@ void write_panel(std::string& out, const Figure& figure, const Panel& panel) {
   write_axis(out, 'x', panel.x);
   write_axis(out, 'y', panel.y);
   if (carries_legend(figure, panel)) {
-    line(out, "  legend style={{at={{(0,-0.28)}}, anchor=north west, draw=none, font=\\footnotesize, cells={{anchor=west}}, /tikz/every even column/.append style={{column sep=8pt}}}},\n  legend columns={},",
+    line(out,
+         "  legend style={{at={{(0,-0.28)}}, anchor=north west, draw=none, font=\\footnotesize, cells={{anchor=west}}, "
+         "/tikz/every even column/.append style={{column sep=8pt}}}},\n  legend columns={},",
          legend_columns(figure));
   }
   line(out, "]");
@@ -136,29 +148,36 @@ std::string pgfplots(const Figure& figure) {
   line(out, "% \\input this file inside a figure environment. The preamble needs:");
   line(out, "%   \\usepackage[utf8]{{inputenc}}\\usepackage[T1]{{fontenc}}\\usepackage{{pgfplots}}");
   line(out, "%   \\usepgfplotslibrary{{groupplots}}\\pgfplotsset{{compat=1.17}}");
-  line(out, "% Coordinates are places on the axes: decades on logarithmic ones; on an axis that is logarithmic on both sides of");
+  line(out,
+       "% Coordinates are places on the axes: decades on logarithmic ones; on an axis that is logarithmic on both "
+       "sides of");
   line(out, "% zero sgn(y) asinh(|y|/threshold)/ln 10. {}.dat has the numbers themselves.", figure.name);
   line(out, "\\begin{{tikzpicture}}");
   for (std::size_t c = 0; c < style::colours.size(); ++c) {
     line(out, "\\definecolor{{{}}}{{HTML}}{{{}}}", colour_name(c), style::colours[c]);
   }
   const auto columns = static_cast<double>(figure.columns);
-  const bool close = std::none_of(figure.panels.begin(), figure.panels.end(), [](const auto& p) { return p.column > 0 && p.y.labelled; });
+  const bool close = std::none_of(figure.panels.begin(), figure.panels.end(),
+                                  [](const auto& p) { return p.column > 0 && p.y.labelled; });
   const double gap = close ? 0.4 : 1.9;
   std::size_t title_lines = 0;
   for (const auto& panel : figure.panels) title_lines = std::max(title_lines, panel.title.size());
   line(out, "\\begin{{groupplot}}[");
-  line(out, "  group style={{group size={} by {}, horizontal sep={}cm, vertical sep={}cm}},", figure.columns, figure.rows, gap,
-       1.7 + 0.4 * static_cast<double>(title_lines));
+  line(out, "  group style={{group size={} by {}, horizontal sep={}cm, vertical sep={}cm}},", figure.columns,
+       figure.rows, gap, 1.7 + 0.4 * static_cast<double>(title_lines));
   line(out, "  scale only axis, width={:.2f}cm, height={}cm,", (text_width_cm - 1.9 - (columns - 1) * gap) / columns,
        panel_height_cm[std::min<std::size_t>(figure.columns, 3) - 1] - 1.5);
   line(out, "  axis lines=left, grid=major, grid style={{gray!25}}, clip marker paths=false, clip mode=individual,");
-  line(out, "  title style={{align=center, font=\\footnotesize}}, label style={{font=\\footnotesize}}, tick label style={{font=\\scriptsize}},");
+  line(out,
+       "  title style={{align=center, font=\\footnotesize}}, label style={{font=\\footnotesize}}, tick label "
+       "style={{font=\\scriptsize}},");
   line(out, "]");
   for (std::size_t row = 0; row < figure.rows; ++row) {
     for (std::size_t column = 0; column < figure.columns; ++column) {
-      if (const auto* panel = panel_at(figure, row, column)) write_panel(out, figure, *panel);
-      else line(out, "\\nextgroupplot[group/empty plot]");
+      if (const auto* panel = panel_at(figure, row, column))
+        write_panel(out, figure, *panel);
+      else
+        line(out, "\\nextgroupplot[group/empty plot]");
     }
   }
   line(out, "\\end{{groupplot}}\n\\end{{tikzpicture}}");

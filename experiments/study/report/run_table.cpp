@@ -22,15 +22,19 @@ struct Field {
   bool in_summary = true;
 };
 
-std::string measured(const std::optional<double>& value) { return value && std::isfinite(*value) ? number(*value) : ""; }
+std::string measured(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? number(*value) : "";
+}
 std::string given(const std::optional<double>& value) { return value ? number(*value, 6) : ""; }
 
 using Kind = Column::Kind;
 
 std::vector<Field> configuration(const StudyView& study) {
   std::vector<Field> fields;
-  const auto option = [&](std::string header, std::string unit, Kind kind, std::function<std::string(const RunConfig&)> text) {
-    fields.push_back({{std::move(header), std::move(unit), kind}, [text](const RunRecord& r) { return text(r.config); }, true});
+  const auto option = [&](std::string header, std::string unit, Kind kind,
+                          std::function<std::string(const RunConfig&)> text) {
+    fields.push_back(
+        {{std::move(header), std::move(unit), kind}, [text](const RunRecord& r) { return text(r.config); }, true});
   };
   fields.push_back({{"method", "", Kind::name}, [](const RunRecord& r) { return r.config.integrator; }});
   option("scenario", "", Kind::name, [](const RunConfig& c) { return c.scenario; });
@@ -38,15 +42,20 @@ std::vector<Field> configuration(const StudyView& study) {
     const auto key = study.varied_keys[i];
     fields.push_back({{key, "", Kind::text}, [key](const RunRecord& r) {
                         const auto& all = r.config.varied;
-                        const auto at = std::find_if(all.begin(), all.end(), [&](const auto& o) { return o.key == key; });
+                        const auto at =
+                            std::find_if(all.begin(), all.end(), [&](const auto& o) { return o.key == key; });
                         return at == all.end() ? std::string() : at->value;
                       }});
   }
-  option("orientation", "", Kind::text, [](const RunConfig& c) { return std::string(name(c.formulation.orientation)); });
-  option("angular state", "", Kind::text, [](const RunConfig& c) { return std::string(name(c.formulation.angular_state)); });
-  option("gyroscopic", "", Kind::text, [](const RunConfig& c) { return std::string(c.formulation.gyroscopic ? "on" : "off"); });
+  option("orientation", "", Kind::text,
+         [](const RunConfig& c) { return std::string(name(c.formulation.orientation)); });
+  option("angular state", "", Kind::text,
+         [](const RunConfig& c) { return std::string(name(c.formulation.angular_state)); });
+  option("gyroscopic", "", Kind::text,
+         [](const RunConfig& c) { return std::string(c.formulation.gyroscopic ? "on" : "off"); });
   option("normalize", "", Kind::text, [](const RunConfig& c) { return std::string(c.normalise ? "step" : "never"); });
-  option("rotation from", "", Kind::text, [](const RunConfig& c) { return std::string(name(c.formulation.rotation_from)); });
+  option("rotation from", "", Kind::text,
+         [](const RunConfig& c) { return std::string(name(c.formulation.rotation_from)); });
   option("precision", "", Kind::text, [](const RunConfig& c) { return std::string(name(c.precision)); });
   option("t_end", "s", Kind::number, [](const RunConfig& c) { return number(c.t_end, 6); });
   option("samples", "", Kind::number, [](const RunConfig& c) { return c.samples ? std::to_string(*c.samples) : ""; });
@@ -64,10 +73,13 @@ std::vector<Field> results(const StudyView& study) {
                       in_summary});
   };
   const auto add_count = [&](std::string header, auto member) {
-    const auto text = [member](const RunRecord& r) { return r.result.*member > 0 ? std::to_string(r.result.*member) : ""; };
+    const auto text = [member](const RunRecord& r) {
+      return r.result.*member > 0 ? std::to_string(r.result.*member) : "";
+    };
     fields.push_back({{std::move(header)}, text, false, false});
   };
-  const bool all_ok = std::all_of(study.runs.begin(), study.runs.end(), [](const auto& r) { return r.result.status == "ok"; });
+  const bool all_ok =
+      std::all_of(study.runs.begin(), study.runs.end(), [](const auto& r) { return r.result.status == "ok"; });
   fields.push_back({{"status", "", Kind::text}, [](const RunRecord& r) { return r.result.status; }, false, !all_ok});
   add("largest energy drift", "relative", &RunResult::energy_drift_max_rel);
   add("final energy drift", "relative", &RunResult::energy_drift_final_rel, false);
@@ -91,7 +103,8 @@ std::vector<Field> results(const StudyView& study) {
 }
 
 bool varies(const Field& field, const std::vector<RunRecord>& runs) {
-  return std::any_of(runs.begin(), runs.end(), [&](const auto& run) { return field.text(run) != field.text(runs.front()); });
+  return std::any_of(runs.begin(), runs.end(),
+                     [&](const auto& run) { return field.text(run) != field.text(runs.front()); });
 }
 
 }  // namespace

@@ -13,15 +13,13 @@ namespace polhode::study::report {
 
 namespace {
 
-// What one figure can hold and still be read.
-constexpr std::size_t max_cases = 4;
 constexpr std::size_t max_methods_in_panel = 8;
 constexpr std::size_t max_variants = 4;
-constexpr std::size_t max_variants_in_panel = 2;
 
 /// So many indices of 0 … n−1, evenly spread, the ends among them.
 std::vector<std::size_t> evenly(std::size_t n, std::size_t wanted) {
   std::vector<std::size_t> chosen;
+  if (wanted == 1) return {0};
   for (std::size_t i = 0; i < wanted; ++i) chosen.push_back((i * (n - 1) + (wanted - 1) / 2) / (wanted - 1));
   return chosen;
 }
@@ -52,7 +50,8 @@ void split_by_method(const Grouping& grouping, const std::vector<const Curve*>& 
 
 }  // namespace
 
-Selection::Selection(const Grouping& grouping, const CurveTest& shown) : grouping_(grouping) {
+Selection::Selection(const Grouping& grouping, const CurveTest& shown, Limits limits)
+    : grouping_(grouping), limits_(limits) {
   std::set<std::size_t> cases, variants;
   for (const auto& curve : grouping.curves) {
     if (!shown(curve)) continue;
@@ -62,8 +61,9 @@ Selection::Selection(const Grouping& grouping, const CurveTest& shown) : groupin
   }
   cases_ = {cases.begin(), cases.end()};
   variants_ = {variants.begin(), variants.end()};
-  keep_evenly("cases", cases_, max_cases);
   keep_evenly("variants of the formulation", variants_, max_variants);
+  keep_evenly("cases", cases_,
+              std::max<std::size_t>(1, limits.rows / (variants_in_own_panels() ? variants_.size() : 1)));
 }
 
 void Selection::keep_evenly(std::string_view what, std::vector<std::size_t>& all, std::size_t limit) {
@@ -74,7 +74,7 @@ void Selection::keep_evenly(std::string_view what, std::vector<std::size_t>& all
   all = std::move(kept);
 }
 
-bool Selection::variants_in_own_panels() const { return variants_.size() > max_variants_in_panel; }
+bool Selection::variants_in_own_panels() const { return variants_.size() > limits_.variants_in_panel; }
 
 std::vector<std::string> Selection::dashed_variants() const {
   if (variants_in_own_panels()) return {""};
@@ -85,7 +85,8 @@ std::vector<std::string> Selection::dashed_variants() const {
 
 std::size_t Selection::dash_of(const Curve& curve) const {
   if (variants_in_own_panels()) return 0;
-  return static_cast<std::size_t>(std::find(variants_.begin(), variants_.end(), curve.variant_index) - variants_.begin());
+  return static_cast<std::size_t>(std::find(variants_.begin(), variants_.end(), curve.variant_index) -
+                                  variants_.begin());
 }
 
 std::vector<Block> Selection::blocks(const CurveTest& belongs) const {
@@ -94,7 +95,8 @@ std::vector<Block> Selection::blocks(const CurveTest& belongs) const {
     for (const auto& variants : variant_groups()) {
       std::vector<const Curve*> together;
       for (const auto* curve : curves_) {
-        if (curve->case_index == c && contains(variants, curve->variant_index) && belongs(*curve)) together.push_back(curve);
+        if (curve->case_index == c && contains(variants, curve->variant_index) && belongs(*curve))
+          together.push_back(curve);
       }
       split_by_method(grouping_, together, title(c, variants.front()), found);
     }

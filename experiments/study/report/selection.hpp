@@ -18,10 +18,16 @@ struct Block {
 
 using CurveTest = std::function<bool(const Curve&)>;
 
+/// How much one figure can hold and still be read.
+struct Limits {
+  std::size_t rows = 4;               ///< of cases and, where they have panels of their own, variants
+  std::size_t variants_in_panel = 2;  ///< told apart by dashes; of more, each has its own panels
+};
+
 class Selection {
  public:
   /// Of the curves that `shown` accepts. Keeps references to the grouping.
-  Selection(const Grouping& grouping, const CurveTest& shown);
+  Selection(const Grouping& grouping, const CurveTest& shown, Limits limits);
 
   bool empty() const { return curves_.empty(); }
 
@@ -44,6 +50,7 @@ class Selection {
   std::vector<std::string> title(std::size_t case_index, std::size_t first_variant) const;
 
   const Grouping& grouping_;
+  Limits limits_;
   std::vector<const Curve*> curves_;
   std::vector<std::size_t> cases_, variants_;
   std::string omissions_;

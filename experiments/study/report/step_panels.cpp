@@ -16,7 +16,8 @@ namespace {
 
 Point point_of(const RunRecord& run, double step, const Quantity& quantity) {
   const double measured = quantity.of(run.result).value_or(std::numeric_limits<double>::quiet_NaN());
-  const bool off_scale = ended_early(run) || !std::isfinite(measured) || (quantity.bounded && measured > off_scale_above);
+  const bool off_scale =
+      ended_early(run) || !std::isfinite(measured) || (quantity.bounded && measured > off_scale_above);
   return {step, measured, 0, off_scale ? Mark::edge : measured == 0 ? Mark::zero : Mark::value};
 }
 
@@ -143,16 +144,17 @@ std::pair<double, double> emptiest_corner(const Panel& panel, double width, doub
 std::vector<Guide> slope_guides(const Panel& panel, const std::vector<std::pair<double, std::string>>& slopes) {
   const auto area = drawing_area(panel);
   const auto run = [&](double slope) { return std::min(0.3 * area.width, 0.36 * area.height / slope); };
-  double height = 0;
+  constexpr double label_line = 0.06;
+  double height = label_line * area.height * static_cast<double>(slopes.size());
   for (const auto& [slope, label] : slopes) height = std::max(height, slope * run(slope));
   const auto [x, y] = emptiest_corner(panel, 0.38 * area.width, height);
   std::vector<Guide> guides;
   double label_y = y - area.height;
   for (const auto& [slope, label] : slopes) {
     const double end = y + slope * run(slope);
-    label_y = std::max(end, label_y + 0.06 * area.height);
-    guides.push_back({panel.x.value_at(x), panel.y.value_at(y), panel.x.value_at(x + run(slope)), panel.y.value_at(end), label,
-                      panel.y.value_at(label_y)});
+    label_y = std::max(end, label_y + label_line * area.height);
+    guides.push_back({panel.x.value_at(x), panel.y.value_at(y), panel.x.value_at(x + run(slope)), panel.y.value_at(end),
+                      label, panel.y.value_at(label_y)});
   }
   return guides;
 }

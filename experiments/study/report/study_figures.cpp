@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -43,7 +44,8 @@ void add_time_rows(Figure& figure, std::vector<std::vector<Panel>> rows) {
   for (auto& row : rows) singles.push_back(std::move(row.front()));
   const std::size_t first = figure.panels.size();
   add_rows(figure, std::move(singles), 2);
-  for (std::size_t i = first; i < figure.panels.size(); ++i) figure.panels[i].y.labelled = true;  // each has its own axis
+  for (std::size_t i = first; i < figure.panels.size(); ++i)
+    figure.panels[i].y.labelled = true;  // each has its own axis
 }
 
 void note_marks(Figure& figure) {
@@ -76,7 +78,8 @@ std::string time_caption(const Figure& figure) {
       "sides of zero and linear about it.";
   if (figure.columns == 2) text += " The larger step (looser tolerance) stands on the left.";
   if (figure.columns == 3) {
-    text += " Left to right: the largest, the middle and the smallest step (tolerance); others of the study are left out.";
+    text +=
+        " Left to right: the largest, the middle and the smallest step (tolerance); others of the study are left out.";
   }
   return text;
 }
@@ -122,9 +125,10 @@ class Figures {
 
   /// Each quantity begins a row of its own.
   void against_step(Figure figure, const std::vector<Quantity>& quantities, bool guides) {
-    const Selection selection(grouping_, [&](const Curve& curve) {
+    const auto shown = [&](const Curve& curve) {
       return std::any_of(quantities.begin(), quantities.end(), [&](const auto& q) { return has_mark(curve, q); });
-    });
+    };
+    const Selection selection(grouping_, shown, {.rows = 4, .variants_in_panel = 2});
     bool adaptive = false;
     for (const auto& quantity : quantities) {
       auto panels = panels_against_step(selection, quantity, guides);
@@ -137,7 +141,7 @@ class Figures {
   }
 
   void against_time(Figure figure, const std::vector<SeriesQuantity>& quantities) {
-    const Selection selection(grouping_, has_series);
+    const Selection selection(grouping_, has_series, {.rows = 6, .variants_in_panel = 1});
     if (selection.empty()) return absent(figure, "no run left a time series");
     for (const auto& quantity : quantities) add_time_rows(figure, panels_against_time(selection, quantity));
     figure.caption += time_caption(figure);
@@ -145,10 +149,11 @@ class Figures {
   }
 
   void drift_against_time() {
-    against_time({.name = "drift_against_time",
-                  .title = "Energy drift against time",
-                  .caption = "Energy drift, relative and with its sign, against time."},
-                 {{"energy_drift_rel", "energy drift (relative)", [](const SeriesPoint& p) { return p.energy_drift_rel; }}});
+    against_time(
+        {.name = "drift_against_time",
+         .title = "Energy drift against time",
+         .caption = "Energy drift, relative and with its sign, against time."},
+        {{"energy_drift_rel", "energy drift (relative)", [](const SeriesPoint& p) { return p.energy_drift_rel; }}});
   }
 
   void drift_against_step() {
@@ -160,17 +165,48 @@ class Figures {
     against_step(std::move(figure), {quantity::energy_drift()}, true);
   }
 
+  /// Leaves out, with a word in the caption, what is at round-off in all runs, unless that is true of everything.
+  std::vector<Quantity> without_quiet_ones(Figure& figure, const std::vector<Quantity>& quantities) const {
+    std::vector<Quantity> kept;
+    std::string note;
+    for (const auto& quantity : quantities) {
+      if (const auto most = largest_if_round_off(quantity)) {
+        note += fmt::format(" The {} is at round-off in all runs ({} at most) and not drawn.", quantity.words,
+                            number(*most));
+      } else {
+        kept.push_back(quantity);
+      }
+    }
+    if (kept.empty()) return quantities;
+    figure.caption += note;
+    return kept;
+  }
+
+  std::optional<double> largest_if_round_off(const Quantity& quantity) const {
+    double most = 0;
+    for (const auto& curve : grouping_.curves) {
+      for (const auto* run : curve.runs) {
+        const auto found = value(*run, quantity).value_or(0);
+        if (found > round_off_level(*run, quantity)) return std::nullopt;
+        most = std::max(most, found);
+      }
+    }
+    return most;
+  }
+
   void momentum() {
     Figure figure{.name = "momentum", .title = "Drift of the momenta"};
     const auto angular = quantity::angular_momentum_drift(), linear = quantity::linear_momentum_drift();
     const auto quantities = defined({angular, linear});
     if (quantities.empty()) return absent(figure, "the forces conserve neither the linear nor the angular momentum");
-    figure.caption = fmt::format("The largest drift of a momentum, relative, against {}.", several_steps_ ? "the step" : "time");
+    figure.caption =
+        fmt::format("The largest drift of a momentum, relative, against {}.", several_steps_ ? "the step" : "time");
     for (const auto& quantity : {angular, linear}) {
       if (defined(quantity)) continue;
-      figure.caption += fmt::format(" No {} is drawn: the forces, or the pivot, do not conserve that momentum.", quantity.words);
+      figure.caption +=
+          fmt::format(" No {} is drawn: the forces, or the pivot, do not conserve that momentum.", quantity.words);
     }
-    if (several_steps_) return against_step(std::move(figure), quantities, false);
+    if (several_steps_) return against_step(std::move(figure), without_quiet_ones(figure, quantities), false);
     std::vector<SeriesQuantity> series;
     if (defined(angular)) {
       series.push_back({"angular_momentum_drift_rel", angular.axis,
@@ -187,8 +223,9 @@ class Figures {
     const auto defect = quantity::orientation_defect();
     Figure figure{.name = "orientation_defect",
                   .title = "Orientation defect",
-                  .caption = "How far the stored orientation is from a rotation: ||q| − 1| of a quaternion, the "
-                             "Frobenius norm of RᵀR − 1 of a matrix."};
+                  .caption =
+                      "How far the stored orientation is from a rotation: ||q| − 1| of a quaternion, the "
+                      "Frobenius norm of RᵀR − 1 of a matrix."};
     if (!defined(defect)) return absent(figure, "no run has an orientation defect");
     if (several_steps_) return against_step(std::move(figure), {defect}, false);
     against_time(std::move(figure),
@@ -199,9 +236,10 @@ class Figures {
     if (study_.invariants.empty()) return;
     std::vector<Quantity> quantities;
     for (const auto& name : study_.invariants) quantities.push_back(quantity::invariant_drift(name));
-    Figure figure{.name = "invariants",
-                  .title = "Further invariants",
-                  .caption = fmt::format("The largest relative drift of {} against the step.", words(study_.invariants))};
+    Figure figure{
+        .name = "invariants",
+        .title = "Further invariants",
+        .caption = fmt::format("The largest relative drift of {} against the step.", words(study_.invariants))};
     if (defined(quantities).empty()) return absent(figure, "no run has a value for them");
     if (!several_steps_) return absent(figure, "the study has one step size only; the table of runs has the values");
     against_step(std::move(figure), defined(quantities), false);

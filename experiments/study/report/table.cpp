@@ -32,9 +32,12 @@ std::string html_cell(const Column& column, const std::string& cell, bool heads_
 std::string latex_cell(const Column& column, const std::string& cell) {
   if (cell.empty()) return "--";
   switch (column.kind) {
-    case Column::Kind::number: return tex_number(cell);
-    case Column::Kind::name: return fmt::format("\\texttt{{{}}}", tex(cell));
-    default: return tex(cell);
+    case Column::Kind::number:
+      return tex_number(cell);
+    case Column::Kind::name:
+      return fmt::format("\\texttt{{{}}}", tex(cell));
+    default:
+      return tex(cell);
   }
 }
 
@@ -49,10 +52,13 @@ std::string latex_header(const Column& column) {
   }
   for (auto& line : lines) line = tex(line);
   if (lines.size() == 1) return lines.front();
-  return fmt::format("\\shortstack[{}]{{{}}}", column.kind == Column::Kind::number ? "r" : "l", fmt::join(lines, "\\\\"));
+  return fmt::format("\\shortstack[{}]{{{}}}", column.kind == Column::Kind::number ? "r" : "l",
+                     fmt::join(lines, "\\\\"));
 }
 
-std::string latex_row(const std::vector<std::string>& cells) { return fmt::format("{} \\\\\n", fmt::join(cells, " & ")); }
+std::string latex_row(const std::vector<std::string>& cells) {
+  return fmt::format("{} \\\\\n", fmt::join(cells, " & "));
+}
 
 }  // namespace
 
@@ -66,10 +72,12 @@ Table without_empty_columns(Table table) {
   return table;
 }
 
-std::string html(const Table& table) {
+std::string html(const Table& table, Caption caption) {
   // A table wider than the screen scrolls in its own region, which the keyboard can reach.
-  std::string out = fmt::format("<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">\n<table>\n", html(table.caption));
-  if (!table.caption.empty()) out += fmt::format("<caption><span class=\"caption\">{}</span></caption>\n", html(table.caption));
+  std::string out = fmt::format("<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">\n<table>\n",
+                                html(table.caption));
+  if (!table.caption.empty() && caption == Caption::shown)
+    out += fmt::format("<caption><span class=\"caption\">{}</span></caption>\n", html(table.caption));
   out += "<thead><tr>";
   for (const auto& column : table.columns) {
     out += fmt::format("<th scope=\"col\"{}>{}</th>", column.kind == Column::Kind::number ? " class=\"number\"" : "",
@@ -113,11 +121,12 @@ std::string latex(const Table& table) {
   }
   const auto head = latex_row(headers);
   if (table.rows.size() <= most_rows_of_a_tabular) {
-    return fmt::format("\\begin{{tabular}}{{{}}}\n\\toprule\n{}\\midrule\n{}\\bottomrule\n\\end{{tabular}}\n", alignment, head, body);
+    return fmt::format("\\begin{{tabular}}{{{}}}\n\\toprule\n{}\\midrule\n{}\\bottomrule\n\\end{{tabular}}\n",
+                       alignment, head, body);
   }
   return fmt::format(
-      "\\begin{{longtable}}{{{}}}\n\\toprule\n{}\\midrule\n\\endhead\n\\bottomrule\n\\endfoot\n{}\\end{{longtable}}\n", alignment,
-      head, body);
+      "\\begin{{longtable}}{{{}}}\n\\toprule\n{}\\midrule\n\\endhead\n\\bottomrule\n\\endfoot\n{}\\end{{longtable}}\n",
+      alignment, head, body);
 }
 
 }  // namespace polhode::study::report

@@ -24,7 +24,11 @@ struct Table {
 /// The table without the columns in which every cell is empty.
 Table without_empty_columns(Table table);
 
-std::string html(const Table& table);
+enum class Caption {
+  shown,
+  spoken  ///< for screen readers only, where the page shows it already
+};
+std::string html(const Table& table, Caption caption = Caption::shown);
 std::string markdown(const Table& table);
 /// A tabular in booktabs style; a longtable above 40 rows.
 std::string latex(const Table& table);

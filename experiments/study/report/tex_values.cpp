@@ -18,17 +18,22 @@ namespace polhode::study::report {
 
 namespace {
 
-constexpr std::array<std::string_view, 10> digits = {"Zero", "One", "Two", "Three", "Four", "Five", "Six", "Seven", "Eight", "Nine"};
+constexpr std::array<std::string_view, 10> digits = {"Zero", "One", "Two",   "Three", "Four",
+                                                     "Five", "Six", "Seven", "Eight", "Nine"};
 
 /// Letters with each word capitalised, digits and signs spelt; anything else parts words.
 std::string spelt(std::string_view text) {
   std::string out;
   bool begins_word = true;
   for (const char c : text) {
-    if (c >= '0' && c <= '9') out += digits[static_cast<std::size_t>(c - '0')];
-    else if (c == '.') out += "Point";
-    else if (c == '-') out += "Minus";
-    else if (c == ',') out += "And";
+    if (c >= '0' && c <= '9')
+      out += digits[static_cast<std::size_t>(c - '0')];
+    else if (c == '.')
+      out += "Point";
+    else if (c == '-')
+      out += "Minus";
+    else if (c == ',')
+      out += "And";
     else if (std::isalpha(static_cast<unsigned char>(c)) != 0) {
       out += begins_word ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
       begins_word = false;
@@ -62,7 +67,8 @@ std::string spelt_value(const std::string& text) {
 }
 
 double usual_t_end(const StudyView& study, const std::string& scenario) {
-  const auto at = std::find_if(study.scenarios.begin(), study.scenarios.end(), [&](const auto& s) { return s.name == scenario; });
+  const auto at =
+      std::find_if(study.scenarios.begin(), study.scenarios.end(), [&](const auto& s) { return s.name == scenario; });
   return at == study.scenarios.end() ? std::nan("") : at->t_end;
 }
 
@@ -70,7 +76,8 @@ std::string options_of(const RunConfig& c, double t_end) {
   std::string out;
   const Formulation usual;
   if (c.formulation.orientation != usual.orientation) out += spelt_name(std::string(name(c.formulation.orientation)));
-  if (c.formulation.angular_state != usual.angular_state) out += spelt_name(std::string(name(c.formulation.angular_state)));
+  if (c.formulation.angular_state != usual.angular_state)
+    out += spelt_name(std::string(name(c.formulation.angular_state)));
   if (!c.formulation.gyroscopic) out += "GyroscopicOff";
   if (c.normalise) out += "NormalizeStep";
   if (c.formulation.rotation_from != usual.rotation_from) out += "RotationStored";
@@ -114,7 +121,8 @@ void define_run(std::string& out, const std::string& run, const RunResult& r) {
   define(out, run + "EnergyDriftRate", r.energy_drift_rate);
   define(out, run + "LinearMomentumDriftMax", r.linear_momentum_drift_max_rel);
   define(out, run + "AngularMomentumDriftMax", r.angular_momentum_drift_max_rel);
-  for (const auto& [invariant, drift] : r.invariant_drift_max_rel) define(out, run + spelt_name(invariant) + "DriftMax", drift);
+  for (const auto& [invariant, drift] : r.invariant_drift_max_rel)
+    define(out, run + spelt_name(invariant) + "DriftMax", drift);
   define(out, run + "OrientationDefectMax", r.orientation_defect_max);
   define(out, run + "PositionErrorMax", r.position_error_max);
   define(out, run + "AttitudeErrorMax", r.attitude_error_max);
@@ -162,15 +170,19 @@ std::string tex_values(const StudyView& study) {
   std::string out =
       "% The numbers of this study, for use in a text: \\input{values.tex}, then for example\n"
       "% the drift was \\polhodeTumblingBoxRkFourDtOneEMinusThreeEnergyDriftMax.\n"
-      "% A name is \\polhode, scenario, method, varied keys with their values, options that are not the default, step or\n"
+      "% A name is \\polhode, scenario, method, varied keys with their values, options that are not the default, step "
+      "or\n"
       "% tolerance, quantity. Digits and signs are spelt, and numbers are written with an exponent: 0.001 = 1e-3 is\n"
-      "% OneEMinusThree; four digits at most. Where two runs would share a name, the run's id follows, its digits 0 to f as a to p.\n"
-      "% Units: EnergyDriftRate W, EnergyInitial J, PositionErrorMax m, AttitudeErrorMax rad; drifts and AngularVelocityErrorMax\n"
+      "% OneEMinusThree; four digits at most. Where two runs would share a name, the run's id follows, its digits 0 to "
+      "f as a to p.\n"
+      "% Units: EnergyDriftRate W, EnergyInitial J, PositionErrorMax m, AttitudeErrorMax rad; drifts and "
+      "AngularVelocityErrorMax\n"
       "% are relative. What is not defined for a run has no command.\n";
   const auto names = tex_names(study);
   define_count(out, "polhodeRuns", static_cast<std::int64_t>(study.runs.size()));
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
-    out += fmt::format("\n% {}{}\n", one_line(study.runs[i].id), completed(study.runs[i]) ? "" : ", " + one_line(study.runs[i].result.status));
+    out += fmt::format("\n% {}{}\n", one_line(study.runs[i].id),
+                       completed(study.runs[i]) ? "" : ", " + one_line(study.runs[i].result.status));
     define_run(out, names[i], study.runs[i].result);
   }
   define_slopes(out, study);

@@ -9,11 +9,11 @@
 
 namespace polhode::study::report {
 
-/// What the commands of a run begin with, without the backslash and in letters only: "polhodeTumblingBoxRkFourDtOneEMinusThree".
-/// In this order: scenario, method, varied keys with their values, options that are not the default, step or tolerance.
-/// Digits are spelt ("RkFour"), a number is written with an exponent and spelt (0.001 = 1e-3: "OneEMinusThree"),
-/// rounded to four digits.
-/// Runs that would share a name get the digits of their id behind it, 0 … f as a … p.
+/// What the commands of a run begin with, without the backslash and in letters only:
+/// "polhodeTumblingBoxRkFourDtOneEMinusThree". In this order: scenario, method, varied keys with their values, options
+/// that are not the default, step or tolerance. Digits are spelt ("RkFour"), a number is written with an exponent and
+/// spelt (0.001 = 1e-3: "OneEMinusThree"), rounded to four digits. Runs that would share a name get the digits of their
+/// id behind it, 0 … f as a … p.
 std::vector<std::string> tex_names(const StudyView& study);
 
 /// The file of \newcommand lines, with the scheme explained at its head.

@@ -45,7 +45,8 @@ std::vector<double> steps_of(const Block& block, bool adaptive) {
 }
 
 const RunRecord* run_with(const Curve& curve, double step) {
-  const auto found = std::find_if(curve.runs.begin(), curve.runs.end(), [&](const auto* r) { return abscissa(*r) == step; });
+  const auto found =
+      std::find_if(curve.runs.begin(), curve.runs.end(), [&](const auto* r) { return abscissa(*r) == step; });
   return found == curve.runs.end() ? nullptr : *found;
 }
 

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The box of report.html that says what its numbers mean and how its figures are to be read.
+#pragma once
+
+#include <string_view>
+
+namespace polhode::study::report {
+
+inline constexpr std::string_view how_to_read = R"html(<aside class="box" aria-labelledby="reading">
+<h2 id="reading">How to read this</h2>
+<dl>
+<dt>Energy drift</dt>
+<dd>Energy is a ledger: kinetic + potential − work of non-conservative forces − energy injected by projection.
+Its drift is what the ledger cannot explain, relative to the energy at the start (to the larger of kinetic and
+potential energy where they cancel). A positive drift is energy that the method made.</dd>
+<dt>Momentum drift</dt>
+<dd>The size of the change of the momentum vector, relative to its size at the start; only where the forces
+conserve it.</dd>
+<dt>Orientation defect</dt>
+<dd>How far the stored numbers are from a rotation: ||q| − 1| of a quaternion, the Frobenius norm of RᵀR − 1
+of a matrix.</dd>
+<dt>Attitude error</dt>
+<dd>The angle between the exact and the computed attitude, where an exact solution is known.</dd>
+<dt>Against time</dt>
+<dd>Long runs are thinned: each point stands for a stretch of the run and holds the largest value in it. The
+vertical axis is logarithmic on both sides of zero and linear about it, so that signs and many orders of
+magnitude are seen at once.</dd>
+<dt>Slope</dt>
+<dd>p in drift ∝ step<sup>p</sup>: a straight line fitted by least squares to the logarithms of completed runs
+whose value is above round-off and below 1, without the smallest steps where a value no longer falls. The
+declared order is that of the motion’s error; an invariant may drift by a higher power.</dd>
+<dt>Round-off</dt>
+<dd>A value below 16 ε √steps, what rounding errors alone may add up to (ε = 2.2e-16 in double
+precision).</dd>
+<dt>– in a table</dt>
+<dd>Not defined for that run: no exact solution is known, the forces do not conserve that momentum, or the run
+ended too early.</dd>
+</dl>
+</aside>
+)html";
+
+}  // namespace polhode::study::report
