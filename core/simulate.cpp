@@ -17,6 +17,9 @@ constexpr double whole_tolerance = 1e-9;
 // How many steps may pass between two looks at the request to stop, and how many are measured in one call.
 constexpr std::int64_t steps_between_looks = 4096;
 constexpr std::int64_t longest_stretch = 64;
+// An adaptive method whose steps stay below this share of the run for so many steps will not get there.
+constexpr double least_progress = 1e-14;
+constexpr int patience = 1000;
 
 std::string number(double x) {
   char text[32];
@@ -76,7 +79,9 @@ class Loop {
       else fixed();
     }
     outcome_.t = state_.t;
-    outcome_.evaluations = integrator_.evaluations();
+    // A stretch may have gone on beyond the step at which the run was called off.
+    const std::int64_t taken = outcome_.steps + surplus_steps_;
+    outcome_.evaluations = surplus_steps_ > 0 ? integrator_.evaluations() / taken * outcome_.steps : integrator_.evaluations();
     return outcome_;
   }
 
@@ -94,7 +99,8 @@ class Loop {
     if (taken == samples.size()) return true;
     state_.t = samples[taken].t;
     diverged(taken < finite ? "the energy grew beyond all bounds" : "the state ceased to be finite");
-    outcome_.steps -= static_cast<std::int64_t>(samples.size() - taken) - 1;
+    surplus_steps_ = static_cast<std::int64_t>(samples.size() - taken) - 1;
+    outcome_.steps -= surplus_steps_;
     return false;
   }
 
@@ -112,6 +118,7 @@ class Loop {
 
   /// One step by the method, then projection and the check for NaN; false ends the run.
   bool take_step(double h, std::optional<double> t_after) {
+    const double before_step = state_.t;
     const StepResult result = integrator_.step(state_, h);
     if (!result.ok()) {
       outcome_.status = RunStatus::failed;
@@ -120,6 +127,13 @@ class Loop {
     }
     if (t_after) state_.t = *t_after;  // t_k = k h, never accumulated
     ++outcome_.steps;
+    const bool progress = t_after || state_.t - before_step > least_progress * schedule_.t_end || state_.t >= schedule_.t_end;
+    steps_without_progress_ = progress ? 0 : steps_without_progress_ + 1;
+    if (steps_without_progress_ > patience) {
+      outcome_.status = RunStatus::failed;
+      outcome_.message = "the step size fell to nothing at t = " + number(state_.t) + " s";
+      return false;
+    }
     if (!is_finite(state_.y)) {
       diverged("the state ceased to be finite");
       return false;
@@ -143,6 +157,11 @@ class Loop {
     return true;
   }
 
+  double sample_time(std::int64_t k) const {
+    return k == *schedule_.samples ? schedule_.t_end
+                                   : static_cast<double>(k) * schedule_.t_end / static_cast<double>(*schedule_.samples);
+  }
+
   void fixed() {
     const StepPlan plan = plan_steps(schedule_.t_end, schedule_.dt);
     const std::int64_t steps = plan.whole + (plan.last > 0 ? 1 : 0);
@@ -160,8 +179,12 @@ class Loop {
     while (k < steps) {
       ++k;
       const double h = k <= plan.whole ? schedule_.dt : plan.last;
-      if (!take_step(h, k == steps ? schedule_.t_end : static_cast<double>(k) * schedule_.dt)) return;
-      if (k % stride == 0 && !observe_now()) return;
+      const bool sampled = k % stride == 0;
+      double t_after = static_cast<double>(k) * schedule_.dt;
+      if (sampled && schedule_.samples) t_after = sample_time(k / stride);
+      if (k == steps) t_after = schedule_.t_end;
+      if (!take_step(h, t_after)) return;
+      if (sampled && !observe_now()) return;
     }
   }
 
@@ -189,10 +212,6 @@ class Loop {
   }
 
   void adaptive() {
-    const auto sample_time = [&](std::int64_t k) {
-      return k == *schedule_.samples ? schedule_.t_end
-                                     : static_cast<double>(k) * schedule_.t_end / static_cast<double>(*schedule_.samples);
-    };
     State<S> between = state_;
     std::int64_t next = 1;
     // A method that is projected, or has no dense output, must end its steps on the samples themselves.
@@ -228,6 +247,8 @@ class Loop {
   const bool account_;  ///< projections can change the energy, so it is measured around them
   View<S> view_;
   double projection_energy_ = 0;
+  std::int64_t surplus_steps_ = 0;
+  int steps_without_progress_ = 0;
   std::array<Sample, longest_stretch> samples_;
   RunOutcome outcome_;
 };

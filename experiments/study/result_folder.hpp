@@ -18,6 +18,7 @@ class ResultFolder {
   ResultFolder& operator=(const ResultFolder&) = delete;
 
  private:
+  [[noreturn]] void fail(const std::string& why);
   int lock_ = -1;
 };
 

@@ -65,7 +65,9 @@ std::string refusal(const RunConfig& config, const Scenario&) {
                    : config.precision == Precision::extended ? static_cast<bool>(entry->make_long_double)
                                                              : static_cast<bool>(entry->make);
   if (!has) return config.integrator + " works in double only, not in " + std::string(name(config.precision));
-  return sampling_problem(schedule_of(config));
+  const Schedule schedule = schedule_of(config);
+  if (!schedule.adaptive) plan_steps(schedule.t_end, schedule.dt);  // throws on a step that is too small
+  return sampling_problem(schedule);
 }
 
 RunResult carry_out(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory,

@@ -11,7 +11,7 @@
 
 namespace polhode::study {
 
-/// Why this run makes no sense, in one line; empty if it does.
+/// Why this run makes no sense, in one line; empty if it does. Throws std::invalid_argument on an impossible step.
 std::string refusal(const RunConfig& config, const Scenario& scenario);
 
 struct TrajectoryRequest {

@@ -191,15 +191,6 @@ void Store::keep(std::span<const RunRecord> records) {
   }
 }
 
-void Store::forget_all_but(const std::set<std::string>& ids) {
-  for (const auto& [id, result] : load()) {
-    if (ids.contains(id)) continue;
-    Statement remove(path_, db_.get(), "DELETE FROM runs WHERE id = ?");
-    remove.bind(id);
-    remove.step();
-  }
-}
-
 std::set<std::string> Store::ids_in(const std::filesystem::path& folder) {
   std::set<std::string> ids;
   const std::filesystem::path path = folder / file_name;
@@ -208,6 +199,9 @@ std::set<std::string> Store::ids_in(const std::filesystem::path& folder) {
   const int code = sqlite3_open_v2(path.c_str(), &db, SQLITE_OPEN_READWRITE, nullptr);
   const std::unique_ptr<sqlite3, Close> guard(db);
   if (code != SQLITE_OK) fail(path, db);
+  // A program killed at once leaves a store without its table.
+  Statement table(path, db, "SELECT name FROM sqlite_master WHERE name = 'runs'");
+  if (!table.step()) return ids;
   Statement rows(path, db, "SELECT id FROM runs");
   while (rows.step()) ids.insert(rows.text());
   return ids;

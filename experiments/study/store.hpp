@@ -26,7 +26,6 @@ class Store {
 
   std::map<std::string, RunResult> load() const;  ///< by run id
   void keep(std::span<const RunRecord> records);  ///< in one transaction
-  void forget_all_but(const std::set<std::string>& ids);
 
   /// The ids in a folder's store, empty if there is none; changes nothing.
   static std::set<std::string> ids_in(const std::filesystem::path& folder);

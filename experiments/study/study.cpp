@@ -155,7 +155,6 @@ int run_study(const Experiment& experiment, const Options& options) {
   const ResultFolder held(folder, ids, options.force);
   stop_on_signals();
   Store store(folder);
-  if (options.force) store.forget_all_but(ids);
   auto results = store.load();
   if (!carry_out_missing(experiment, options, plan, folder, store, results)) return interrupted;
   const StudyView view = view_of(experiment, options, plan, folder, results);
@@ -179,7 +178,9 @@ int run_experiment(const Experiment& experiment, int argc, const char* const* ar
     }
     return run_study(experiment, parsed.options);
   } catch (const InputError& error) {
-    fmt::print(stderr, "{}: {}\n", experiment.name, error.what());
+    std::string line = error.what();
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    fmt::print(stderr, "{}: {}\n", experiment.name, line);
     return bad_input;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}: {}; finished runs are kept, and the same command goes on from there\n", experiment.name,

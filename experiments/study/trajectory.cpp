@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 #include "experiments/study/trajectory_rows.hpp"
 
@@ -16,11 +17,14 @@ namespace {
 
 constexpr std::size_t rows_between_flushes = 1000;
 
+/// A file has its own name when it is whole, so that one cut off by a kill is not taken for it.
+std::filesystem::path unfinished(const std::filesystem::path& path) { return path.string() + ".unfinished"; }
+
 /// A table of doubles written row by row; whole numbers in column `integer` are written without a point.
 class CsvTable {
  public:
   CsvTable(std::filesystem::path path, const std::vector<std::string>& columns)
-      : path_(std::move(path)), file_(std::fopen(path_.c_str(), "w")) {
+      : path_(std::move(path)), file_(std::fopen(unfinished(path_).c_str(), "w")) {
     if (!file_) fail();
     write(fmt::format("{}\n", fmt::join(columns, ",")));
   }
@@ -44,6 +48,7 @@ class CsvTable {
   void close() {
     std::FILE* file = std::exchange(file_, nullptr);
     if (file && std::fclose(file) != 0) fail();
+    std::filesystem::rename(unfinished(path_), path_);
   }
 
  private:
@@ -172,15 +177,22 @@ class CsvTables {
 /// The HDF5 file handle, closed last.
 class Hdf5File {
  public:
-  explicit Hdf5File(const std::filesystem::path& path) {
+  explicit Hdf5File(const std::filesystem::path& path) : path_(path) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // our own message is one line
-    id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    id = H5Fcreate(unfinished(path).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     if (id < 0) throw std::runtime_error("cannot write " + path.string());
   }
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
   ~Hdf5File() { H5Fclose(id); }
+  void finish() const {
+    if (H5Fflush(id, H5F_SCOPE_GLOBAL) < 0) throw std::runtime_error("cannot write " + path_.string());
+    std::filesystem::rename(unfinished(path_), path_);
+  }
   hid_t id;
+
+ private:
+  std::filesystem::path path_;
 };
 
 class Hdf5Tables {
@@ -194,6 +206,7 @@ class Hdf5Tables {
   void close() {
     trajectory_.flush();
     energy_.flush();
+    file_.finish();
   }
 
  private:

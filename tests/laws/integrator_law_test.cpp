@@ -95,12 +95,12 @@ class IntegratorLaw : public testing::TestWithParam<std::string> {
       ASSERT_LT(steps, 1000000);
     }
   }
-  void go(Integrator<double>& integrator, State<double>& state, double t_end, std::int64_t fixed_steps = 64) const {
+  void go(Integrator<double>& integrator, State<double>& state, double t_end, std::int64_t fixed_steps = 60) const {
     go(integrator, state, t_end, fixed_steps, adaptive());
   }
 
   /// The state of a run of one second from the start of the trial.
-  State<double> run(const System<double>& system, double tolerance, std::int64_t fixed_steps = 64) const {
+  State<double> run(const System<double>& system, double tolerance, std::int64_t fixed_steps = 60) const {
     State<double> state = system.start();
     const auto integrator = make(system, tolerance);
     integrator->begin(state);
@@ -111,7 +111,7 @@ class IntegratorLaw : public testing::TestWithParam<std::string> {
   template <class S>
   void expect_advance_is_single_steps() const;
   template <class S>
-  void expect_precision(double steps_error) const;
+  void expect_precision(double round_off) const;
 };
 
 std::vector<std::string> names() {
@@ -142,12 +142,11 @@ TEST_P(IntegratorLaw, HasTheDeclaredOrder) {
     const auto system = build<double>(trial, f);
     const auto exact = build<Real>(trial, f);
     const Flat end = reference_flow(*exact, system->start().y.cast<Real>(), 0, 1);
-    double order = 0, error = 1, last = 0;
-    for (std::int64_t n = 16; n <= 16384; n *= 2) {
+    double order = 0, error = 1;
+    for (std::int64_t n = 15; n <= 15360; n *= 2) {
       const double next = difference(run(*system, 0, n).y, end);
       if (next < floor) break;
-      last = error / next;
-      order = std::log2(last);
+      order = std::log2(error / next);
       error = next;
     }
     EXPECT_LT(error, 0.01) << "it does not come near the exact motion";
@@ -240,6 +239,7 @@ TEST_P(IntegratorLaw, StopsWhereTheForceBreaks) {
         break;
       }
       if (!state.y.allFinite()) break;
+      ASSERT_GT(state.t, before.t) << "a step that goes nowhere is no success";
       ASSERT_LE(state.t, after + 1.0 / 64) << "the state stays finite although the force is no number";
     }
 
@@ -439,6 +439,51 @@ TEST_P(IntegratorLaw, StretchesAreSingleStepsToTheBit) {
   });
 }
 
+/// A method that hides that it takes stretches: the driver projects and measures for it.
+class Stepwise final : public Integrator<double> {
+ public:
+  explicit Stepwise(IntegratorPointer<double> inner) : inner_(std::move(inner)) {}
+  void begin(const State<double>& state) override { inner_->begin(state); }
+  StepResult step(State<double>& state, double h) override { return inner_->step(state, h); }
+  std::int64_t evaluations() const override { return inner_->evaluations(); }
+  void discard_history(const State<double>& state) override { inner_->discard_history(state); }
+
+ private:
+  IntegratorPointer<double> inner_;
+};
+
+// A run shows the same digits whether the method takes its steps by stretches or one by one.
+TEST_P(IntegratorLaw, TheDriverSeesTheSameWithAndWithoutStretches) {
+  if (adaptive()) GTEST_SKIP() << "it chooses its steps";
+  everywhere([&](const Trial& trial, const Formulation& f) {
+    const auto system = build<double>(trial, f);
+    for (const bool normalise : {false, true}) {
+      for (const bool all_states : {false, true}) {
+        const Schedule schedule{.t_end = 1, .dt = 0.0073, .normalise = normalise};  // the last step is shortened
+        const auto run = [&](Integrator<double>& integrator, Rows& rows, State<double>& state) {
+          rows.all_states = all_states;
+          return simulate(*system, *system, integrator, state, schedule, rows);
+        };
+        const auto whole = make(*system);
+        Stepwise single(make(*system));
+        Rows a, b;
+        State<double> x = system->start(), y = x;
+        const RunOutcome first = run(*whole, a, x), second = run(single, b, y);
+        EXPECT_TRUE(first.status == RunStatus::ok && second.status == RunStatus::ok) << first.message << second.message;
+        EXPECT_EQ(first.steps, second.steps);
+        EXPECT_EQ(first.evaluations, second.evaluations);
+        EXPECT_EQ(x.t, 1);
+        EXPECT_TRUE(same_bytes(x, y));
+        ASSERT_EQ(a.samples.size(), b.samples.size());
+        ASSERT_EQ(a.samples.size(), 138u);
+        for (std::size_t k = 0; k < a.samples.size(); ++k) EXPECT_TRUE(same_bytes(a.samples[k], b.samples[k])) << k;
+        ASSERT_EQ(a.states.size(), all_states ? 138u : 1u);
+        for (std::size_t k = 0; k < a.states.size(); ++k) EXPECT_TRUE(same_bytes(a.states[k], b.states[k])) << k;
+      }
+    }
+  });
+}
+
 TEST_P(IntegratorLaw, BeginMakesItNew) {
   everywhere([&](const Trial& trial, const Formulation& f) {
     const auto system = build<double>(trial, f);
@@ -481,7 +526,7 @@ TEST_P(IntegratorLaw, RunsDoNotDisturbEachOther) {
   }
 }
 
-/// In S the same 64 steps differ from those in long double by the round-off of S, and not by less.
+/// In S the same 60 steps differ from those in long double by the round-off of S, and not by less.
 template <class S>
 void IntegratorLaw::expect_precision(double round_off) const {
   if (!entry().maker<S>() || !entry().make_long_double) return;
@@ -495,8 +540,8 @@ void IntegratorLaw::expect_precision(double round_off) const {
     const auto b = make<Real>(*exact);
     a->begin(state);
     b->begin(truth);
-    go(*a, state, 1, 64, adaptive());
-    go(*b, truth, 1, 64, adaptive());
+    go(*a, state, 1, 60, adaptive());
+    go(*b, truth, 1, 60, adaptive());
     const double error = difference(state.y, truth.y);
     EXPECT_LT(error, round_off);
     most = std::max(most, error);
