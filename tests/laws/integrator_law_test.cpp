@@ -459,7 +459,8 @@ TEST_P(IntegratorLaw, TheDriverSeesTheSameWithAndWithoutStretches) {
     const auto system = build<double>(trial, f);
     for (const bool normalise : {false, true}) {
       for (const bool all_states : {false, true}) {
-        const Schedule schedule{.t_end = 1, .dt = 0.0073, .normalise = normalise};  // the last step is shortened
+        const Schedule schedule{
+            .t_end = 1, .dt = 0.0073, .samples = {}, .normalise = normalise};  // the last step is shortened
         const auto run = [&](Integrator<double>& integrator, Rows& rows, State<double>& state) {
           rows.all_states = all_states;
           return simulate(*system, *system, integrator, state, schedule, rows);
