@@ -29,7 +29,7 @@ namespace {
 using namespace report;
 
 constexpr std::size_t open_rows = 40;  // a table up to here stands open, a longer one folded
-constexpr std::size_t most_open_rows_in_text = 8;
+constexpr std::size_t most_open_rows_in_text = 12;
 constexpr std::size_t most_runs_shown = 400;  // of thousands: runs.csv has them all
 constexpr std::size_t most_curves_shown = 300;
 

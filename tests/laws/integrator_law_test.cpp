@@ -143,7 +143,7 @@ TEST_P(IntegratorLaw, HasTheDeclaredOrder) {
     const auto exact = build<Real>(trial, f);
     const Flat end = reference_flow(*exact, system->start().y.cast<Real>(), 0, 1);
     double order = 0, error = 1;
-    for (std::int64_t n = 15; n <= 15360; n *= 2) {
+    for (std::int64_t n = 15; n <= 3840; n *= 2) {
       const double next = difference(run(*system, 0, n).y, end);
       if (next < floor) break;
       order = std::log2(error / next);
@@ -475,6 +475,14 @@ TEST_P(IntegratorLaw, TheDriverSeesTheSameWithAndWithoutStretches) {
         EXPECT_EQ(first.evaluations, second.evaluations);
         EXPECT_EQ(x.t, 1);
         EXPECT_TRUE(same_bytes(x, y));
+        if (!normalise) {
+          State<double> by_hand = system->start();
+          const auto integrator = make(*system);
+          integrator->begin(by_hand);
+          ASSERT_TRUE(integrator->advance(by_hand, 0.0073, 136).ok());
+          ASSERT_TRUE(integrator->step(by_hand, 1 - 136 * 0.0073).ok());
+          EXPECT_EQ(x.y, by_hand.y);
+        }
         ASSERT_EQ(a.samples.size(), b.samples.size());
         ASSERT_EQ(a.samples.size(), 138u);
         for (std::size_t k = 0; k < a.samples.size(); ++k) EXPECT_TRUE(same_bytes(a.samples[k], b.samples[k])) << k;

@@ -15,7 +15,9 @@ namespace polhode::study::report {
 
 namespace {
 
-constexpr std::size_t most_told_one_by_one = 2;  // motions and formulations
+// Motions and formulations: one is told in sentences, a few in a table, many are counted as well.
+constexpr std::size_t told_in_sentences = 1;
+constexpr std::size_t told_in_table = 3;
 constexpr std::size_t most_table_rows = 60;
 
 /// Curves that may be compared: one motion, one formulation, all fixed steps or all tolerances.
@@ -98,10 +100,13 @@ Ranking ranking(const Grouping& grouping, const Group& group, const Quantity& qu
   return found;
 }
 
+/// Within a hundredth of each other.
+bool alike(const Ranking& r) { return r.above.back().value <= 1.01 * r.above.front().value; }
+
 std::string least_and_most(const Ranking& r, const Quantity& quantity) {
   const auto& least = r.above.front();
   const auto& most = r.above.back();
-  if (most.value <= 1.01 * least.value) {
+  if (alike(r)) {
     std::vector<std::string> methods;
     for (const auto& entry : r.above) methods.push_back(entry.method);
     return fmt::format("the {} of {} is {}", quantity.words, words(methods), number(most.value) + quantity.unit);
@@ -207,14 +212,14 @@ std::vector<std::string> counts(const Grouping& grouping, const std::vector<Grou
 }
 
 std::vector<std::string> table_row(const Grouping& grouping, const Group& group, const Ranking& r) {
-  std::string least, most;
+  const auto entry = [](const Ranking::Entry& e) { return fmt::format("{} ({})", e.method, number(e.value)); };
+  const bool several = r.above.size() + r.at_round_off.size() > 1;
+  std::string least = r.above.empty() ? "" : entry(r.above.front());
+  std::string most = r.above.empty() || !several ? "" : entry(r.above.back());
   if (!r.at_round_off.empty()) {
     least = fmt::format("{} (round-off)", words(r.at_round_off));
-  } else if (!r.above.empty()) {
-    least = fmt::format("{} ({})", r.above.front().method, number(r.above.front().value));
-  }
-  if (r.above.size() + r.at_round_off.size() > 1 && !r.above.empty()) {
-    most = fmt::format("{} ({})", r.above.back().method, number(r.above.back().value));
+  } else if (several && alike(r)) {
+    least = most = fmt::format("all alike ({})", number(r.above.back().value));
   }
   return {grouping.cases[group.case_index].label(),
           grouping.variants[group.variant_index],
@@ -226,7 +231,8 @@ std::vector<std::string> table_row(const Grouping& grouping, const Group& group,
 
 Table table_of(const Grouping& grouping, const std::vector<Group>& groups, const Quantity& quantity) {
   using Kind = Column::Kind;
-  Table table{.caption = fmt::format("Least and most {}", quantity.words),
+  Table table{.caption = fmt::format("Least and most {}{}", quantity.words,
+                                     quantity.unit.empty() ? "" : fmt::format(" ({})", quantity.unit.substr(1))),
               .columns = {{"motion", "", Kind::text},
                           {"formulation", "", Kind::text},
                           {"at", "", Kind::text},
@@ -323,7 +329,7 @@ Extremes extremes(const Grouping& grouping, const Quantity& quantity) {
     std::erase_if(round_off.all, is_quiet);
     std::erase_if(groups, [&](const Group& group) { return quiet.contains(group.case_index); });
   }
-  if (motions_and_formulations(groups) <= most_told_one_by_one) {
+  if (motions_and_formulations(groups) <= told_in_sentences) {
     for (const auto& group : groups) tell(grouping, group, quantity, found.sentences);
     return found;
   }
@@ -331,7 +337,9 @@ Extremes extremes(const Grouping& grouping, const Quantity& quantity) {
     found.sentences.push_back(fmt::format("The {} is at round-off at every step for {}.", quantity.words,
                                           method_names(grouping, round_off.kept, round_off.all)));
   }
-  for (auto& sentence : counts(grouping, groups, quantity)) found.sentences.push_back(std::move(sentence));
+  if (motions_and_formulations(groups) > told_in_table) {
+    for (auto& sentence : counts(grouping, groups, quantity)) found.sentences.push_back(std::move(sentence));
+  }
   found.table = table_of(grouping, groups, quantity);
   return found;
 }

@@ -12,7 +12,7 @@
 
 namespace polhode::study::report {
 
-/// Of one or two motions and formulations: sentences. Of more: sentences that count over them, and a table of each.
+/// Of one motion in one formulation: sentences. Of a few: a table. Of many: sentences that count over them as well.
 /// Methods whose value is at round-off are named together.
 struct Extremes {
   std::vector<std::string> sentences;

@@ -18,6 +18,16 @@ namespace polhode::study::report {
 
 namespace {
 
+constexpr const char* explanation =
+    R"(% The numbers of this study, for use in a text: \input{{values.tex}}, then for example
+% \{}
+% A name is \polhode, scenario, method, varied keys with their values, options that are not the default, step or
+% tolerance, quantity. Digits and signs are spelt, and numbers are written with an exponent: 0.001 = 1e-3 is
+% OneEMinusThree; four digits at most. Where two runs would share a name, the run's id follows, its digits 0 to f
+% as a to p. Units: EnergyDriftRate W, EnergyInitial J, PositionErrorMax m, AttitudeErrorMax rad; drifts and
+% AngularVelocityErrorMax are relative. What is not defined for a run has no command.
+)";
+
 constexpr std::array<std::string_view, 10> digits = {"Zero", "One", "Two",   "Three", "Four",
                                                      "Five", "Six", "Seven", "Eight", "Nine"};
 
@@ -167,18 +177,12 @@ std::vector<std::string> tex_names(const StudyView& study) {
 }
 
 std::string tex_values(const StudyView& study) {
-  std::string out =
-      "% The numbers of this study, for use in a text: \\input{values.tex}, then for example\n"
-      "% the drift was \\polhodeTumblingBoxRkFourDtOneEMinusThreeEnergyDriftMax.\n"
-      "% A name is \\polhode, scenario, method, varied keys with their values, options that are not the default, step "
-      "or\n"
-      "% tolerance, quantity. Digits and signs are spelt, and numbers are written with an exponent: 0.001 = 1e-3 is\n"
-      "% OneEMinusThree; four digits at most. Where two runs would share a name, the run's id follows, its digits 0 to "
-      "f as a to p.\n"
-      "% Units: EnergyDriftRate W, EnergyInitial J, PositionErrorMax m, AttitudeErrorMax rad; drifts and "
-      "AngularVelocityErrorMax\n"
-      "% are relative. What is not defined for a run has no command.\n";
   const auto names = tex_names(study);
+  const auto done = std::find_if(study.runs.begin(), study.runs.end(), [](const auto& run) { return completed(run); });
+  const auto example = done == study.runs.end()
+                           ? "polhodeRuns"
+                           : names[static_cast<std::size_t>(done - study.runs.begin())] + "EnergyDriftMax";
+  std::string out = fmt::format(explanation, example);
   define_count(out, "polhodeRuns", static_cast<std::int64_t>(study.runs.size()));
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     out += fmt::format("\n% {}{}\n", one_line(study.runs[i].id),
