@@ -85,7 +85,7 @@ RunResult carry_out(const RunConfig& config, const Scenario& scenario, const Tra
     outcome.status = RunStatus::failed;
     outcome.message = "out of memory";
   }
-  if (writer) writer->close();
+  if (writer && outcome.status != RunStatus::interrupted) writer->close();  // else it stays unfinished by name
   result.status = status_text(outcome.status);
   result.message = outcome.message;
   result.t_reached = outcome.t;
