@@ -21,11 +21,21 @@ struct Declaration {
   std::string name;       ///< as in the catalogue
   std::string family;     ///< textbook, SUNDIALS, Boost.Odeint, …
   std::string summary;    ///< one line of mathematics
-  int order = 0;          ///< of the global error; 0: variable
+  int order = 0;          ///< of the global error under forces; 0: variable
+  int free_order = 0;     ///< of bodies without forces where it is another one: exact_order means exact; 0: the same
   bool adaptive = false;  ///< takes a tolerance and chooses its steps; otherwise it takes a step h
   bool implicit = false;
   int evaluations_per_step = 0;  ///< right-hand sides; 0: not constant, the method counts them
   bool multi_step = false;       ///< has a history, which an impact or a projection makes worthless
+  bool lie_group = false;   ///< moves orientations by group steps: they stay on their manifold without projection
+  bool symplectic = false;  ///< its map keeps the canonical two-form where forces have a potential
+  bool symmetric = false;   ///< a step of −h undoes one of h
+  /// Of free bodies, to round-off or to the tolerance of its iteration, in every formulation that it takes.
+  bool conserves_energy = false;
+  bool conserves_momentum = false;  ///< the angular momentum in the world
+  bool conserves_casimir = false;   ///< |IΩ|, the length of the angular momentum in the body
+
+  static constexpr int exact_order = 1000;
 };
 
 /// The settings that a method may read: h belongs to fixed-step methods, the tolerance to adaptive ones.

@@ -42,6 +42,10 @@ struct Chart<S, Orientation::quaternion> {
                  a[2] * q[0] + a[1] * q[1] - a[0] * q[2]);
   }
 
+  /// The orientation turned by the unit quaternion d, given in world axes (d q) or in body axes (q d).
+  static Value turned_in_world(const Value& q, const Quaternion<S>& d) { return product<S>(d, q); }
+  static Value turned_in_body(const Value& q, const Quaternion<S>& d) { return product<S>(q, d); }
+
   static S defect(const Value& q) {
     using std::abs, std::sqrt;
     return abs(sqrt(q.squaredNorm()) - S(1));
@@ -82,6 +86,9 @@ struct Chart<S, Orientation::matrix> {
     }
     return d;
   }
+
+  static Value turned_in_world(const Value& r, const Quaternion<S>& d) { return rotation_matrix<S>(d) * r; }
+  static Value turned_in_body(const Value& r, const Quaternion<S>& d) { return r * rotation_matrix<S>(d); }
 
   static S defect(const Value& r) {
     using std::sqrt;

@@ -2,6 +2,7 @@
 // The parts of RigidBodies that run once per run or per sample, and the choice of the instantiation.
 #include "core/rigid_bodies.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <stdexcept>
 
@@ -39,17 +40,26 @@ System<S>::System(Problem problem, const Formulation& formulation)
   for (const ForceParameters& f : problem_.forces) add_force(make_force<S>(f, problem_.bodies));
 }
 
-template <class S, Orientation O, AngularState A, BodyCount N>
-RigidBodies<S, O, A, N>::Constants::Constants(const Body& b)
+template <class S>
+BodyConstants<S>::BodyConstants(const Body& b)
     : mass(S(b.mass)),
       inverse_mass(S(1) / S(b.mass)),
       inertia(b.inertia.cast<S>()),
       inverse_inertia(inertia.inverse()),
-      moments(inertia.diagonal()),
-      inverse_moments(moments.cwiseInverse()),
+      axes(Matrix3<S>::Identity()),
       center_of_mass(b.center_of_mass.cast<S>()),
       principal(b.inertia.isDiagonal(0)),
-      pinned(b.pinned) {}
+      pinned(b.pinned) {
+  if (principal) {
+    moments = inertia.diagonal();
+  } else {
+    const Eigen::SelfAdjointEigenSolver<Matrix3<S>> solver(inertia);
+    moments = solver.eigenvalues();
+    axes = solver.eigenvectors();
+    if (axes.determinant() < S(0)) axes.col(2) = -axes.col(2);
+  }
+  inverse_moments = moments.cwiseInverse();
+}
 
 template <class S, Orientation O, AngularState A, BodyCount N>
 void RigidBodies<S, O, A, N>::full_rate(S t, const S* y, S* dy) const {

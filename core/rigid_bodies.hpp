@@ -25,18 +25,65 @@ namespace polhode {
 
 enum class BodyCount { one, many };
 
-/// What a method may ask of a system S; `rate` alone gives the flat ODE ẏ = f(t, y), the other two its halves.
+/// What a method may ask of a system. `rate` alone gives the flat ODE ẏ = f(t, y), the next two its halves; then the
+/// group step and what belongs to it; then the inertia map; then the two flows into which the motion splits. A Tangent
+/// has the layout of the velocity: for each body a linear part, unless it is pinned, and an angular one.
 template <class System>
-concept MechanicalSystem = requires(const System& system, typename System::Scalar t, const typename System::Flat& y,
-                                    typename System::Flat& dy) {
+concept MechanicalSystem = requires(const System& system, typename System::Scalar t, typename System::Scalar h,
+                                    const typename System::Flat& y, typename System::Flat& dy,
+                                    const typename System::Tangent& theta, typename System::Tangent& xi) {
   { system.zero() } -> std::same_as<typename System::Flat>;
+  { system.zero_tangent() } -> std::same_as<typename System::Tangent>;
   system.rate(t, y, dy);                ///< dy = (N(q) v, v̇, power)
   system.acceleration(t, y, dy);        ///< fills velocity_part(dy) = v̇(t, q, v)
   system.configuration_rate(t, y, dy);  ///< fills configuration_part(dy) = N(q) v and work_part(dy)
   system.configuration_part(dy);
   system.velocity_part(dy);
   system.work_part(dy);
+
+  system.twist(y, xi);                  ///< ξ with q̇ = d/ds (q ⊕ s ξ) at s = 0: (velocity, ω in the formulation's frame)
+  system.retract(dy, xi);               ///< q ← q ⊕ ξ: p + ξ; exp(ξ) R in the world's frame, R exp(ξ) in the body's
+  system.dexp_inverse(theta, theta, xi);  ///< θ̇ where d/ds (q0 ⊕ θ) = η, from θ and η
+
+  system.wrench(t, y, xi);              ///< (f, τ about the reference point), world axes
+  system.momentum(y, xi);               ///< (m v, L about the reference point), world axes
+  system.set_momentum(theta, dy);       ///< the velocity that has this momentum at the configuration of y
+
+  system.kick(t, h, dy);                ///< flow of the wrench alone over h, at rest in q
 };
+
+/// The constants of one body in the scalar S.
+template <class S>
+struct BodyConstants {
+  S mass{}, inverse_mass{};
+  Matrix3<S> inertia, inverse_inertia;
+  Vector3<S> moments, inverse_moments;  ///< principal
+  Matrix3<S> axes;                      ///< principal axes as columns, a rotation
+  Vector3<S> center_of_mass;
+  bool principal = true;  ///< body axes are principal axes: the products below are three multiplications
+  bool pinned = false;
+
+  BodyConstants() = default;
+  explicit BodyConstants(const Body& b);
+  Vector3<S> momentum(const Vector3<S>& w) const {
+    return principal ? Vector3<S>(moments.cwiseProduct(w)) : Vector3<S>(inertia * w);
+  }
+  Vector3<S> velocity(const Vector3<S>& l) const {
+    return principal ? Vector3<S>(inverse_moments.cwiseProduct(l)) : Vector3<S>(inverse_inertia * l);
+  }
+};
+
+/// (1 − (θ/2) cot(θ/2))/θ² of dexp⁻¹, from θ²; by its series near 0.
+template <class S>
+S dexp_inverse_coefficient(S theta2) {
+  using std::sqrt, std::tan;
+  if (theta2 < S(1e-2)) {
+    return S(1) / S(12) + theta2 * (S(1) / S(720) + theta2 * (S(1) / S(30240) + theta2 * (S(1) / S(1209600) +
+           theta2 * (S(1) / S(47900160) + theta2 * (S(691) / S(1307674368000.0L))))));
+  }
+  const S half = sqrt(theta2) / S(2);
+  return (S(1) - half / tan(half)) / theta2;
+}
 
 template <class S, Orientation O, AngularState A, BodyCount N>
 class RigidBodies final : public System<S> {
@@ -46,12 +93,14 @@ class RigidBodies final : public System<S> {
   using Matrix = Matrix3<S>;
   using ChartOf = Chart<S, O>;
   using ChartValue = typename ChartOf::Value;
+  using Constants = BodyConstants<S>;
 
   static constexpr bool is_one = N == BodyCount::one;
   static constexpr int one_configuration = 3 + ChartOf::size;
   static constexpr int one_size = one_configuration + 6 + 1;
   /// The flat state: a fixed-size vector for one body, a dynamic one for many.
   using Flat = Eigen::Matrix<S, is_one ? one_size : Eigen::Dynamic, 1>;
+  using Tangent = Eigen::Matrix<S, is_one ? 6 : Eigen::Dynamic, 1>;
 
   RigidBodies(const Problem& problem, const Formulation& formulation) : System<S>(problem, formulation) {
     for (std::size_t i = 0; i < this->moving(); ++i) bodies_.emplace_back(problem.bodies[i]);
@@ -90,6 +139,133 @@ class RigidBodies final : public System<S> {
   void configuration_rate(S t, const Flat& y, Flat& dy) const {
     if constexpr (inlines) rate_of<true, false>(t, y.data(), dy.data());
     else kinematic_rate(t, y.data(), dy.data());
+  }
+
+  // The group SO(3)ⁿ × R³ⁿ (Iserles, Munthe-Kaas, Nørsett & Zanna, Lie-group methods, Acta Numerica 2000).
+
+  Tangent zero_tangent() const { return Tangent::Zero(this->layout().velocity_size); }
+
+  void twist(const Flat& y, Tangent& xi) const {
+    for (std::size_t i = 0; i < count(); ++i) {
+      const Layout::Slot s = slot(i);
+      const Vector a = load(y.data() + s.angular);
+      if constexpr (A == AngularState::momentum_world) {
+        store(angular_velocity_world(body(i), rotation(ChartOf::load(y.data() + s.orientation)), a), angular(xi, i));
+      } else {
+        store(a, angular(xi, i));
+      }
+      if (!pinned(i)) store(load(y.data() + s.velocity), linear(xi, i));
+    }
+  }
+
+  void retract(Flat& y, const Tangent& xi) const {
+    for (std::size_t i = 0; i < count(); ++i) {
+      S* c = y.data() + slot(i).orientation;
+      const Quaternion<S> turn = quaternion_from_rotation_vector<S>(load(angular(xi, i)));
+      ChartOf::store(in_body_axes ? ChartOf::turned_in_body(ChartOf::load(c), turn)
+                                  : ChartOf::turned_in_world(ChartOf::load(c), turn), c);
+      if (!pinned(i)) store(load(y.data() + slot(i).position) + load(linear(xi, i)), y.data() + slot(i).position);
+    }
+  }
+
+  /// dexp⁻¹ of exp(θ) R is η − ½ θ × η + c θ × (θ × η), that of R exp(θ) has + ½; c = (1 − (θ/2) cot(θ/2))/θ².
+  void dexp_inverse(const Tangent& theta, const Tangent& eta, Tangent& out) const {
+    out = eta;
+    for (std::size_t i = 0; i < count(); ++i) {
+      const Vector t = load(angular(theta, i)), e = load(angular(eta, i));
+      const Vector te = t.cross(e);
+      const S half = in_body_axes ? S(0.5) : S(-0.5);
+      store(e + half * te + dexp_inverse_coefficient<S>(t.squaredNorm()) * t.cross(te), angular(out, i));
+    }
+  }
+
+  // The inertia map.
+
+  void wrench(S t, const Flat& y, Tangent& w) const {
+    w.setZero();
+    if (!this->has_forces()) return;
+    fill_motions(y.data());
+    fill_wrenches(t);
+    for (std::size_t i = 0; i < count(); ++i) {
+      store(wrenches_[i].torque, angular(w, i));
+      if (!pinned(i)) store(wrenches_[i].force, linear(w, i));
+    }
+  }
+
+  void momentum(const Flat& y, Tangent& p) const {
+    for (std::size_t i = 0; i < count(); ++i) {
+      const Layout::Slot s = slot(i);
+      const Matrix r = rotation(ChartOf::load(y.data() + s.orientation));
+      store(angular_momentum(body(i), r, load(y.data() + s.angular)), angular(p, i));
+      if (!pinned(i)) store(body(i).mass * load(y.data() + s.velocity), linear(p, i));
+    }
+  }
+
+  void set_momentum(const Tangent& p, Flat& y) const {
+    for (std::size_t i = 0; i < count(); ++i) {
+      const Layout::Slot s = slot(i);
+      const Matrix r = rotation(ChartOf::load(y.data() + s.orientation));
+      store(angular_state(body(i), r, load(angular(p, i))), y.data() + s.angular);
+      if (!pinned(i)) store(body(i).inverse_mass * load(linear(p, i)), y.data() + s.velocity);
+    }
+  }
+
+  // The split T + V: the wrench turns the momentum of bodies at rest, and bodies without a wrench move freely.
+
+  /// v ← v + h M⁻¹ (f, τ), without the gyroscopic term, and the work of the wrench by the trapezoidal rule.
+  void kick(S t, S h, Flat& y) const {
+    if (!this->has_forces()) return;
+    fill_motions(y.data());
+    const S before = this->forces_do_work() ? power(t) : S(0);
+    fill_wrenches(t);
+    for (std::size_t i = 0; i < count(); ++i) {
+      const Layout::Slot s = slot(i);
+      const Matrix r = this->forces_exert_torques() ? rotation(ChartOf::load(y.data() + s.orientation))
+                                                    : Matrix(Matrix::Identity());
+      S* a = y.data() + s.angular;
+      if (this->forces_exert_torques()) store(load(a) + h * angular_state(body(i), r, wrenches_[i].torque), a);
+      if (!pinned(i)) {
+        S* v = y.data() + s.velocity;
+        store(load(v) + h * (wrenches_[i].force * body(i).inverse_mass), v);
+      }
+    }
+    if (this->forces_do_work()) {
+      fill_motions(y.data());
+      work_part(y) += h * (S(0.5) * (before + power(t)));
+    }
+  }
+
+  /// Free motion over h: mass centres go straight, and each body turns as `rotor` says:
+  /// Quaternion dq = rotor(constants, h, m) moves the angular momentum m, in principal axes, to that at the end of the
+  /// step and returns the unit quaternion of the turn, so that R' = R dR in the same axes. constants.moments are the
+  /// principal moments. With momentum_world L stays as it is, to the bit.
+  template <class Rotor>
+  void free_flow(S h, Flat& y, Rotor&& rotor) const {
+    for (std::size_t i = 0; i < count(); ++i) {
+      const Layout::Slot s = slot(i);
+      const Constants& b = body(i);
+      S* c = y.data() + s.orientation;
+      S* a = y.data() + s.angular;
+      const ChartValue old = ChartOf::load(c);
+      Vector m = load(a);
+      if constexpr (in_body_axes) m = b.momentum(m);
+      else if constexpr (A == AngularState::velocity_world) m = b.momentum(rotation(old).transpose() * m);
+      else m = rotation(old).transpose() * m;
+      if (!b.principal) m = b.axes.transpose() * m;
+      Quaternion<S> turn = rotor(b, h, m);
+      if (!b.principal) {
+        m = b.axes * m;
+        turn.template tail<3>() = Vector(b.axes * turn.template tail<3>());
+      }
+      const ChartValue now = ChartOf::turned_in_body(old, turn);
+      ChartOf::store(now, c);
+      if constexpr (in_body_axes) store(b.velocity(m), a);
+      else if constexpr (A == AngularState::velocity_world) store(rotation(now) * b.velocity(m), a);
+      if (!pinned(i)) {
+        S* p = y.data() + s.position;
+        store(load(p) + h * load(y.data() + s.velocity), p);
+      }
+    }
   }
 
   // ---- the erased interface ----------------------------------------------------------------------------------------
@@ -153,23 +329,6 @@ class RigidBodies final : public System<S> {
   void velocity_rate(S t, const S* y, S* dy) const;
   void kinematic_rate(S t, const S* y, S* dy) const;
 
-  /// The constants of one body in the scalar S.
-  struct Constants {
-    S mass{}, inverse_mass{};
-    Matrix inertia, inverse_inertia;
-    Vector moments, inverse_moments;
-    Vector center_of_mass;
-    bool principal = true;  ///< body axes are principal axes: the products below are three multiplications
-    bool pinned = false;
-
-    Constants() = default;
-    explicit Constants(const Body& b);
-    Vector momentum(const Vector& w) const { return principal ? Vector(moments.cwiseProduct(w)) : Vector(inertia * w); }
-    Vector velocity(const Vector& l) const {
-      return principal ? Vector(inverse_moments.cwiseProduct(l)) : Vector(inverse_inertia * l);
-    }
-  };
-
   const Constants& body(std::size_t i) const {
     if constexpr (is_one) return first_;
     else return bodies_[i];
@@ -185,6 +344,22 @@ class RigidBodies final : public System<S> {
   std::size_t count() const {
     if constexpr (is_one) return 1;
     else return bodies_.size();
+  }
+
+  static constexpr bool in_body_axes = A == AngularState::velocity_body;  ///< the frame of tangent vectors
+
+  /// Where the parts of body i stand in a Tangent.
+  template <class T>
+  auto angular(T& xi, std::size_t i) const {
+    return xi.data() + (slot(i).angular - configuration_size());
+  }
+  template <class T>
+  auto linear(T& xi, std::size_t i) const {
+    return xi.data() + (slot(i).velocity - configuration_size());
+  }
+  int configuration_size() const {
+    if constexpr (is_one) return one_configuration;
+    else return this->layout().configuration_size;
   }
 
   static Vector load(const S* p) { return Eigen::Map<const Vector>(p); }
@@ -216,6 +391,13 @@ class RigidBodies final : public System<S> {
     else return r * b.momentum(body_velocity(r, a));
   }
 
+  /// The angular state whose angular momentum is l; linear in l.
+  Vector angular_state(const Constants& b, const Matrix& r, const Vector& l) const {
+    if constexpr (A == AngularState::momentum_world) return l;
+    else if constexpr (in_body_axes) return b.velocity(r.transpose() * l);
+    else return r * b.velocity(r.transpose() * l);
+  }
+
   BodyMotion<S> motion(const S* y, std::size_t i) const {
     const Layout::Slot s = slot(i);
     BodyMotion<S> m;
@@ -241,6 +423,11 @@ class RigidBodies final : public System<S> {
         motions_[i].velocity = load(y + slot(i).velocity);
       }
     }
+  }
+
+  void fill_wrenches(S t) const {
+    for (auto& w : wrenches_) w = Wrench<S>{};
+    for (const auto& force : this->forces()) force->add_wrench(t, motions_, wrenches_);
   }
 
   S power(S t) const {
@@ -283,25 +470,21 @@ class RigidBodies final : public System<S> {
     const bool forced = this->has_forces();
     const bool working = WithConfiguration && forced && this->forces_do_work();
     if (forced && (WithVelocity || working)) fill_motions(y);
-    if (forced && WithVelocity) {
-      for (auto& w : wrenches_) w = Wrench<S>{};
-      for (const auto& force : this->forces()) force->add_wrench(t, motions_, wrenches_);
-    }
+    if (forced && WithVelocity) fill_wrenches(t);
     for (std::size_t i = 0; i < count(); ++i) {
       const Layout::Slot s = slot(i);
       const Constants& b = body(i);
       const ChartValue c = ChartOf::load(y + s.orientation);
       const Vector a = load(y + s.angular);
-      constexpr bool body_axes = A == AngularState::velocity_body;
       // The matrix is needed but for a free body in its own axes.
       Matrix r = Matrix::Identity();
       if (forced && this->forces_read_rotation() && (WithVelocity || working)) {
         r = motions_[i].rotation;
-      } else if (!body_axes || this->forces_exert_torques()) {
+      } else if (!in_body_axes || this->forces_exert_torques()) {
         r = rotation(c);
       }
       if constexpr (WithConfiguration) {
-        if constexpr (body_axes) {
+        if constexpr (in_body_axes) {
           ChartOf::store(ChartOf::rate_body(c, a), dy + s.orientation);
         } else {
           ChartOf::store(ChartOf::rate_world(c, angular_velocity_world(b, r, a)), dy + s.orientation);

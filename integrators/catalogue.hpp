@@ -24,6 +24,8 @@ struct IntegratorEntry {
   IntegratorMaker<double> make;
   IntegratorMaker<float> make_float{};
   IntegratorMaker<long double> make_long_double{};
+  /// Why it makes no sense with this problem in this formulation; empty, or an empty answer: it does.
+  std::function<std::string(const Problem&, const Formulation&)> refusal{};
 
   template <class S>
   const IntegratorMaker<S>& maker() const {

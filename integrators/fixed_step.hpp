@@ -3,7 +3,8 @@
 //
 // Method<System> has a constructor Method(const System&) and step(system, t, h, y), which advances the flat state y by
 // h. The step sees the concrete system, so it inlines; the state of one body stays in registers and on the stack while
-// a run advances, through projection and measurement too.
+// a run advances, through projection and measurement too. A step that can fail returns a const char*: null, or why; it
+// may leave y as it likes. A method whose evaluations differ from step to step counts them: evaluations().
 #pragma once
 
 #include <type_traits>
@@ -24,16 +25,32 @@ class FixedStep final : public Integrator<typename System::Scalar> {
   FixedStep(const System& system, int evaluations_per_step)
       : system_(system), method_(system), evaluations_per_step_(evaluations_per_step) {}
 
-  void begin(const State<S>&) override { steps_ = 0; }
-  StepResult step(State<S>& state, double h) override { return this->advance(state, h, 1); }
+  void begin(const State<S>&) override {
+    steps_ = 0;
+    method_ = Method<System>(system_);
+  }
+  StepResult step(State<S>& state, double h) override {
+    if constexpr (can_fail) {
+      Flat y = state.y;
+      if (const char* failure = method_.step(system_, S(state.t), S(h), y)) return {failure};
+      state.y = y;
+      state.t += h;
+      ++steps_;
+      return {};
+    } else {
+      return this->advance(state, h, 1);
+    }
+  }
 
-  bool takes_stretches() const override { return std::is_same_v<S, double>; }
+  bool takes_stretches() const override { return std::is_same_v<S, double> && !can_fail; }
 
   using Integrator<S>::advance;
 
   // Flattened: without it the compiler leaves calls between the stages, which doubles the cost of a step of one body.
   POLHODE_FLATTEN StepResult advance(State<S>& state, const Stretch& stretch) override {
-    if constexpr (System::is_one) {
+    if constexpr (can_fail) {
+      return Integrator<S>::advance(state, stretch);
+    } else if constexpr (System::is_one) {
       // Local copies, which the compiler can keep in registers.
       Flat y = Eigen::Map<const Flat>(state.y.data());
       Method<System> method = method_;
@@ -48,9 +65,15 @@ class FixedStep final : public Integrator<typename System::Scalar> {
     return {};
   }
 
-  std::int64_t evaluations() const override { return steps_ * evaluations_per_step_; }
+  std::int64_t evaluations() const override {
+    if constexpr (requires { method_.evaluations(); }) return method_.evaluations();
+    else return steps_ * evaluations_per_step_;
+  }
 
  private:
+  static constexpr bool can_fail = std::is_same_v<const char*, decltype(std::declval<Method<System>&>().step(
+      std::declval<const System&>(), S(), S(), std::declval<Flat&>()))>;
+
   void take(Method<System>& method, const Stretch& stretch, Flat& y) const {
     for (std::int64_t k = 1; k <= stretch.count; ++k) {
       method.step(system_, S(stretch.time(k - 1)), S(stretch.h), y);

@@ -56,7 +56,7 @@ RunOutcome run_on(const System<double>& truth, const RunConfig& config, Observer
 
 }  // namespace
 
-std::string refusal(const RunConfig& config, const Scenario&) {
+std::string refusal(const RunConfig& config, const Scenario& scenario) {
   const IntegratorEntry* entry = find_integrator(config.integrator);
   if (!config.formulation.gyroscopic && config.formulation.angular_state == AngularState::momentum_world) {
     return "gyroscopic off makes no sense with the momentum state: dL/dt = torque has no gyroscopic term to leave out";
@@ -65,6 +65,11 @@ std::string refusal(const RunConfig& config, const Scenario&) {
                    : config.precision == Precision::extended ? static_cast<bool>(entry->make_long_double)
                                                              : static_cast<bool>(entry->make);
   if (!has) return config.integrator + " works in double only, not in " + std::string(name(config.precision));
+  if (entry->refusal) {
+    if (std::string reason = entry->refusal(scenario.problem, config.formulation); !reason.empty()) {
+      return config.integrator + ": " + reason;
+    }
+  }
   const Schedule schedule = schedule_of(config);
   if (!schedule.adaptive) plan_steps(schedule.t_end, schedule.dt);  // throws on a step that is too small
   return sampling_problem(schedule);
