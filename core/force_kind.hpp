@@ -11,6 +11,7 @@
 
 #include "core/body.hpp"
 #include "core/force.hpp"
+#include "core/lanes.hpp"
 
 namespace polhode {
 
@@ -59,13 +60,17 @@ struct ForceEntry {
   ForcePointer<float> (*make_float)(const ForceParameters&, std::span<const Body>);
   ForcePointer<double> (*make_double)(const ForceParameters&, std::span<const Body>);
   ForcePointer<long double> (*make_long_double)(const ForceParameters&, std::span<const Body>);
+  ForcePointer<Lanes> (*make_lanes)(const ForceParameters&, std::span<const Body>) = nullptr;  ///< null: lane by lane
 };
 
+/// Tells force_entry and fixed_step that a class does not branch on its numbers, and so can be instantiated on Lanes.
+inline constexpr bool in_lanes = true;
+
 /// The one line that registers a force: force_entry<Spring>(). F<S> has a static kind() and a constructor
-/// F(const ForceParameters&, std::span<const Body>).
-template <template <class> class F>
+/// F(const ForceParameters&, std::span<const Body>). force_entry<Spring, in_lanes>() makes it faster in ensembles.
+template <template <class> class F, bool with_lanes = false>
 ForceEntry force_entry() {
-  return {F<double>::kind(),
+  ForceEntry entry = {F<double>::kind(),
           [](const ForceParameters& p, std::span<const Body> b) -> ForcePointer<float> {
             return std::make_unique<F<float>>(p, b);
           },
@@ -75,6 +80,12 @@ ForceEntry force_entry() {
           [](const ForceParameters& p, std::span<const Body> b) -> ForcePointer<long double> {
             return std::make_unique<F<long double>>(p, b);
           }};
+  if constexpr (with_lanes) {
+    entry.make_lanes = [](const ForceParameters& p, std::span<const Body> b) -> ForcePointer<Lanes> {
+      return std::make_unique<F<Lanes>>(p, b);
+    };
+  }
+  return entry;
 }
 
 }  // namespace polhode

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vectors and matrices of the mechanics, on any scalar S (float, double, long double, later SIMD packs).
+// The vectors and matrices of the mechanics, on any scalar S (float, double, long double, Lanes).
 #pragma once
 
 #include <Eigen/Core>

@@ -5,9 +5,9 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 
 #include "core/formulation.hpp"
+#include "core/lanes.hpp"
 #include "core/quaternion.hpp"
 
 namespace polhode {
@@ -100,6 +100,7 @@ struct Chart<S, Orientation::matrix> {
   static Value project(const Value& start) {
     using std::sqrt;
     Value r = start;
+    typename LaneType<S>::Mask going(true);
     for (int i = 0; i < 32; ++i) {
       Value cofactors;
       cofactors.col(0) = Vector3<S>(r.col(1).cross(r.col(2)));
@@ -108,9 +109,10 @@ struct Chart<S, Orientation::matrix> {
       const S determinant = r.col(0).dot(cofactors.col(0));
       const Value next = S(0.5) * (r + cofactors / determinant);
       const S change = (next - r).squaredNorm();
-      r = next;
+      r = next.binaryExpr(r, [going](const S& now, const S& old) { return select(going, now, old); });
       // The error after a step is about half the square of the change: stop when that is below round-off.
-      if (!(change > std::numeric_limits<S>::epsilon())) break;
+      going = going & (change > rounding_unit<S>);
+      if (!any(going)) break;
     }
     return r;
   }

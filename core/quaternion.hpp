@@ -4,8 +4,8 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 
+#include "core/lanes.hpp"
 #include "core/linear_algebra.hpp"
 
 namespace polhode {
@@ -73,7 +73,7 @@ Quaternion<S> quaternion_from_rotation_vector(const Vector3<S>& phi) {
   const S angle = sqrt(phi.squaredNorm());
   const S half = angle / S(2);
   // sin(x)/x by its series below the square root of the rounding unit, where it is exact to round-off.
-  const S scale = half * half < std::numeric_limits<S>::epsilon() ? S(0.5) - half * half / S(12) : sin(half) / angle;
+  const S scale = select(half * half < rounding_unit<S>, S(S(0.5) - half * half / S(12)), S(sin(half) / angle));
   return Quaternion<S>(cos(half), scale * phi[0], scale * phi[1], scale * phi[2]);
 }
 
@@ -111,6 +111,18 @@ Quaternion<S> quaternion_from_rotation_matrix(const Matrix3<S>& r) {
     q = {r(1, 0) - r(0, 1), r(0, 2) + r(2, 0), r(1, 2) + r(2, 1), S(1) + r(2, 2) - r(0, 0) - r(1, 1)};
   }
   return q / sqrt(q.squaredNorm());
+}
+
+/// The same, lane by lane.
+template <>
+inline Quaternion<Lanes> quaternion_from_rotation_matrix(const Matrix3<Lanes>& r) {
+  Quaternion<Lanes> q;
+  for (int i = 0; i < lane_count; ++i) {
+    const Matrix3<double> one = r.unaryExpr([i](const Lanes& x) { return x[i]; });
+    const Quaternion<double> alone = quaternion_from_rotation_matrix<double>(one);
+    for (int k = 0; k < 4; ++k) q[k].set(i, alone[k]);
+  }
+  return q;
 }
 
 /// Angle in rad, in [0, π], of the rotation that takes the attitude of a to that of b; signs and lengths do not matter.

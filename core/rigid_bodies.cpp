@@ -11,13 +11,13 @@
 namespace polhode {
 
 template <class S>
-System<S>::System(Problem problem, const Formulation& formulation)
-    : problem_(std::move(problem)), formulation_(formulation) {
+System<S>::System(std::vector<Problem> problems, const Formulation& formulation)
+    : problems_(std::move(problems)), formulation_(formulation) {
   const int chart = formulation_.orientation == Orientation::quaternion ? 4 : 9;
-  const std::size_t n = problem_.moving();
+  const std::size_t n = problem().moving();
   int q = 0, v = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const bool pinned = problem_.bodies[i].pinned;
+    const bool pinned = problem().bodies[i].pinned;
     Layout::Slot slot;
     if (!pinned) {
       slot.position = q;
@@ -37,7 +37,13 @@ System<S>::System(Problem problem, const Formulation& formulation)
   }
   layout_.configuration_size = q;
   layout_.velocity_size = v;
-  for (const ForceParameters& f : problem_.forces) add_force(make_force<S>(f, problem_.bodies));
+  for (std::size_t k = 0; k < problem().forces.size(); ++k) {
+    if constexpr (is_lanes<S>) {
+      add_force(make_force_in_lanes(problems_, k));
+    } else {
+      add_force(make_force<S>(problem().forces[k], problem().bodies));
+    }
+  }
 }
 
 template <class S>
@@ -61,6 +67,59 @@ BodyConstants<S>::BodyConstants(const Body& b)
   inverse_moments = moments.cwiseInverse();
 }
 
+template <class S>
+BodyConstants<S> constants_of(const std::vector<Problem>& problems, std::size_t body) {
+  return BodyConstants<S>(problems.front().bodies[body]);
+}
+template <>
+BodyConstants<Lanes> constants_of<Lanes>(const std::vector<Problem>& problems, std::size_t body) {
+  std::vector<BodyConstants<double>> one;
+  for (const Problem& p : problems) one.emplace_back(p.bodies[body]);
+  BodyConstants<Lanes> all;
+  const auto number = [&](auto member) { return gather<Lanes>([&](int lane) { return one[std::size_t(lane)].*member; }); };
+  const auto vector = [&](auto& to, auto member) {
+    for (int k = 0; k < to.size(); ++k) {
+      to(k) = gather<Lanes>([&](int lane) { return (one[std::size_t(lane)].*member)(k); });
+    }
+  };
+  using C = BodyConstants<double>;
+  all.mass = number(&C::mass);
+  all.inverse_mass = number(&C::inverse_mass);
+  vector(all.inertia, &C::inertia);
+  vector(all.inverse_inertia, &C::inverse_inertia);
+  vector(all.moments, &C::moments);
+  vector(all.inverse_moments, &C::inverse_moments);
+  vector(all.axes, &C::axes);
+  vector(all.center_of_mass, &C::center_of_mass);
+  all.principal = one.front().principal;
+  all.pinned = one.front().pinned;
+  return all;
+}
+
+/// A vector or quaternion of the start, of each lane.
+template <class S, class Value, class Member>
+Value start_of(const std::vector<Problem>& problems, std::size_t body, Member member) {
+  Value v;
+  for (int k = 0; k < v.size(); ++k) {
+    v[k] = gather<S>([&](int lane) { return (problems[std::size_t(lane)].starts[body].*member)[k]; });
+  }
+  return v;
+}
+
+template <class S, Orientation O, AngularState A, BodyCount N>
+RigidBodies<S, O, A, N>::RigidBodies(std::vector<Problem> problems, const Formulation& formulation)
+    : System<S>(std::move(problems), formulation) {
+  for (std::size_t i = 0; i < this->moving(); ++i) bodies_.push_back(constants_of<S>(this->problems(), i));
+  const std::size_t all = this->problem().bodies.size();
+  motions_.resize(all, {Vector::Zero(), Matrix::Identity(), Vector::Zero(), Vector::Zero()});
+  wrenches_.resize(all);
+  for (std::size_t i = 0; i < all; ++i) {  // what static and pinned bodies keep
+    motions_[i].position = start_of<S, Vector>(this->problems(), i, &BodyStart::position);
+    motions_[i].rotation = rotation_matrix<S>(start_of<S, Quaternion<S>>(this->problems(), i, &BodyStart::orientation));
+  }
+  first_ = bodies_.front();
+}
+
 template <class S, Orientation O, AngularState A, BodyCount N>
 void RigidBodies<S, O, A, N>::full_rate(S t, const S* y, S* dy) const {
   if constexpr (is_one) flattened_rate(t, y, dy);
@@ -81,23 +140,24 @@ State<S> RigidBodies<S, O, A, N>::start() const {
   state.y = VectorX<S>::Zero(this->layout().size());
   S* y = state.y.data();
   for (std::size_t i = 0; i < count(); ++i) {
-    const BodyStart& b = this->problem().starts[i];
+    const auto of = [&]<class Value>(Value, auto member) { return start_of<S, Value>(this->problems(), i, member); };
+    const bool in_body = this->problem().starts[i].angular_velocity_in_body;
     const Layout::Slot s = slot(i);
-    const ChartValue c = ChartOf::from_quaternion(b.orientation.template cast<S>());
+    const ChartValue c = ChartOf::from_quaternion(of(Quaternion<S>(), &BodyStart::orientation));
     ChartOf::store(c, y + s.orientation);
     const Matrix r = rotation(c);
-    Vector a = b.angular_velocity.template cast<S>();
+    Vector a = of(Vector(), &BodyStart::angular_velocity);
     if constexpr (A == AngularState::velocity_body) {
-      if (!b.angular_velocity_in_body) a = r.transpose() * a;
+      if (!in_body) a = r.transpose() * a;
     } else if constexpr (A == AngularState::velocity_world) {
-      if (b.angular_velocity_in_body) a = r * a;
+      if (in_body) a = r * a;
     } else {
-      a = r * body(i).momentum(b.angular_velocity_in_body ? a : Vector(r.transpose() * a));
+      a = r * body(i).momentum(in_body ? a : Vector(r.transpose() * a));
     }
     store(a, y + s.angular);
     if (!pinned(i)) {
-      store(b.position.template cast<S>(), y + s.position);
-      store(b.velocity.template cast<S>(), y + s.velocity);
+      store(of(Vector(), &BodyStart::position), y + s.position);
+      store(of(Vector(), &BodyStart::velocity), y + s.velocity);
     }
   }
   return state;
@@ -129,6 +189,20 @@ void RigidBodies<S, O, A, N>::project(VectorX<S>& y) const {
   project_flat(y.data());
 }
 
+/// build<O, A>() of the formulation.
+template <class Build>
+auto in_formulation(const Formulation& formulation, const Build& build) {
+  const auto chart = [&]<Orientation O>() {
+    switch (formulation.angular_state) {
+      case AngularState::velocity_world: return build.template operator()<O, AngularState::velocity_world>();
+      case AngularState::velocity_body: return build.template operator()<O, AngularState::velocity_body>();
+      default: return build.template operator()<O, AngularState::momentum_world>();
+    }
+  };
+  return formulation.orientation == Orientation::quaternion ? chart.template operator()<Orientation::quaternion>()
+                                                            : chart.template operator()<Orientation::matrix>();
+}
+
 template <class S>
 std::unique_ptr<System<S>> make_system(const Problem& problem, const Formulation& formulation) {
   if (!formulation.gyroscopic && formulation.angular_state == AngularState::momentum_world) {
@@ -138,21 +212,36 @@ std::unique_ptr<System<S>> make_system(const Problem& problem, const Formulation
   }
   if (problem.moving() == 0) throw std::invalid_argument("the scenario has no moving body");
   const auto build = [&]<Orientation O, AngularState A>() -> std::unique_ptr<System<S>> {
+    std::vector<Problem> one = {problem};
     if constexpr (has_one_body_form<S>) {
-      if (fits_one_body_form(problem)) return std::make_unique<RigidBodies<S, O, A, BodyCount::one>>(problem, formulation);
+      if (fits_one_body_form(problem)) {
+        return std::make_unique<RigidBodies<S, O, A, BodyCount::one>>(std::move(one), formulation);
+      }
     }
-    return std::make_unique<RigidBodies<S, O, A, BodyCount::many>>(problem, formulation);
+    return std::make_unique<RigidBodies<S, O, A, BodyCount::many>>(std::move(one), formulation);
   };
-  const auto build_chart = [&]<Orientation O>() {
-    switch (formulation.angular_state) {
-      case AngularState::velocity_world: return build.template operator()<O, AngularState::velocity_world>();
-      case AngularState::velocity_body: return build.template operator()<O, AngularState::velocity_body>();
-      default: return build.template operator()<O, AngularState::momentum_world>();
-    }
-  };
-  return formulation.orientation == Orientation::quaternion
-             ? build_chart.template operator()<Orientation::quaternion>()
-             : build_chart.template operator()<Orientation::matrix>();
+  return in_formulation(formulation, build);
+}
+
+std::string lane_key(const System<double>& system) {
+  if (system.problem().bodies.size() != 1 || !fits_one_body_form(system.problem())) return {};
+  std::string key = system.problem().bodies.front().inertia.isDiagonal(0) ? "principal" : "general";
+  if (system.problem().starts.front().angular_velocity_in_body) key += " body";
+  for (std::size_t k = 0; k < system.forces().size(); ++k) {
+    if (k >= system.problem().forces.size()) return {};  // registered beyond the problem
+    const auto& force = *system.forces()[k];
+    key += ' ' + system.problem().forces[k].kind;
+    for (const bool fact : {force.does_work(), force.effect_on(0).torque, force.reads_rotation()}) key += fact ? '1' : '0';
+  }
+  return key;
+}
+
+std::unique_ptr<System<Lanes>> make_ensemble(std::span<const Problem> problems, const Formulation& formulation) {
+  if (problems.size() != std::size_t(lane_count)) throw std::invalid_argument("an ensemble has one problem for each lane");
+  return in_formulation(formulation, [&]<Orientation O, AngularState A>() -> std::unique_ptr<System<Lanes>> {
+    return std::make_unique<RigidBodies<Lanes, O, A, BodyCount::one>>(
+        std::vector<Problem>(problems.begin(), problems.end()), formulation);
+  });
 }
 
 // Every instantiation, so that the members above are compiled here and nowhere else.
@@ -164,6 +253,7 @@ std::unique_ptr<System<S>> make_system(const Problem& problem, const Formulation
   template class RigidBodies<S, Orientation::matrix, AngularState::velocity_body, N>;          \
   template class RigidBodies<S, Orientation::matrix, AngularState::momentum_world, N>
 
+POLHODE_INSTANTIATE(Lanes, BodyCount::one);
 POLHODE_INSTANTIATE(double, BodyCount::one);
 POLHODE_INSTANTIATE(double, BodyCount::many);
 POLHODE_INSTANTIATE(float, BodyCount::many);

@@ -14,6 +14,7 @@
 
 #include <array>
 #include <concepts>
+#include <stdexcept>
 #include <type_traits>
 #include <vector>
 
@@ -77,12 +78,10 @@ struct BodyConstants {
 template <class S>
 S dexp_inverse_coefficient(S theta2) {
   using std::sqrt, std::tan;
-  if (theta2 < S(1e-2)) {
-    return S(1) / S(12) + theta2 * (S(1) / S(720) + theta2 * (S(1) / S(30240) + theta2 * (S(1) / S(1209600) +
-           theta2 * (S(1) / S(47900160) + theta2 * (S(691) / S(1307674368000.0L))))));
-  }
+  const S series = S(1) / S(12) + theta2 * (S(1) / S(720) + theta2 * (S(1) / S(30240) + theta2 * (S(1) / S(1209600) +
+                   theta2 * (S(1) / S(47900160) + theta2 * (S(691) / S(1307674368000.0))))));
   const S half = sqrt(theta2) / S(2);
-  return (S(1) - half / tan(half)) / theta2;
+  return select(theta2 < S(1e-2), series, S((S(1) - half / tan(half)) / theta2));
 }
 
 template <class S, Orientation O, AngularState A, BodyCount N>
@@ -102,17 +101,8 @@ class RigidBodies final : public System<S> {
   using Flat = Eigen::Matrix<S, is_one ? one_size : Eigen::Dynamic, 1>;
   using Tangent = Eigen::Matrix<S, is_one ? 6 : Eigen::Dynamic, 1>;
 
-  RigidBodies(const Problem& problem, const Formulation& formulation) : System<S>(problem, formulation) {
-    for (std::size_t i = 0; i < this->moving(); ++i) bodies_.emplace_back(problem.bodies[i]);
-    motions_.resize(problem.bodies.size(), {Vector::Zero(), Matrix::Identity(), Vector::Zero(), Vector::Zero()});
-    wrenches_.resize(problem.bodies.size());
-    for (std::size_t i = 0; i < problem.bodies.size(); ++i) {  // what static and pinned bodies keep
-      const BodyStart& s = problem.starts[i];
-      motions_[i] = {s.position.template cast<S>(), rotation_matrix<S>(s.orientation.template cast<S>()),
-                     Vector::Zero(), Vector::Zero()};
-    }
-    first_ = bodies_.front();
-  }
+  /// One problem, or one for each lane of the scalar.
+  RigidBodies(std::vector<Problem> problems, const Formulation& formulation);
 
   // ---- the concept -------------------------------------------------------------------------------------------------
 
@@ -302,7 +292,7 @@ class RigidBodies final : public System<S> {
       }
       m.angular_momentum += l;
       const S defect = ChartOf::defect(ChartOf::load(y + s.orientation));
-      if (!(defect <= m.orientation_defect)) m.orientation_defect = defect;  // NaN stays
+      m.orientation_defect = select(defect <= m.orientation_defect, m.orientation_defect, defect);  // NaN stays
     }
     if (this->has_forces() && !this->forces_read_rotation()) fill_motions(y);
     for (const auto& force : this->forces()) m.potential += force->potential_energy(motions_);
@@ -438,14 +428,16 @@ class RigidBodies final : public System<S> {
     return p;
   }
 
-  /// d(angular state)/dt of a body with rotation r under the torque about its reference point; null: no torque.
-  Vector angular_rate(const Constants& b, const Matrix& r, const Vector& a, const Vector* torque) const {
+  /// dΩ/dt of a body under the torque m about its reference point, body axes.
+  Vector angular_rate_body(const Constants& b, const Vector& w, Vector m) const {
+    if (this->formulation().gyroscopic) m -= w.cross(b.momentum(w));
+    return b.velocity(m);
+  }
+
+  /// dω/dt, or dL/dt, of a body with rotation r under the torque about its reference point; null: no torque.
+  Vector angular_rate_world(const Constants& b, const Matrix& r, const Vector& a, const Vector* torque) const {
     if constexpr (A == AngularState::momentum_world) {
       return torque ? *torque : Vector(Vector::Zero());
-    } else if constexpr (A == AngularState::velocity_body) {
-      Vector m = torque ? Vector(r.transpose() * *torque) : Vector(Vector::Zero());
-      if (this->formulation().gyroscopic) m -= a.cross(b.momentum(a));
-      return b.velocity(m);
     } else {
       if (orthonormal()) {  // R RᵀR = R: the products with R around the gyroscopic term cancel
         const Vector w = r.transpose() * a;
@@ -476,29 +468,29 @@ class RigidBodies final : public System<S> {
       const Constants& b = body(i);
       const ChartValue c = ChartOf::load(y + s.orientation);
       const Vector a = load(y + s.angular);
-      // The matrix is needed but for a free body in its own axes.
-      Matrix r = Matrix::Identity();
-      if (forced && this->forces_read_rotation() && (WithVelocity || working)) {
-        r = motions_[i].rotation;
-      } else if (!in_body_axes || this->forces_exert_torques()) {
-        r = rotation(c);
-      }
+      const Vector* torque = forced && this->forces_exert_torques() ? &wrenches_[i].torque : nullptr;
+      const auto rotation_now = [&]() -> Matrix {
+        const bool known = forced && this->forces_read_rotation() && (WithVelocity || working);
+        return known ? motions_[i].rotation : rotation(c);
+      };
       if constexpr (WithConfiguration) {
-        if constexpr (in_body_axes) {
-          ChartOf::store(ChartOf::rate_body(c, a), dy + s.orientation);
-        } else {
-          ChartOf::store(ChartOf::rate_world(c, angular_velocity_world(b, r, a)), dy + s.orientation);
-        }
+        if constexpr (in_body_axes) ChartOf::store(ChartOf::rate_body(c, a), dy + s.orientation);
         if (!pinned(i)) store(load(y + s.velocity), dy + s.position);
       }
-      if constexpr (WithVelocity) {
-        if (forced) {
-          store(angular_rate(b, r, a, this->forces_exert_torques() ? &wrenches_[i].torque : nullptr), dy + s.angular);
-          if (!pinned(i)) store(wrenches_[i].force * b.inverse_mass, dy + s.velocity);
-        } else {
-          store(angular_rate(b, r, a, nullptr), dy + s.angular);
-          if (!pinned(i)) store(Vector::Zero(), dy + s.velocity);
+      if constexpr (in_body_axes) {  // the matrix is needed for torques only
+        if constexpr (WithVelocity) {
+          const Vector m = torque ? Vector(rotation_now().transpose() * *torque) : Vector(Vector::Zero());
+          store(angular_rate_body(b, a, m), dy + s.angular);
         }
+      } else {
+        const Matrix r = rotation_now();
+        if constexpr (WithConfiguration) {
+          ChartOf::store(ChartOf::rate_world(c, angular_velocity_world(b, r, a)), dy + s.orientation);
+        }
+        if constexpr (WithVelocity) store(angular_rate_world(b, r, a, torque), dy + s.angular);
+      }
+      if constexpr (WithVelocity) {
+        if (!pinned(i)) store(forced ? Vector(wrenches_[i].force * b.inverse_mass) : Vector(Vector::Zero()), dy + s.velocity);
       }
     }
     if constexpr (WithConfiguration) dy[this->flat_size() - 1] = working ? power(t) : S(0);
@@ -516,9 +508,10 @@ class RigidBodies final : public System<S> {
   mutable std::vector<Wrench<S>> wrenches_;
 };
 
-/// Only double is worth an instantiation of its own for one body; float and long double are for studies of rounding.
+/// Only double, alone or in lanes, is worth an instantiation of its own for one body; float and long double are for
+/// studies of rounding.
 template <class S>
-inline constexpr bool has_one_body_form = std::is_same_v<S, double>;
+inline constexpr bool has_one_body_form = std::is_same_v<S, double> || is_lanes<S>;
 inline bool fits_one_body_form(const Problem& problem) {
   return problem.bodies.size() == 1 && !problem.bodies.front().pinned;
 }
@@ -528,9 +521,12 @@ template <class S, class F>
 auto visit_system(const System<S>& system, F&& f) {
   const auto with = [&]<Orientation O, AngularState A>() {
     if constexpr (has_one_body_form<S>) {
-      if (fits_one_body_form(system.problem())) return f(static_cast<const RigidBodies<S, O, A, BodyCount::one>&>(system));
+      if (is_lanes<S> || fits_one_body_form(system.problem())) {
+        return f(static_cast<const RigidBodies<S, O, A, BodyCount::one>&>(system));
+      }
     }
-    return f(static_cast<const RigidBodies<S, O, A, BodyCount::many>&>(system));
+    if constexpr (!is_lanes<S>) return f(static_cast<const RigidBodies<S, O, A, BodyCount::many>&>(system));
+    else throw std::logic_error("an ensemble is of single bodies");
   };
   const auto with_chart = [&]<Orientation O>() {
     switch (system.formulation().angular_state) {

@@ -8,15 +8,14 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/run_samples.hpp"
+
 namespace polhode {
 namespace {
 
 // t_end counts as a whole number of steps when it is one to this relative accuracy: 10/0.1 must not leave a step of
 // 1e-15 s behind.
 constexpr double whole_tolerance = 1e-9;
-// How many steps may pass between two looks at the request to stop, and how many are measured in one call.
-constexpr std::int64_t steps_between_looks = 4096;
-constexpr std::int64_t longest_stretch = 64;
 // An adaptive method whose steps stay below this share of the run for so many steps will not get there.
 constexpr double least_progress = 1e-14;
 constexpr int patience = 1000;
@@ -50,11 +49,6 @@ template <>
 struct View<double> {
   const State<double>& of(const State<double>& state) { return state; }
 };
-
-bool is_finite(const Sample& s) {
-  const Measurement<double>& m = s.seen;
-  return std::isfinite(m.energy() + m.orientation_defect + m.linear_momentum.sum() + m.angular_momentum.sum() + s.work);
-}
 
 template <class S>
 class Loop {
@@ -93,26 +87,24 @@ class Loop {
 
   /// Hands samples to the observer; false ends the run as diverged.
   bool take_samples(std::span<const Sample> samples) {
-    std::size_t finite = 0;
-    while (finite < samples.size() && is_finite(samples[finite])) ++finite;
-    const std::size_t taken = observer_.observe(samples.first(finite));
-    if (taken == samples.size()) return true;
-    state_.t = samples[taken].t;
-    diverged(taken < finite ? "the energy grew beyond all bounds" : "the state ceased to be finite");
-    surplus_steps_ = static_cast<std::int64_t>(samples.size() - taken) - 1;
+    const TakenSamples taken = hand_over(samples, observer_);
+    if (!taken.why) return true;
+    state_.t = samples[taken.count].t;
+    diverged(taken.why);
+    surplus_steps_ = static_cast<std::int64_t>(samples.size() - taken.count) - 1;
     outcome_.steps -= surplus_steps_;
     return false;
   }
 
   void diverged(const char* why) {
     outcome_.status = RunStatus::diverged;
-    outcome_.message = std::string(why) + " at t = " + number(state_.t) + " s";
+    outcome_.message = at_time(why, state_.t);
   }
 
   bool interrupted() {
     if (!stop_ || !stop_->load(std::memory_order_relaxed)) return false;
     outcome_.status = RunStatus::interrupted;
-    outcome_.message = "interrupted at t = " + number(state_.t) + " s";
+    outcome_.message = at_time("interrupted", state_.t);
     return true;
   }
 
@@ -122,7 +114,7 @@ class Loop {
     const StepResult result = integrator_.step(state_, h);
     if (!result.ok()) {
       outcome_.status = RunStatus::failed;
-      outcome_.message = result.failure + " at t = " + number(state_.t) + " s";
+      outcome_.message = at_time(result.failure, state_.t);
       return false;
     }
     if (t_after) state_.t = *t_after;  // t_k = k h, never accumulated
@@ -131,7 +123,7 @@ class Loop {
     steps_without_progress_ = progress ? 0 : steps_without_progress_ + 1;
     if (steps_without_progress_ > patience) {
       outcome_.status = RunStatus::failed;
-      outcome_.message = "the step size fell to nothing at t = " + number(state_.t) + " s";
+      outcome_.message = at_time("the step size fell to nothing", state_.t);
       return false;
     }
     if (!is_finite(state_.y)) {
@@ -171,7 +163,7 @@ class Loop {
     if (integrator_.takes_stretches() && stride == 1) {
       const std::int64_t until = plan.last > 0 ? plan.whole : plan.whole - 1;
       while (k < until) {
-        const std::int64_t n = std::min(longest_stretch, std::min(until, step_of_next_look(k)) - k);
+        const std::int64_t n = std::min(longest_stretch, std::min(until, step_of_next_look(observer_, schedule_.dt, k)) - k);
         if (!take_stretch(k, n)) return;
         k += n;
       }
@@ -188,19 +180,12 @@ class Loop {
     }
   }
 
-  /// The first step after the k-th at whose end the observer wants to look.
-  std::int64_t step_of_next_look(std::int64_t k) const {
-    const double at = std::ceil(observer_.next_look() / schedule_.dt);
-    if (!(at < 9e15)) return std::numeric_limits<std::int64_t>::max();
-    return std::max(k + 1, static_cast<std::int64_t>(at));
-  }
-
   bool take_stretch(std::int64_t k, std::int64_t n) {
     const Stretch stretch{schedule_.dt, n, 0, k, schedule_.normalise, samples_.data()};
     const StepResult result = integrator_.advance(state_, stretch);
     if (!result.ok()) {
       outcome_.status = RunStatus::failed;
-      outcome_.message = result.failure + " at t = " + number(state_.t) + " s";
+      outcome_.message = at_time(result.failure, state_.t);
       return false;
     }
     outcome_.steps += n;
@@ -230,7 +215,7 @@ class Loop {
           if (!observe(between)) return;
         } else {
           outcome_.status = RunStatus::failed;
-          outcome_.message = "no dense output at t = " + number(sample_time(next)) + " s";
+          outcome_.message = at_time("no dense output", sample_time(next));
           return;
         }
       }

@@ -5,9 +5,12 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/formulation.hpp"
+#include "core/lanes.hpp"
 #include "core/problem.hpp"
 #include "core/state.hpp"
 
@@ -46,7 +49,9 @@ class System {
   System& operator=(const System&) = delete;
   virtual ~System() = default;
 
-  const Problem& problem() const { return problem_; }
+  const Problem& problem() const { return problems_.front(); }
+  /// One, or as many as a pack has lanes.
+  const std::vector<Problem>& problems() const { return problems_; }
   const Formulation& formulation() const { return formulation_; }
   const Layout& layout() const { return layout_; }
   std::size_t moving() const { return layout_.slots.size(); }
@@ -84,10 +89,10 @@ class System {
   }
 
  protected:
-  System(Problem problem, const Formulation& formulation);
+  System(std::vector<Problem> problems, const Formulation& formulation);
 
  private:
-  Problem problem_;
+  std::vector<Problem> problems_;
   Formulation formulation_;
   Layout layout_;
   std::vector<ForcePointer<S>> forces_;
@@ -100,5 +105,11 @@ class System {
 /// formulation that makes no sense (gyroscopic off with momentum_world) and for a problem without a moving body.
 template <class S>
 std::unique_ptr<System<S>> make_system(const Problem& problem, const Formulation& formulation);
+
+/// Systems of the same non-empty key can go side by side in the lanes of an ensemble: one free body, with the same
+/// kinds of forces. Their inertias, starts and parameters are their own.
+std::string lane_key(const System<double>& system);
+/// lane_count problems, whose systems have one key, side by side.
+std::unique_ptr<System<Lanes>> make_ensemble(std::span<const Problem> problems, const Formulation& formulation);
 
 }  // namespace polhode

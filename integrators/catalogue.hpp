@@ -24,6 +24,7 @@ struct IntegratorEntry {
   IntegratorMaker<double> make;
   IntegratorMaker<float> make_float{};
   IntegratorMaker<long double> make_long_double{};
+  IntegratorMaker<Lanes> make_lanes{};  ///< in the lanes of an ensemble
   /// Why it makes no sense with this problem in this formulation; empty, or an empty answer: it does.
   std::function<std::string(const Problem&, const Formulation&)> refusal{};
 
@@ -31,6 +32,7 @@ struct IntegratorEntry {
   const IntegratorMaker<S>& maker() const {
     if constexpr (std::is_same_v<S, float>) return make_float;
     else if constexpr (std::is_same_v<S, long double>) return make_long_double;
+    else if constexpr (is_lanes<S>) return make_lanes;
     else return make;
   }
 };

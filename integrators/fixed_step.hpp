@@ -42,7 +42,7 @@ class FixedStep final : public Integrator<typename System::Scalar> {
     }
   }
 
-  bool takes_stretches() const override { return std::is_same_v<S, double> && !can_fail; }
+  bool takes_stretches() const override { return measures && !can_fail; }
 
   using Integrator<S>::advance;
 
@@ -77,23 +77,43 @@ class FixedStep final : public Integrator<typename System::Scalar> {
   void take(Method<System>& method, const Stretch& stretch, Flat& y) const {
     for (std::int64_t k = 1; k <= stretch.count; ++k) {
       method.step(system_, S(stretch.time(k - 1)), S(stretch.h), y);
-      if constexpr (std::is_same_v<S, double>) finish_step(stretch, k, y);
+      if constexpr (measures) finish_step(stretch, k, y);
     }
   }
 
+  static constexpr bool measures = std::is_same_v<S, double> || is_lanes<S>;
+
   /// Projection and measurement, as the driver does them for methods that take no stretches.
   void finish_step(const Stretch& stretch, std::int64_t k, Flat& y) const {
-    double injected = 0;
+    S injected = 0;
     if (stretch.project) {
       const bool account = stretch.samples && system_.projection_changes_energy();
-      const double before = account ? system_.measure_flat(y.data()).energy() : 0.0;
+      const S before = account ? energy(y) : S(0);
       system_.project_flat(y.data());
-      if (account) injected = system_.measure_flat(y.data()).energy() - before;
+      if (account) injected = energy(y) - before;
     }
-    if (stretch.samples) {
-      stretch.samples[k - 1] = {stretch.time(k), system_.measure_flat(y.data()), y[y.size() - 1], injected};
+    if (!stretch.samples) return;
+    const Measurement<S> m = system_.measure_flat(y.data());
+    if constexpr (is_lanes<S>) {
+      const S work = y[y.size() - 1];
+      for (int i = 0; i < lane_count; ++i) {
+        Sample& to = stretch.samples[i * stretch.lane_stride + k - 1];
+        to.t = stretch.time(k);
+        to.seen.kinetic = m.kinetic[i];
+        to.seen.potential = m.potential[i];
+        for (int j = 0; j < 3; ++j) to.seen.linear_momentum[j] = m.linear_momentum[j][i];
+        for (int j = 0; j < 3; ++j) to.seen.angular_momentum[j] = m.angular_momentum[j][i];
+        to.seen.orientation_defect = m.orientation_defect[i];
+        to.work = work[i];
+        to.projection = injected[i];
+      }
+    } else {
+      stretch.samples[k - 1] = {stretch.time(k), m, y[y.size() - 1], injected};
     }
   }
+
+  /// Of a copy, and not inlined: rarely called, and the state above stays in registers.
+  [[gnu::noinline]] S energy(Flat y) const { return system_.measure_flat(y.data()).energy(); }
 
   const System& system_;
   Method<System> method_;
@@ -101,8 +121,9 @@ class FixedStep final : public Integrator<typename System::Scalar> {
   std::int64_t steps_ = 0;
 };
 
-/// The one line that registers a fixed-step method: fixed_step<Rk4>({.name = "rk4", …}).
-template <template <class> class Method>
+/// The one line that registers a fixed-step method: fixed_step<Rk4>({.name = "rk4", …}). A method whose step does not
+/// branch on its numbers can work in the lanes of an ensemble too: fixed_step<Rk4, in_lanes>.
+template <template <class> class Method, bool with_lanes = false>
 IntegratorEntry fixed_step(Declaration declaration) {
   const int evaluations = declaration.evaluations_per_step;
   const auto maker = [evaluations]<class S>(const System<S>& system) -> IntegratorPointer<S> {
@@ -110,10 +131,13 @@ IntegratorEntry fixed_step(Declaration declaration) {
       return std::make_unique<FixedStep<Method, Concrete>>(concrete, evaluations);
     });
   };
-  return {std::move(declaration),
-          [maker](const System<double>& s, const IntegratorSettings&) { return maker(s); },
-          [maker](const System<float>& s, const IntegratorSettings&) { return maker(s); },
-          [maker](const System<long double>& s, const IntegratorSettings&) { return maker(s); }};
+  IntegratorMaker<Lanes> lanes;
+  if constexpr (with_lanes) lanes = [maker](const System<Lanes>& s, const IntegratorSettings&) { return maker(s); };
+  return {.declaration = std::move(declaration),
+          .make = [maker](const System<double>& s, const IntegratorSettings&) { return maker(s); },
+          .make_float = [maker](const System<float>& s, const IntegratorSettings&) { return maker(s); },
+          .make_long_double = [maker](const System<long double>& s, const IntegratorSettings&) { return maker(s); },
+          .make_lanes = std::move(lanes)};
 }
 
 }  // namespace polhode

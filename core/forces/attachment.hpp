@@ -21,12 +21,14 @@ class Attachment {
   }
 
   Attachment(const ForceParameters& p, std::span<const Body> bodies)
-      : body_(p.bodies[0]), anchor_(p.vector("anchor_body").cast<S>()), off_center_(!anchor_.isZero(0)) {
+      : body_(p.bodies[0]),
+        anchor_(p.vector("anchor_body").cast<S>()),
+        off_center_(!p.vector("anchor_body").isZero(0)) {
     if (p.bodies.size() == 2) {
       other_ = p.bodies[1];
       far_ = p.vector("anchor_body_2").cast<S>();
       two_ = true;
-      off_center_2_ = !far_.isZero(0);
+      off_center_2_ = !p.vector("anchor_body_2").isZero(0);
       internal_ = !bodies[body_].pinned && !bodies[body_].fixed && !bodies[other_].pinned && !bodies[other_].fixed;
     } else {
       far_ = p.vector("anchor_world").cast<S>();

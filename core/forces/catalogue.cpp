@@ -8,6 +8,7 @@
 #include "core/forces/constant_torque.hpp"
 #include "core/forces/damper.hpp"
 #include "core/forces/drag.hpp"
+#include "core/forces/lane_force.hpp"
 #include "core/forces/point_gravity.hpp"
 #include "core/forces/spring.hpp"
 #include "core/forces/uniform_gravity.hpp"
@@ -16,9 +17,13 @@ namespace polhode {
 
 const std::vector<ForceEntry>& force_catalogue() {
   static const std::vector<ForceEntry> entries = {
-      force_entry<UniformGravity>(), force_entry<PointGravity>(),  force_entry<Spring>(),
-      force_entry<Damper>(),         force_entry<Drag>(),          force_entry<ConstantForce>(),
-      force_entry<ConstantTorque>(),
+      force_entry<UniformGravity, in_lanes>(),
+      force_entry<PointGravity>(),
+      force_entry<Spring, in_lanes>(),
+      force_entry<Damper, in_lanes>(),
+      force_entry<Drag, in_lanes>(),
+      force_entry<ConstantForce, in_lanes>(),
+      force_entry<ConstantTorque, in_lanes>(),
   };
   return entries;
 }
@@ -48,6 +53,19 @@ ForcePointer<double> make_force<double>(const ForceParameters& p, std::span<cons
 template <>
 ForcePointer<long double> make_force<long double>(const ForceParameters& p, std::span<const Body> bodies) {
   return entry_of(p).make_long_double(p, bodies);
+}
+
+ForcePointer<Lanes> make_force_in_lanes(std::span<const Problem> problems, std::size_t k) {
+  const Problem& first = problems.front();
+  const auto same = [&](const Problem& p) {
+    const Body &a = first.bodies.front(), &b = p.bodies.front();
+    return p.forces[k].values == first.forces[k].values && a.mass == b.mass && a.inertia == b.inertia;
+  };
+  const ForceEntry& entry = entry_of(first.forces[k]);
+  if (entry.make_lanes && std::all_of(problems.begin(), problems.end(), same)) {
+    return entry.make_lanes(first.forces[k], first.bodies);
+  }
+  return std::make_unique<LaneForce>(problems, k);
 }
 
 }  // namespace polhode

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/force_kind.hpp"
+#include "core/problem.hpp"
 
 namespace polhode {
 
@@ -17,5 +18,14 @@ const ForceEntry* find_force(std::string_view name);
 /// Builds a force on the scalar S from its parameters; kinds are checked by the reader of scenarios.
 template <class S>
 ForcePointer<S> make_force(const ForceParameters& parameters, std::span<const Body> bodies);
+template <>
+ForcePointer<float> make_force(const ForceParameters& parameters, std::span<const Body> bodies);
+template <>
+ForcePointer<double> make_force(const ForceParameters& parameters, std::span<const Body> bodies);
+template <>
+ForcePointer<long double> make_force(const ForceParameters& parameters, std::span<const Body> bodies);
+
+/// The k-th force of each of the problems, of one free body each, in the lanes of an ensemble.
+ForcePointer<Lanes> make_force_in_lanes(std::span<const Problem> problems, std::size_t k);
 
 }  // namespace polhode

@@ -27,6 +27,7 @@ class ConstantForce final : public ForceModel<S> {
         force_(p.vector("force").cast<S>()),
         anchor_(p.vector("anchor_body").cast<S>()),
         world_(p.text("frame") == "world"),
+        off_center_(!p.vector("anchor_body").isZero(0)),
         force_double_(p.vector("force")) {}
 
   void add_wrench(S, std::span<const BodyMotion<S>> bodies, std::span<Wrench<S>> wrenches) const override {
@@ -58,9 +59,8 @@ class ConstantForce final : public ForceModel<S> {
   Effect effect_on(std::size_t body) const override {
     for (const std::size_t i : bodies_) {
       if (i != body) continue;
-      const bool torque = !anchor_.isZero(0);
-      if (world_) return {torque, force_double_};
-      return {torque, std::nullopt};
+      if (world_) return {off_center_, force_double_};
+      return {off_center_, std::nullopt};
     }
     return {};
   }
@@ -70,7 +70,7 @@ class ConstantForce final : public ForceModel<S> {
 
   std::vector<std::size_t> bodies_;
   Vector3<S> force_, anchor_;
-  bool world_;
+  bool world_, off_center_;
   Vector3<double> force_double_;
 };
 

@@ -18,14 +18,14 @@ class Damper final : public ForceModel<S> {
   }
 
   Damper(const ForceParameters& p, std::span<const Body> bodies)
-      : ends_(p, bodies), damping_(S(p.number("damping"))) {}
+      : ends_(p, bodies), damping_(S(p.number("damping"))), damped_(p.number("damping") != 0) {}
 
   void add_wrench(S, std::span<const BodyMotion<S>> bodies, std::span<Wrench<S>> wrenches) const override {
     const auto s = ends_.span(bodies);
     ends_.apply(s, damping_ * ends_.rate(s, bodies), bodies, wrenches);
   }
 
-  bool does_work() const override { return damping_ != S(0); }
+  bool does_work() const override { return damped_; }
 
   S power(S, std::span<const BodyMotion<S>> bodies) const override {
     return -damping_ * ends_.rate(ends_.span(bodies), bodies).squaredNorm();
@@ -37,6 +37,7 @@ class Damper final : public ForceModel<S> {
  private:
   Attachment<S> ends_;
   S damping_;
+  bool damped_;
 };
 
 }  // namespace polhode

@@ -27,7 +27,9 @@ class Drag final : public ForceModel<S> {
       : bodies_(p.bodies),
         linear_(S(p.number("linear"))),
         quadratic_(S(p.number("quadratic"))),
-        angular_(S(p.number("angular"))) {}
+        angular_(S(p.number("angular"))),
+        has_quadratic_(p.number("quadratic") != 0),
+        has_angular_(p.number("angular") != 0) {}
 
   void add_wrench(S, std::span<const BodyMotion<S>> bodies, std::span<Wrench<S>> wrenches) const override {
     for (const std::size_t i : bodies_) {
@@ -48,7 +50,7 @@ class Drag final : public ForceModel<S> {
 
   Effect effect_on(std::size_t body) const override {
     for (const std::size_t i : bodies_) {
-      if (i == body) return {angular_ != S(0), std::nullopt};
+      if (i == body) return {has_angular_, std::nullopt};
     }
     return {};
   }
@@ -56,11 +58,12 @@ class Drag final : public ForceModel<S> {
  private:
   S coefficient(const BodyMotion<S>& body) const {
     using std::sqrt;
-    return quadratic_ == S(0) ? linear_ : linear_ + quadratic_ * sqrt(body.velocity.squaredNorm());
+    return has_quadratic_ ? linear_ + quadratic_ * sqrt(body.velocity.squaredNorm()) : linear_;
   }
 
   std::vector<std::size_t> bodies_;
   S linear_, quadratic_, angular_;
+  bool has_quadratic_, has_angular_;
 };
 
 }  // namespace polhode

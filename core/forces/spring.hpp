@@ -26,11 +26,13 @@ class Spring final : public ForceModel<S> {
       : ends_(p, bodies),
         stiffness_(S(p.number("stiffness"))),
         damping_(S(p.number("damping"))),
-        rest_length_(S(p.number("rest_length"))) {}
+        rest_length_(S(p.number("rest_length"))),
+        damped_(p.number("damping") != 0),
+        rests_at_zero_(p.number("rest_length") == 0) {}
 
   POLHODE_FLATTEN void add_wrench(S, std::span<const BodyMotion<S>> bodies,
                                    std::span<Wrench<S>> wrenches) const override {
-    const bool linear = rest_length_ == S(0) && damping_ == S(0);  // f = k d needs no direction
+    const bool linear = rests_at_zero_ && !damped_;  // f = k d needs no direction
     if (linear && ends_.one_center()) {
       ends_.apply_at_center(stiffness_ * ends_.from_center(bodies), wrenches);
       return;
@@ -42,29 +44,27 @@ class Spring final : public ForceModel<S> {
     }
     using std::sqrt;
     const S length = sqrt(s.d.squaredNorm());
-    if (length == S(0)) return;  // no direction: the spring pushes nowhere
-    const Vector3<S> n = s.d / length;
-    const S tension = stiffness_ * (length - rest_length_) + (does_work() ? damping_ * n.dot(ends_.rate(s, bodies)) : S(0));
+    const Vector3<S> n = s.d / nonzero(length);  // of length 0 it pushes nowhere
+    const S tension = stiffness_ * (length - rest_length_) + (damped_ ? damping_ * n.dot(ends_.rate(s, bodies)) : S(0));
     ends_.apply(s, tension * n, bodies, wrenches);
   }
 
   POLHODE_FLATTEN S potential_energy(std::span<const BodyMotion<S>> bodies) const override {
     using std::sqrt;
-    if (rest_length_ == S(0) && ends_.one_center()) return stiffness_ * ends_.from_center(bodies).squaredNorm() / S(2);
+    if (rests_at_zero_ && ends_.one_center()) return stiffness_ * ends_.from_center(bodies).squaredNorm() / S(2);
     const auto s = ends_.span(bodies);
-    if (rest_length_ == S(0)) return stiffness_ * s.d.squaredNorm() / S(2);
+    if (rests_at_zero_) return stiffness_ * s.d.squaredNorm() / S(2);
     const S stretch = sqrt(s.d.squaredNorm()) - rest_length_;
     return stiffness_ * stretch * stretch / S(2);
   }
 
-  bool does_work() const override { return damping_ != S(0); }
+  bool does_work() const override { return damped_; }
 
   S power(S, std::span<const BodyMotion<S>> bodies) const override {
     const auto s = ends_.span(bodies);
     const S d2 = s.d.squaredNorm();
-    if (d2 == S(0)) return S(0);
     const S along = s.d.dot(ends_.rate(s, bodies));
-    return -damping_ * along * along / d2;
+    return -damping_ * along * along / nonzero(d2);
   }
 
   bool internal() const override { return ends_.internal(); }
@@ -72,8 +72,11 @@ class Spring final : public ForceModel<S> {
   Effect effect_on(std::size_t body) const override { return ends_.effect_on(body); }
 
  private:
+  static S nonzero(S x) { return select(x > S(0), x, S(1)); }
+
   Attachment<S> ends_;
   S stiffness_, damping_, rest_length_;
+  bool damped_, rests_at_zero_;
 };
 
 }  // namespace polhode

@@ -23,7 +23,7 @@ class UniformGravity final : public ForceModel<S> {
       : acceleration_(p.vector("acceleration").cast<S>()), acceleration_double_(p.vector("acceleration")) {
     for (const std::size_t i : p.bodies) {
       const Body& b = bodies[i];
-      if (!b.fixed) loads_.push_back({i, S(b.mass), b.center_of_mass.cast<S>(), b.pinned});
+      if (!b.fixed) loads_.push_back({i, S(b.mass), b.center_of_mass.cast<S>(), b.pinned, effect(b)});
     }
   }
 
@@ -51,7 +51,7 @@ class UniformGravity final : public ForceModel<S> {
   Effect effect_on(std::size_t body) const override {
     for (const Load& load : loads_) {
       if (load.body != body) continue;
-      return {load.pinned && !load.center.isZero(0), double(load.mass) * acceleration_double_};
+      return load.effect;
     }
     return {};
   }
@@ -62,7 +62,11 @@ class UniformGravity final : public ForceModel<S> {
     S mass;
     Vector3<S> center;
     bool pinned;
+    Effect effect;
   };
+  Effect effect(const Body& b) const {
+    return {b.pinned && !b.center_of_mass.isZero(0), b.mass * acceleration_double_};
+  }
   Vector3<S> acceleration_;
   Vector3<double> acceleration_double_;
   std::vector<Load> loads_;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/run.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <stdexcept>
 
+#include "core/simulate_ensemble.hpp"
 #include "experiments/study/drift_meter.hpp"
 #include "integrators/catalogue.hpp"
 
@@ -29,14 +32,29 @@ std::string_view status_text(RunStatus status) {
   }
 }
 
+IntegratorSettings settings_of(const RunConfig& config) {
+  return {.dt = config.dt.value_or(0), .tolerance = config.tolerance.value_or(0), .t_end = config.t_end};
+}
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+RunResult result_of(const RunOutcome& outcome, DriftMeter& meter, double seconds) {
+  RunResult result;
+  result.status = status_text(outcome.status);
+  result.message = outcome.message;
+  result.t_reached = outcome.t;
+  result.steps = outcome.steps;
+  result.evaluations = outcome.evaluations;
+  meter.report(result);
+  result.seconds = seconds;
+  return result;
+}
+
 template <class S>
 RunOutcome run_in(const System<S>& system, const System<double>& truth, const RunConfig& config, Observer& observer,
                   const std::atomic<bool>* stop) {
-  IntegratorSettings settings;
-  settings.dt = config.dt.value_or(0);
-  settings.tolerance = config.tolerance.value_or(0);
-  settings.t_end = config.t_end;
-  const auto integrator = find_integrator(config.integrator)->maker<S>()(system, settings);
+  const auto integrator = find_integrator(config.integrator)->maker<S>()(system, settings_of(config));
   State<S> state = system.start();
   return simulate(system, truth, *integrator, state, schedule_of(config), observer, stop);
 }
@@ -77,8 +95,7 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
 
 RunResult carry_out(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory,
                     const std::atomic<bool>* stop) {
-  const auto started = std::chrono::steady_clock::now();
-  RunResult result;
+  const auto started = Clock::now();
   const auto truth = make_system<double>(scenario.problem, config.formulation);
   DriftMeter meter(*truth, scenario.invariants, config.t_end, config.samples.has_value());
   const auto writer = open_trajectory(trajectory.format, trajectory.folder, *truth, meter);
@@ -91,14 +108,41 @@ RunResult carry_out(const RunConfig& config, const Scenario& scenario, const Tra
     outcome.message = "out of memory";
   }
   if (writer && outcome.status != RunStatus::interrupted) writer->close();  // else it stays unfinished by name
-  result.status = status_text(outcome.status);
-  result.message = outcome.message;
-  result.t_reached = outcome.t;
-  result.steps = outcome.steps;
-  result.evaluations = outcome.evaluations;
-  meter.report(result);
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  return result;
+  return result_of(outcome, meter, seconds_since(started));
+}
+
+std::string ensemble_key(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory) {
+  const bool plain = config.dt && !config.samples && config.precision == Precision::dual &&
+                     trajectory.format == TrajectoryFormat::none;
+  if (!plain || !find_integrator(config.integrator)->make_lanes) return {};
+  const std::string key = lane_key(*make_system<double>(scenario.problem, config.formulation));
+  if (key.empty()) return {};
+  const Formulation& f = config.formulation;
+  return fmt::format("{} {} {} {} {} {} {} {} {}", key, config.integrator, name(f.orientation), name(f.angular_state),
+                     f.gyroscopic, name(f.rotation_from), config.normalise, *config.dt, config.t_end);
+}
+
+std::vector<RunResult> carry_out_together(std::span<const LanedRun> runs, const std::atomic<bool>* stop) {
+  const auto started = Clock::now();
+  const RunConfig& config = runs.front().config;
+  std::vector<Problem> problems;
+  std::vector<std::unique_ptr<System<double>>> truths;
+  std::vector<std::unique_ptr<DriftMeter>> meters;
+  std::vector<LaneRun> lanes;
+  for (const LanedRun& run : runs) {
+    problems.push_back(run.scenario.problem);
+    truths.push_back(make_system<double>(run.scenario.problem, config.formulation));
+    meters.push_back(std::make_unique<DriftMeter>(*truths.back(), run.scenario.invariants, config.t_end, false));
+    lanes.push_back({*truths.back(), *meters.back()});
+  }
+  problems.resize(std::size_t(lane_count), problems.back());  // lanes that nobody looks at
+  const auto system = make_ensemble(problems, config.formulation);
+  const auto integrator = find_integrator(config.integrator)->make_lanes(*system, settings_of(config));
+  const auto outcomes = simulate_ensemble(*system, *integrator, lanes, schedule_of(config), stop);
+  const double seconds = seconds_since(started) / static_cast<double>(runs.size());
+  std::vector<RunResult> results;
+  for (std::size_t i = 0; i < runs.size(); ++i) results.push_back(result_of(outcomes[i], *meters[i], seconds));
+  return results;
 }
 
 }  // namespace polhode::study

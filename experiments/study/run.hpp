@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Carries out one run: puts system, method and meter together and says what came out.
+// Carries out runs: puts system, method and meter together and says what came out.
 #pragma once
 
 #include <atomic>
 #include <filesystem>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "experiments/study/run_record.hpp"
 #include "experiments/study/trajectory.hpp"
@@ -23,5 +25,16 @@ struct TrajectoryRequest {
 /// from outside has the status "interrupted" and must not be kept.
 RunResult carry_out(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory,
                     const std::atomic<bool>* stop);
+
+/// Runs of the same non-empty key differ in initial values and parameters alone and can go side by side in the lanes of
+/// an ensemble. Empty: the run goes alone.
+std::string ensemble_key(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory);
+
+struct LanedRun {
+  const RunConfig& config;
+  const Scenario& scenario;
+};
+/// At most lane_count runs of one key, together, with the digits that carry_out() gives to each; the time is shared out.
+std::vector<RunResult> carry_out_together(std::span<const LanedRun> runs, const std::atomic<bool>* stop);
 
 }  // namespace polhode::study

@@ -86,6 +86,24 @@ bool has_trajectory(const TrajectoryRequest& request) {
   }
 }
 
+/// Runs of one key together, in their order, as many as an ensemble has lanes; those without a key alone.
+template <class Key>
+std::vector<Batch> batches_of(const std::vector<const PlannedRun*>& runs, const Key& key_of) {
+  std::vector<Batch> batches;
+  std::map<std::string, std::size_t> open;
+  for (const PlannedRun* run : runs) {
+    const std::string key = key_of(*run);
+    const auto found = open.find(key);
+    if (key.empty() || found == open.end() || batches[found->second].size() == std::size_t(lane_count)) {
+      open[key] = batches.size();
+      batches.push_back({run});
+    } else {
+      batches[found->second].push_back(run);
+    }
+  }
+  return batches;
+}
+
 /// Carries out what the store does not hold yet. Returns false when it was interrupted.
 bool carry_out_missing(const Experiment& experiment, const Options& options, const Plan& plan,
                        const std::filesystem::path& folder, Store& store, std::map<std::string, RunResult>& results) {
@@ -97,10 +115,18 @@ bool carry_out_missing(const Experiment& experiment, const Options& options, con
   if (missing.empty()) return true;
   const std::size_t kept = plan.runs.size() - missing.size();
   if (!results.empty()) fmt::print(stderr, "{}: {} of {} runs are there already\n", experiment.name, kept, plan.runs.size());
-  const auto work = [&](const PlannedRun& run) {
-    return carry_out(run.config, *run.scenario, trajectory_of(experiment, options, folder, run), &stop_requested);
+  const auto trajectory = [&](const PlannedRun& run) { return trajectory_of(experiment, options, folder, run); };
+  const auto work = [&](const Batch& batch) -> std::vector<RunResult> {
+    if (batch.size() == 1) {
+      const PlannedRun& run = *batch.front();
+      return {carry_out(run.config, *run.scenario, trajectory(run), &stop_requested)};
+    }
+    std::vector<LanedRun> runs;
+    for (const PlannedRun* run : batch) runs.push_back({run->config, *run->scenario});
+    return carry_out_together(runs, &stop_requested);
   };
-  run_all(experiment.name, missing, work, options.jobs, store, stop_requested, results);
+  const auto key = [&](const PlannedRun& run) { return ensemble_key(run.config, *run.scenario, trajectory(run)); };
+  run_all(experiment.name, batches_of(missing, key), work, options.jobs, store, stop_requested, results);
   if (!stop_requested) return true;
   const auto here = std::count_if(plan.runs.begin(), plan.runs.end(), [&](const auto& r) { return results.contains(r.id); });
   fmt::print(stderr, "{}: interrupted; {} of {} runs are kept in {}; the same command goes on from there\n",

@@ -88,24 +88,30 @@ class Keeper {
 
 }  // namespace
 
-void run_all(const std::string& name, const std::vector<const PlannedRun*>& runs,
-             const std::function<RunResult(const PlannedRun&)>& work, int jobs, Store& store, std::atomic<bool>& stop,
-             std::map<std::string, RunResult>& results) {
+void run_all(const std::string& name, std::vector<Batch> batches,
+             const std::function<std::vector<RunResult>(const Batch&)>& work, int jobs, Store& store,
+             std::atomic<bool>& stop, std::map<std::string, RunResult>& results) {
   // The longest first, so that no core is left alone with a long one at the end.
-  std::vector<const PlannedRun*> order = runs;
-  std::stable_sort(order.begin(), order.end(), [](const auto* a, const auto* b) { return a->cost > b->cost; });
+  std::stable_sort(batches.begin(), batches.end(),
+                   [](const Batch& a, const Batch& b) { return a.front()->cost > b.front()->cost; });
   double cost = 0;
-  for (const PlannedRun* run : order) cost += run->cost;
-  Keeper keeper(name, order.size(), cost, store, stop, results);
+  std::size_t runs = 0;
+  for (const Batch& batch : batches) {
+    runs += batch.size();
+    for (const PlannedRun* run : batch) cost += run->cost;
+  }
+  Keeper keeper(name, runs, cost, store, stop, results);
   std::atomic<std::size_t> next{0};
   std::mutex failure_mutex;
   std::exception_ptr failure;
   const auto worker = [&](int) {
-    for (std::size_t i = next++; i < order.size() && !stop; i = next++) {
+    for (std::size_t i = next++; i < batches.size() && !stop; i = next++) {
       try {
-        RunResult result = work(*order[i]);
-        if (result.status == "interrupted") return;
-        keeper.add({order[i]->id, order[i]->config, std::move(result)}, order[i]->cost);
+        std::vector<RunResult> done = work(batches[i]);
+        for (std::size_t k = 0; k < done.size(); ++k) {
+          const PlannedRun& run = *batches[i][k];
+          if (done[k].status != "interrupted") keeper.add({run.id, run.config, std::move(done[k])}, run.cost);
+        }
       } catch (...) {
         const std::lock_guard lock(failure_mutex);
         if (!failure) failure = std::current_exception();
@@ -114,7 +120,7 @@ void run_all(const std::string& name, const std::vector<const PlannedRun*>& runs
     }
   };
   const int cores = std::max(1, jobs > 0 ? jobs : static_cast<int>(std::thread::hardware_concurrency()));
-  const int count = std::min(cores, static_cast<int>(std::min<std::size_t>(order.size(), 4096)));
+  const int count = std::min(cores, static_cast<int>(std::min<std::size_t>(batches.size(), 4096)));
   if (count <= 1) {
     worker(0);
   } else {

@@ -23,7 +23,7 @@ class ExplicitEuler {
 };
 
 IntegratorEntry explicit_euler() {
-  return fixed_step<ExplicitEuler>({.name = "explicit_euler",
+  return fixed_step<ExplicitEuler, in_lanes>({.name = "explicit_euler",
                                     .family = "textbook",
                                     .summary = "y' = y + h f(t, y), all from the old state, as the slides write it",
                                     .order = 1,

@@ -27,7 +27,7 @@ class SemiImplicitEuler {
 };
 
 IntegratorEntry semi_implicit_euler() {
-  return fixed_step<SemiImplicitEuler>({.name = "semi_implicit_euler",
+  return fixed_step<SemiImplicitEuler, in_lanes>({.name = "semi_implicit_euler",
                                         .family = "textbook",
                                         .summary = "v' = v + h a(t, q, v), then q' = q + h N(q) v', as the report updates",
                                         .order = 1,

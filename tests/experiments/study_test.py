@@ -34,8 +34,8 @@ MATRIX = [f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)]
 ENERGY = ["t_s", "kinetic_J", "potential_J", "work_J", "impact_loss_J", "friction_loss_J", "projection_J", "drift_J"]
 EVENTS = ["t_s", "kind", "body_a", "body_b", "px_m", "py_m", "pz_m", "nx", "ny", "nz", "impulse_N_s", "energy_lost_J"]
 
-# 240 runs of about 15 ms of one core each: long enough to be stopped half-way.
-MANY = ["--integrator", "rk4,explicit_midpoint", "--dt", "1e-4", "--vary", "body.0.angular_velocity.1=1:5:120",
+# 240 runs of some 10 ms of one core each, in ensembles: long enough to be stopped half-way.
+MANY = ["--integrator", "rk4,explicit_midpoint", "--dt", "2e-5", "--vary", "body.0.angular_velocity.1=1:5:120",
         "--no-figures", "--jobs", "2"]
 SMALL = ["--integrator", "rk4", "--dt", "1e-2,5e-3", "--no-figures"]
 
@@ -235,6 +235,14 @@ class Resuming(StudyTest):
             if jobs == 1:
                 alone = runs
             self.assertEqual(runs, alone, f"--jobs {jobs} differs from --jobs 1")
+
+    def test_runs_in_an_ensemble_have_the_digits_of_runs_alone(self):
+        # A run whose trajectory is written goes alone; the others share the lanes of an ensemble.
+        options = ["--scenario", "coursework,free_symmetric_top", "--integrator", "rk4,semi_implicit_euler", "--dt", "0.01",
+                   "--t-end", "2", "--normalize", "step", "--vary", "body.0.angular_velocity.1=1:5:11", "--no-figures"]
+        together, alone = self.study(*options), self.study(*options, "--trajectory", "csv")
+        self.assertEqual(len(read_table(together / "runs.csv").rows), 44)
+        self.assertEqual((together / "runs.csv").read_bytes(), (alone / "runs.csv").read_bytes())
 
     def test_repeating_carries_nothing_out_again(self):
         out = self.study(*SMALL)

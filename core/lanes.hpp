@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A pack of doubles that stands for a scalar: one number of each of several independent copies of a system, side by
+// side in a SIMD register. The templates of the mechanics and of the methods take it as their scalar, and every lane
+// gets the digits that a double would: +, −, ×, ÷ and √ are correctly rounded lane by lane, other functions are called
+// for each lane. Where a scalar would branch, `select` chooses in each lane.
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+
+#include <Eigen/Core>
+
+namespace polhode {
+
+/// How many: the width of the registers that the program is compiled for.
+#if defined(__AVX512F__)
+inline constexpr int lane_count = 8;
+#elif defined(__AVX__)
+inline constexpr int lane_count = 4;
+#else
+inline constexpr int lane_count = 2;
+#endif
+
+class Lanes {
+ public:
+  using Pack [[gnu::vector_size(lane_count * sizeof(double))]] = double;
+  using Bits [[gnu::vector_size(lane_count * sizeof(double))]] = std::int64_t;
+
+  /// A truth in each lane.
+  struct Mask {
+    Bits bits;
+    Mask() = default;
+    explicit Mask(bool everywhere) : bits(Bits{} - std::int64_t(everywhere)) {}
+    explicit Mask(Bits b) : bits(b) {}
+    friend Mask operator&(Mask a, Mask b) { return Mask(a.bits & b.bits); }
+    friend Mask operator!(Mask a) { return Mask(~a.bits); }
+    friend bool any(Mask a) {
+      bool found = false;
+      for (int i = 0; i < lane_count; ++i) found |= a.bits[i] != 0;
+      return found;
+    }
+  };
+
+  Lanes() = default;
+  Lanes(double everywhere) : pack_(everywhere - Pack{}) {}  // NOLINT: a number is a pack of itself
+  explicit Lanes(Pack pack) : pack_(pack) {}
+
+  double operator[](int lane) const { return pack_[lane]; }
+  void set(int lane, double x) { pack_[lane] = x; }
+
+  Lanes& operator+=(Lanes b) { return *this = *this + b; }
+  Lanes& operator-=(Lanes b) { return *this = *this - b; }
+  Lanes& operator*=(Lanes b) { return *this = *this * b; }
+  Lanes& operator/=(Lanes b) { return *this = *this / b; }
+  friend Lanes operator-(Lanes a) { return Lanes(-a.pack_); }
+  friend Lanes operator+(Lanes a, Lanes b) { return Lanes(a.pack_ + b.pack_); }
+  friend Lanes operator-(Lanes a, Lanes b) { return Lanes(a.pack_ - b.pack_); }
+  friend Lanes operator*(Lanes a, Lanes b) { return Lanes(a.pack_ * b.pack_); }
+  friend Lanes operator/(Lanes a, Lanes b) { return Lanes(a.pack_ / b.pack_); }
+  friend Mask operator<(Lanes a, Lanes b) { return Mask(Bits(a.pack_ < b.pack_)); }
+  friend Mask operator>(Lanes a, Lanes b) { return Mask(Bits(a.pack_ > b.pack_)); }
+  friend Mask operator<=(Lanes a, Lanes b) { return Mask(Bits(a.pack_ <= b.pack_)); }
+  friend Mask operator>=(Lanes a, Lanes b) { return Mask(Bits(a.pack_ >= b.pack_)); }
+
+  friend Lanes select(Mask where, Lanes a, Lanes b) { return Lanes(where.bits ? a.pack_ : b.pack_); }
+  friend Lanes abs(Lanes a) {
+    return Lanes(Pack(Bits(a.pack_) & (Bits{} + std::numeric_limits<std::int64_t>::max())));
+  }
+  friend Lanes sqrt(Lanes a) {
+    return each(a, [](double x) { return std::sqrt(x); });
+  }
+  friend Lanes sin(Lanes a) {
+    return each(a, [](double x) { return std::sin(x); });
+  }
+  friend Lanes cos(Lanes a) {
+    return each(a, [](double x) { return std::cos(x); });
+  }
+  friend Lanes tan(Lanes a) {
+    return each(a, [](double x) { return std::tan(x); });
+  }
+
+ private:
+  template <class F>
+  static Lanes each(Lanes a, F f) {
+    for (int i = 0; i < lane_count; ++i) a.pack_[i] = f(a.pack_[i]);
+    return a;
+  }
+
+  Pack pack_;
+};
+
+template <class S>
+inline constexpr bool is_lanes = std::same_as<S, Lanes>;
+
+/// The number type of one lane; of a plain scalar itself.
+template <class S>
+struct LaneType {
+  using type = S;
+  using Mask = bool;
+};
+template <>
+struct LaneType<Lanes> {
+  using type = double;
+  using Mask = Lanes::Mask;
+};
+template <class S>
+inline constexpr auto rounding_unit = std::numeric_limits<typename LaneType<S>::type>::epsilon();
+
+/// What select and any are for lanes, for a plain scalar.
+template <std::floating_point S>
+S select(bool where, S a, S b) {
+  return where ? a : b;
+}
+inline bool any(bool a) { return a; }
+
+/// The scalar whose lane i is f(i); a plain scalar has lane 0 only.
+template <class S, class F>
+S gather(const F& f) {
+  if constexpr (is_lanes<S>) {
+    Lanes all;
+    for (int i = 0; i < lane_count; ++i) all.set(i, f(i));
+    return all;
+  } else {
+    return S(f(0));
+  }
+}
+
+}  // namespace polhode
+
+template <>
+struct Eigen::NumTraits<polhode::Lanes> : Eigen::GenericNumTraits<double> {
+  using Real = polhode::Lanes;
+  using NonInteger = polhode::Lanes;
+  using Nested = polhode::Lanes;
+  using Literal = polhode::Lanes;
+};
