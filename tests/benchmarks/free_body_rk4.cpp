@@ -3,7 +3,6 @@
 // hand for that body alone. Both consume the whole state. The line: at most 1.25 times the hand-written loop.
 #include <benchmark/benchmark.h>
 
-#include <array>
 #include <cmath>
 
 #include "integrators/catalogue.hpp"
@@ -31,7 +30,7 @@ Problem free_box() {
 // ---- the hand-written loop: plain arrays, one formulation each -----------------------------------------------------
 
 struct Flat {
-  std::array<double, 14> y;  // p, q (w x y z), v, angular, work
+  double y[14];  // p, q (w x y z), v, angular, work
 };
 
 struct Constants {
