@@ -10,14 +10,27 @@ IntegratorEntry explicit_euler();
 IntegratorEntry semi_implicit_euler();
 IntegratorEntry explicit_midpoint();
 IntegratorEntry rk4();
+IntegratorEntry lie_euler();
+IntegratorEntry crouch_grossman3();
+IntegratorEntry rkmk4();
+IntegratorEntry commutator_free4();
+IntegratorEntry buss2();
+IntegratorEntry lie_midpoint();
+IntegratorEntry simo_wong();
 IntegratorEntry cvode_adams();
 IntegratorEntry cvode_bdf();
 IntegratorEntry odeint_dopri5();
 
 const std::vector<IntegratorEntry>& integrator_catalogue() {
   static const std::vector<IntegratorEntry> entries = {
-      explicit_euler(), semi_implicit_euler(), explicit_midpoint(), rk4(),
-      cvode_adams(),    cvode_bdf(),           odeint_dopri5(),
+      explicit_euler(),   semi_implicit_euler(),
+      explicit_midpoint(), rk4(),
+      lie_euler(),        crouch_grossman3(),
+      rkmk4(),            commutator_free4(),
+      buss2(),            lie_midpoint(),
+      simo_wong(),
+      cvode_adams(),      cvode_bdf(),
+      odeint_dopri5(),
   };
   return entries;
 }
