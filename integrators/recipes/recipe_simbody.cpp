@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Simbody's free body as Peters & Hsu ran it (semi-explicit Euler): the recipe of ODE in two half steps.
+// Source: Peters & Hsu, Comparison of Rigid Body Dynamic Simulators for Robotic Simulation in Gazebo, whose figures for
+// Simbody it gives.
+#include "integrators/recipes/engine_recipe.hpp"
+
+namespace polhode {
+
+template <class System>
+class SimbodyStep {
+ public:
+  using S = typename System::Scalar;
+  using Flat = typename System::Flat;
+
+  explicit SimbodyStep(const System& system) : half_step_(system) {}
+
+  void step(const System& system, S t, S h, Flat& y) {
+    const S half = h / S(2);
+    half_step_.step(system, t, half, y);
+    half_step_.step(system, t + half, half, y);
+  }
+
+ private:
+  OdeStep<System> half_step_;
+};
+
+IntegratorEntry recipe_simbody() {
+  return engine_recipe<SimbodyStep>({.name = "recipe_simbody",
+                                     .family = "engine recipe",
+                                     .summary = "Simbody: ODE's recipe in two half steps",
+                                     .order = 1,
+                                     .evaluations_per_step = 2});
+}
+
+}  // namespace polhode
