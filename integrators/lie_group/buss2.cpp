@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Buss's augmented second-order method: the turn of a step takes the angular acceleration α as constant in the world and
-// keeps the first commutator of Magnus's series,
+// Buss's augmented second-order method: the turn of a step takes the angular acceleration α as constant in the world
+// and keeps the first commutator of Magnus's series,
 //   θ = h ω + h²/2 α + h³/12 α × ω,  R' = exp(θ) R,  p' = p + h v + h²/2 f/m,
 // and what is carried along is the momentum, which free bodies keep. Under forces it moves by Heun's rule,
 //   L' = L + h/2 (τ(t, q, L) + τ(t + h, q', L + h τ(t, q, L))),
 // the linear momentum and the work alike. In body axes the turn reads h Ω + h²/2 Ω̇ + h³/12 Ω̇ × Ω, as Rᵀα = Ω̇.
-// Source: Buss, Accurate and efficient simulation of rigid-body rotations, J. Comput. Phys. 164 (2000); the paper leaves
-// the rule for the torque open.
+// Source: Buss, Accurate and efficient simulation of rigid-body rotations, J. Comput. Phys. 164 (2000); Heun's
+// rule for the forces is a choice made here.
 #include "integrators/fixed_step.hpp"
 #include "integrators/lie_group/gyroscopic_only.hpp"
 
@@ -55,14 +55,15 @@ class Buss2 {
 };
 
 IntegratorEntry buss2() {
-  IntegratorEntry entry = fixed_step<Buss2>({.name = "buss2",
-                                             .family = "Lie group",
-                                             .summary = "Buss: q' = q exp(h w + h^2/2 a + h^3/12 a x w), the momentum by Heun's rule",
-                                             .order = 2,
-                                             .evaluations_per_step = 2,
-                                             .lie_group = true,
-                                             .conserves_momentum = true,
-                                             .conserves_casimir = true});
+  IntegratorEntry entry =
+      fixed_step<Buss2>({.name = "buss2",
+                         .family = "Lie group",
+                         .summary = "Buss: q' = q exp(h w + h^2/2 a + h^3/12 a x w), the momentum by Heun's rule",
+                         .order = 2,
+                         .evaluations_per_step = 2,
+                         .lie_group = true,
+                         .conserves_momentum = true,
+                         .conserves_casimir = true});
   entry.refusal = needs_the_gyroscopic_term;
   return entry;
 }

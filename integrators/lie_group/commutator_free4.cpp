@@ -59,12 +59,13 @@ class CommutatorFree4 {
 };
 
 IntegratorEntry commutator_free4() {
-  return fixed_step<CommutatorFree4>({.name = "commutator_free4",
-                                      .family = "Lie group",
-                                      .summary = "Celledoni, Marthinsen & Owren: the classical tableau by exponentials without commutators",
-                                      .order = 4,
-                                      .evaluations_per_step = 4,
-                                      .lie_group = true});
+  return fixed_step<CommutatorFree4>(
+      {.name = "commutator_free4",
+       .family = "Lie group",
+       .summary = "Celledoni, Marthinsen & Owren: the classical tableau by exponentials without commutators",
+       .order = 4,
+       .evaluations_per_step = 4,
+       .lie_group = true});
 }
 
 }  // namespace polhode

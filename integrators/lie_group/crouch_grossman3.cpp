@@ -45,12 +45,13 @@ class CrouchGrossman3 {
 };
 
 IntegratorEntry crouch_grossman3() {
-  return fixed_step<CrouchGrossman3>({.name = "crouch_grossman3",
-                                      .family = "Lie group",
-                                      .summary = "Crouch-Grossman: a product of exponentials in every stage, Owren & Marthinsen's coefficients",
-                                      .order = 3,
-                                      .evaluations_per_step = 3,
-                                      .lie_group = true});
+  return fixed_step<CrouchGrossman3>(
+      {.name = "crouch_grossman3",
+       .family = "Lie group",
+       .summary = "Crouch-Grossman: a product of exponentials in every stage, Owren & Marthinsen's coefficients",
+       .order = 3,
+       .evaluations_per_step = 3,
+       .lie_group = true});
 }
 
 }  // namespace polhode

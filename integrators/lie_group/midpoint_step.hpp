@@ -5,7 +5,8 @@
 // differ in the equation for θ, which Where names:
 //   middle: θ = h Ω̄, the body twist of the momentum p + h/2 w at q ⊕ θ/2;
 //   end:    θ = h/2 (Ω + Ω'), Ω' the body twist of the momentum p' at q'.
-// For translation both are the implicit midpoint rule. A twist along θ is the same in the body axes of q and of q ⊕ θ/2.
+// For translation both are the implicit midpoint rule. A twist along θ is the same in the body axes of q and of q ⊕
+// θ/2.
 #pragma once
 
 #include <algorithm>

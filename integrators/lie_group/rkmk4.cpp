@@ -54,12 +54,13 @@ class Rkmk4 {
 };
 
 IntegratorEntry rkmk4() {
-  return fixed_step<Rkmk4>({.name = "rkmk4",
-                            .family = "Lie group",
-                            .summary = "Runge-Kutta-Munthe-Kaas: the classical tableau in the algebra, with the inverse of dexp",
-                            .order = 4,
-                            .evaluations_per_step = 4,
-                            .lie_group = true});
+  return fixed_step<Rkmk4>(
+      {.name = "rkmk4",
+       .family = "Lie group",
+       .summary = "Runge-Kutta-Munthe-Kaas: the classical tableau in the algebra, with the inverse of dexp",
+       .order = 4,
+       .evaluations_per_step = 4,
+       .lie_group = true});
 }
 
 }  // namespace polhode

@@ -59,7 +59,7 @@ bool RootFinder<S>::broyden(StepEquations<S>& equations, VectorX<S>& x, S scale)
     if (!(progress.size() <= S(4) * first)) return false;
     squares_[k] = steps_[k].squaredNorm();
     equations.residual(x, f_);
-      f_ = -f_;
+    f_ = -f_;
     for (std::size_t j = 0; j < k; ++j) f_ += steps_[j + 1] * (steps_[j].dot(f_) / squares_[j]);
     const S remains = S(1) - steps_[k].dot(f_) / squares_[k];
     if (!(remains > S(0.05))) return false;

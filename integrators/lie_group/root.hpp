@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The root x = g(x) of an implicit step, in two stages.
 //
-// Broyden's method starts from plain iteration and learns the derivative from its own steps: no derivative, no matrix, a
-// handful of evaluations where h|ω| and h² times the stiffness over the mass are moderate. Where it does not converge,
-// Newton's method with a Jacobian by difference quotients begins again at the guess: n evaluations and a dense LU
-// factorisation an iteration, and it takes any stiffness. Both go on until round-off stops them.
-// Source: Kelley, Iterative Methods for Linear and Nonlinear Equations, SIAM 1995, 5.4 and 7.3 (Broyden's good update
-// as a recurrence of steps).
+// Broyden's method starts from plain iteration and learns the derivative from its own steps: no derivative, no matrix,
+// a handful of evaluations where h|ω| and h² times the stiffness over the mass are moderate. Where it does not
+// converge, Newton's method with a Jacobian by difference quotients begins again at the guess: n evaluations and a
+// dense LU factorisation an iteration, and it takes any stiffness. Both go on until round-off stops them. Source:
+// Kelley, Iterative Methods for Linear and Nonlinear Equations, SIAM 1995, 5.4 and 7.3 (Broyden's good update as a
+// recurrence of steps).
 #pragma once
 
 #include <vector>

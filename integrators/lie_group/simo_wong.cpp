@@ -14,16 +14,17 @@ template <class System>
 using SimoWong = MidpointStep<System, TwistRule::end>;
 
 IntegratorEntry simo_wong() {
-  IntegratorEntry entry = fixed_step<SimoWong>({.name = "simo_wong",
-                                                .family = "Lie group",
-                                                .summary = "ALGO_C1: spatial momentum by the torque half way, q' = q exp(h/2 (W + W'))",
-                                                .order = 2,
-                                                .implicit = true,
-                                                .lie_group = true,
-                                                .symmetric = true,
-                                                .conserves_energy = true,
-                                                .conserves_momentum = true,
-                                                .conserves_casimir = true});
+  IntegratorEntry entry =
+      fixed_step<SimoWong>({.name = "simo_wong",
+                            .family = "Lie group",
+                            .summary = "ALGO_C1: spatial momentum by the torque half way, q' = q exp(h/2 (W + W'))",
+                            .order = 2,
+                            .implicit = true,
+                            .lie_group = true,
+                            .symmetric = true,
+                            .conserves_energy = true,
+                            .conserves_momentum = true,
+                            .conserves_casimir = true});
   entry.refusal = needs_the_gyroscopic_term;
   return entry;
 }

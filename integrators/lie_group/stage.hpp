@@ -19,7 +19,8 @@ class LieStage {
 
   explicit LieStage(const System& system) : rate_(system.zero()), twist_(system.zero_tangent()) {}
 
-  // Compiled once each and not in every stage: beside the sines a call is nothing, and a method builds in half the time.
+  // Compiled once each and not in every stage: beside the sines a call is nothing, and a method builds in half the
+  // time.
   [[gnu::noinline]] POLHODE_FLATTEN void evaluate(const System& system, S t, const Flat& y) {
     system.rate(t, y, rate_);
     system.twist(y, twist_);

@@ -7,9 +7,9 @@
 // over the kick by the wrench.
 // Source: Bullet, btRigidBody::computeGyroscopicImpulseImplicit_Body and btTransformUtil::integrateTransform; Catto,
 // Physics for Game Programmers: Numerical Methods, GDC 2015; Peters & Hsu, whose figures for Bullet it gives.
-#include "integrators/recipes/engine_recipe.hpp"
-
 #include <Eigen/LU>
+
+#include "integrators/recipes/engine_recipe.hpp"
 
 namespace polhode {
 
@@ -48,12 +48,13 @@ class BulletStep {
 };
 
 IntegratorEntry recipe_bullet() {
-  return engine_recipe<BulletStep>({.name = "recipe_bullet",
-                                    .family = "engine recipe",
-                                    .summary = "Bullet: one Newton step of the implicit gyroscopic equation, then q' = exp(h w') q, normalised",
-                                    .order = 1,
-                                    .evaluations_per_step = 1,
-                                    .lie_group = true});
+  return engine_recipe<BulletStep>(
+      {.name = "recipe_bullet",
+       .family = "engine recipe",
+       .summary = "Bullet: one Newton step of the implicit gyroscopic equation, then q' = exp(h w') q, normalised",
+       .order = 1,
+       .evaluations_per_step = 1,
+       .lie_group = true});
 }
 
 }  // namespace polhode

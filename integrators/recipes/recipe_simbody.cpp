@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Simbody's free body as Peters & Hsu ran it (semi-explicit Euler): the recipe of ODE in two half steps.
-// Source: Peters & Hsu, Comparison of Rigid Body Dynamic Simulators for Robotic Simulation in Gazebo, whose figures for
-// Simbody it gives.
+// Simbody's free body: the recipe of ODE in two half steps, which gives the figures that Peters & Hsu publish for it.
+// Source: Peters & Hsu, Comparison of Rigid Body Dynamic Simulators for Robotic Simulation in Gazebo.
 #include "integrators/recipes/engine_recipe.hpp"
 
 namespace polhode {

@@ -42,12 +42,12 @@ TEST(PetersHsu, AllNineColumns) {
     double h;
     Figures published;
   };
-  for (const Row& row : {Row{"recipe_ode", 1e-4, {0.00124711, 0.0012715, 0.0049}},
-                         Row{"recipe_ode", 1e-3, {0.012462, 0.0130708, 0.049}},
-                         Row{"recipe_bullet", 1e-4, {0.0013586, 0.00125827, 0.0049}},
-                         Row{"recipe_bullet", 1e-3, {0.0135771, 0.0124501, 0.049}},
-                         Row{"recipe_simbody", 1e-4, {0.00062358, 0.000634808, 0.00245}},
-                         Row{"recipe_simbody", 1e-3, {0.00623355, 0.00643471, 0.0245}}}) {
+  for (const Row& row :
+       {Row{"recipe_ode", 1e-4, {0.00124711, 0.0012715, 0.0049}}, Row{"recipe_ode", 1e-3, {0.012462, 0.0130708, 0.049}},
+        Row{"recipe_bullet", 1e-4, {0.0013586, 0.00125827, 0.0049}},
+        Row{"recipe_bullet", 1e-3, {0.0135771, 0.0124501, 0.049}},
+        Row{"recipe_simbody", 1e-4, {0.00062358, 0.000634808, 0.00245}},
+        Row{"recipe_simbody", 1e-3, {0.00623355, 0.00643471, 0.0245}}}) {
     SCOPED_TRACE(std::string(row.method) + ", h = " + std::to_string(row.h));
     const Figures ours = figures(row.method, row.h);
     EXPECT_NEAR(ours.energy / row.published.energy, 1, 1e-4);

@@ -59,11 +59,8 @@ inline const Quaternion<double> hairer_vilmart_turn(-0.736061364160794, -0.57078
 /// Simo & Wong 1991: a fast heavy symmetric top, J = (5, 5, 1) about its pivot, m g l = 20.
 inline Problem simo_wong_top() {
   Problem p;
-  p.bodies.push_back({.name = "top",
-                      .mass = 1,
-                      .inertia = laws::diagonal(5, 5, 1),
-                      .pinned = true,
-                      .center_of_mass = {0, 0, 2}});
+  p.bodies.push_back(
+      {.name = "top", .mass = 1, .inertia = laws::diagonal(5, 5, 1), .pinned = true, .center_of_mass = {0, 0, 2}});
   p.starts.push_back({.orientation = quaternion_from_rotation_vector<double>(V3(0.05, 0, 0)),
                       .angular_velocity = {0, 0, 50},
                       .angular_velocity_in_body = true});

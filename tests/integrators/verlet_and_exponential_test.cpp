@@ -81,8 +81,8 @@ TEST(ConstantRotation, GroupStepsAreExact) {
     for (const Formulation& f : laws::gyroscopic_formulations()) {
       Motion run(method, p, f);
       run.steps(0.7, 40);
-      const Quaternion<double> end = product(quaternion_from_rotation_vector<double>(28 * p.starts[0].angular_velocity),
-                                             p.starts[0].orientation);
+      const Quaternion<double> end =
+          product(quaternion_from_rotation_vector<double>(28 * p.starts[0].angular_velocity), p.starts[0].orientation);
       EXPECT_LT(angle_between(run.body().orientation, end), 1e-12) << method << ", " << laws::label(f);
     }
   }

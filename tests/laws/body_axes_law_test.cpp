@@ -18,7 +18,8 @@ TEST(BodyAxesLaw, IsTheSameMechanicsInEveryFormulation) {
       visit_system(*erased, [&](const auto& system) {
         auto y = system.zero();
         y = system.start().y;
-        auto twist = system.zero_tangent(), wrench = twist, rate = twist, momentum = twist, after = twist, ahead = twist;
+        auto twist = system.zero_tangent(), wrench = twist, rate = twist, momentum = twist, after = twist,
+             ahead = twist;
         system.body_twist(y, twist);
         const BodySnapshot<double> body = system.snapshot(y, 0);
         const Vector3<double> w = body.rotation.transpose() * body.angular_velocity;
