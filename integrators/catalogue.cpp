@@ -12,12 +12,29 @@ IntegratorEntry explicit_midpoint();
 IntegratorEntry rk4();
 IntegratorEntry cvode_adams();
 IntegratorEntry cvode_bdf();
+IntegratorEntry odeint_rk4();
+IntegratorEntry odeint_adams_bashforth_moulton();
+IntegratorEntry odeint_cash_karp54();
 IntegratorEntry odeint_dopri5();
+IntegratorEntry odeint_fehlberg78();
+IntegratorEntry odeint_bulirsch_stoer();
+IntegratorEntry odeint_rosenbrock4();
 
 const std::vector<IntegratorEntry>& integrator_catalogue() {
   static const std::vector<IntegratorEntry> entries = {
-      explicit_euler(), semi_implicit_euler(), explicit_midpoint(), rk4(),
-      cvode_adams(),    cvode_bdf(),           odeint_dopri5(),
+      explicit_euler(),
+      semi_implicit_euler(),
+      explicit_midpoint(),
+      rk4(),
+      cvode_adams(),
+      cvode_bdf(),
+      odeint_rk4(),
+      odeint_adams_bashforth_moulton(),
+      odeint_cash_karp54(),
+      odeint_dopri5(),
+      odeint_fehlberg78(),
+      odeint_bulirsch_stoer(),
+      odeint_rosenbrock4(),
   };
   return entries;
 }

@@ -137,7 +137,7 @@ TEST_P(IntegratorLaw, DeclaresWhatItIs) {
 // The declared order of a fixed-step method, from both sides: halving h divides the error by 2^p.
 TEST_P(IntegratorLaw, HasTheDeclaredOrder) {
   if (adaptive()) GTEST_SKIP() << "it takes a tolerance, not a step";
-  const double floor = 2e-11;  // well above the round-off of a run in double
+  const double floor = 4e-12;  // above the round-off of a run in double; multi-step methods reach their order late
   everywhere([&](const Trial& trial, const Formulation& f) {
     const auto system = build<double>(trial, f);
     const auto exact = build<Real>(trial, f);
@@ -163,7 +163,7 @@ TEST_P(IntegratorLaw, FollowsItsTolerance) {
     const Flat end = reference_flow(*exact, system->start().y.cast<Real>(), 0, 1);
     // The slope of log error against log tolerance, by least squares.
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
-    for (int k = 4; k <= 10; ++k) {
+    for (int k = 5; k <= 11; ++k) {  // at 1e-4 a method of order 8 takes four steps
       const double tolerance = std::pow(10, -k);
       const double error = difference(run(*system, tolerance).y, end);
       EXPECT_LT(error, 1000 * tolerance);
@@ -171,7 +171,7 @@ TEST_P(IntegratorLaw, FollowsItsTolerance) {
       n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
     }
     const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
-    EXPECT_NEAR(slope, 1, 0.35) << "slope of log error against log tolerance";
+    EXPECT_NEAR(slope, 1, 0.4) << "slope of log error against log tolerance";
   });
 }
 
@@ -235,7 +235,7 @@ TEST_P(IntegratorLaw, StopsWhereTheForceBreaks) {
       const StepResult result = integrator->step(state, adaptive() ? 1 - state.t : 1.0 / 64);
       if (!result.ok()) {
         EXPECT_TRUE(same_bytes(state, before)) << "a failed step leaves the state as it was";
-        EXPECT_LE(state.t, after);
+        EXPECT_LE(state.t, after + 1e-15) << "the last stage is there to round-off";
         break;
       }
       if (!state.y.allFinite()) break;
