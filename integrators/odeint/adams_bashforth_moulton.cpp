@@ -5,6 +5,7 @@
 // Source: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, III.1; Boost.Odeint's
 // adams_bashforth_moulton.
 #include <boost/numeric/odeint/stepper/adams_bashforth_moulton.hpp>
+#include <vector>
 
 #include "integrators/odeint/fixed.hpp"
 

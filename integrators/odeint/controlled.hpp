@@ -42,6 +42,7 @@ class OdeintControlled final : public Integrator<double> {
     fresh_ = true;
     const double wanted = h_;
     double trial = std::min(wanted, h);
+    bool cut_short = trial < wanted;
     for (;;) {
       double t = state.t;
       double proposal = trial;
@@ -53,7 +54,7 @@ class OdeintControlled final : public Integrator<double> {
       }
       if (passed) {
         // A step that was cut short at the end of the interval says nothing about the one that comes after it.
-        h_ = trial < wanted ? std::max(wanted, proposal) : proposal;
+        h_ = cut_short ? std::max(wanted, proposal) : proposal;
         accept(state, last ? state.t + h : t);
         return {};
       }
@@ -61,6 +62,7 @@ class OdeintControlled final : public Integrator<double> {
       if (!(proposal < trial)) proposal = retreat * trial;
       if (state.t + proposal == state.t) return {"Odeint's step size fell to nothing"};
       trial = proposal;
+      cut_short = false;
     }
   }
 

@@ -1,28 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Odeint's steppers of a fixed step, behind the port of integrators, in any scalar.
 //
-// Stepper<S> is a stepper of Odeint over std::vector<S>: do_step(rate, x, t, h). One with reset() has a history, which
-// is forgotten when the step changes.
+// Stepper<S> is a stepper of Odeint over std::vector<S>: do_step(rate, x, t, h), x any range of numbers. One with reset()
+// has a history, which is forgotten when the step changes.
 #pragma once
 
-#include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "integrators/catalogue.hpp"
 
 namespace polhode {
+
+/// The numbers of a state where they stand, as a range: a copy to a vector and back costs a third of an RK4 step.
+template <class S>
+struct OdeintRange {
+  using iterator = S*;
+  using const_iterator = S*;  // const is the range, not its numbers
+  S* first;
+  std::ptrdiff_t count;
+
+  S* begin() const { return first; }
+  S* end() const { return first + count; }
+  S* data() const { return first; }
+};
 
 template <template <class> class Stepper, class S>
 class OdeintFixed final : public Integrator<S> {
  public:
   explicit OdeintFixed(const System<S>& system) : system_(system) {}
 
-  void begin(const State<S>& state) override {
+  void begin(const State<S>&) override {
     evaluations_ = 0;
     h_ = 0;
     stepper_ = Stepper<S>();
-    x_.resize(static_cast<std::size_t>(state.y.size()));
   }
 
   StepResult step(State<S>& state, double h) override {
@@ -35,13 +45,12 @@ class OdeintFixed final : public Integrator<S> {
       if (stretch.h != h_) stepper_.reset();
     }
     h_ = stretch.h;
-    const auto rate = [this](const std::vector<S>& y, std::vector<S>& dy, S t) {
+    const auto rate = [this](const auto& y, auto& dy, S t) {
       ++evaluations_;
       system_.rate(t, y.data(), dy.data());
     };
-    std::copy(state.y.data(), state.y.data() + state.y.size(), x_.begin());
-    for (std::int64_t k = 0; k < stretch.count; ++k) stepper_.do_step(rate, x_, S(stretch.time(k)), S(stretch.h));
-    std::copy(x_.begin(), x_.end(), state.y.data());
+    OdeintRange<S> x{state.y.data(), state.y.size()};
+    for (std::int64_t k = 0; k < stretch.count; ++k) stepper_.do_step(rate, x, S(stretch.time(k)), S(stretch.h));
     state.t = stretch.time(stretch.count);
     return {};
   }
@@ -57,7 +66,6 @@ class OdeintFixed final : public Integrator<S> {
 
   const System<S>& system_;
   Stepper<S> stepper_;
-  std::vector<S> x_;
   double h_ = 0;
   std::int64_t evaluations_ = 0;
 };

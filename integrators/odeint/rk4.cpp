@@ -2,6 +2,7 @@
 // Boost.Odeint's classical Runge–Kutta method, of a fixed step.
 // Source: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.1; Boost.Odeint's runge_kutta4.
 #include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
+#include <vector>
 
 #include "integrators/odeint/fixed.hpp"
 

@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <cmath>
+#include <vector>
 
 #include "integrators/catalogue.hpp"
 #include "tests/laws/probe_forces.hpp"
@@ -52,6 +56,30 @@ TEST(OdeintControlled, DetestB5) {
     const V3 y = state.y.segment<3>(system->layout().slots[0].angular).cwiseProduct(scale);
     EXPECT_LT((y - exact).cwiseAbs().maxCoeff(), 1e-10) << name;
   }
+}
+
+// The steps, rejected ones too, and the digits are those of the library called directly from the same first step.
+TEST(OdeintControlled, IsTheLibraryItself) {
+  namespace odeint = boost::numeric::odeint;
+  using Vector = std::vector<double>;
+  const auto system = make_system<double>(laws::free_top(), {.angular_state = AngularState::velocity_body});
+  State<double> state = system->start();
+  const auto integrator = method("odeint_dopri5").make(*system, {.tolerance = 1e-8, .t_end = 10});
+  integrator->begin(state);
+  Vector y(state.y.begin(), state.y.end());
+  const auto rate = [&](const Vector& at, Vector& dy, double t) { system->rate(t, at.data(), dy.data()); };
+  auto stepper = odeint::make_controlled(1e-8, 1e-8, odeint::runge_kutta_dopri5<Vector>());
+  double t = 0, h = 0;
+  int rejected = 0;
+  while (state.t < 10) {
+    ASSERT_TRUE(integrator->step(state, 10 - state.t).ok());
+    if (t == 0) h = state.t;
+    h = std::min(h, 10 - t);
+    while (stepper.try_step(rate, y, t, h) == odeint::fail) ++rejected;
+    ASSERT_NEAR(state.t, t, 1e-14);
+    ASSERT_LT((state.y - Eigen::Map<const Flat>(y.data(), state.y.size())).cwiseAbs().maxCoeff(), 1e-13);
+  }
+  EXPECT_GT(rejected, 2);
 }
 
 // Where the right-hand side ceases to be a number no trial passes: the steps shrink towards that time, then one fails.
