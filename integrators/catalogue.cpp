@@ -12,6 +12,8 @@ IntegratorEntry explicit_midpoint();
 IntegratorEntry rk4();
 IntegratorEntry cvode_adams();
 IntegratorEntry cvode_bdf();
+IntegratorEntry arkode_erk();
+IntegratorEntry arkode_dirk();
 IntegratorEntry odeint_rk4();
 IntegratorEntry odeint_adams_bashforth_moulton();
 IntegratorEntry odeint_cash_karp54();
@@ -28,6 +30,8 @@ const std::vector<IntegratorEntry>& integrator_catalogue() {
       rk4(),
       cvode_adams(),
       cvode_bdf(),
+      arkode_erk(),
+      arkode_dirk(),
       odeint_rk4(),
       odeint_adams_bashforth_moulton(),
       odeint_cash_karp54(),

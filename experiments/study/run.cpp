@@ -36,6 +36,7 @@ RunOutcome run_in(const System<S>& system, const System<double>& truth, const Ru
   settings.dt = config.dt.value_or(0);
   settings.tolerance = config.tolerance.value_or(0);
   settings.t_end = config.t_end;
+  settings.project = config.normalise;
   const auto integrator = find_integrator(config.integrator)->maker<S>()(system, settings);
   State<S> state = system.start();
   return simulate(system, truth, *integrator, state, schedule_of(config), observer, stop);
