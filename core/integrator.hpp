@@ -48,7 +48,7 @@ struct IntegratorSettings {
   double dt = 1e-3;         ///< s
   double tolerance = 1e-8;  ///< relative and absolute alike
   double t_end = 1;         ///< s; sets the sign and scale of a first step, nothing else
-  bool project = false;     ///< orientations are projected after each step: within it by methods that can, else by the driver
+  bool project = false;     ///< each step ends in a projection: within it by methods that can, else by the driver
   int order = 0;            ///< of methods that offer several; 0: their own choice
 };
 

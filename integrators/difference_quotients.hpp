@@ -32,8 +32,7 @@ void jacobian_by_quotients(const Rate& rate, double t, Vector& y, Vector& plus, 
 
 /// dt = ∂f/∂t.
 template <class Rate, class Vector, class Out>
-void time_derivative_by_quotients(const Rate& rate, double t, const Vector& y, Vector& plus, Vector& minus,
-                                  Out& dt) {
+void time_derivative_by_quotients(const Rate& rate, double t, const Vector& y, Vector& plus, Vector& minus, Out& dt) {
   const double step = quotient_step(t);
   rate(t + step, y, plus);
   rate(t - step, y, minus);

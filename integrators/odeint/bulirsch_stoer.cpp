@@ -34,7 +34,8 @@ class BulirschStoer {
 
 IntegratorEntry odeint_bulirsch_stoer() {
   return odeint_controlled<BulirschStoer>(
-      {.name = "odeint_bulirsch_stoer", .family = "Boost.Odeint",
+      {.name = "odeint_bulirsch_stoer",
+       .family = "Boost.Odeint",
        .summary = "Bulirsch-Stoer, the midpoint rule extrapolated to a variable order, error control per step"});
 }
 

@@ -35,8 +35,10 @@ class CashKarp54 {
 }  // namespace
 
 IntegratorEntry odeint_cash_karp54() {
-  return odeint_controlled<CashKarp54>(
-      {.name = "odeint_cash_karp54", .family = "Boost.Odeint", .summary = "Cash-Karp 5(4), error control per step", .order = 5});
+  return odeint_controlled<CashKarp54>({.name = "odeint_cash_karp54",
+                                        .family = "Boost.Odeint",
+                                        .summary = "Cash-Karp 5(4), error control per step",
+                                        .order = 5});
 }
 
 }  // namespace polhode

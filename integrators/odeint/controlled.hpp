@@ -88,7 +88,9 @@ class OdeintControlled final : public Integrator<double> {
   }
 
  private:
-  static constexpr bool dense = requires(const Method& m, Vector& v, double t) { m.calc_state(t, v, v, v, t, v, v, t); };
+  static constexpr bool dense = requires(const Method& m, Vector& v, double t) {
+    m.calc_state(t, v, v, v, t, v, v, t);
+  };
   static constexpr double retreat = 0.2;
 
   static bool is_finite(const Vector& x) {

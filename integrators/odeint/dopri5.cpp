@@ -42,7 +42,8 @@ class Dopri5 {
 }  // namespace
 
 IntegratorEntry odeint_dopri5() {
-  return odeint_controlled<Dopri5>({.name = "odeint_dopri5", .family = "Boost.Odeint",
+  return odeint_controlled<Dopri5>({.name = "odeint_dopri5",
+                                    .family = "Boost.Odeint",
                                     .summary = "Dormand-Prince 5(4), error control per step, dense output",
                                     .order = 5});
 }

@@ -35,8 +35,10 @@ class Fehlberg78 {
 }  // namespace
 
 IntegratorEntry odeint_fehlberg78() {
-  return odeint_controlled<Fehlberg78>(
-      {.name = "odeint_fehlberg78", .family = "Boost.Odeint", .summary = "Fehlberg 7(8), the eighth order carried on, error control per step", .order = 8});
+  return odeint_controlled<Fehlberg78>({.name = "odeint_fehlberg78",
+                                        .family = "Boost.Odeint",
+                                        .summary = "Fehlberg 7(8), the eighth order carried on, error control per step",
+                                        .order = 8});
 }
 
 }  // namespace polhode

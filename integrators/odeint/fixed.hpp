@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Odeint's steppers of a fixed step, behind the port of integrators, in any scalar.
 //
-// Stepper<S> is a stepper of Odeint over std::vector<S>: do_step(rate, x, t, h), x any range of numbers. One with reset()
-// has a history, which is forgotten when the step changes.
+// Stepper<S> is a stepper of Odeint over std::vector<S>: do_step(rate, x, t, h), x any range of numbers. One with
+// reset() has a history, which is forgotten when the step changes.
 #pragma once
 
 #include <utility>
@@ -62,7 +62,7 @@ class OdeintFixed final : public Integrator<S> {
   }
 
  private:
-  static constexpr bool has_history = requires(Stepper<S>& s) { s.reset(); };
+  static constexpr bool has_history = requires(Stepper<S> & s) { s.reset(); };
 
   const System<S>& system_;
   Stepper<S> stepper_;
@@ -74,8 +74,7 @@ class OdeintFixed final : public Integrator<S> {
 template <template <class> class Stepper>
 IntegratorEntry odeint_fixed(Declaration declaration) {
   const auto maker = []<class S>(const System<S>& system) { return std::make_unique<OdeintFixed<Stepper, S>>(system); };
-  return {std::move(declaration),
-          [maker](const System<double>& s, const IntegratorSettings&) { return maker(s); },
+  return {std::move(declaration), [maker](const System<double>& s, const IntegratorSettings&) { return maker(s); },
           [maker](const System<float>& s, const IntegratorSettings&) { return maker(s); },
           [maker](const System<long double>& s, const IntegratorSettings&) { return maker(s); }};
 }

@@ -15,7 +15,8 @@ using Rk4 = boost::numeric::odeint::runge_kutta4<std::vector<S>, S>;
 }  // namespace
 
 IntegratorEntry odeint_rk4() {
-  return odeint_fixed<Rk4>({.name = "odeint_rk4", .family = "Boost.Odeint",
+  return odeint_fixed<Rk4>({.name = "odeint_rk4",
+                            .family = "Boost.Odeint",
                             .summary = "the classical Runge-Kutta method of Boost.Odeint",
                             .order = 4,
                             .evaluations_per_step = 4});

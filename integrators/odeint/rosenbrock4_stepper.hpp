@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boost.Odeint's controlled Rosenbrock stepper on plain arrays. It stands apart since Boost 1.74's uBLAS, on which it is
-// built, compiles as C++17 only: what is included here must do so too.
+// Boost.Odeint's controlled Rosenbrock stepper on plain arrays. It stands apart since Boost 1.74's uBLAS, on which it
+// is built, compiles as C++17 only: what is included here must do so too.
 #pragma once
 
 #include <cstddef>

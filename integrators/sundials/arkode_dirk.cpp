@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ARKODE's embedded diagonally implicit Runge–Kutta methods with error control, Newton iteration and a dense
-// difference-quotient Jacobian: its table of order 4 (SDIRK 5(3)4, L-stable), or of the order that the settings ask for,
-// 2 to 5.
-// Source: Hairer & Wanner, Solving Ordinary Differential Equations II, IV.6; Reynolds et al., ARKODE, ACM TOMS 49 (2023).
+// difference-quotient Jacobian: its table of order 4 (SDIRK 5(3)4, L-stable), or of the order that the settings ask
+// for, 2 to 5. Source: Hairer & Wanner, Solving Ordinary Differential Equations II, IV.6; Reynolds et al., ARKODE, ACM
+// TOMS 49 (2023).
 #include <arkode/arkode_arkstep.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
@@ -45,7 +45,10 @@ class ArkodeDirk final : public SundialsIntegrator {
   }
 
   void restart(double t, N_Vector y) override {
+    double h = 0;
+    check(ARKStepGetCurrentStep(memory_.get(), &h), "ARKStepGetCurrentStep");
     check(ARKStepReInit(memory_.get(), nullptr, &right_hand_side, t, y), "ARKStepReInit");
+    check(ARKStepSetInitStep(memory_.get(), h), "ARKStepSetInitStep");
   }
 
   int evolve(double stop, N_Vector y, double* t) override {

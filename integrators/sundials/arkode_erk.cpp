@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ARKODE's embedded explicit Runge–Kutta methods with error control: its table of order 4 (Zonneveld 5(3)4), or of the
-// order that the settings ask for, 2 to 8 (Heun–Euler, Bogacki–Shampine, Zonneveld, Cash–Karp, Verner 6(5), Fehlberg 8(7)
-// for 7 and 8).
-// Source: Reynolds et al., ARKODE, ACM TOMS 49 (2023); the ARKODE 5.4 user guide, "Butcher tables".
+// order that the settings ask for, 2 to 8 (Heun–Euler, Bogacki–Shampine, Zonneveld, Cash–Karp, Verner 6(5), Fehlberg
+// 8(7) for 7 and 8). Source: Reynolds et al., ARKODE, ACM TOMS 49 (2023); the ARKODE 5.4 user guide, "Butcher tables".
 #include <arkode/arkode_erkstep.h>
 
 #include <cstdlib>
@@ -39,7 +38,10 @@ class ArkodeErk final : public SundialsIntegrator {
   }
 
   void restart(double t, N_Vector y) override {
+    double h = 0;
+    check(ERKStepGetCurrentStep(memory_.get(), &h), "ERKStepGetCurrentStep");
     check(ERKStepReInit(memory_.get(), &right_hand_side, t, y), "ERKStepReInit");
+    check(ERKStepSetInitStep(memory_.get(), h), "ERKStepSetInitStep");
   }
 
   int evolve(double stop, N_Vector y, double* t) override {

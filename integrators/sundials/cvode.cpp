@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // CVODE's variable-order, variable-step linear multistep methods: Adams–Moulton (orders 1 to 12, fixed-point
 // iteration) and backward differentiation (orders 1 to 5, Newton iteration, dense difference-quotient Jacobian).
-// Backward differentiation projects the orientation within its steps where a run asks for projection, and goes on without
-// a restart. Its dense output between two steps is off the manifold by as much as the tolerance lets it.
-// Source: Hindmarsh et al., SUNDIALS, ACM TOMS 31 (2005); Eich, SIAM J. Numer. Anal. 30 (1993), on projection; the CVODE
-// 6.4 user guide.
+// Backward differentiation projects the orientation within its steps where a run asks for projection, and goes on
+// without a restart. Its dense output between two steps is off the manifold by as much as the tolerance lets it.
+// Source: Hindmarsh et al., SUNDIALS, ACM TOMS 31 (2005); Eich, SIAM J. Numer. Anal. 30 (1993), on projection; the
+// CVODE 6.4 user guide.
 #include <cvode/cvode.h>
 #include <cvode/cvode_proj.h>
 #include <sunlinsol/sunlinsol_dense.h>
@@ -60,7 +60,12 @@ class Cvode final : public SundialsIntegrator {
     }
   }
 
-  void restart(double t, N_Vector y) override { check(CVodeReInit(memory_.get(), t, y), "CVodeReInit"); }
+  void restart(double t, N_Vector y) override {
+    double h = 0;
+    check(CVodeGetCurrentStep(memory_.get(), &h), "CVodeGetCurrentStep");
+    check(CVodeReInit(memory_.get(), t, y), "CVodeReInit");
+    check(CVodeSetInitStep(memory_.get(), h), "CVodeSetInitStep");
+  }
 
   int evolve(double stop, N_Vector y, double* t) override {
     check(CVodeSetStopTime(memory_.get(), stop), "CVodeSetStopTime");

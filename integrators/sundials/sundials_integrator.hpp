@@ -34,6 +34,8 @@ class SundialsIntegrator : public Integrator<double> {
  protected:
   /// The library's object for a run that starts at (t, y): its tolerances and solvers, user_data `self`.
   virtual void create(double t, N_Vector y, SundialsIntegrator* self) = 0;
+  /// Goes on from (t, y) without a history, with the step that was to come next: the libraries' own first step is a
+  /// tenth of the way to the stop at most, and a run that restarts after every step would never end.
   virtual void restart(double t, N_Vector y) = 0;
   /// One step, at most to `stop`, which it does not look beyond.
   virtual int evolve(double stop, N_Vector y, double* t) = 0;

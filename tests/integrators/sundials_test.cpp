@@ -58,9 +58,7 @@ TEST(NativeRoots, ApexOfAProjectile) {
     const auto integrator = make(name, *system, {.tolerance = 1e-11, .t_end = 2});
     ASSERT_TRUE(integrator->has_native_roots());
     State<double> state = system->start(), apex = state;
-    const auto vertical = [&](const State<double>& s) {
-      return s.y[slot.velocity + 2];
-    };
+    const auto vertical = [&](const State<double>& s) { return s.y[slot.velocity + 2]; };
     integrator->set_events({vertical});
     integrator->begin(state);
     while (state.t < 2) {
@@ -124,11 +122,10 @@ TEST(NativeProjection, KeepsTheManifoldAndTheHistory) {
   for (const Orientation orientation : {Orientation::quaternion, Orientation::matrix}) {
     const auto system = make_system<double>(laws::free_top(), {.orientation = orientation});
     const auto run = [&](bool natively, Watch& watch, State<double>& state) {
-      const auto integrator =
-          make("cvode_bdf", *system, {.tolerance = 1e-4, .t_end = 0.1, .project = natively});
+      const auto integrator = make("cvode_bdf", *system, {.tolerance = 1e-6, .t_end = 1, .project = natively});
       EXPECT_EQ(integrator->projects_natively(), natively);
       state = system->start();
-      const Schedule schedule{.t_end = 0.1, .adaptive = true, .samples = {}, .normalise = true};
+      const Schedule schedule{.t_end = 1, .adaptive = true, .samples = {}, .normalise = true};
       const RunOutcome outcome = simulate(*system, *system, *integrator, state, schedule, watch);
       EXPECT_EQ(outcome.status, RunStatus::ok) << outcome.message;
       return outcome.evaluations;
@@ -141,7 +138,7 @@ TEST(NativeProjection, KeepsTheManifoldAndTheHistory) {
     State<double> exact = system->start();
     const auto judge = find_integrator("rk4")->make(*system, {});
     judge->begin(exact);
-    ASSERT_TRUE(judge->advance(exact, 1e-3, 100).ok());
+    ASSERT_TRUE(judge->advance(exact, 1e-3, 1000).ok());
     EXPECT_LT((a.y - exact.y).cwiseAbs().maxCoeff(), 1e-3);
     EXPECT_LT((b.y - exact.y).cwiseAbs().maxCoeff(), 1e-2);
     if (orientation == Orientation::quaternion) {

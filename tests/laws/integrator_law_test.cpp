@@ -7,9 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <span>
 
-#include "core/simulate.hpp"
 #include "tests/laws/integrator_trials.hpp"
 #include "tests/laws/reference_flow.hpp"
 
@@ -116,24 +114,6 @@ TEST_P(IntegratorLaw, CountsItsEvaluations) {
       EXPECT_GT(count, 0);
     }
   });
-}
-
-/// Keeps what a run shows: every sample, and the states.
-struct Rows final : Observer {
-  bool all_states = true;  ///< or the start alone
-  std::vector<Sample> samples{};
-  std::vector<State<double>> states{};
-  std::size_t observe(std::span<const Sample> seen) override {
-    samples.insert(samples.end(), seen.begin(), seen.end());
-    return seen.size();
-  }
-  void look(const State<double>& state, const Sample&) override { states.push_back(state); }
-  double next_look() const override { return all_states ? 0 : std::numeric_limits<double>::infinity(); }
-};
-
-bool is_finite(const Sample& s) {
-  return std::isfinite(s.t + s.seen.kinetic + s.seen.potential + s.seen.orientation_defect + s.work + s.projection) &&
-         s.seen.linear_momentum.allFinite() && s.seen.angular_momentum.allFinite();
 }
 
 // Where the right-hand side ceases to be a number, a step fails and leaves the state as it was, or the driver sees that

@@ -14,8 +14,9 @@ namespace {
 
 class IntegratorTrait : public OverTheCatalogue {
  protected:
-  /// The worst of a deviation over a run of a free body that is not symmetric: `steps` steps of h, or an adaptive method's
-  /// way over 10 s. It stops at a deviation of more than 1. deviation(system, state) is asked after every `stride` steps.
+  /// The worst of a deviation over a run of a free body that is not symmetric: `steps` steps of h, or an adaptive
+  /// method's way over 10 s. It stops at a deviation of more than 1. deviation(system, state) is asked after every
+  /// `stride` steps.
   template <class Deviation>
   double worst(const Formulation& f, int steps, const Deviation& deviation) const {
     const double h = 0.05, t_end = adaptive() ? 10 : steps * h;

@@ -6,9 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/simulate.hpp"
 #include "integrators/catalogue.hpp"
 #include "tests/laws/formulations.hpp"
 #include "tests/laws/probe_forces.hpp"
@@ -53,6 +56,24 @@ inline bool same_bytes(const Sample& a, const Sample& b) {
   return a.t == b.t && a.work == b.work && a.projection == b.projection && a.seen.kinetic == b.seen.kinetic &&
          a.seen.potential == b.seen.potential && a.seen.orientation_defect == b.seen.orientation_defect &&
          a.seen.linear_momentum == b.seen.linear_momentum && a.seen.angular_momentum == b.seen.angular_momentum;
+}
+
+/// Keeps what a run shows: every sample, and the states.
+struct Rows final : Observer {
+  bool all_states = true;  ///< or the start alone
+  std::vector<Sample> samples{};
+  std::vector<State<double>> states{};
+  std::size_t observe(std::span<const Sample> seen) override {
+    samples.insert(samples.end(), seen.begin(), seen.end());
+    return seen.size();
+  }
+  void look(const State<double>& state, const Sample&) override { states.push_back(state); }
+  double next_look() const override { return all_states ? 0 : std::numeric_limits<double>::infinity(); }
+};
+
+inline bool is_finite(const Sample& s) {
+  return std::isfinite(s.t + s.seen.kinetic + s.seen.potential + s.seen.orientation_defect + s.work + s.projection) &&
+         s.seen.linear_momentum.allFinite() && s.seen.angular_momentum.allFinite();
 }
 
 /// A law over all entries of the catalogue: its parameter is the name of a method.
