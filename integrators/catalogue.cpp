@@ -3,38 +3,45 @@
 
 #include <algorithm>
 
+// One line lists a method: the function of its name, in the file of its name, declares it.
+#define POLHODE_INTEGRATORS(METHOD) \
+  METHOD(explicit_euler) \
+  METHOD(semi_implicit_euler) \
+  METHOD(semi_implicit_euler_exp) \
+  METHOD(explicit_midpoint) \
+  METHOD(heun) \
+  METHOD(velocity_verlet) \
+  METHOD(rk4) \
+  METHOD(lie_euler) \
+  METHOD(crouch_grossman3) \
+  METHOD(rkmk4) \
+  METHOD(commutator_free4) \
+  METHOD(buss2) \
+  METHOD(lie_midpoint) \
+  METHOD(simo_wong) \
+  METHOD(recipe_ode) \
+  METHOD(recipe_bullet) \
+  METHOD(recipe_simbody) \
+  METHOD(cvode_adams) \
+  METHOD(cvode_bdf) \
+  METHOD(arkode_erk) \
+  METHOD(arkode_dirk) \
+  METHOD(odeint_rk4) \
+  METHOD(odeint_adams_bashforth_moulton) \
+  METHOD(odeint_cash_karp54) \
+  METHOD(odeint_dopri5) \
+  METHOD(odeint_fehlberg78) \
+  METHOD(odeint_bulirsch_stoer) \
+  METHOD(odeint_rosenbrock4)
+
 namespace polhode {
 
-// One line declares a method (it stands in the file of its name), one line lists it.
-IntegratorEntry explicit_euler();
-IntegratorEntry semi_implicit_euler();
-IntegratorEntry semi_implicit_euler_exp();
-IntegratorEntry explicit_midpoint();
-IntegratorEntry heun();
-IntegratorEntry velocity_verlet();
-IntegratorEntry rk4();
-IntegratorEntry lie_euler();
-IntegratorEntry crouch_grossman3();
-IntegratorEntry rkmk4();
-IntegratorEntry commutator_free4();
-IntegratorEntry buss2();
-IntegratorEntry lie_midpoint();
-IntegratorEntry simo_wong();
-IntegratorEntry recipe_ode();
-IntegratorEntry recipe_bullet();
-IntegratorEntry recipe_simbody();
-IntegratorEntry cvode_adams();
-IntegratorEntry cvode_bdf();
-IntegratorEntry odeint_dopri5();
+#define POLHODE_DECLARE(name) IntegratorEntry name();
+POLHODE_INTEGRATORS(POLHODE_DECLARE)
 
 const std::vector<IntegratorEntry>& integrator_catalogue() {
-  static const std::vector<IntegratorEntry> entries = {
-      explicit_euler(), semi_implicit_euler(), semi_implicit_euler_exp(), explicit_midpoint(), heun(),
-      velocity_verlet(), rk4(),
-      lie_euler(), crouch_grossman3(), rkmk4(), commutator_free4(), buss2(), lie_midpoint(), simo_wong(),
-      recipe_ode(), recipe_bullet(), recipe_simbody(),
-      cvode_adams(), cvode_bdf(), odeint_dopri5(),
-  };
+#define POLHODE_ENTRY(name) name(),
+  static const std::vector<IntegratorEntry> entries = {POLHODE_INTEGRATORS(POLHODE_ENTRY)};
   return entries;
 }
 
