@@ -49,7 +49,8 @@ concept MechanicalSystem = requires(const System& system, typename System::Scala
   system.momentum(y, xi);               ///< (m v, L about the reference point), world axes
   system.set_momentum(theta, dy);       ///< the velocity that has this momentum at the configuration of y
 
-  system.kick(t, h, dy);                ///< flow of the wrench alone over h, at rest in q
+  system.kick(t, h, dy);                ///< flow of the wrench alone over h, at rest in q, where v does not matter to it
+  system.kick(t, h, y, dy);             ///< adds h times the wrench and its power, both as they are in y
 };
 
 /// The constants of one body in the scalar S.
@@ -218,27 +219,28 @@ class RigidBodies final : public System<S> {
     fill_motions(y.data());
     const S before = this->forces_do_work() ? power(t) : S(0);
     fill_wrenches(t);
-    for (std::size_t i = 0; i < count(); ++i) {
-      const Layout::Slot s = slot(i);
-      const Matrix r = this->forces_exert_torques() ? rotation(ChartOf::load(y.data() + s.orientation))
-                                                    : Matrix(Matrix::Identity());
-      S* a = y.data() + s.angular;
-      if (this->forces_exert_torques()) store(load(a) + h * angular_state(body(i), r, wrenches_[i].torque), a);
-      if (!pinned(i)) {
-        S* v = y.data() + s.velocity;
-        store(load(v) + h * (wrenches_[i].force * body(i).inverse_mass), v);
-      }
-    }
+    push(h, y);
     if (this->forces_do_work()) {
       fill_motions(y.data());
       work_part(y) += h * (S(0.5) * (before + power(t)));
     }
   }
 
+  /// The same increment of v with the wrench of the state `seen`, whose configuration is that of y, and its power in
+  /// that state: a stage of a rule for forces that depend on v.
+  void kick(S t, S h, const Flat& seen, Flat& y) const {
+    if (!this->has_forces()) return;
+    fill_motions(seen.data());
+    fill_wrenches(t);
+    push(h, y);
+    if (this->forces_do_work()) work_part(y) += h * power(t);
+  }
+
   /// Free motion over h: mass centres go straight, and each body turns as `rotor` says:
   /// Quaternion dq = rotor(constants, h, m) moves the angular momentum m, in principal axes, to that at the end of the
   /// step and returns the unit quaternion of the turn, so that R' = R dR in the same axes. constants.moments are the
-  /// principal moments. With momentum_world L stays as it is, to the bit.
+  /// principal moments. With momentum_world L stays as it is, to the bit. With velocity_world Ω is that with R Ω = ω, not
+  /// Rᵀω: were R off its manifold by ε, the way into the body and back would change ω by ε in every step.
   template <class Rotor>
   void free_flow(S h, Flat& y, Rotor&& rotor) const {
     for (std::size_t i = 0; i < count(); ++i) {
@@ -249,7 +251,7 @@ class RigidBodies final : public System<S> {
       const ChartValue old = ChartOf::load(c);
       Vector m = load(a);
       if constexpr (in_body_axes) m = b.momentum(m);
-      else if constexpr (A == AngularState::velocity_world) m = b.momentum(rotation(old).transpose() * m);
+      else if constexpr (A == AngularState::velocity_world) m = b.momentum(unturned(rotation(old), m));
       else m = rotation(old).transpose() * m;
       if (!b.principal) m = b.axes.transpose() * m;
       Quaternion<S> turn = rotor(b, h, m);
@@ -379,6 +381,13 @@ class RigidBodies final : public System<S> {
     else return r * b.velocity(r.transpose() * a);
   }
 
+  /// R⁻¹ a, by Cramer's rule where R need not be a rotation.
+  Vector unturned(const Matrix& r, const Vector& a) const {
+    if (orthonormal()) return r.transpose() * a;
+    const Vector c0 = r.col(1).cross(r.col(2)), c1 = r.col(2).cross(r.col(0)), c2 = r.col(0).cross(r.col(1));
+    return Vector(c0.dot(a), c1.dot(a), c2.dot(a)) / c0.dot(r.col(0));
+  }
+
   /// Ω in body axes from an angular velocity a, in the frame of the formulation.
   static Vector body_velocity(const Matrix& r, const Vector& a) {
     if constexpr (A == AngularState::velocity_body) return a;
@@ -428,6 +437,22 @@ class RigidBodies final : public System<S> {
   void fill_wrenches(S t) const {
     for (auto& w : wrenches_) w = Wrench<S>{};
     for (const auto& force : this->forces()) force->add_wrench(t, motions_, wrenches_);
+  }
+
+  /// v ← v + h M⁻¹ (f, τ) with the wrenches that were filled last.
+  void push(S h, Flat& y) const {
+    for (std::size_t i = 0; i < count(); ++i) {
+      const Layout::Slot s = slot(i);
+      if (this->forces_exert_torques()) {
+        const Matrix r = rotation(ChartOf::load(y.data() + s.orientation));
+        S* a = y.data() + s.angular;
+        store(load(a) + h * angular_state(body(i), r, wrenches_[i].torque), a);
+      }
+      if (!pinned(i)) {
+        S* v = y.data() + s.velocity;
+        store(load(v) + h * (wrenches_[i].force * body(i).inverse_mass), v);
+      }
+    }
   }
 
   S power(S t) const {

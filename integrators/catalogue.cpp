@@ -13,11 +13,19 @@ IntegratorEntry rk4();
 IntegratorEntry cvode_adams();
 IntegratorEntry cvode_bdf();
 IntegratorEntry odeint_dopri5();
+IntegratorEntry mclachlan_reich();
+IntegratorEntry dmv();
+IntegratorEntry dmv4();
+IntegratorEntry dmv6();
 
 const std::vector<IntegratorEntry>& integrator_catalogue() {
   static const std::vector<IntegratorEntry> entries = {
       explicit_euler(), semi_implicit_euler(), explicit_midpoint(), rk4(),
       cvode_adams(),    cvode_bdf(),           odeint_dopri5(),
+      mclachlan_reich(),
+      dmv(),
+      dmv4(),
+      dmv6(),
   };
   return entries;
 }
