@@ -239,8 +239,9 @@ class RigidBodies final : public System<S> {
   /// Free motion over h: mass centres go straight, and each body turns as `rotor` says:
   /// Quaternion dq = rotor(constants, h, m) moves the angular momentum m, in principal axes, to that at the end of the
   /// step and returns the unit quaternion of the turn, so that R' = R dR in the same axes. constants.moments are the
-  /// principal moments. With momentum_world L stays as it is, to the bit. With velocity_world Ω is that with R Ω = ω, not
-  /// Rᵀω: were R off its manifold by ε, the way into the body and back would change ω by ε in every step.
+  /// principal moments. With momentum_world L stays as it is, to the bit. All else is moved by
+  /// increments, and Ω of velocity_world is that with R Ω = ω, so that the way into the body and back takes nothing: I
+  /// I⁻¹ is 1 to round-off only, RᵀR to its defect, and over many steps such factors would be a drift.
   template <class Rotor>
   void free_flow(S h, Flat& y, Rotor&& rotor) const {
     for (std::size_t i = 0; i < count(); ++i) {
@@ -249,20 +250,24 @@ class RigidBodies final : public System<S> {
       S* c = y.data() + s.orientation;
       S* a = y.data() + s.angular;
       const ChartValue old = ChartOf::load(c);
-      Vector m = load(a);
-      if constexpr (in_body_axes) m = b.momentum(m);
-      else if constexpr (A == AngularState::velocity_world) m = b.momentum(unturned(rotation(old), m));
-      else m = rotation(old).transpose() * m;
+      Vector omega = load(a), m = omega;  // Ω, and the momentum in the body
+      Matrix r = Matrix::Identity();
+      if constexpr (!in_body_axes) r = rotation(old);
+      if constexpr (A == AngularState::velocity_world) omega = unturned(r, omega);
+      m = A == AngularState::momentum_world ? Vector(r.transpose() * m) : b.momentum(omega);
       if (!b.principal) m = b.axes.transpose() * m;
+      const Vector before = m;
       Quaternion<S> turn = rotor(b, h, m);
+      Vector change = m - before;
       if (!b.principal) {
-        m = b.axes * m;
+        change = b.axes * change;
         turn.template tail<3>() = Vector(b.axes * turn.template tail<3>());
       }
-      const ChartValue now = ChartOf::turned_in_body(old, turn);
+      const ChartValue now = ChartOf::carried_in_body(old, turn);
       ChartOf::store(now, c);
-      if constexpr (in_body_axes) store(b.velocity(m), a);
-      else if constexpr (A == AngularState::velocity_world) store(rotation(now) * b.velocity(m), a);
+      const Vector omega_now = omega + b.velocity(change);
+      if constexpr (in_body_axes) store(omega_now, a);
+      else if constexpr (A == AngularState::velocity_world) store(load(a) + (rotation(now) * omega_now - r * omega), a);
       if (!pinned(i)) {
         S* p = y.data() + s.position;
         store(load(p) + h * load(y.data() + s.velocity), p);

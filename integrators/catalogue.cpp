@@ -17,6 +17,19 @@ IntegratorEntry mclachlan_reich();
 IntegratorEntry dmv();
 IntegratorEntry dmv4();
 IntegratorEntry dmv6();
+IntegratorEntry symmetric_rotor2();
+IntegratorEntry symmetric_rotor4();
+IntegratorEntry no_squish();
+IntegratorEntry exact_rotor();
+IntegratorEntry mclachlan_reich_yoshida4();
+IntegratorEntry mclachlan_reich_suzuki4();
+IntegratorEntry mclachlan_reich_kahan_li6();
+IntegratorEntry exact_rotor_yoshida4();
+IntegratorEntry exact_rotor_suzuki4();
+IntegratorEntry exact_rotor_kahan_li6();
+IntegratorEntry implicit_midpoint();
+IntegratorEntry gauss4();
+IntegratorEntry gauss6();
 
 const std::vector<IntegratorEntry>& integrator_catalogue() {
   static const std::vector<IntegratorEntry> entries = {
@@ -26,6 +39,19 @@ const std::vector<IntegratorEntry>& integrator_catalogue() {
       dmv(),
       dmv4(),
       dmv6(),
+      symmetric_rotor2(),
+      symmetric_rotor4(),
+      no_squish(),
+      exact_rotor(),
+      mclachlan_reich_yoshida4(),
+      mclachlan_reich_suzuki4(),
+      mclachlan_reich_kahan_li6(),
+      exact_rotor_yoshida4(),
+      exact_rotor_suzuki4(),
+      exact_rotor_kahan_li6(),
+      implicit_midpoint(),
+      gauss4(),
+      gauss6(),
   };
   return entries;
 }

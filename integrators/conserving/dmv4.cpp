@@ -16,8 +16,7 @@ IntegratorEntry dmv4() {
                              .free_order = 4,
                              .implicit = true,
                              .lie_group = true,
-                             .symplectic = true,
-                             .symmetric = true,
+                              .symmetric = true,
                              .conserves_energy = true,
                              .conserves_momentum = true,
                              .conserves_casimir = true});

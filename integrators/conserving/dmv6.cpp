@@ -16,8 +16,7 @@ IntegratorEntry dmv6() {
                              .free_order = 6,
                              .implicit = true,
                              .lie_group = true,
-                             .symplectic = true,
-                             .symmetric = true,
+                              .symmetric = true,
                              .conserves_energy = true,
                              .conserves_momentum = true,
                              .conserves_casimir = true});
