@@ -53,7 +53,7 @@ class Composition {
   const char* step(const System& system, S t, S h, Flat& y) {
     S gone(0);
     for (const S fraction : fractions_) {
-      if (const char* failure = part(system, t + gone * h, fraction * h, y)) return failure;
+      if (const char* failure = base_.step(system, t + gone * h, fraction * h, y)) return failure;
       gone += fraction;
     }
     return nullptr;
@@ -62,8 +62,6 @@ class Composition {
   std::int64_t evaluations() const { return base_.evaluations(); }
 
  private:
-  [[gnu::noinline]] const char* part(const System& system, S t, S h, Flat& y) { return base_.step(system, t, h, y); }
-
   Base<System> base_;
   decltype(Scheme::template fractions<S>()) fractions_ = Scheme::template fractions<S>();
 };

@@ -5,11 +5,8 @@
 // if the rotor is, of order 2 under forces whatever the order of the rotor, and the rotor itself without forces.
 // Sources: Touma & Wisdom, Astron. J. 107 (1994) 1189; Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997) 5840.
 //
-// A Rotor has a static function
-//   template <class S> const char* turn(const BodyConstants<S>& body, S h, Vector3<S>& m, Quaternion<S>& dq)
-// that moves the angular momentum m, in principal axes, to that after h and gives the unit quaternion dq of the turn,
-// R' = R dR; it returns null, or why it cannot. Written as a function that is not inlined, it is compiled once for each
-// scalar and not for each formulation.
+// A Rotor has a static function template turn<S>, a RotorTurn<S>. It is not inlined, so that it is compiled once for each
+// scalar, and the splitting around it once for each formulation (rotor_splitting.cpp), whatever the rotor.
 #pragma once
 
 #include "integrators/conserving/kick.hpp"
@@ -17,30 +14,39 @@
 
 namespace polhode {
 
+/// Moves the angular momentum m, in principal axes, to that after h and gives the unit quaternion dq of the turn,
+/// R' = R dR; null, or why it cannot.
+template <class S>
+using RotorTurn = const char* (*)(const BodyConstants<S>& body, S h, Vector3<S>& m, Quaternion<S>& dq);
+
+template <class System>
+class KickFlowKick {
+ public:
+  using S = typename System::Scalar;
+  using Flat = typename System::Flat;
+
+  explicit KickFlowKick(const System& system) : kick_(system) {}
+  const char* step(const System& system, S t, S h, Flat& y, RotorTurn<S> turn);
+  std::int64_t evaluations() const { return kick_.evaluations(); }
+
+ private:
+  Kick<System> kick_;
+};
+
 template <class System, class Rotor>
 class RotorSplitting {
  public:
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
 
-  explicit RotorSplitting(const System& system) : kick_(system) {}
-
+  explicit RotorSplitting(const System& system) : splitting_(system) {}
   const char* step(const System& system, S t, S h, Flat& y) {
-    const S half = h / S(2);
-    if (const char* failure = kick_(system, t, half, y)) return failure;
-    const char* failure = nullptr;
-    system.free_flow(h, y, [&](const BodyConstants<S>& body, S duration, Vector3<S>& m) {
-      Quaternion<S> dq = identity_quaternion<S>();
-      if (const char* reason = Rotor::turn(body, duration, m, dq)) failure = reason;
-      return dq;
-    });
-    return failure ? failure : kick_(system, t + h, half, y);
+    return splitting_.step(system, t, h, y, Rotor::template turn<S>);
   }
-
-  std::int64_t evaluations() const { return kick_.evaluations(); }
+  std::int64_t evaluations() const { return splitting_.evaluations(); }
 
  private:
-  Kick<System> kick_;
+  KickFlowKick<System> splitting_;
 };
 
 /// A rotor moves bodies as they truly move.
