@@ -240,8 +240,9 @@ class RigidBodies final : public System<S> {
   /// Quaternion dq = rotor(constants, h, m) moves the angular momentum m, in principal axes, to that at the end of the
   /// step and returns the unit quaternion of the turn, so that R' = R dR in the same axes. constants.moments are the
   /// principal moments. With momentum_world L stays as it is, to the bit. All else is moved by
-  /// increments, and Ω of velocity_world is that with R Ω = ω, so that the way into the body and back takes nothing: I
-  /// I⁻¹ is 1 to round-off only, RᵀR to its defect, and over many steps such factors would be a drift.
+  /// increments, and Ω of velocity_world is that with R Ω = ω, so that the way into the body and back takes nothing:
+  /// I I⁻¹ is 1 to round-off only, RᵀR to its defect, and over many steps such factors would be a drift. For the same
+  /// reason R of a quaternion is here that of q/|q| always, the only one with R(q dq) = R(q) R(dq).
   template <class Rotor>
   void free_flow(S h, Flat& y, Rotor&& rotor) const {
     for (std::size_t i = 0; i < count(); ++i) {
@@ -252,7 +253,7 @@ class RigidBodies final : public System<S> {
       const ChartValue old = ChartOf::load(c);
       Vector omega = load(a), m = omega;  // Ω, and the momentum in the body
       Matrix r = Matrix::Identity();
-      if constexpr (!in_body_axes) r = rotation(old);
+      if constexpr (!in_body_axes) r = ChartOf::rotation(old, RotationFrom::normalised);
       if constexpr (A == AngularState::velocity_world) omega = unturned(r, omega);
       m = A == AngularState::momentum_world ? Vector(r.transpose() * m) : b.momentum(omega);
       if (!b.principal) m = b.axes.transpose() * m;
@@ -267,7 +268,9 @@ class RigidBodies final : public System<S> {
       ChartOf::store(now, c);
       const Vector omega_now = omega + b.velocity(change);
       if constexpr (in_body_axes) store(omega_now, a);
-      else if constexpr (A == AngularState::velocity_world) store(load(a) + (rotation(now) * omega_now - r * omega), a);
+      else if constexpr (A == AngularState::velocity_world) {
+        store(load(a) + (ChartOf::rotation(now, RotationFrom::normalised) * omega_now - r * omega), a);
+      }
       if (!pinned(i)) {
         S* p = y.data() + s.position;
         store(load(p) + h * load(y.data() + s.velocity), p);
@@ -386,9 +389,9 @@ class RigidBodies final : public System<S> {
     else return r * b.velocity(r.transpose() * a);
   }
 
-  /// R⁻¹ a, by Cramer's rule where R need not be a rotation.
-  Vector unturned(const Matrix& r, const Vector& a) const {
-    if (orthonormal()) return r.transpose() * a;
+  /// R⁻¹ a of the rotation of a quaternion, or by Cramer's rule of a stored matrix.
+  static Vector unturned(const Matrix& r, const Vector& a) {
+    if constexpr (O == Orientation::quaternion) return r.transpose() * a;
     const Vector c0 = r.col(1).cross(r.col(2)), c1 = r.col(2).cross(r.col(0)), c2 = r.col(0).cross(r.col(1));
     return Vector(c0.dot(a), c1.dot(a), c2.dot(a)) / c0.dot(r.col(0));
   }
