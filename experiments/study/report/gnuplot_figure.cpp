@@ -143,7 +143,7 @@ void write_envelope(std::string& out, const Panel& panel) {
   }
   for (const auto& mark : panel.envelope) {
     if (mark.label.empty()) continue;
-    line(out, "  set label {} at first {},{} right offset character -0.8,0 front noenhanced textcolor rgb '#7a5c00'",
+    line(out, "  set label {} at first {},{} right offset character -0.8,-0.6 front noenhanced textcolor rgb '#7a5c00'",
          gnuplot(mark.label), mark.x, mark.y);
   }
 }

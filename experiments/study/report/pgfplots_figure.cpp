@@ -65,7 +65,7 @@ void write_envelope(std::string& out, const Panel& panel) {
   line(out, "\\addplot[yellow!80!orange!60, line width=4pt, no marks, forget plot] coordinates {{{} }};", points);
   for (const auto& mark : panel.envelope) {
     if (mark.label.empty()) continue;
-    line(out, "\\node[left, orange!50!black, font=\\scriptsize] at (axis cs:{:.5g},{:.5g}) {{{}}};",
+    line(out, "\\node[below left, orange!50!black, font=\\scriptsize] at (axis cs:{:.5g},{:.5g}) {{{}}};",
          panel.x.place(mark.x), panel.y.place(mark.y), tex(mark.label));
   }
 }
