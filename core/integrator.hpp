@@ -3,8 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "core/system.hpp"
 
@@ -28,6 +31,8 @@ struct Declaration {
   int evaluations_per_step = 0;  ///< right-hand sides; 0: not constant, the method counts them
   bool multi_step = false;       ///< has a history, which an impact or a projection makes worthless
   bool lie_group = false;   ///< moves orientations by group steps: they stay on their manifold without projection
+  /// Conserves every quadratic invariant of the flat ODE, as Gauss's methods do: |q|² and RᵀR among them.
+  bool conserves_quadratics = false;
   bool symplectic = false;  ///< its map keeps the canonical two-form where forces have a potential
   bool symmetric = false;   ///< a step of −h undoes one of h
   /// Of free bodies, to round-off or to the tolerance of its iteration, in every formulation that it takes.
@@ -43,7 +48,13 @@ struct IntegratorSettings {
   double dt = 1e-3;         ///< s
   double tolerance = 1e-8;  ///< relative and absolute alike
   double t_end = 1;         ///< s; sets the sign and scale of a first step, nothing else
+  bool project = false;     ///< each step ends in a projection: within it by methods that can, else by the driver
+  int order = 0;            ///< of methods that offer several; 0: their own choice
 };
+
+/// A function of the state whose zeros are events.
+template <class S>
+using EventFunction = std::function<double(const State<S>&)>;
 
 /// What is seen of a state after a step: enough for every ledger, without the state itself.
 struct Sample {
@@ -105,6 +116,19 @@ class Integrator {
 
   /// The state was changed from outside (projection, impact): forget what was remembered of its past.
   virtual void discard_history(const State<S>&) {}
+
+  /// True where the method projects within its steps, since the settings ask for it; then the driver does not.
+  virtual bool projects_natively() const { return false; }
+  /// J, that these projections injected since begin(): the sum over the steps of the energy after the projection that a
+  /// step ended with minus that before it. What it does to the method's history, and so to later steps, is their error.
+  virtual double projection_energy() const { return 0; }
+
+  /// Native roots: a step ends where one of the events changes its sign. set_events() before begin(); an event that is
+  /// zero where a run or a step begins is looked at again when it has left zero.
+  virtual bool has_native_roots() const { return false; }
+  virtual void set_events(std::vector<EventFunction<S>>) {}
+  /// For each event: 1 where it rose through zero at the end of the last step, −1 where it fell, 0 where it did neither.
+  virtual std::span<const int> events() const { return {}; }
 
   /// Dense output: the state at t within the last step. False where t is outside it, or the method has none.
   virtual bool has_dense_output() const { return false; }

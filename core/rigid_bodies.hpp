@@ -50,6 +50,13 @@ concept MechanicalSystem = requires(const System& system, typename System::Scala
   system.momentum(y, xi);               ///< (m v, L about the reference point), world axes
   system.set_momentum(theta, dy);       ///< the velocity that has this momentum at the configuration of y
 
+  system.body_twist(y, xi);             ///< the twist with ω in body axes, whatever the formulation: (velocity, Ω)
+  system.set_body_twist(theta, dy);     ///< the velocity that has this body twist at the configuration of y
+  system.body_acceleration(y, theta, xi);  ///< its rate under a wrench θ: (f/m, I⁻¹(Rᵀτ − Ω × IΩ))
+  system.retract_in_body(dy, xi);       ///< q ← (p + ξ, R exp(ξ)), whatever the formulation
+  system.bracket(theta, theta, xi);     ///< (0, a × b)
+  system.carry_momentum(theta, xi, dy); ///< q ← (p + θ, R exp(θ)) and its momentum ← momentum + ξ, in the world
+
   system.kick(t, h, dy);                ///< flow of the wrench alone over h, at rest in q
 };
 
@@ -197,6 +204,87 @@ class RigidBodies final : public System<S> {
       const Matrix r = rotation(ChartOf::load(y.data() + s.orientation));
       store(angular_state(body(i), r, load(angular(p, i))), y.data() + s.angular);
       if (!pinned(i)) store(body(i).inverse_mass * load(linear(p, i)), y.data() + s.velocity);
+    }
+  }
+
+  // The body's frame, whatever the formulation, for methods whose source writes them there.
+
+  void body_twist(const Flat& y, Tangent& xi) const {
+    for (std::size_t i = 0; i < count(); ++i) {
+      const Layout::Slot s = slot(i);
+      const ChartValue c = ChartOf::load(y.data() + s.orientation);
+      store(angular_velocity_body(body(i), c, load(y.data() + s.angular)), angular(xi, i));
+      if (!pinned(i)) store(load(y.data() + s.velocity), linear(xi, i));
+    }
+  }
+
+  void set_body_twist(const Tangent& xi, Flat& y) const {
+    for (std::size_t i = 0; i < count(); ++i) {
+      const Layout::Slot s = slot(i);
+      Vector a = load(angular(xi, i));
+      if constexpr (A == AngularState::momentum_world) a = body(i).momentum(a);
+      if constexpr (!in_body_axes) a = rotation(ChartOf::load(y.data() + s.orientation)) * a;
+      store(a, y.data() + s.angular);
+      if (!pinned(i)) store(load(linear(xi, i)), y.data() + s.velocity);
+    }
+  }
+
+  void body_acceleration(const Flat& y, const Tangent& wrench, Tangent& rate) const {
+    for (std::size_t i = 0; i < count(); ++i) {
+      const Layout::Slot s = slot(i);
+      const Constants& b = body(i);
+      const ChartValue c = ChartOf::load(y.data() + s.orientation);
+      const Vector w = angular_velocity_body(b, c, load(y.data() + s.angular));
+      const Vector torque = rotation(c).transpose() * load(angular(wrench, i));
+      store(b.velocity(torque - w.cross(b.momentum(w))), angular(rate, i));
+      if (!pinned(i)) store(b.inverse_mass * load(linear(wrench, i)), linear(rate, i));
+    }
+  }
+
+  void retract_in_body(Flat& y, const Tangent& xi) const {
+    for (std::size_t i = 0; i < count(); ++i) {
+      S* c = y.data() + slot(i).orientation;
+      const Quaternion<S> turn = quaternion_from_rotation_vector<S>(load(angular(xi, i)));
+      ChartOf::store(ChartOf::turned_in_body(ChartOf::load(c), turn), c);
+      if (!pinned(i)) store(load(y.data() + slot(i).position) + load(linear(xi, i)), y.data() + slot(i).position);
+    }
+  }
+
+  /// In increments, so that a free body keeps its momentum R I Ω whatever the defect of R, and no product with I and
+  /// its inverse is repeated at every step.
+  void carry_momentum(const Tangent& theta, const Tangent& impulse, Flat& y) const {
+    for (std::size_t i = 0; i < count(); ++i) {
+      const Layout::Slot s = slot(i);
+      const Constants& b = body(i);
+      S* c = y.data() + s.orientation;
+      S* a = y.data() + s.angular;
+      const ChartValue old = ChartOf::load(c);
+      const Quaternion<S> turn = quaternion_from_rotation_vector<S>(load(angular(theta, i)));
+      const ChartValue now = ChartOf::turned_in_body(old, turn);
+      ChartOf::store(now, c);
+      const Vector torque = load(angular(impulse, i));
+      if constexpr (A == AngularState::momentum_world) {
+        store(load(a) + torque, a);
+      } else {
+        const Vector w = angular_velocity_body(b, old, load(a));
+        const Vector change = rotation(now).transpose() * torque + turning(conjugate<S>(turn), b.momentum(w));
+        const Vector dw = b.velocity(change);
+        if constexpr (in_body_axes) store(w + dw, a);
+        else store(load(a) + rotation(old) * Vector(dw + turning(turn, w + dw)), a);
+      }
+      if (!pinned(i)) {
+        S* p = y.data() + s.position;
+        S* v = y.data() + s.velocity;
+        store(load(p) + load(linear(theta, i)), p);
+        store(load(v) + body(i).inverse_mass * load(linear(impulse, i)), v);
+      }
+    }
+  }
+
+  void bracket(const Tangent& a, const Tangent& b, Tangent& out) const {
+    for (std::size_t i = 0; i < count(); ++i) {
+      store(load(angular(a, i)).cross(load(angular(b, i))), angular(out, i));
+      if (!pinned(i)) store(Vector::Zero(), linear(out, i));
     }
   }
 
@@ -367,6 +455,20 @@ class RigidBodies final : public System<S> {
     if constexpr (A == AngularState::velocity_world) return a;
     else if constexpr (A == AngularState::velocity_body) return r * a;
     else return r * b.velocity(r.transpose() * a);
+  }
+
+  /// What the turn d adds to the vector v: d v d* − v.
+  static Vector turning(const Quaternion<S>& d, const Vector& v) {
+    const Vector u = d.template tail<3>();
+    const Vector uv = u.cross(v);
+    return S(2) * (d[0] * uv + u.cross(uv));
+  }
+
+  /// Ω in body axes from the angular state a.
+  Vector angular_velocity_body(const Constants& b, const ChartValue& c, const Vector& a) const {
+    if constexpr (in_body_axes) return a;
+    else if constexpr (A == AngularState::velocity_world) return rotation(c).transpose() * a;
+    else return b.velocity(rotation(c).transpose() * a);
   }
 
   /// Ω in body axes from an angular velocity a, in the frame of the formulation.

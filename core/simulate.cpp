@@ -130,7 +130,9 @@ class Loop {
       diverged("the state ceased to be finite");
       return false;
     }
-    if (schedule_.normalise) {
+    if (integrator_.projects_natively()) {
+      projection_energy_ = integrator_.projection_energy();
+    } else if (schedule_.normalise) {
       const double before = account_ ? energy() : 0.0;
       system_.project(state_.y);
       if (account_) projection_energy_ += energy() - before;

@@ -3,22 +3,45 @@
 
 #include <algorithm>
 
+// One line lists a method: the function of its name, in the file of its name, declares it.
+#define POLHODE_INTEGRATORS(METHOD) \
+  METHOD(explicit_euler) \
+  METHOD(semi_implicit_euler) \
+  METHOD(semi_implicit_euler_exp) \
+  METHOD(explicit_midpoint) \
+  METHOD(heun) \
+  METHOD(velocity_verlet) \
+  METHOD(rk4) \
+  METHOD(lie_euler) \
+  METHOD(crouch_grossman3) \
+  METHOD(rkmk4) \
+  METHOD(commutator_free4) \
+  METHOD(buss2) \
+  METHOD(lie_midpoint) \
+  METHOD(simo_wong) \
+  METHOD(recipe_ode) \
+  METHOD(recipe_bullet) \
+  METHOD(recipe_simbody) \
+  METHOD(cvode_adams) \
+  METHOD(cvode_bdf) \
+  METHOD(arkode_erk) \
+  METHOD(arkode_dirk) \
+  METHOD(odeint_rk4) \
+  METHOD(odeint_adams_bashforth_moulton) \
+  METHOD(odeint_cash_karp54) \
+  METHOD(odeint_dopri5) \
+  METHOD(odeint_fehlberg78) \
+  METHOD(odeint_bulirsch_stoer) \
+  METHOD(odeint_rosenbrock4)
+
 namespace polhode {
 
-// One line declares a method (it stands in the file of its name), one line lists it.
-IntegratorEntry explicit_euler();
-IntegratorEntry semi_implicit_euler();
-IntegratorEntry explicit_midpoint();
-IntegratorEntry rk4();
-IntegratorEntry cvode_adams();
-IntegratorEntry cvode_bdf();
-IntegratorEntry odeint_dopri5();
+#define POLHODE_DECLARE(name) IntegratorEntry name();
+POLHODE_INTEGRATORS(POLHODE_DECLARE)
 
 const std::vector<IntegratorEntry>& integrator_catalogue() {
-  static const std::vector<IntegratorEntry> entries = {
-      explicit_euler(), semi_implicit_euler(), explicit_midpoint(), rk4(),
-      cvode_adams(),    cvode_bdf(),           odeint_dopri5(),
-  };
+#define POLHODE_ENTRY(name) name(),
+  static const std::vector<IntegratorEntry> entries = {POLHODE_INTEGRATORS(POLHODE_ENTRY)};
   return entries;
 }
 

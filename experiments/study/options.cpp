@@ -127,7 +127,10 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   for (int i = 1; i < argc; ++i) options.command += " " + quoted(argv[i]);
   options.axes = experiment.defaults;
   if (!study_file.empty()) read_study_file(study_file, options);
-  for (const auto& [name, text] : given) options.axes[name] = text;
+  for (const auto& [name, text] : given) {
+    options.axes[name] = text;
+    options.places.erase(name);
+  }
   for (const std::string& item : vary) {
     const auto equals = item.find('=');
     if (equals == std::string::npos || equals == 0) {
@@ -135,6 +138,7 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
     }
     const std::string key = item.substr(0, equals);
     std::erase_if(options.vary, [&](const auto& v) { return v.first == key; });
+    options.places.erase("vary." + key);
     options.vary.emplace_back(key, item.substr(equals + 1));
   }
   return parsed;

@@ -18,6 +18,13 @@ struct Options {
   /// By option name without dashes, as written: {"dt", "1e-3,1e-2"}; defaults filled in.
   std::map<std::string, std::string> axes;
   std::vector<std::pair<std::string, std::string>> vary;  ///< key of the scenario and its values, as written
+  /// Where a study file sets an axis, or "vary." and a key: "study.toml:3:8: dt".
+  std::map<std::string, std::string> places;
+  /// How errors name an axis: "--dt", or its place in the study file.
+  std::string label(const std::string& axis) const {
+    const auto found = places.find(axis);
+    return found == places.end() ? "--" + axis : found->second;
+  }
   std::uint64_t seed = 1;
   std::string out;       ///< empty: results/<experiment>-<scenarios>-<hash>
   bool force = false;

@@ -30,10 +30,10 @@ std::vector<std::string> names(const Options& options, const std::string& axis, 
   const auto found = options.axes.find(axis);
   if (found == options.axes.end()) return {};
   std::vector<std::string> items;
-  for (const std::string& item : split_list(found->second, ',', "--" + axis)) {
+  for (const std::string& item : split_list(found->second, ',', options.label(axis))) {
     if (std::find(known.begin(), known.end(), item) == known.end()) {
-      if (known.empty()) throw InputError("--" + axis + ": there is none in this version; leave the option out");
-      throw InputError("--" + axis + ": no '" + item + "'" + suggestion(item, "There are", {known.begin(), known.end()}));
+      if (known.empty()) throw InputError(options.label(axis) + ": there is none in this version; leave the option out");
+      throw InputError(options.label(axis) + ": no '" + item + "'" + suggestion(item, "There are", {known.begin(), known.end()}));
     }
     if (std::find(items.begin(), items.end(), item) == items.end()) items.push_back(item);
   }
@@ -58,9 +58,10 @@ std::vector<T> choices(const Options& options, const std::string& axis, const st
 std::vector<double> positive(const Options& options, const std::string& axis, const char* unit) {
   const auto found = options.axes.find(axis);
   if (found == options.axes.end()) return {};
-  std::vector<double> values = numbers(found->second, "--" + axis);
+  std::vector<double> values = numbers(found->second, options.label(axis));
   for (const double x : values) {
-    if (!(x > 0)) throw InputError(fmt::format("--{}: {} is not positive; it must be a positive number{}", axis, x, unit));
+    if (x > 0) continue;
+    throw InputError(fmt::format("{}: {} is not positive; it must be a positive number{}", options.label(axis), x, unit));
   }
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
@@ -108,11 +109,14 @@ Axes read_axes(const Options& options) {
   axes.steps = positive(options, "dt", " of seconds");
   axes.tolerances = positive(options, "tolerance", "");
   for (const double x : axes.tolerances) {
-    if (x >= 1) throw InputError(fmt::format("--tolerance: {} is too large; it must be below 1", x));
+    if (x < 1) continue;
+    throw InputError(fmt::format("{}: {} is too large; it must be below 1", options.label("tolerance"), x));
   }
   axes.durations = positive(options, "t-end", " of seconds");
   for (const double n : positive(options, "samples", "")) {
-    if (n != std::floor(n) || n > 1e9) throw InputError(fmt::format("--samples: {} is not a whole number below 1e9", n));
+    if (n != std::floor(n) || n > 1e9) {
+      throw InputError(fmt::format("{}: {} is not a whole number below 1e9", options.label("samples"), n));
+    }
     axes.samples.emplace_back(static_cast<std::int64_t>(n));
   }
   if (axes.samples.empty()) axes.samples.emplace_back(std::nullopt);
@@ -128,9 +132,11 @@ std::vector<std::vector<Override>> variants(const Options& options) {
   for (const auto& [key, text] : vary) {
     std::vector<std::vector<Override>> longer;
     for (const auto& prefix : all) {
-      for (const std::string& value : toml_values(text, "--vary " + key)) {
+      const auto found = options.places.find("vary." + key);
+      const std::string place = found == options.places.end() ? "" : found->second;
+      for (const std::string& value : toml_values(text, Override{key, "", place}.label())) {
         longer.push_back(prefix);
-        longer.back().push_back({key, value});
+        longer.back().push_back({key, value, place});
       }
     }
     all = std::move(longer);
@@ -163,13 +169,13 @@ double cost_of(const RunConfig& config) {
 class Planner {
  public:
   Planner(const Experiment& experiment, const Options& options)
-      : experiment_(experiment), axes_(read_axes(options)), variants_(variants(options)) {
+      : experiment_(experiment), axes_(read_axes(options)), variants_(variants(options)), dt_label_(options.label("dt")) {
     for (const auto& [key, text] : options.vary) plan_.varied_keys.push_back(key);
     std::sort(plan_.varied_keys.begin(), plan_.varied_keys.end());
     std::set<std::string> seen;
-    for (const std::string& name : split_list(options.axes.at("scenario"), ',', "--scenario")) {
-      const ScenarioSource source = ScenarioSource::open(name);
-      if (!seen.insert(source.name()).second) throw InputError("--scenario: '" + source.name() + "' is named twice");
+    for (const std::string& name : split_list(options.axes.at("scenario"), ',', options.label("scenario"))) {
+      const ScenarioSource source = ScenarioSource::open(name, options.label("scenario"));
+      if (!seen.insert(source.name()).second) throw InputError(options.label("scenario") + ": '" + source.name() + "' is named twice");
       add_scenario(source);
     }
   }
@@ -259,7 +265,7 @@ class Planner {
     try {
       run.refusal = refusal(config, *scenario);
     } catch (const std::invalid_argument& error) {
-      throw InputError("--dt: " + std::string(error.what()));
+      throw InputError(dt_label_ + ": " + std::string(error.what()));
     }
     run.cost = cost_of(config);
     plan_.runs.push_back(std::move(run));
@@ -283,6 +289,7 @@ class Planner {
   const Experiment& experiment_;
   Axes axes_;
   std::vector<std::vector<Override>> variants_;
+  std::string dt_label_;
   std::set<std::string> ids_;
   Plan plan_;
 };

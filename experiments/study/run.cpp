@@ -33,7 +33,10 @@ std::string_view status_text(RunStatus status) {
 }
 
 IntegratorSettings settings_of(const RunConfig& config) {
-  return {.dt = config.dt.value_or(0), .tolerance = config.tolerance.value_or(0), .t_end = config.t_end};
+  return {.dt = config.dt.value_or(0),
+          .tolerance = config.tolerance.value_or(0),
+          .t_end = config.t_end,
+          .project = config.normalise};
 }
 
 using Clock = std::chrono::steady_clock;

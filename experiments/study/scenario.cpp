@@ -98,12 +98,12 @@ void ScenarioSource::Parsed::tell(const Fault& fault, std::span<const Override> 
   if (fault.place.from_override >= 0) {
     const auto i = static_cast<std::size_t>(fault.place.from_override);
     const bool said = i < paths.size() && speaks_for(paths[i], fault.path);
-    throw InputError(one_line("--vary " + overrides[i].key + ": " + (said ? "" : path) + fault.message));
+    throw InputError(one_line(overrides[i].label() + ": " + (said ? "" : path) + fault.message));
   }
   // The file's text is at fault only if it fails by itself; otherwise what the overrides made of the rest is.
   std::string blamed;
   if (!overrides.empty() && sound_by_itself()) {
-    for (const Override& override : overrides) blamed += (blamed.empty() ? "--vary " : ", ") + override.key;
+    for (const Override& override : overrides) blamed += (blamed.empty() ? "" : ", ") + override.label();
     blamed += ": ";
   }
   throw InputError(one_line(blamed + at(fault.place) + path + fault.message));
@@ -125,7 +125,7 @@ Scenario ScenarioSource::Parsed::resolve(std::span<const Override> overrides) co
 
 // The interface.
 
-ScenarioSource ScenarioSource::open(const std::string& name_or_path) {
+ScenarioSource ScenarioSource::open(const std::string& name_or_path, const std::string& label) {
   if (is_path(name_or_path)) {
     const std::string stem = std::filesystem::path(name_or_path).stem().string();
     return ScenarioSource(std::make_unique<Parsed>(stem, name_or_path, read_file(name_or_path)));
@@ -134,7 +134,7 @@ ScenarioSource ScenarioSource::open(const std::string& name_or_path) {
     if (scenario.name != name_or_path) continue;
     return ScenarioSource(std::make_unique<Parsed>(name_or_path, "builtin " + name_or_path, scenario.text));
   }
-  throw InputError(one_line("--scenario: no built-in scenario is called '" + name_or_path + "'" +
+  throw InputError(one_line(label + ": no built-in scenario is called '" + name_or_path + "'" +
                             suggestion(name_or_path, "There are", builtin_names()) +
                             "; a file's name holds a '/' or ends in .toml"));
 }

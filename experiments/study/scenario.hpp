@@ -18,7 +18,9 @@ struct Override {
   /// Dotted path; numbers count from 0, a body may be named: "body.0.angular_velocity", "body.box.mass", "gravity.2".
   std::string key;
   std::string value;  ///< TOML text: "0.5", "[0.01, 1, 0.01]"
-  bool operator==(const Override&) const = default;
+  std::string place{};  ///< where a study file says so: "study.toml:3:8: vary.body.0.mass"; empty: on the command line
+  std::string label() const { return place.empty() ? "--vary " + key : place; }
+  bool operator==(const Override& other) const { return key == other.key && value == other.value; }
 };
 
 struct Scenario {
@@ -37,7 +39,7 @@ struct Scenario {
 class ScenarioSource {
  public:
   /// A built-in name, or the path of a file (anything with a '/' or ending in ".toml"). Throws InputError.
-  static ScenarioSource open(const std::string& name_or_path);
+  static ScenarioSource open(const std::string& name_or_path, const std::string& label = "--scenario");
   /// For tests and fuzzers: the text itself; `origin` stands for the file in error messages.
   static ScenarioSource parse(std::string text, std::string origin);
 

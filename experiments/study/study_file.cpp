@@ -43,7 +43,9 @@ void read_vary(const std::string& path, const toml::node& node, Options& options
   const toml::table* table = node.as_table();
   if (!table) throw InputError(place(path, node.source()) + "vary: must be a table from scenario keys to lists");
   for (const auto& [key, value] : *table) {
-    const std::string where = place(path, value.source()) + "vary." + std::string(key.str()) + ": ";
+    const std::string name = "vary." + std::string(key.str());
+    options.places[name] = place(path, value.source()) + name;
+    const std::string where = options.places[name] + ": ";
     const bool vectors = value.is_array() && !value.as_array()->empty() && value.as_array()->front().is_array();
     options.vary.emplace_back(std::string(key.str()), as_list(value, vectors ? ';' : ',', where));
   }
@@ -72,6 +74,7 @@ void read_study_file(const std::string& path, Options& options) {
       throw InputError(where + "no such axis; a study file takes the options that are axes, and vary");
     }
     options.axes[name] = as_list(value, ',', where);
+    options.places[name] = place(path, value.source()) + std::string(key.str());
   }
 }
 

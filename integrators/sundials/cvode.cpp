@@ -1,144 +1,105 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // CVODE's variable-order, variable-step linear multistep methods: Adams–Moulton (orders 1 to 12, fixed-point
 // iteration) and backward differentiation (orders 1 to 5, Newton iteration, dense difference-quotient Jacobian).
-// Source: Hindmarsh et al., SUNDIALS, ACM TOMS 31 (2005); the CVODE 6.4 user guide.
+// Backward differentiation projects the orientation within its steps where a run asks for projection, and goes on
+// without a restart. Its dense output between two steps is off the manifold by as much as the tolerance lets it.
+// Source: Hindmarsh et al., SUNDIALS, ACM TOMS 31 (2005); Eich, SIAM J. Numer. Anal. 30 (1993), on projection; the
+// CVODE 6.4 user guide.
 #include <cvode/cvode.h>
-#include <nvector/nvector_serial.h>
+#include <cvode/cvode_proj.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
+#include <cstdlib>
 #include <new>
-#include <stdexcept>
 
-#include "integrators/catalogue.hpp"
+#include "integrators/sundials/sundials_integrator.hpp"
 
 namespace polhode {
 namespace {
 
-/// Deletes what SUNDIALS made, by its own function.
-template <auto destroy>
-struct Destroy {
-  template <class T>
-  void operator()(T* object) const {
-    destroy(object);
-  }
-};
-void free_context(SUNContext context) { SUNContext_Free(&context); }
+using namespace sundials;
+
 void free_memory(void* memory) { CVodeFree(&memory); }
-using Context = std::unique_ptr<_SUNContext, Destroy<free_context>>;
-using Vector = std::unique_ptr<_generic_N_Vector, Destroy<N_VDestroy>>;
-using Matrix = std::unique_ptr<_generic_SUNMatrix, Destroy<SUNMatDestroy>>;
-using LinearSolver = std::unique_ptr<_generic_SUNLinearSolver, Destroy<SUNLinSolFree>>;
-using NonlinearSolver = std::unique_ptr<_generic_SUNNonlinearSolver, Destroy<SUNNonlinSolFree>>;
 using Memory = std::unique_ptr<void, Destroy<free_memory>>;
 
-constexpr long max_steps = 100000000;  // between two returns; CVODE's 500 is meant for users who wait for an output
-
-class Cvode final : public Integrator<double> {
+class Cvode final : public SundialsIntegrator {
  public:
   Cvode(const System<double>& system, const IntegratorSettings& settings, int method)
-      : system_(system), tolerance_(settings.tolerance), method_(method) {
-    SUNContext context = nullptr;
-    if (SUNContext_Create(nullptr, &context) != 0) throw std::bad_alloc();
-    context_.reset(context);
-  }
+      : SundialsIntegrator(system, settings), method_(method), projects_(settings.project && method == CV_BDF) {}
 
-  void begin(const State<double>& state) override {
-    const sunindextype n = state.y.size();
-    memory_.reset(CVodeCreate(method_, context_.get()));
-    work_.reset(N_VNew_Serial(n, context_.get()));
-    if (!memory_ || !work_) throw std::bad_alloc();
+  bool projects_natively() const override { return projects_; }
+  double projection_energy() const override { return injected_; }
+
+ private:
+  void create(double t, N_Vector y, SundialsIntegrator* self) override {
+    memory_.reset(CVodeCreate(method_, context()));
+    if (!memory_) throw std::bad_alloc();
     // CVODE prints its complaints on stderr unless told otherwise; ours go into the run's message.
     check(CVodeSetErrFile(memory_.get(), nullptr), "CVodeSetErrFile");
-    copy_in(state);
-    check(CVodeInit(memory_.get(), &right_hand_side, state.t, work_.get()), "CVodeInit");
-    check(CVodeSetUserData(memory_.get(), const_cast<System<double>*>(&system_)), "CVodeSetUserData");
-    check(CVodeSStolerances(memory_.get(), tolerance_, tolerance_), "CVodeSStolerances");
+    check(CVodeInit(memory_.get(), &right_hand_side, t, y), "CVodeInit");
+    check(CVodeSetUserData(memory_.get(), self), "CVodeSetUserData");
+    check(CVodeSStolerances(memory_.get(), tolerance(), tolerance()), "CVodeSStolerances");
     check(CVodeSetMaxNumSteps(memory_.get(), max_steps), "CVodeSetMaxNumSteps");
     if (method_ == CV_BDF) {
-      matrix_.reset(SUNDenseMatrix(n, n, context_.get()));
-      linear_.reset(SUNLinSol_Dense(work_.get(), matrix_.get(), context_.get()));
+      const sunindextype n = N_VGetLength(y);
+      matrix_.reset(SUNDenseMatrix(n, n, context()));
+      linear_.reset(SUNLinSol_Dense(y, matrix_.get(), context()));
       if (!matrix_ || !linear_) throw std::bad_alloc();
       check(CVodeSetLinearSolver(memory_.get(), linear_.get(), matrix_.get()), "CVodeSetLinearSolver");
     } else {
-      nonlinear_.reset(SUNNonlinSol_FixedPoint(work_.get(), 0, context_.get()));
+      nonlinear_.reset(SUNNonlinSol_FixedPoint(y, 0, context()));
       if (!nonlinear_) throw std::bad_alloc();
       check(CVodeSetNonlinearSolver(memory_.get(), nonlinear_.get()), "CVodeSetNonlinearSolver");
     }
-    evaluations_before_ = 0;
-    stepped_ = false;
-  }
-
-  StepResult step(State<double>& state, double h) override {
-    const double target = state.t + h;
-    check(CVodeSetStopTime(memory_.get(), target), "CVodeSetStopTime");
-    double t = state.t;
-    const int flag = CVode(memory_.get(), target, work_.get(), &t, CV_ONE_STEP);
-    stepped_ = true;
-    if (flag < 0) {
-      char* name = CVodeGetReturnFlagName(flag);
-      StepResult result{std::string("CVODE gave up (") + name + ")"};
-      std::free(name);
-      return result;
+    injected_ = last_ = 0;
+    if (projects_) {
+      check(CVodeSetProjFn(memory_.get(), &project), "CVodeSetProjFn");
+      check(CVodeSetProjErrEst(memory_.get(), SUNFALSE), "CVodeSetProjErrEst");
     }
-    // Where the right-hand side ceases to be a number CVODE halves its step for ever and calls that a success.
-    if (!(t > state.t)) return {"CVODE's step size fell to nothing"};
-    state.t = t;
-    const double* y = N_VGetArrayPointer(work_.get());
-    state.y = Eigen::Map<const VectorX<double>>(y, state.y.size());
-    return {};
   }
 
-  std::int64_t evaluations() const override {
-    return evaluations_before_ + right_hand_sides();
+  void restart(double t, N_Vector y) override {
+    double h = 0;
+    check(CVodeGetCurrentStep(memory_.get(), &h), "CVodeGetCurrentStep");
+    check(CVodeReInit(memory_.get(), t, y), "CVodeReInit");
+    check(CVodeSetInitStep(memory_.get(), h), "CVodeSetInitStep");
   }
 
-  void discard_history(const State<double>& state) override {
-    evaluations_before_ += right_hand_sides();
-    copy_in(state);
-    check(CVodeReInit(memory_.get(), state.t, work_.get()), "CVodeReInit");
-    stepped_ = false;
+  int evolve(double stop, N_Vector y, double* t) override {
+    check(CVodeSetStopTime(memory_.get(), stop), "CVodeSetStopTime");
+    return CVode(memory_.get(), stop, y, t, CV_ONE_STEP);
   }
 
-  bool has_dense_output() const override { return true; }
-  bool interpolate(double t, State<double>& state) const override {
-    Vector y(N_VMake_Serial(state.y.size(), state.y.data(), context_.get()));
-    if (!y || CVodeGetDky(memory_.get(), t, 0, y.get()) != CV_SUCCESS) return false;
-    state.t = t;
-    return true;
+  int derivative(double t, N_Vector y) const override { return CVodeGetDky(memory_.get(), t, 0, y); }
+  int watch(int count) override { return CVodeRootInit(memory_.get(), count, &find_roots); }
+  int roots(int* signs) override { return CVodeGetRootInfo(memory_.get(), signs); }
+  std::string flag_name(int flag) const override {
+    const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(flag), &std::free);
+    return name.get();
   }
+  const char* library() const override { return "CVODE"; }
 
- private:
-  static int right_hand_side(double t, N_Vector y, N_Vector dy, void* system) {
-    static_cast<const System<double>*>(system)->rate(t, N_VGetArrayPointer(y), N_VGetArrayPointer(dy));
+  /// corr = P(y) − y. A trial may be projected and then rejected: the last projection is that of the step.
+  static int project(double, N_Vector y, N_Vector corr, double, N_Vector, void* user_data) {
+    auto& self = static_cast<Cvode&>(*static_cast<SundialsIntegrator*>(user_data));
+    const System<double>& system = self.system();
+    const VectorX<double> before = Eigen::Map<const VectorX<double>>(N_VGetArrayPointer(y), N_VGetLength(y));
+    VectorX<double> after = before;
+    system.project(after);
+    if (!after.allFinite()) return 1;
+    Eigen::Map<VectorX<double>>(N_VGetArrayPointer(corr), after.size()) = after - before;
+    if (system.projection_changes_energy()) {
+      self.last_ = system.measure(after).energy() - system.measure(before).energy();
+    }
     return 0;
   }
+  void step_done() override { injected_ += last_; }
 
-  static void check(int flag, const char* function) {
-    if (flag != CV_SUCCESS) throw std::runtime_error(std::string(function) + " failed with " + std::to_string(flag));
-  }
-
-  void copy_in(const State<double>& state) {
-    Eigen::Map<VectorX<double>>(N_VGetArrayPointer(work_.get()), state.y.size()) = state.y;
-  }
-
-  std::int64_t right_hand_sides() const {
-    long own = 0, jacobian = 0;
-    CVodeGetNumRhsEvals(memory_.get(), &own);
-    // CVodeReInit forgets the first number at once, the second one at the next step only.
-    if (method_ == CV_BDF && stepped_) CVodeGetNumLinRhsEvals(memory_.get(), &jacobian);
-    return own + jacobian;
-  }
-
-  const System<double>& system_;
-  double tolerance_;
   int method_;
-  std::int64_t evaluations_before_ = 0;
-  bool stepped_ = false;  ///< since the last (re)start
-  // In the order in which SUNDIALS wants them made; destroyed in the reverse.
-  Context context_;
-  Vector work_;
+  bool projects_;
+  double injected_ = 0, last_ = 0;  ///< J: by all steps, and by the last projection
   Matrix matrix_;
   LinearSolver linear_;
   NonlinearSolver nonlinear_;

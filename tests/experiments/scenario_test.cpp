@@ -481,7 +481,7 @@ TEST(ScenarioOverrides, ErrorsOfValues) {
 
 TEST(ScenarioOverrides, AreBlamedForWhatTheyMakeOfTheRest) {
   const std::string error = error_of(base, {{"gravity.2", "-1"}, {"force.0.kind", "\"damper\""}});
-  EXPECT_THAT(error, StartsWith("--vary gravity.2, force.0.kind: test.toml:23:1: force.0.stiffness: there is no such"));
+  EXPECT_THAT(error, StartsWith("--vary gravity.2, --vary force.0.kind: test.toml:23:1: force.0.stiffness: there is no such"));
   const std::string of_file = error_of(changed("mass = 2.0", "mass = -2.0"), {{"gravity.2", "-1"}});
   EXPECT_THAT(of_file, StartsWith("test.toml:7:8: body.0.mass: -2")) << "the file is wrong by itself";
 }

@@ -484,10 +484,17 @@ class BadInput(StudyTest):
                 self.assertRegex(message, rf"bad\.toml:{line}:\d+: ")
 
     def test_values_in_study_files(self):
-        for text, name in (('integrator = "rk44"\n', "rk44"), ("dt = 0.0\n", "dt"), ("dt = nan\n", "dt"),
-                           ('[vary]\n"body.0.weight" = [1, 2]\n', "weight")):
+        for text, *say in (('integrator = "rk44"\n', "bad.toml:1:14: integrator: ", "rk44"),
+                           ("\ndt = 0.0\n", "bad.toml:2:6: dt: 0 is not positive"),
+                           ("dt = nan\n", "bad.toml:1:6: dt: ", "finite"),
+                           ("tolerance = [1e-3, 2]\n", "bad.toml:1:13: tolerance: 2 is too large"),
+                           ('scenario = "nowhere"\n', "bad.toml:1:12: scenario: "),
+                           ('integrator = "rk4"\ndt = 1e-300\n', "bad.toml:2:6: dt: "),
+                           ('[vary]\n"body.0.weight" = [1, 2]\n', "bad.toml:2:19: vary.body.0.weight: ", "weight"),
+                           ('[vary]\n"body.0.mass" = [1, -2]\n', "bad.toml:2:17: vary.body.0.mass: -2 is not")):
             with self.subTest(text):
-                self.refused("--study", self.write("bad.toml", text), "--out", self.new_out(), say=name)
+                self.refused("--study", self.write("bad.toml", text), "--out", self.new_out(), say=say)
+        self.refused("--study", self.write("bad.toml", "dt = 0.0\n"), "--dt", "-1", "--out", self.new_out(), say="--dt: -1")
 
     def test_folders_that_cannot_be(self):
         file = self.write("file", "mine\n")

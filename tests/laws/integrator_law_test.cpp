@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The laws of an integrator: what every entry of the catalogue must keep, in every formulation, on a free problem, a
-// forced one and one that depends on time. A new method needs nothing here.
+// forced one and one that depends on time. A new method needs nothing here. What it declares beyond its order is in
+// integrator_trait_law_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <span>
 
-#include "core/simulate.hpp"
-#include "integrators/catalogue.hpp"
-#include "tests/laws/formulations.hpp"
-#include "tests/laws/probe_forces.hpp"
-#include "tests/laws/problems.hpp"
-#include "tests/laws/random_motion.hpp"
+#include "tests/laws/integrator_trials.hpp"
 #include "tests/laws/reference_flow.hpp"
 
 namespace polhode::laws {
@@ -22,110 +17,22 @@ namespace {
 using Real = long double;
 using Flat = VectorX<Real>;
 
-/// A problem of the trials, each over one second.
-struct Trial {
-  std::string name;
-  Problem problem;
-  bool shaken = false;  ///< by a force that depends on time
-};
-std::vector<Trial> trials() {
-  return {{"free", free_top()},
-          {"forced", box_on_spring()},
-          {"forced_many", five_bodies()},
-          {"shaken", box_on_spring(turned_inertia({0.5, 0.8, 1.1}, {0.7, -0.4, 0.2, 0.5})), true},
-          {"shaken_pinned", heavy_top(), true}};
-}
-
-template <class S>
-std::unique_ptr<System<S>> build(const Trial& trial, const Formulation& formulation) {
-  auto system = make_system<S>(trial.problem, formulation);
-  if (trial.shaken) system->add_force(std::make_unique<Shaking<S>>(trial.problem.moving()));
-  return system;
-}
-
-/// The largest difference of two states, relative to 1 + the largest number of the second.
-template <class A, class B>
-double difference(const A& a, const B& b) {
-  const Flat x = a.template cast<Real>(), y = b.template cast<Real>();
-  return double((x - y).cwiseAbs().maxCoeff() / (1 + y.cwiseAbs().maxCoeff()));
-}
-
-template <class S>
-bool same_bytes(const State<S>& a, const State<S>& b) {
-  return a.t == b.t && a.y.size() == b.y.size() && (a.y.array() == b.y.array()).all();
-}
-
-class IntegratorLaw : public testing::TestWithParam<std::string> {
+class IntegratorLaw : public OverTheCatalogue {
  protected:
-  const IntegratorEntry& entry() const { return *find_integrator(GetParam()); }
-  const Declaration& declared() const { return entry().declaration; }
-  bool adaptive() const { return declared().adaptive; }
-
-  /// check(trial, formulation), in every formulation that is true to the body.
-  template <class Check>
-  void everywhere(const Check& check) const {
-    for (const Trial& trial : trials()) {
-      for (const Formulation& f : gyroscopic_formulations()) {
-        SCOPED_TRACE(GetParam() + ", " + trial.name + ", " + label(f));
-        check(trial, f);
-      }
-    }
-  }
-
-  template <class S = double>
-  IntegratorPointer<S> make(const System<S>& system, double tolerance = 1e-8, double t_end = 1) const {
-    return entry().maker<S>()(system, {.dt = 1.0 / 64, .tolerance = tolerance, .t_end = t_end});
-  }
-
-  /// To t_end as the driver goes there: whole steps of h, or the steps of the method.
-  template <class S>
-  static void go(Integrator<S>& integrator, State<S>& state, double t_end, std::int64_t fixed_steps, bool adaptive) {
-    if (!adaptive) {
-      const double h = (t_end - state.t) / double(fixed_steps);
-      ASSERT_TRUE(integrator.advance(state, h, fixed_steps).ok());
-      state.t = t_end;
-      return;
-    }
-    for (int steps = 0; state.t < t_end; ++steps) {
-      const double before = state.t;
-      const StepResult result = integrator.step(state, t_end - state.t);
-      ASSERT_TRUE(result.ok()) << result.failure;
-      ASSERT_GT(state.t, before);
-      ASSERT_LE(state.t, t_end);
-      ASSERT_LT(steps, 1000000);
-    }
-  }
-  void go(Integrator<double>& integrator, State<double>& state, double t_end, std::int64_t fixed_steps = 60) const {
-    go(integrator, state, t_end, fixed_steps, adaptive());
-  }
-
-  /// The state of a run of one second from the start of the trial.
-  State<double> run(const System<double>& system, double tolerance, std::int64_t fixed_steps = 60) const {
-    State<double> state = system.start();
-    const auto integrator = make(system, tolerance);
-    integrator->begin(state);
-    go(*integrator, state, 1, fixed_steps);
-    return state;
-  }
-
   template <class S>
   void expect_advance_is_single_steps() const;
   template <class S>
   void expect_precision(double round_off) const;
 };
 
-std::vector<std::string> names() {
-  std::vector<std::string> all;
-  for (const IntegratorEntry& e : integrator_catalogue()) all.push_back(e.declaration.name);
-  return all;
-}
-INSTANTIATE_TEST_SUITE_P(Catalogue, IntegratorLaw, testing::ValuesIn(names()),
+INSTANTIATE_TEST_SUITE_P(Catalogue, IntegratorLaw, testing::ValuesIn(method_names()),
                          [](const auto& param_info) { return param_info.param; });
 
 TEST_P(IntegratorLaw, DeclaresWhatItIs) {
   const Declaration& d = declared();
   EXPECT_FALSE(d.family.empty());
   EXPECT_FALSE(d.summary.empty());
+  EXPECT_FALSE(refuses(trials().front().problem, {})) << "every method accepts a free body as it is by default";
   ASSERT_TRUE(entry().make) << "every method works in double";
   if (adaptive()) {
     EXPECT_EQ(d.evaluations_per_step, 0) << "an adaptive method counts its evaluations";
@@ -134,14 +41,21 @@ TEST_P(IntegratorLaw, DeclaresWhatItIs) {
   }
 }
 
-// The declared order of a fixed-step method, from both sides: halving h divides the error by 2^p.
+// The declared order of a fixed-step method, from both sides: halving h divides the error by 2^p; free bodies may have an
+// order of their own, or be exact.
 TEST_P(IntegratorLaw, HasTheDeclaredOrder) {
   if (adaptive()) GTEST_SKIP() << "it takes a tolerance, not a step";
-  const double floor = 2e-11;  // well above the round-off of a run in double
+  const double floor = 4e-12;  // above the round-off of a run in double; multi-step methods reach their order late
   everywhere([&](const Trial& trial, const Formulation& f) {
     const auto system = build<double>(trial, f);
     const auto exact = build<Real>(trial, f);
     const Flat end = reference_flow(*exact, system->start().y.cast<Real>(), 0, 1);
+    const bool free = trial.problem.forces.empty() && !trial.shaken && declared().free_order > 0;
+    const int expected = free ? declared().free_order : declared().order;
+    if (expected == Declaration::exact_order) {
+      for (const std::int64_t n : {1, 15, 240}) EXPECT_LT(difference(run(*system, 0, n).y, end), 4e-14) << n;
+      return;
+    }
     double order = 0, error = 1;
     for (std::int64_t n = 15; n <= 3840; n *= 2) {
       const double next = difference(run(*system, 0, n).y, end);
@@ -150,7 +64,7 @@ TEST_P(IntegratorLaw, HasTheDeclaredOrder) {
       error = next;
     }
     EXPECT_LT(error, 0.01) << "it does not come near the exact motion";
-    EXPECT_NEAR(order, declared().order, 0.25) << "error " << error;
+    EXPECT_NEAR(order, expected, 0.25) << "error " << error;
   });
 }
 
@@ -163,7 +77,7 @@ TEST_P(IntegratorLaw, FollowsItsTolerance) {
     const Flat end = reference_flow(*exact, system->start().y.cast<Real>(), 0, 1);
     // The slope of log error against log tolerance, by least squares.
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
-    for (int k = 4; k <= 10; ++k) {
+    for (int k = 5; k <= 11; ++k) {  // at 1e-4 a method of order 8 takes four steps
       const double tolerance = std::pow(10, -k);
       const double error = difference(run(*system, tolerance).y, end);
       EXPECT_LT(error, 1000 * tolerance);
@@ -171,7 +85,7 @@ TEST_P(IntegratorLaw, FollowsItsTolerance) {
       n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
     }
     const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
-    EXPECT_NEAR(slope, 1, 0.35) << "slope of log error against log tolerance";
+    EXPECT_NEAR(slope, 1, 0.4) << "slope of log error against log tolerance";
   });
 }
 
@@ -202,24 +116,6 @@ TEST_P(IntegratorLaw, CountsItsEvaluations) {
   });
 }
 
-/// Keeps what a run shows: every sample, and the states.
-struct Rows final : Observer {
-  bool all_states = true;  ///< or the start alone
-  std::vector<Sample> samples{};
-  std::vector<State<double>> states{};
-  std::size_t observe(std::span<const Sample> seen) override {
-    samples.insert(samples.end(), seen.begin(), seen.end());
-    return seen.size();
-  }
-  void look(const State<double>& state, const Sample&) override { states.push_back(state); }
-  double next_look() const override { return all_states ? 0 : std::numeric_limits<double>::infinity(); }
-};
-
-bool is_finite(const Sample& s) {
-  return std::isfinite(s.t + s.seen.kinetic + s.seen.potential + s.seen.orientation_defect + s.work + s.projection) &&
-         s.seen.linear_momentum.allFinite() && s.seen.angular_momentum.allFinite();
-}
-
 // Where the right-hand side ceases to be a number, a step fails and leaves the state as it was, or the driver sees that
 // the state is no number; no row of the run is garbage.
 TEST_P(IntegratorLaw, StopsWhereTheForceBreaks) {
@@ -235,7 +131,7 @@ TEST_P(IntegratorLaw, StopsWhereTheForceBreaks) {
       const StepResult result = integrator->step(state, adaptive() ? 1 - state.t : 1.0 / 64);
       if (!result.ok()) {
         EXPECT_TRUE(same_bytes(state, before)) << "a failed step leaves the state as it was";
-        EXPECT_LE(state.t, after);
+        EXPECT_LE(state.t, after + 1e-15) << "the last stage is there to round-off";
         break;
       }
       if (!state.y.allFinite()) break;
@@ -391,12 +287,6 @@ TEST_P(IntegratorLaw, AdvanceIsSingleStepsToTheBit) {
   expect_advance_is_single_steps<Real>();
 }
 
-bool same_bytes(const Sample& a, const Sample& b) {
-  return a.t == b.t && a.work == b.work && a.projection == b.projection && a.seen.kinetic == b.seen.kinetic &&
-         a.seen.potential == b.seen.potential && a.seen.orientation_defect == b.seen.orientation_defect &&
-         a.seen.linear_momentum == b.seen.linear_momentum && a.seen.angular_momentum == b.seen.angular_momentum;
-}
-
 // A method that projects and measures within a stretch does it as the driver would, step by step.
 TEST_P(IntegratorLaw, StretchesAreSingleStepsToTheBit) {
   if (adaptive()) GTEST_SKIP() << "it chooses its steps";
@@ -514,6 +404,7 @@ TEST_P(IntegratorLaw, RunsDoNotDisturbEachOther) {
   for (const Formulation& f : gyroscopic_formulations()) {
     SCOPED_TRACE(label(f));
     const std::vector<Trial> all = trials();
+    if (refuses(all[1].problem, f) || refuses(all[4].problem, f)) continue;
     const auto first = build<double>(all[1], f), second = build<double>(all[4], f);
     const auto a = make(*first), b = make(*second);
     State<double> x = first->start(), y = second->start();

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The refusal of methods that move the momentum itself.
+#pragma once
+
+#include <string>
+
+#include "core/formulation.hpp"
+#include "core/problem.hpp"
+
+namespace polhode {
+
+inline std::string needs_the_gyroscopic_term(const Problem&, const Formulation& formulation) {
+  return formulation.gyroscopic ? "" : "it moves the angular momentum, which has no gyroscopic term to leave out";
+}
+
+}  // namespace polhode

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Boost.Odeint's Adams–Bashforth–Moulton method of four steps: the Adams–Bashforth formula of order 4 predicts, the
+// Adams–Moulton formula of order 4 corrects once with the rate at the prediction (PECE). Its first three steps, and
+// those after a projection or a change of the step, are by the classical Runge–Kutta method. Source: Hairer, Nørsett &
+// Wanner, Solving Ordinary Differential Equations I, III.1; Boost.Odeint's adams_bashforth_moulton.
+#include <boost/numeric/odeint/stepper/adams_bashforth_moulton.hpp>
+#include <vector>
+
+#include "integrators/odeint/fixed.hpp"
+
+namespace polhode {
+namespace {
+
+template <class S>
+using AdamsBashforthMoulton = boost::numeric::odeint::adams_bashforth_moulton<4, std::vector<S>, S>;
+
+}  // namespace
+
+IntegratorEntry odeint_adams_bashforth_moulton() {
+  return odeint_fixed<AdamsBashforthMoulton>(
+      {.name = "odeint_adams_bashforth_moulton",
+       .family = "Boost.Odeint",
+       .summary = "Adams-Bashforth-Moulton of four steps, PECE, started by Runge-Kutta 4",
+       .order = 4,
+       .multi_step = true});
+}
+
+}  // namespace polhode

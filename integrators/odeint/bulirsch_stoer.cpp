@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Boost.Odeint's Bulirsch–Stoer method: Gragg's modified midpoint rule, extrapolated in h² to an order that the error
+// control chooses. Without dense output: that of bulirsch_stoer_dense_out, built about the middle of a step, meets the
+// ends of the step to the tolerance only, and its steps are others.
+// Source: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.9; Boost.Odeint's bulirsch_stoer.
+#include <boost/numeric/odeint/stepper/bulirsch_stoer.hpp>
+#include <vector>
+
+#include "integrators/odeint/controlled.hpp"
+
+namespace polhode {
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+
+class BulirschStoer {
+ public:
+  using Vector = std::vector<double>;
+  static constexpr int order = 8;  // of the first step: extrapolation begins with four columns
+  static constexpr bool first_same_as_last = false;
+
+  BulirschStoer(double tolerance, std::size_t) : stepper_(tolerance, tolerance) {}
+
+  template <class Rate>
+  bool try_step(const Rate& rate, const Vector& x, const Vector& dx, double& t, Vector& next, Vector&, double& h) {
+    return stepper_.try_step(rate, x, dx, t, next, h) == odeint::success;
+  }
+
+ private:
+  odeint::bulirsch_stoer<Vector> stepper_;
+};
+
+}  // namespace
+
+IntegratorEntry odeint_bulirsch_stoer() {
+  return odeint_controlled<BulirschStoer>(
+      {.name = "odeint_bulirsch_stoer",
+       .family = "Boost.Odeint",
+       .summary = "Bulirsch-Stoer, the midpoint rule extrapolated to a variable order, error control per step"});
+}
+
+}  // namespace polhode

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Boost.Odeint's Fehlberg 7(8) with error control.
+// Source: Fehlberg, NASA TR R-287 (1968); Boost.Odeint's runge_kutta_fehlberg78.
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+#include <vector>
+
+#include "integrators/odeint/controlled.hpp"
+
+namespace polhode {
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+
+class Fehlberg78 {
+ public:
+  using Vector = std::vector<double>;
+  using Stepper = odeint::runge_kutta_fehlberg78<Vector>;
+  static constexpr int order = 8;
+  static constexpr bool first_same_as_last = false;
+
+  Fehlberg78(double tolerance, std::size_t)
+      : stepper_(odeint::default_error_checker<double, Stepper::algebra_type, Stepper::operations_type>(tolerance,
+                                                                                                        tolerance)) {}
+
+  template <class Rate>
+  bool try_step(const Rate& rate, const Vector& x, const Vector& dx, double& t, Vector& next, Vector&, double& h) {
+    return stepper_.try_step(rate, x, dx, t, next, h) == odeint::success;
+  }
+
+ private:
+  odeint::controlled_runge_kutta<Stepper> stepper_;
+};
+
+}  // namespace
+
+IntegratorEntry odeint_fehlberg78() {
+  return odeint_controlled<Fehlberg78>({.name = "odeint_fehlberg78",
+                                        .family = "Boost.Odeint",
+                                        .summary = "Fehlberg 7(8), the eighth order carried on, error control per step",
+                                        .order = 8});
+}
+
+}  // namespace polhode

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Odeint's steppers of a fixed step, behind the port of integrators, in any scalar.
+//
+// Stepper<S> is a stepper of Odeint over std::vector<S>: do_step(rate, x, t, h), x any range of numbers. One with
+// reset() has a history, which is forgotten when the step changes.
+#pragma once
+
+#include <utility>
+
+#include "integrators/catalogue.hpp"
+
+namespace polhode {
+
+/// The numbers of a state where they stand, as a range: a copy to a vector and back costs a third of an RK4 step.
+template <class S>
+struct OdeintRange {
+  using iterator = S*;
+  using const_iterator = S*;  // const is the range, not its numbers
+  S* first;
+  std::ptrdiff_t count;
+
+  S* begin() const { return first; }
+  S* end() const { return first + count; }
+  S* data() const { return first; }
+};
+
+template <template <class> class Stepper, class S>
+class OdeintFixed final : public Integrator<S> {
+ public:
+  explicit OdeintFixed(const System<S>& system) : system_(system) {}
+
+  void begin(const State<S>&) override {
+    evaluations_ = 0;
+    h_ = 0;
+    stepper_ = Stepper<S>();
+  }
+
+  StepResult step(State<S>& state, double h) override {
+    return advance(state, Stretch{.h = h, .count = 1, .t0 = state.t});
+  }
+
+  using Integrator<S>::advance;
+  StepResult advance(State<S>& state, const Stretch& stretch) override {
+    if constexpr (has_history) {
+      if (stretch.h != h_) stepper_.reset();
+    }
+    h_ = stretch.h;
+    const auto rate = [this](const auto& y, auto& dy, S t) {
+      ++evaluations_;
+      system_.rate(t, y.data(), dy.data());
+    };
+    OdeintRange<S> x{state.y.data(), state.y.size()};
+    for (std::int64_t k = 0; k < stretch.count; ++k) stepper_.do_step(rate, x, S(stretch.time(k)), S(stretch.h));
+    state.t = stretch.time(stretch.count);
+    return {};
+  }
+
+  std::int64_t evaluations() const override { return evaluations_; }
+
+  void discard_history(const State<S>&) override {
+    if constexpr (has_history) stepper_.reset();
+  }
+
+ private:
+  static constexpr bool has_history = requires(Stepper<S> & s) { s.reset(); };
+
+  const System<S>& system_;
+  Stepper<S> stepper_;
+  double h_ = 0;
+  std::int64_t evaluations_ = 0;
+};
+
+/// The one line that registers a stepper.
+template <template <class> class Stepper>
+IntegratorEntry odeint_fixed(Declaration declaration) {
+  const auto maker = []<class S>(const System<S>& system) { return std::make_unique<OdeintFixed<Stepper, S>>(system); };
+  return {std::move(declaration), [maker](const System<double>& s, const IntegratorSettings&) { return maker(s); },
+          [maker](const System<float>& s, const IntegratorSettings&) { return maker(s); },
+          [maker](const System<long double>& s, const IntegratorSettings&) { return maker(s); }};
+}
+
+}  // namespace polhode

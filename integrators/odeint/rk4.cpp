@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Boost.Odeint's classical Runge–Kutta method, of a fixed step.
+// Source: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.1; Boost.Odeint's runge_kutta4.
+#include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
+#include <vector>
+
+#include "integrators/odeint/fixed.hpp"
+
+namespace polhode {
+namespace {
+
+template <class S>
+using Rk4 = boost::numeric::odeint::runge_kutta4<std::vector<S>, S>;
+
+}  // namespace
+
+IntegratorEntry odeint_rk4() {
+  return odeint_fixed<Rk4>({.name = "odeint_rk4",
+                            .family = "Boost.Odeint",
+                            .summary = "the classical Runge-Kutta method of Boost.Odeint",
+                            .order = 4,
+                            .evaluations_per_step = 4});
+}
+
+}  // namespace polhode

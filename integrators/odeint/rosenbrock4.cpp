@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Boost.Odeint's Rosenbrock method of order 4(3), L-stable, with error control and dense output. It takes the Jacobian
+// and ∂f/∂t, here central difference quotients, once a trial; its state is a vector of Boost.uBLAS, to which it is
+// copied. Source: Hairer & Wanner, Solving Ordinary Differential Equations II, IV.7 and VI.4 (RODAS); Boost.Odeint's
+// rosenbrock4 and rosenbrock4_controller.
+#include "integrators/odeint/controlled.hpp"
+#include "integrators/odeint/rosenbrock4_stepper.hpp"
+
+namespace polhode {
+namespace {
+
+class Rosenbrock4 {
+ public:
+  using Vector = std::vector<double>;
+  static constexpr int order = 4;
+  static constexpr bool first_same_as_last = false;
+
+  Rosenbrock4(double tolerance, std::size_t size) : stepper_(tolerance, size) {}
+
+  template <class Rate>
+  bool try_step(const Rate& rate, const Vector& x, const Vector&, double& t, Vector& next, Vector&, double& h) {
+    return stepper_.try_step(rate, x, t, next, h);
+  }
+
+  void calc_state(double t, Vector& y, const Vector& x0, const Vector&, double t0, const Vector& x1, const Vector&,
+                  double t1) const {
+    stepper_.calc_state(t, y, x0, t0, x1, t1);
+  }
+
+ private:
+  Rosenbrock4Stepper stepper_;
+};
+
+}  // namespace
+
+IntegratorEntry odeint_rosenbrock4() {
+  return odeint_controlled<Rosenbrock4>(
+      {.name = "odeint_rosenbrock4",
+       .family = "Boost.Odeint",
+       .summary = "Rosenbrock 4(3), L-stable, Jacobian by difference quotients, error control per step, dense output",
+       .order = 4,
+       .implicit = true});
+}
+
+}  // namespace polhode

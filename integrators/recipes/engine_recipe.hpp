@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the engine recipes share: the formulation in which engines keep a body.
+#pragma once
+
+#include <string>
+
+#include "integrators/fixed_step.hpp"
+
+namespace polhode {
+
+inline std::string needs_an_engine_state(const Problem&, const Formulation& formulation) {
+  return formulation.orientation == Orientation::quaternion && formulation.angular_state == AngularState::velocity_world
+             ? ""
+             : "an engine keeps a quaternion and the angular velocity in the world";
+}
+
+/// Open Dynamics Engine: v' = v + h v̇(t, q, v) with the gyroscopic torque explicit, p' = p + h v',
+/// q' = (q + h/2 ω' q)/|q + h/2 ω' q|. The work takes the power of v' at the old q.
+template <class System>
+class OdeStep {
+ public:
+  using S = typename System::Scalar;
+  using Flat = typename System::Flat;
+
+  explicit OdeStep(const System& system) : rate_(system.zero()) {}
+
+  void step(const System& system, S t, S h, Flat& y) {
+    system.acceleration(t, y, rate_);
+    system.velocity_part(y) += h * system.velocity_part(rate_);
+    system.configuration_rate(t, y, rate_);
+    system.configuration_part(y) += h * system.configuration_part(rate_);
+    system.work_part(y) += h * system.work_part(rate_);
+    system.project_flat(y.data());
+  }
+
+ private:
+  Flat rate_;
+};
+
+template <template <class> class Recipe>
+IntegratorEntry engine_recipe(Declaration declaration) {
+  IntegratorEntry entry = fixed_step<Recipe>(std::move(declaration));
+  entry.refusal = needs_an_engine_state;
+  return entry;
+}
+
+}  // namespace polhode

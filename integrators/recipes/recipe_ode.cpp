@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The free-body update of the Open Dynamics Engine: semi-implicit Euler with the gyroscopic torque −ω × Iω of the old
+// state among the torques, then the first-order quaternion update with the new ω, normalised as part of the recipe.
+// Source: ODE, dxStepBody and its gyroscopic mode; Peters & Hsu, Comparison of Rigid Body Dynamic Simulators for
+// Robotic Simulation in Gazebo, whose figures for ODE it gives.
+#include "integrators/recipes/engine_recipe.hpp"
+
+namespace polhode {
+
+IntegratorEntry recipe_ode() {
+  return engine_recipe<OdeStep>({.name = "recipe_ode",
+                                 .family = "engine recipe",
+                                 .summary = "ODE: v' = v + h a, then q' = q + h/2 w' q, normalised",
+                                 .order = 1,
+                                 .evaluations_per_step = 1});
+}
+
+}  // namespace polhode

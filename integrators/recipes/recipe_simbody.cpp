@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Simbody's free body: the recipe of ODE in two half steps, which gives the figures that Peters & Hsu publish for it.
+// Source: Peters & Hsu, Comparison of Rigid Body Dynamic Simulators for Robotic Simulation in Gazebo.
+#include "integrators/recipes/engine_recipe.hpp"
+
+namespace polhode {
+
+template <class System>
+class SimbodyStep {
+ public:
+  using S = typename System::Scalar;
+  using Flat = typename System::Flat;
+
+  explicit SimbodyStep(const System& system) : half_step_(system) {}
+
+  void step(const System& system, S t, S h, Flat& y) {
+    const S half = h / S(2);
+    half_step_.step(system, t, half, y);
+    half_step_.step(system, t + half, half, y);
+  }
+
+ private:
+  OdeStep<System> half_step_;
+};
+
+IntegratorEntry recipe_simbody() {
+  return engine_recipe<SimbodyStep>({.name = "recipe_simbody",
+                                     .family = "engine recipe",
+                                     .summary = "Simbody: ODE's recipe in two half steps",
+                                     .order = 1,
+                                     .evaluations_per_step = 2});
+}
+
+}  // namespace polhode

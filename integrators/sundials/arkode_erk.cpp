@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ARKODE's embedded explicit Runge–Kutta methods with error control: its table of order 4 (Zonneveld 5(3)4), or of the
+// order that the settings ask for, 2 to 8 (Heun–Euler, Bogacki–Shampine, Zonneveld, Cash–Karp, Verner 6(5), Fehlberg
+// 8(7) for 7 and 8). Source: Reynolds et al., ARKODE, ACM TOMS 49 (2023); the ARKODE 5.4 user guide, "Butcher tables".
+#include <arkode/arkode_erkstep.h>
+
+#include <cstdlib>
+#include <new>
+#include <stdexcept>
+
+#include "integrators/sundials/sundials_integrator.hpp"
+
+namespace polhode {
+namespace {
+
+using namespace sundials;
+
+void free_memory(void* memory) { ERKStepFree(&memory); }
+using Memory = std::unique_ptr<void, Destroy<free_memory>>;
+
+class ArkodeErk final : public SundialsIntegrator {
+ public:
+  ArkodeErk(const System<double>& system, const IntegratorSettings& settings)
+      : SundialsIntegrator(system, settings), order_(settings.order == 0 ? 4 : settings.order) {
+    // ARKODE itself would take its default without a word.
+    if (order_ < 2 || order_ > 8) throw std::invalid_argument("arkode_erk has the orders 2 to 8");
+  }
+
+ private:
+  void create(double t, N_Vector y, SundialsIntegrator* self) override {
+    memory_.reset(ERKStepCreate(&right_hand_side, t, y, context()));
+    if (!memory_) throw std::bad_alloc();
+    check(ERKStepSetErrFile(memory_.get(), nullptr), "ERKStepSetErrFile");
+    check(ERKStepSetUserData(memory_.get(), self), "ERKStepSetUserData");
+    check(ERKStepSetOrder(memory_.get(), order_), "ERKStepSetOrder");
+    check(ERKStepSStolerances(memory_.get(), tolerance(), tolerance()), "ERKStepSStolerances");
+    check(ERKStepSetMaxNumSteps(memory_.get(), max_steps), "ERKStepSetMaxNumSteps");
+  }
+
+  void restart(double t, N_Vector y) override {
+    double h = 0;
+    check(ERKStepGetCurrentStep(memory_.get(), &h), "ERKStepGetCurrentStep");
+    check(ERKStepReInit(memory_.get(), &right_hand_side, t, y), "ERKStepReInit");
+    check(ERKStepSetInitStep(memory_.get(), h), "ERKStepSetInitStep");
+  }
+
+  int evolve(double stop, N_Vector y, double* t) override {
+    check(ERKStepSetStopTime(memory_.get(), stop), "ERKStepSetStopTime");
+    return ERKStepEvolve(memory_.get(), stop, y, t, ARK_ONE_STEP);
+  }
+
+  int derivative(double t, N_Vector y) const override { return ERKStepGetDky(memory_.get(), t, 0, y); }
+  int watch(int count) override { return ERKStepRootInit(memory_.get(), count, &find_roots); }
+  int roots(int* signs) override { return ERKStepGetRootInfo(memory_.get(), signs); }
+  std::string flag_name(int flag) const override {
+    const std::unique_ptr<char, decltype(&std::free)> name(ERKStepGetReturnFlagName(flag), &std::free);
+    return name.get();
+  }
+  const char* library() const override { return "ARKODE"; }
+
+  int order_;
+  Memory memory_;
+};
+
+}  // namespace
+
+IntegratorEntry arkode_erk() {
+  return {{.name = "arkode_erk",
+           .family = "SUNDIALS",
+           .summary = "ARKODE, embedded explicit Runge-Kutta of order 4 (Zonneveld) unless another is asked for",
+           .order = 4,
+           .adaptive = true},
+          [](const System<double>& system, const IntegratorSettings& settings) {
+            return std::make_unique<ArkodeErk>(system, settings);
+          }};
+}
+
+}  // namespace polhode

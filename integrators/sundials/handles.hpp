@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What SUNDIALS makes, owned: each handle deletes its object by the library's own function.
+#pragma once
+
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_context.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_matrix.h>
+#include <sundials/sundials_nonlinearsolver.h>
+
+#include <memory>
+
+namespace polhode::sundials {
+
+template <auto destroy>
+struct Destroy {
+  template <class T>
+  void operator()(T* object) const {
+    destroy(object);
+  }
+};
+inline void free_context(SUNContext context) { SUNContext_Free(&context); }
+
+using Context = std::unique_ptr<_SUNContext, Destroy<free_context>>;
+using Vector = std::unique_ptr<_generic_N_Vector, Destroy<N_VDestroy>>;
+using Matrix = std::unique_ptr<_generic_SUNMatrix, Destroy<SUNMatDestroy>>;
+using LinearSolver = std::unique_ptr<_generic_SUNLinearSolver, Destroy<SUNLinSolFree>>;
+using NonlinearSolver = std::unique_ptr<_generic_SUNNonlinearSolver, Destroy<SUNNonlinSolFree>>;
+
+}  // namespace polhode::sundials

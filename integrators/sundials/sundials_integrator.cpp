@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "integrators/sundials/sundials_integrator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <stdexcept>
+
+namespace polhode::sundials {
+namespace {
+
+constexpr int root_return = 2;  // CV_ROOT_RETURN and ARK_ROOT_RETURN
+
+bool is_finite(const double* x, sunindextype n) {
+  bool finite = true;
+  for (sunindextype i = 0; i < n; ++i) finite &= std::abs(x[i]) <= std::numeric_limits<double>::max();
+  return finite;
+}
+
+}  // namespace
+
+void check(int flag, const char* function) {
+  if (flag != 0) throw std::runtime_error(std::string(function) + " failed with " + std::to_string(flag));
+}
+
+SundialsIntegrator::SundialsIntegrator(const System<double>& system, const IntegratorSettings& settings)
+    : system_(system), tolerance_(settings.tolerance) {
+  SUNContext context = nullptr;
+  if (SUNContext_Create(nullptr, &context) != 0) throw std::bad_alloc();
+  context_.reset(context);
+}
+
+void SundialsIntegrator::begin(const State<double>& state) {
+  work_.reset(N_VNew_Serial(state.y.size(), context_.get()));
+  if (!work_) throw std::bad_alloc();
+  evaluations_ = 0;
+  seen_ = state;
+  copy_in(state);
+  create(state.t, work_.get(), this);
+  if (!events_.empty()) check(watch(int(events_.size())), "RootInit");
+}
+
+StepResult SundialsIntegrator::step(State<double>& state, double h) {
+  double t = state.t;
+  const int flag = evolve(state.t + h, work_.get(), &t);
+  if (flag < 0) return {std::string(library()) + " gave up (" + flag_name(flag) + ")"};
+  if (!(t > state.t)) return {std::string(library()) + "'s step size fell to nothing"};
+  const double* y = N_VGetArrayPointer(work_.get());
+  if (!is_finite(y, state.y.size())) return {std::string(library()) + "'s step ended in no number"};
+  std::fill(roots_.begin(), roots_.end(), 0);
+  if (flag == root_return) check(roots(roots_.data()), "GetRootInfo");
+  step_done();
+  state.t = t_now_ = t;
+  state.y = Eigen::Map<const VectorX<double>>(y, state.y.size());
+  return {};
+}
+
+void SundialsIntegrator::discard_history(const State<double>& state) {
+  copy_in(state);
+  restart(state.t, work_.get());
+}
+
+bool SundialsIntegrator::interpolate(double t, State<double>& state) const {
+  // Where a root ended the step, the library's own one reaches beyond it.
+  if (t > t_now_) return false;
+  State<double> there = state;
+  const Vector y(N_VMake_Serial(there.y.size(), there.y.data(), context_.get()));
+  if (!y || derivative(t, y.get()) != 0) return false;
+  state.t = t;
+  state.y.swap(there.y);
+  return true;
+}
+
+void SundialsIntegrator::set_events(std::vector<EventFunction<double>> events) {
+  events_ = std::move(events);
+  roots_.assign(events_.size(), 0);
+}
+
+void SundialsIntegrator::copy_in(const State<double>& state) {
+  t_now_ = state.t;
+  Eigen::Map<VectorX<double>>(N_VGetArrayPointer(work_.get()), state.y.size()) = state.y;
+}
+
+int SundialsIntegrator::right_hand_side(double t, N_Vector y, N_Vector dy, void* user_data) {
+  auto& self = *static_cast<SundialsIntegrator*>(user_data);
+  ++self.evaluations_;
+  double* rate = N_VGetArrayPointer(dy);
+  self.system_.rate(t, N_VGetArrayPointer(y), rate);
+  return is_finite(rate, self.seen_.y.size()) ? 0 : 1;
+}
+
+int SundialsIntegrator::find_roots(double t, N_Vector y, double* values, void* user_data) {
+  auto& self = *static_cast<SundialsIntegrator*>(user_data);
+  self.seen_.t = t;
+  self.seen_.y = Eigen::Map<const VectorX<double>>(N_VGetArrayPointer(y), self.seen_.y.size());
+  for (std::size_t i = 0; i < self.events_.size(); ++i) values[i] = self.events_[i](self.seen_);
+  return 0;
+}
+
+}  // namespace polhode::sundials

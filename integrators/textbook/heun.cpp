@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Heun's method, the explicit trapezoidal rule: y' = y + h/2 (f(t, y) + f(t + h, y + h f(t, y))).
+// Source: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.1 (Heun 1900).
+#include "integrators/fixed_step.hpp"
+
+namespace polhode {
+
+template <class System>
+class Heun {
+ public:
+  using S = typename System::Scalar;
+  using Flat = typename System::Flat;
+
+  explicit Heun(const System& system) : k1_(system.zero()), k2_(system.zero()), stage_(system.zero()) {}
+
+  void step(const System& system, S t, S h, Flat& y) {
+    system.rate(t, y, k1_);
+    stage_ = y + h * k1_;
+    system.rate(t + h, stage_, k2_);
+    y += (h / S(2)) * (k1_ + k2_);
+  }
+
+ private:
+  Flat k1_, k2_, stage_;
+};
+
+IntegratorEntry heun() {
+  return fixed_step<Heun>({.name = "heun",
+                           .family = "textbook",
+                           .summary = "y' = y + h/2 (f(t, y) + f(t + h, y + h f(t, y)))",
+                           .order = 2,
+                           .evaluations_per_step = 2});
+}
+
+}  // namespace polhode

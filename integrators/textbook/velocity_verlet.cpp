@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Velocity Verlet with a group step for the orientation, in the form for accelerations that depend on the velocity:
+//   k  = v̇(t, q, v),            v½ = v + h/2 k            half kick
+//   q½ = q ⊕ h/2 ξ(q, v½),      q' = q ⊕ h ξ(q½, v½)      drift by the twist half way
+//   ṽ  = v½ + h/2 k,            v' = v½ + h/2 v̇(t + h, q', ṽ)   half kick at the predicted velocity
+// For forces of position alone ṽ does not matter and this is Verlet's method, symplectic and symmetric for translation.
+// The gyroscopic term and drag see ṽ = v + h k, right to O(h²), so that v' is the trapezoidal rule to O(h³); evaluated
+// at v½ the second kick would be of first order. ξ depends on q only with the momentum as state, where L½ turns with
+// ω(q½, L½); with an angular velocity the drift is one exponential of h v½. The work is the trapezoidal rule of the
+// power at (t, q, v) and (t + h, q', v'). Explicit, order 2; two evaluations, as v̇ at ṽ cannot serve the next step.
+// Source: Swope, Andersen, Berens & Wilson, J. Chem. Phys. 76 (1982); for the velocity-dependent kick Groot & Warren,
+// J. Chem. Phys. 107 (1997), with λ = 1.
+#include "integrators/fixed_step.hpp"
+
+namespace polhode {
+
+template <class System>
+class VelocityVerlet {
+ public:
+  using S = typename System::Scalar;
+  using Flat = typename System::Flat;
+
+  explicit VelocityVerlet(const System& system)
+      : first_(system.zero()), second_(system.zero()), middle_(system.zero()), step_(system.zero_tangent()) {}
+
+  void step(const System& system, S t, S h, Flat& y) {
+    const S half = h / S(2);
+    system.rate(t, y, first_);
+    system.velocity_part(y) += half * system.velocity_part(first_);
+
+    middle_ = y;
+    system.twist(middle_, step_);
+    step_ *= half;
+    system.retract(middle_, step_);
+    system.twist(middle_, step_);
+    step_ *= h;
+    system.retract(y, step_);
+
+    middle_ = y;
+    system.velocity_part(middle_) += half * system.velocity_part(first_);
+    system.acceleration(t + h, middle_, second_);
+    system.velocity_part(y) += half * system.velocity_part(second_);
+    system.configuration_rate(t + h, y, second_);
+    system.work_part(y) += half * (system.work_part(first_) + system.work_part(second_));
+  }
+
+ private:
+  Flat first_, second_, middle_;
+  typename System::Tangent step_;
+};
+
+IntegratorEntry velocity_verlet() {
+  return fixed_step<VelocityVerlet>({.name = "velocity_verlet",
+                                     .family = "textbook",
+                                     .summary = "half kick, drift q' = q exp(h w), half kick at the predicted velocity",
+                                     .order = 2,
+                                     .evaluations_per_step = 2,
+                                     .lie_group = true});
+}
+
+}  // namespace polhode
