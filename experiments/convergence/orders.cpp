@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "experiments/study/csv.hpp"
@@ -19,7 +20,7 @@ namespace {
 
 using namespace report;
 
-constexpr double lost_attitude = 0.5;  ///< rad: beyond it an attitude says nothing about an order
+constexpr double lost_attitude = 0.5;   ///< rad: beyond it an attitude says nothing about an order
 constexpr std::size_t most_items = 16;  // of a sentence
 
 bool is_attitude(const Quantity& quantity) { return quantity.unit == " rad"; }
@@ -45,8 +46,7 @@ bool torque_acts(const Scenario& scenario, const Formulation& formulation) {
 /// What a fixed order is declared for this motion: bodies are free without forces, and their attitude without torques.
 std::optional<double> declared_order(const Declaration& method, const Scenario& scenario, const RunConfig& config,
                                      bool attitude) {
-  const bool free =
-      scenario.problem.forces.empty() || (attitude && !torque_acts(scenario, config.formulation));
+  const bool free = scenario.problem.forces.empty() || (attitude && !torque_acts(scenario, config.formulation));
   const int order = free && method.free_order > 0 ? method.free_order : method.order;
   return order == Declaration::exact_order ? std::nullopt : std::optional<double>(order);
 }
@@ -66,7 +66,8 @@ Order order_of(const Curve& curve, const Quantity& quantity, std::optional<doubl
   OrderSettings settings;
   if (is_attitude(quantity)) settings.lost = lost_attitude;
   settings.epsilon = epsilon(curve.runs.front()->config.precision);
-  // A method that chooses its steps does not follow a line as closely as one that is given them: the whole ladder counts.
+  // A method that chooses its steps does not follow a line as closely as one that is given them: the whole ladder
+  // counts.
   if (curve.adaptive) {
     settings.straightness = std::numeric_limits<double>::infinity();
     settings.least_fall = 0;
@@ -88,7 +89,8 @@ class Orders {
     found.method = {
         "Order: p in error ∝ step^p, a straight line fitted by least squares to the logarithms of the largest error of "
         "each run, with the 95 % confidence interval of Student’s t. The stretch begins at the smallest step at which "
-        "the error is ten times what rounding may add, and grows towards larger steps while no point is further than 10 "
+        "the error is ten times what rounding may add, and grows towards larger steps while no point is further than "
+        "10 "
         "% from the line; steps at which the motion is lost (an attitude off by 0.5 rad or more, or a run that did not "
         "end), and larger ones, are left out. As declared: within 0.25, with an interval of ±0.5 at most.",
         "A method that chooses its own steps has its error set against its tolerance (declared: 1, an error in "
@@ -161,6 +163,27 @@ class Orders {
     return words(items);
   }
 
+  /// "At round-off at every step or tolerance on peters_hsu, position: rk4 and heun."
+  std::vector<std::string> exact_here() const {
+    std::map<std::string, std::vector<std::string>> places;
+    for (const Order& o : orders_) {
+      if (o.verdict != OrderVerdict::exact_here) continue;
+      std::string place = grouping_.cases[o.curve->case_index].label();
+      if (!is_attitude(o.quantity)) place += ", position";
+      places[place].push_back(grouping_.label(*o.curve));
+    }
+    std::vector<std::string> all;
+    for (auto& [place, labels] : places) {
+      if (labels.size() > most_items) {
+        const auto rest = labels.size() - most_items;
+        labels.resize(most_items);
+        labels.push_back(fmt::format("{} more", rest));
+      }
+      all.push_back(fmt::format("At round-off at every step or tolerance on {}: {}.", place, words(labels)));
+    }
+    return all;
+  }
+
   /// Methods that are as declared, or exact, wherever an order is seen, and how many there are with an order or a
   /// tolerance.
   std::pair<std::vector<std::string>, std::size_t> as_declared(bool against_step) const {
@@ -187,7 +210,6 @@ class Orders {
       for (const auto& [verdict, start] :
            {std::pair(OrderVerdict::higher, "Higher than declared: "),
             std::pair(OrderVerdict::lower, "Lower than declared: "),
-            std::pair(OrderVerdict::exact_here, "Exact, at round-off at every step: "),
             std::pair(OrderVerdict::too_few, "Not seen, for want of points: "),
             std::pair(OrderVerdict::scattered, "Not seen, for the points scatter about a line: ")}) {
         if (const auto items = listed(verdict, true); !items.empty()) all.push_back(start + items + ".");
@@ -198,14 +220,14 @@ class Orders {
           "{} of {} with a tolerance {} the error in proportion to it (slope 1 to within 0.25){}{}.", names.size(),
           count(n, "method"), names.size() == 1 ? "keeps" : "keep", names.empty() ? "" : ": ", words(names)));
       for (const auto& [verdict, start] :
-           {std::pair(OrderVerdict::exact_here, "At round-off at every tolerance: "),
-            std::pair(OrderVerdict::higher, "The error falls faster than the tolerance: "),
+           {std::pair(OrderVerdict::higher, "The error falls faster than the tolerance: "),
             std::pair(OrderVerdict::lower, "The error falls more slowly than the tolerance: "),
             std::pair(OrderVerdict::too_few, "Against the tolerance no slope is seen, for want of points: "),
             std::pair(OrderVerdict::scattered, "Against the tolerance no slope is seen, for the points scatter: ")}) {
         if (const auto items = listed(verdict, false); !items.empty()) all.push_back(start + items + ".");
       }
     }
+    for (auto& text : exact_here()) all.push_back(std::move(text));
     for (auto& text : left_out()) all.push_back(std::move(text));
     return all;
   }
@@ -222,11 +244,12 @@ class Orders {
     for (const auto& run : study_.runs) other_equation = other_equation || !run.config.formulation.gyroscopic;
     if (other_equation) {
       all.emplace_back(
-          "Runs without the gyroscopic term solve another equation: their distance from the exact motion has no order.");
+          "Runs without the gyroscopic term solve another equation: their distance from the exact motion has no "
+          "order.");
     }
     if (!without.empty()) {
-      all.push_back(fmt::format("No error was measured on {}, so no order: no exact solution is known, or no run ended.",
-                                words(without)));
+      all.push_back(fmt::format(
+          "No error was measured on {}, so no order: no exact solution is known, or no run ended.", words(without)));
     }
     return all;
   }
@@ -260,7 +283,8 @@ class Orders {
                             {"from … to", "", Kind::text},
                             {"left out", "", Kind::text}},
                 .rows = {}};
-    const bool positions = std::any_of(orders_.begin(), orders_.end(), [](const auto& o) { return !is_attitude(o.quantity); });
+    const bool positions =
+        std::any_of(orders_.begin(), orders_.end(), [](const auto& o) { return !is_attitude(o.quantity); });
     const bool adaptive = std::any_of(orders_.begin(), orders_.end(), [](const auto& o) { return o.curve->adaptive; });
     for (const Order& o : orders_) {
       const auto& line = o.estimate.line;
@@ -268,7 +292,9 @@ class Orders {
                             grouping_.variants[o.curve->variant_index],
                             positions ? (is_attitude(o.quantity) ? "attitude" : "position") : "",
                             adaptive ? against(o) : "", declared(o),
-                            line ? fmt::format("{:.2f}", line->order) : o.estimate.exact ? "exact" : "",
+                            line               ? fmt::format("{:.2f}", line->order)
+                            : o.estimate.exact ? "exact"
+                                               : "",
                             line ? fmt::format("{:.2f}", line->half_width_95) : "", text(o.verdict),
                             std::to_string(o.estimate.points), range(o), dropped(o.estimate)});
     }
@@ -285,10 +311,10 @@ class Orders {
       return some;
     };
     auto header = kept(names);
-    for (const char* c : {"error_of", "against", "declared_order", "observed_order", "standard_error",
-                          "confidence_95_low", "confidence_95_high", "points", "step_smallest_s", "step_largest_s",
-                          "tolerance_smallest", "tolerance_largest", "left_out_lost", "left_out_round_off",
-                          "left_out_not_straight", "verdict"}) {
+    for (const char* c :
+         {"error_of", "against", "declared_order", "observed_order", "standard_error", "confidence_95_low",
+          "confidence_95_high", "points", "step_smallest_s", "step_largest_s", "tolerance_smallest",
+          "tolerance_largest", "left_out_lost", "left_out_round_off", "left_out_not_straight", "verdict"}) {
       header.emplace_back(c);
     }
     std::string text = csv_row(header);

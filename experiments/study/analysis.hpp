@@ -26,10 +26,10 @@ struct Analysis {
     std::string text;
   };
 
-  std::string heading{};               ///< of its part of the report: "Observed order"
+  std::string heading{};                 ///< of its part of the report: "Observed order"
   std::vector<std::string> sentences{};  ///< what is seen
-  std::vector<std::string> method{};   ///< how the numbers were made; below the tables
-  std::vector<NamedTable> tables{};    ///< the first one stands on the terminal too
+  std::vector<std::string> method{};     ///< how the numbers were made; below the tables
+  std::vector<NamedTable> tables{};      ///< the first one stands on the terminal too
   std::vector<report::Figure> figures{};
   std::vector<File> files{};
 
@@ -38,7 +38,7 @@ struct Analysis {
   struct Timed {
     std::vector<std::string> sentences{};  ///< on the terminal only
     std::vector<report::Figure> figures{};
-    std::vector<File> files{};           ///< in timings/
+    std::vector<File> files{};  ///< in timings/
   };
   Timed timed{};
 };

@@ -8,9 +8,7 @@
 namespace polhode::study {
 namespace {
 
-bool usable(const WorkPoint& p) {
-  return std::isfinite(p.error) && p.error > 0 && std::isfinite(p.cost) && p.cost > 0;
-}
+bool usable(const WorkPoint& p) { return std::isfinite(p.error) && p.error > 0 && std::isfinite(p.cost) && p.cost > 0; }
 
 /// Usable points in the order of their cost.
 std::vector<WorkPoint> by_cost(std::vector<WorkPoint> curve) {

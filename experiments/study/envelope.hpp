@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lower envelope of work-precision curves: which method reaches an error at the least cost, at each decade of error.
+// The lower envelope of work-precision curves: which method reaches an error at the least cost, at each decade of
+// error.
 #pragma once
 
 #include <cstddef>
@@ -19,10 +20,10 @@ struct WorkPoint {
 std::optional<double> cost_to_reach(double error, const std::vector<WorkPoint>& curve);
 
 struct EnvelopePoint {
-  int decade = 0;          ///< error = 10^decade
-  std::size_t curve = 0;   ///< the cheapest; of equals the first
+  int decade = 0;         ///< error = 10^decade
+  std::size_t curve = 0;  ///< the cheapest; of equals the first
   double cost = 0;
-  bool at_most = false;    ///< its cheapest run is better than this error: a larger step may be cheaper yet
+  bool at_most = false;               ///< its cheapest run is better than this error: a larger step may be cheaper yet
   std::optional<std::size_t> next{};  ///< the curve that comes second
   double next_cost = 0;
 };

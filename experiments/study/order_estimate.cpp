@@ -85,9 +85,8 @@ OrderEstimate estimate_order(std::vector<LadderPoint> points, const OrderSetting
                points.end());
   drop_blown_up(points, settings.lost, estimate);
   const bool any = !points.empty();
-  estimate.exact = any && std::all_of(points.begin(), points.end(), [](const LadderPoint& p) {
-    return p.error <= above_rounding * p.round_off;
-  });
+  estimate.exact = any && std::all_of(points.begin(), points.end(),
+                                      [](const LadderPoint& p) { return p.error <= above_rounding * p.round_off; });
   drop_round_off(points, settings, estimate);
   estimate.points = points.size();
   if (points.empty()) return estimate;
@@ -102,19 +101,25 @@ OrderEstimate estimate_order(std::vector<LadderPoint> points, const OrderSetting
   estimate.not_straight = logs.size() - stretch.size();
   estimate.points = stretch.size();
   estimate.largest = points[estimate.not_straight].step;
-  estimate.line = OrderEstimate::Line{line.slope, line.standard_error,
-                                      students_t_975(stretch.size() - 2) * line.standard_error};
+  estimate.line =
+      OrderEstimate::Line{line.slope, line.standard_error, students_t_975(stretch.size() - 2) * line.standard_error};
   return estimate;
 }
 
 std::string text(OrderVerdict verdict) {
   switch (verdict) {
-    case OrderVerdict::as_declared: return "as declared";
-    case OrderVerdict::higher: return "higher";
-    case OrderVerdict::lower: return "lower";
-    case OrderVerdict::exact_here: return "exact here";
-    case OrderVerdict::too_few: return "not seen: too few points";
-    default: return "not seen: points scatter";
+    case OrderVerdict::as_declared:
+      return "as declared";
+    case OrderVerdict::higher:
+      return "higher";
+    case OrderVerdict::lower:
+      return "lower";
+    case OrderVerdict::exact_here:
+      return "exact here";
+    case OrderVerdict::too_few:
+      return "not seen: too few points";
+    default:
+      return "not seen: points scatter";
   }
 }
 

@@ -22,8 +22,8 @@ namespace {
 
 using namespace report;
 
-constexpr double lost = 1;                    ///< rad, or m: more is no result
-constexpr std::size_t most_coloured = 8;      ///< of more methods, those off the envelope are grey
+constexpr double lost = 1;                ///< rad, or m: more is no result
+constexpr std::size_t most_coloured = 8;  ///< of more methods, those off the envelope are grey
 constexpr std::size_t most_panels = 8;
 
 /// What a run costs.
@@ -52,9 +52,9 @@ bool measured(const Curve& curve, const Quantity& quantity) {
 bool is_exact(const Curve& curve, const Quantity& quantity) {
   constexpr double near = 10;
   return curve.runs.size() > 1 && std::all_of(curve.runs.begin(), curve.runs.end(), [&](const auto* run) {
-    const auto error = value(*run, quantity);
-    return !completed(*run) || (error && *error <= near * round_off_level(*run, quantity));
-  });
+           const auto error = value(*run, quantity);
+           return !completed(*run) || (error && *error <= near * round_off_level(*run, quantity));
+         });
 }
 
 std::vector<WorkPoint> work_points(const Curve& curve, const Quantity& quantity, const Cost& cost) {
@@ -77,9 +77,12 @@ std::vector<Motion> motions_of(const Grouping& grouping, const Cost& cost) {
         if (curve.case_index != c || !same_equation || !measured(curve, quantity)) continue;
         auto work = work_points(curve, quantity, cost);
         const bool costs = std::any_of(work.begin(), work.end(), [](const auto& p) { return p.cost > 0; });
-        if (!costs) motion.without.push_back(&curve);
-        else if (is_exact(curve, quantity)) motion.exact.push_back(&curve);
-        else motion.curves.push_back(&curve), points.push_back(std::move(work));
+        if (!costs)
+          motion.without.push_back(&curve);
+        else if (is_exact(curve, quantity))
+          motion.exact.push_back(&curve);
+        else
+          motion.curves.push_back(&curve), points.push_back(std::move(work));
       }
       if (motion.curves.empty()) continue;
       motion.envelope = lower_envelope(points, lost);
@@ -100,8 +103,10 @@ struct Reign {
 std::vector<Reign> reigns(const std::vector<EnvelopePoint>& envelope) {
   std::vector<Reign> all;
   for (const auto& point : envelope) {
-    if (!all.empty() && all.back().curve == point.curve) all.back().to = point.decade;
-    else all.push_back({point.curve, point.decade, point.decade});
+    if (!all.empty() && all.back().curve == point.curve)
+      all.back().to = point.decade;
+    else
+      all.push_back({point.curve, point.decade, point.decade});
   }
   return all;
 }
@@ -146,15 +151,15 @@ class Work {
 
   Table table() const {
     using Kind = Column::Kind;
-    Table table{.caption = fmt::format("The cheapest method at each decade of error, by {}; ≤: no run was as bad",
-                                       cost_.words),
-                .columns = {{"motion", "", Kind::name},
-                            {"error at most", "rad or m"},
-                            {"cheapest", "", Kind::text},
-                            {cost_.axis},
-                            {"next", "", Kind::text},
-                            {"times as much"}},
-                .rows = {}};
+    Table table{
+        .caption = fmt::format("The cheapest method at each decade of error, by {}; ≤: no run was as bad", cost_.words),
+        .columns = {{"motion", "", Kind::name},
+                    {"error at most", "rad or m"},
+                    {"cheapest", "", Kind::text},
+                    {cost_.axis},
+                    {"next", "", Kind::text},
+                    {"times as much"}},
+        .rows = {}};
     for (const Motion& motion : motions_) {
       for (const auto& p : motion.envelope) {
         table.rows.push_back({grouping_.cases[motion.case_index].label(), error_text(p.decade), label(motion, p.curve),
@@ -166,17 +171,18 @@ class Work {
   }
 
   std::string csv() const {
-    std::string text = csv_row({"scenario", "motion", "error_of", "error_at_most", "method", "formulation", cost_.column,
-                                "is_upper_bound", "next_method", "next_formulation", "next_" + cost_.column});
+    std::string text =
+        csv_row({"scenario", "motion", "error_of", "error_at_most", "method", "formulation", cost_.column,
+                 "is_upper_bound", "next_method", "next_formulation", "next_" + cost_.column});
     for (const Motion& motion : motions_) {
       const Case& of = grouping_.cases[motion.case_index];
       for (const auto& p : motion.envelope) {
         const auto method = [&](std::size_t i) { return grouping_.methods[motion.curves[i]->method_index]; };
         const auto variant = [&](std::size_t i) { return grouping_.variants[motion.curves[i]->variant_index]; };
-        text += csv_row({of.scenario, of.label(), motion.quantity.column, error_text(p.decade), method(p.curve),
-                         variant(p.curve), study::exact(p.cost), p.at_most ? "yes" : "no",
-                         p.next ? method(*p.next) : "", p.next ? variant(*p.next) : "",
-                         p.next ? study::exact(p.next_cost) : ""});
+        text +=
+            csv_row({of.scenario, of.label(), motion.quantity.column, error_text(p.decade), method(p.curve),
+                     variant(p.curve), study::exact(p.cost), p.at_most ? "yes" : "no", p.next ? method(*p.next) : "",
+                     p.next ? variant(*p.next) : "", p.next ? study::exact(p.next_cost) : ""});
       }
     }
     return text;
@@ -221,9 +227,8 @@ class Work {
     for (const Reign& reign : reigns(motion.envelope)) {
       const auto at = std::find_if(motion.envelope.begin(), motion.envelope.end(),
                                    [&](const auto& p) { return p.decade == reign.to; });
-      const auto range = reign.from == reign.to
-                             ? error_text(reign.to)
-                             : fmt::format("{} to {}", error_text(reign.from), error_text(reign.to));
+      const auto range = reign.from == reign.to ? error_text(reign.to)
+                                                : fmt::format("{} to {}", error_text(reign.from), error_text(reign.to));
       parts.push_back(fmt::format("{} at {}{} ({}{}{} there)", label(motion, reign.curve), range, motion.quantity.unit,
                                   at->at_most ? "at most " : "", number(at->cost), cost_.unit));
     }
@@ -282,7 +287,8 @@ class Work {
 };
 
 constexpr const char* reading =
-    "Lower left is better. The broad pale line is the lower envelope: at each decade of error the least cost that reaches "
+    "Lower left is better. The broad pale line is the lower envelope: at each decade of error the least cost that "
+    "reaches "
     "it, with the name of the method where another one takes over.";
 
 }  // namespace
@@ -295,24 +301,29 @@ Analysis work_against_error(const StudyView& study) {
   for (auto& text : by_evaluations.outside()) found.sentences.push_back(std::move(text));
   found.files.push_back({"envelope.csv", by_evaluations.csv()});
   if (by_evaluations.empty() && by_time.empty()) {
-    found.sentences.emplace_back("No error was measured: no exact solution is known for these motions, or no run ended.");
+    found.sentences.emplace_back(
+        "No error was measured: no exact solution is known for these motions, or no run ended.");
     return found;
   }
   found.method = {
-      "The error is the largest one that was seen (with samples = 1 the one at the end). Between two runs of a method its cost "
-      "for an error is read off the straight line of the logarithms; nothing is extrapolated: a cost marked ≤ is that of "
+      "The error is the largest one that was seen (with samples = 1 the one at the end). Between two runs of a method "
+      "its cost "
+      "for an error is read off the straight line of the logarithms; nothing is extrapolated: a cost marked ≤ is that "
+      "of "
       "the method’s cheapest run, which is better than asked for. Errors of 1 rad (1 m) and more count for nothing."};
   if (!by_evaluations.empty()) {
     found.tables.push_back({"envelope", by_evaluations.table()});
-    found.figures.push_back(by_evaluations.figure("error_against_evaluations", "Error against right-hand sides",
-                                                  fmt::format("The error of each run against the right-hand sides that it "
-                                                              "evaluated. {}",
-                                                              reading)));
+    found.figures.push_back(
+        by_evaluations.figure("error_against_evaluations", "Error against right-hand sides",
+                              fmt::format("The error of each run against the right-hand sides that it "
+                                          "evaluated. {}",
+                                          reading)));
   }
   if (!by_time.empty()) {
     found.timed.sentences = by_time.sentences();
-    found.timed.figures.push_back(by_time.figure("error_against_time", "Error against time",
-                                                 fmt::format("The error of each run against its wall time. {}", reading)));
+    found.timed.figures.push_back(
+        by_time.figure("error_against_time", "Error against time",
+                       fmt::format("The error of each run against its wall time. {}", reading)));
     found.timed.files.push_back({"envelope_time.csv", by_time.csv()});
   }
   return found;

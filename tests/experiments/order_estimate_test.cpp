@@ -26,7 +26,8 @@ std::vector<LadderPoint> ladder(int n, const std::function<double(double)>& erro
 
 TEST(OrderEstimate, OfAPowerLawIsItsExponentWithNoDoubt) {
   for (const double p : {1.0, 2.0, 3.5, 6.0}) {
-    const auto e = estimate_order(ladder(6, [p](double h) { return 3 * std::pow(h, p); }, 0));
+    const auto e = estimate_order(ladder(
+        6, [p](double h) { return 3 * std::pow(h, p); }, 0));
     ASSERT_TRUE(e.line) << p;
     EXPECT_NEAR(e.line->order, p, 1e-10);
     EXPECT_NEAR(e.line->half_width_95, 0, 1e-7);
@@ -60,7 +61,8 @@ TEST(OrderEstimate, TheIntervalHoldsTheOrderNineteenTimesOutOfTwenty) {
   int held = 0;
   constexpr int trials = 2000;
   for (int k = 0; k < trials; ++k) {
-    const auto e = estimate_order(ladder(8, [&](double h) { return h * h * std::exp(noise(random)); }, 0),
+    const auto e = estimate_order(ladder(
+                                      8, [&](double h) { return h * h * std::exp(noise(random)); }, 0),
                                   {.straightness = std::numeric_limits<double>::infinity()});
     ASSERT_TRUE(e.line);
     held += std::abs(e.line->order - 2) <= e.line->half_width_95 ? 1 : 0;
@@ -136,7 +138,8 @@ TEST(OrderEstimate, OfExactMethodsIsNoOrder) {
   EXPECT_FALSE(e.line);
   EXPECT_EQ(judge(e, std::nullopt), OrderVerdict::as_declared);
   EXPECT_EQ(judge(e, 2), OrderVerdict::exact_here);
-  const auto zero = estimate_order(ladder(6, [](double) { return 0.0; }, 0));
+  const auto zero = estimate_order(ladder(
+      6, [](double) { return 0.0; }, 0));
   EXPECT_TRUE(zero.exact);
 }
 
