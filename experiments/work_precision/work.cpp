@@ -15,6 +15,7 @@
 #include "experiments/study/report/axis.hpp"
 #include "experiments/study/report/curves.hpp"
 #include "experiments/study/report/figure_layout.hpp"
+#include "experiments/study/report/figure_style.hpp"
 #include "experiments/study/report/notation.hpp"
 
 namespace polhode::study {
@@ -24,7 +25,7 @@ using namespace report;
 
 constexpr double lost = 1;                ///< rad, or m: more is no result
 constexpr std::size_t most_coloured = 8;  ///< of more methods, those off the envelope are grey
-constexpr std::size_t most_panels = 8;
+constexpr std::size_t most_panels = 6;
 
 /// What a run costs.
 struct Cost {
@@ -201,7 +202,7 @@ class Work {
       if (panels.size() < most_panels) panels.push_back(panel(motion, coloured));
     }
     share_y_axis(panels, y_axis(panels));
-    add_rows(figure, std::move(panels), 2);
+    add_rows(figure, std::move(panels), 1);  // names along the envelope want the whole width
     figure.methods = grouping_.methods;
     figure.variants = {""};
     note_marks(figure);
@@ -260,11 +261,23 @@ class Work {
       panel.envelope.push_back({p.cost, std::pow(10.0, p.decade), p.curve == before ? "" : label(motion, p.curve)});
       before = p.curve;
     }
-    // Room on the left for the names along the envelope.
-    const auto [least, most] = std::minmax_element(costs.begin(), costs.end());
-    costs.push_back(*least / std::pow(*most / *least, 0.35));
+    costs.push_back(room_for_names(panel, costs));
     panel.x = step_axis(cost_.axis, costs);
     return panel;
+  }
+
+  /// Where the axis must begin so that the names on the left of the envelope stand inside the panel.
+  static double room_for_names(const Panel& panel, const std::vector<double>& costs) {
+    constexpr double panel_width = style::figure_width - style::left_margin - style::right_margin;
+    const auto [least, most] = std::minmax_element(costs.begin(), costs.end());
+    double low = std::log10(*least);
+    const double high = std::log10(*most);
+    for (const auto& mark : panel.envelope) {
+      const double share =
+          std::min(0.6, (static_cast<double>(length(mark.label)) + 2) * style::character_width / panel_width);
+      if (!mark.label.empty()) low = std::min(low, (std::log10(mark.x) - share * high) / (1 - share));
+    }
+    return std::pow(10.0, low);
   }
 
   Axis y_axis(const std::vector<Panel>& panels) const {

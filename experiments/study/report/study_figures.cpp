@@ -213,7 +213,8 @@ class Figures {
     const auto quantities = defined({quantity::attitude_error(), quantity::position_error()});
     Figure figure{.name = "error_against_step",
                   .title = "Error against the step",
-                  .caption = "The largest distance of each run from the exact motion, against its step."};
+                  .caption = "The largest distance of each run from the exact motion, against its step; a motion "
+                             "without any error of one kind has no panel for it."};
     if (quantities.empty()) return absent(figure, "no exact solution is known for these motions");
     if (!several_steps_) return absent(figure, "the study has one step size only; the table of runs has the errors");
     against_step(std::move(figure), quantities, true);
