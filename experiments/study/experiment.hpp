@@ -2,8 +2,11 @@
 // What makes one experiment differ from another: its question, and what it runs when nothing is said.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
+
+#include "experiments/study/study_view.hpp"
 
 namespace polhode::study {
 
@@ -13,6 +16,9 @@ struct Experiment {
   /// The values of options that are not given, as the command line writes them: {"dt", "1e-3,1e-2"}.
   std::map<std::string, std::string> defaults;
   bool one_run = false;  ///< exactly one run, whose trajectory goes into the folder itself
+  bool best_times = false;  ///< short runs are carried out several times, and the least wall time is kept
+  /// What it makes of its finished runs beyond what every study shows; empty: nothing.
+  std::function<Analysis(const StudyView&)> analysis{};
 };
 
 }  // namespace polhode::study

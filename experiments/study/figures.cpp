@@ -26,9 +26,17 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t children = 2;
 
-/// A picture of an earlier study must not stand among those of this one.
+/// A picture of an earlier study must not stand among those of this one. Ours are known by their script, which begins
+/// with its name.
 void remove_old_figures(const fs::path& folder) {
-  for (const std::string name : figure_names) {
+  if (!fs::exists(folder)) return;
+  std::vector<std::string> names;
+  for (const auto& file : fs::directory_iterator(folder)) {
+    const std::string name = file.path().stem().string();
+    if (file.path().extension() != ".gp") continue;
+    if (read_file(file.path()).value_or("").starts_with(fmt::format("# {}: ", name))) names.push_back(name);
+  }
+  for (const auto& name : names) {
     for (const auto* ending : {".gp", ".dat", ".svg", ".pdf", ".tex"}) fs::remove(folder / (name + ending));
   }
 }
@@ -76,21 +84,18 @@ void finish_gnuplot(ChildProcess& child, const std::string& name, const fs::path
   fix_date(file.string() + ".pdf");
 }
 
-std::string not_installed(const FigureSet& set) {
+std::string not_installed(const FigureSet& set, const std::string& where) {
   std::vector<std::string> names;
   for (const auto& figure : set.figures) names.push_back(figure.name + ".gp");
   return fmt::format(
-      "gnuplot is not installed: figures/ has scripts, data and LaTeX, but no SVG and PDF. Install it (Debian: apt-get "
-      "install gnuplot-nox) and repeat the command, or run gnuplot in figures/ on {}.",
-      words(names));
+      "gnuplot is not installed: {0}/ has scripts, data and LaTeX, but no SVG and PDF. Install it (Debian: apt-get "
+      "install gnuplot-nox) and repeat the command, or run gnuplot in {0}/ on {1}.",
+      where, words(names));
 }
 
-}  // namespace
-
-std::string write_figures(const StudyView& study) {
-  const auto grouping = group(study);
-  const auto set = figures_of(study, grouping);
-  const auto folder = study.folder / "figures";
+/// Draws the figures into a folder of the study; says so where gnuplot is not installed.
+std::string draw(const FigureSet& set, const StudyView& study, const std::string& where) {
+  const auto folder = study.folder / where;
   remove_old_figures(folder);
   if (set.figures.empty()) return "";
   fs::create_directories(folder);
@@ -105,11 +110,21 @@ std::string write_figures(const StudyView& study) {
   for (const auto& figure : set.figures) {
     if (running.size() == children) finish_oldest();
     auto child = start_gnuplot(figure.name, folder);
-    if (!child) return not_installed(set);
+    if (!child) return not_installed(set, where);
     running.emplace_back(figure.name, std::move(*child));
   }
   while (!running.empty()) finish_oldest();
   return "";
+}
+
+}  // namespace
+
+std::string write_figures(const StudyView& study) {
+  const auto grouping = group(study);
+  auto said = draw(figures_of(study, grouping), study, "figures");
+  if (!study.analysis) return said;
+  const auto said_of_timed = draw({.figures = study.analysis->timed.figures, .absent = {}}, study, timings_folder);
+  return said.empty() ? said_of_timed : said;
 }
 
 }  // namespace polhode::study

@@ -73,12 +73,29 @@ std::string head(const StudyView& study) {
       html(title_of(study)), page_style, html(title_of(study)), html(study.question));
 }
 
-std::string what_is_seen(const Findings& findings) {
+/// What the experiment made of its runs: the answer to its question, so before everything else.
+std::string analysis_html(const Analysis& analysis) {
+  std::string out = fmt::format("<h3>{}</h3>\n", html(analysis.heading));
+  if (!analysis.sentences.empty()) out += list(analysis.sentences);
+  for (const auto& [name, table] : analysis.tables) {
+    out += table.rows.size() > open_rows ? folded(table.caption, html(table, Caption::spoken), false) : html(table);
+    out += fmt::format("<p>For a text: <a href=\"tables/{0}.tex\">LaTeX</a>, <a href=\"tables/{0}.md\">Markdown</a>.</p>\n",
+                       name);
+  }
+  for (const auto& sentence : analysis.method) out += paragraph(sentence);
+  std::vector<std::string> links;
+  for (const auto& file : analysis.files) links.push_back(fmt::format("<a href=\"{0}\">{0}</a>", file.name.string()));
+  if (!links.empty()) out += fmt::format("<p>All digits: {}.</p>\n", fmt::join(links, ", "));
+  return out;
+}
+
+std::string what_is_seen(const StudyView& study, const Findings& findings) {
   std::string out = fmt::format("<section id=\"seen\">\n<h2>What is seen</h2>\n<p class=\"outcome\">{}</p>\n",
                                 html(findings.outcome));
   for (const auto& caution : findings.cautions) {
     out += fmt::format("<div class=\"caution\" role=\"note\"><strong>Caution</strong> {}</div>\n", prose(caution));
   }
+  if (study.analysis) out += analysis_html(*study.analysis);
   for (const auto& topic : findings.topics) {
     out += fmt::format("<h3>{}</h3>\n", html(topic.heading));
     if (!topic.sentences.empty()) out += list(topic.sentences);
@@ -98,28 +115,60 @@ std::optional<std::string> picture(const StudyView& study, const Figure& figure)
   return read_file(file + ".svg");
 }
 
-std::string file_links(const Figure& figure) {
+std::string file_links(const Figure& figure, std::string_view folder = "figures") {
   std::vector<std::string> links;
   for (const auto* kind : {"svg", "pdf", "dat", "gp", "tex"}) {
-    links.push_back(fmt::format("<a href=\"figures/{0}.{1}\">{1}</a>", figure.name, kind));
+    links.push_back(fmt::format("<a href=\"{2}/{0}.{1}\">{1}</a>", figure.name, kind, folder));
   }
   return fmt::format("{}", fmt::join(links, ", "));
 }
+
+constexpr const char* not_drawn =
+    "<p class=\"none\">Not drawn: figures were not asked for, or gnuplot is not installed.</p>";
 
 std::string figure_html(const StudyView& study, const Figure& figure) {
   const auto svg = picture(study, figure);
   const auto drawing =
       svg ? fmt::format("<div class=\"drawing\"><img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\"></div>",
                         html(figure.title + ". " + figure.caption), base64(*svg))
-          : std::string("<p class=\"none\">Not drawn: figures were not asked for, or gnuplot is not installed.</p>");
+          : std::string(not_drawn);
   return fmt::format("<figure id=\"{}\">\n{}\n<figcaption><b>{}.</b> {}{}</figcaption>\n</figure>\n", figure.name,
                      drawing, html(figure.title), html(figure.caption),
                      svg ? fmt::format(" Files: {}.", file_links(figure)) : "");
 }
 
+/// By reference, not by content: wall times differ from call to call, and the bytes of this page must not.
+std::string timed_figures(const StudyView& study) {
+  std::string out;
+  if (!study.analysis) return out;
+  const Analysis::Timed& timed = study.analysis->timed;
+  for (const auto& figure : timed.figures) {
+    const bool drawn = std::filesystem::exists(study.folder / timings_folder / (figure.name + ".svg"));
+    const auto drawing = drawn ? fmt::format("<div class=\"drawing\"><img alt=\"{}\" src=\"{}/{}.svg\"></div>",
+                                             html(figure.title), timings_folder, figure.name)
+                               : std::string(not_drawn);
+    out += fmt::format(
+        "<figure id=\"{}\">\n{}\n<figcaption><b>{}.</b> {} Wall times differ from call to call: this picture stays in "
+        "its own file, is no part of this page, and is gone where the page is moved alone.{}</figcaption>\n</figure>\n",
+        figure.name, drawing, html(figure.title), html(figure.caption),
+        drawn ? fmt::format(" Files: {}.", file_links(figure, timings_folder)) : "");
+  }
+  std::vector<std::string> links;
+  for (const auto& file : timed.files) {
+    links.push_back(fmt::format("<a href=\"{0}/{1}\">{0}/{1}</a>", timings_folder, file.name.string()));
+  }
+  if (!links.empty()) out += fmt::format("<p>From wall times too: {}.</p>\n", fmt::join(links, ", "));
+  return out;
+}
+
 std::string figures(const StudyView& study, const FigureSet& set) {
   std::string out = "<section id=\"figures\">\n<h2>Figures</h2>\n";
-  for (const auto& figure : set.figures) out += figure_html(study, figure);
+  const std::size_t own = study.analysis ? study.analysis->figures.size() : 0;
+  for (std::size_t i = 0; i < set.figures.size(); ++i) {
+    if (i == own) out += timed_figures(study);
+    out += figure_html(study, set.figures[i]);
+  }
+  if (own >= set.figures.size()) out += timed_figures(study);
   for (const auto& absent : set.absent)
     out += paragraph(fmt::format("There is no figure “{}”: {}.", absent.title, absent.reason));
   return out + "</section>\n";
@@ -278,7 +327,7 @@ std::string foot() {
 void write_report(const StudyView& study) {
   const auto grouping = group(study);
   const auto set = figures_of(study, grouping);
-  write_text(study.folder / "report.html", head(study) + what_is_seen(findings_of(study, grouping)) +
+  write_text(study.folder / "report.html", head(study) + what_is_seen(study, findings_of(study, grouping)) +
                                                std::string(how_to_read) + figures(study, set) + methods(grouping) +
                                                what_was_run(study, grouping) + all_runs(study) + foot());
 }

@@ -10,24 +10,11 @@
 
 #include "experiments/study/axes.hpp"
 #include "experiments/study/build_info.hpp"
+#include "experiments/study/csv.hpp"
 #include "experiments/study/text_file.hpp"
 
 namespace polhode::study {
 namespace {
-
-/// RFC 4180: cells with a comma, a quote or a line break stand in quotes.
-void append(std::string& line, const std::string& cell) {
-  if (!line.empty() && line.back() != '\n') line += ',';
-  if (cell.find_first_of(",\"\n\r") == std::string::npos) {
-    line += cell;
-    return;
-  }
-  line += '"';
-  for (const char c : cell) line += c == '"' ? std::string("\"\"") : std::string(1, c);
-  line += '"';
-}
-
-std::string cell(const std::optional<double>& x) { return x ? exact(*x) : std::string(); }
 
 std::string processor() {
   std::ifstream file("/proc/cpuinfo");
@@ -40,42 +27,32 @@ std::string processor() {
 }  // namespace
 
 void write_runs_csv(const StudyView& study) {
-  std::string text = "run";
-  for (const std::string& c : config_columns(study.varied_keys)) append(text, c);
-  for (const char* c : {"status", "message", "steps", "rhs_evaluations", "energy_initial_J", "energy_drift_max_rel",
-                        "energy_drift_final_rel", "energy_drift_rate_W", "drift_class",
-                        "linear_momentum_drift_max_rel", "angular_momentum_drift_max_rel"}) {
-    append(text, c);
-  }
-  for (const std::string& invariant : study.invariants) append(text, invariant + "_drift_max_rel");
-  for (const char* c : {"orientation_defect_max", "position_error_max_m", "attitude_error_max_rad",
-                        "angular_velocity_error_max_rel"}) {
-    append(text, c);
-  }
-  text += '\n';
+  std::vector<std::string> header = {"run"};
+  const auto add = [](std::vector<std::string>& row, const std::vector<std::string>& cells) {
+    row.insert(row.end(), cells.begin(), cells.end());
+  };
+  add(header, config_columns(study.varied_keys));
+  add(header, {"status", "message", "steps", "rhs_evaluations", "energy_initial_J", "energy_drift_max_rel",
+               "energy_drift_final_rel", "energy_drift_rate_W", "drift_class", "linear_momentum_drift_max_rel",
+               "angular_momentum_drift_max_rel"});
+  for (const std::string& invariant : study.invariants) header.push_back(invariant + "_drift_max_rel");
+  add(header, {"orientation_defect_max", "position_error_max_m", "attitude_error_max_rad",
+               "angular_velocity_error_max_rel"});
+  std::string text = csv_row(header);
   for (const RunRecord& run : study.runs) {
     const RunResult& r = run.result;
-    append(text, run.id);
-    for (const std::string& c : config_cells(run.config)) append(text, c);
-    append(text, r.status);
-    append(text, r.message);
-    append(text, std::to_string(r.steps));
-    append(text, std::to_string(r.evaluations));
-    for (const auto& x : {r.energy_initial, r.energy_drift_max_rel, r.energy_drift_final_rel, r.energy_drift_rate}) {
-      append(text, cell(x));
-    }
-    append(text, r.drift_class);
-    append(text, cell(r.linear_momentum_drift_max_rel));
-    append(text, cell(r.angular_momentum_drift_max_rel));
+    std::vector<std::string> row = {run.id};
+    add(row, config_cells(run.config));
+    add(row, {r.status, r.message, std::to_string(r.steps), std::to_string(r.evaluations), csv_cell(r.energy_initial),
+              csv_cell(r.energy_drift_max_rel), csv_cell(r.energy_drift_final_rel), csv_cell(r.energy_drift_rate),
+              r.drift_class, csv_cell(r.linear_momentum_drift_max_rel), csv_cell(r.angular_momentum_drift_max_rel)});
     for (const std::string& invariant : study.invariants) {
       const auto found = r.invariant_drift_max_rel.find(invariant);
-      append(text, found == r.invariant_drift_max_rel.end() ? "" : exact(found->second));
+      row.push_back(found == r.invariant_drift_max_rel.end() ? "" : exact(found->second));
     }
-    for (const auto& x :
-         {r.orientation_defect_max, r.position_error_max, r.attitude_error_max, r.angular_velocity_error_max_rel}) {
-      append(text, cell(x));
-    }
-    text += '\n';
+    add(row, {csv_cell(r.orientation_defect_max), csv_cell(r.position_error_max), csv_cell(r.attitude_error_max),
+              csv_cell(r.angular_velocity_error_max_rel)});
+    text += csv_row(row);
   }
   write_text(study.folder / "runs.csv", text);
 }

@@ -54,24 +54,28 @@ RunResult result_of(const RunOutcome& outcome, DriftMeter& meter, double seconds
   return result;
 }
 
+/// `seconds`: of the way from the start to the end, without what is made before it.
 template <class S>
 RunOutcome run_in(const System<S>& system, const System<double>& truth, const RunConfig& config, Observer& observer,
-                  const std::atomic<bool>* stop) {
+                  const std::atomic<bool>* stop, double& seconds) {
   const auto integrator = find_integrator(config.integrator)->maker<S>()(system, settings_of(config));
   State<S> state = system.start();
-  return simulate(system, truth, *integrator, state, schedule_of(config), observer, stop);
+  const auto started = Clock::now();
+  RunOutcome outcome = simulate(system, truth, *integrator, state, schedule_of(config), observer, stop);
+  seconds = seconds_since(started);
+  return outcome;
 }
 
 RunOutcome run_on(const System<double>& truth, const RunConfig& config, Observer& observer,
-                  const std::atomic<bool>* stop) {
+                  const std::atomic<bool>* stop, double& seconds) {
   const auto other = [&]<class S>() {
     const auto system = make_system<S>(truth.problem(), truth.formulation());
-    return run_in<S>(*system, truth, config, observer, stop);
+    return run_in<S>(*system, truth, config, observer, stop, seconds);
   };
   switch (config.precision) {
     case Precision::single: return other.operator()<float>();
     case Precision::extended: return other.operator()<long double>();
-    default: return run_in<double>(truth, truth, config, observer, stop);
+    default: return run_in<double>(truth, truth, config, observer, stop, seconds);
   }
 }
 
@@ -98,20 +102,20 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
 
 RunResult carry_out(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory,
                     const std::atomic<bool>* stop) {
-  const auto started = Clock::now();
   const auto truth = make_system<double>(scenario.problem, config.formulation);
   DriftMeter meter(*truth, scenario.invariants, config.t_end, config.samples.has_value());
   const auto writer = open_trajectory(trajectory.format, trajectory.folder, *truth, meter);
   Observer& observer = writer ? static_cast<Observer&>(*writer) : meter;
   RunOutcome outcome;
+  double seconds = 0;
   try {
-    outcome = run_on(*truth, config, observer, stop);
+    outcome = run_on(*truth, config, observer, stop, seconds);
   } catch (const std::bad_alloc&) {
     outcome.status = RunStatus::failed;
     outcome.message = "out of memory";
   }
   if (writer && outcome.status != RunStatus::interrupted) writer->close();  // else it stays unfinished by name
-  return result_of(outcome, meter, seconds_since(started));
+  return result_of(outcome, meter, seconds);
 }
 
 std::string ensemble_key(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory) {
@@ -126,7 +130,6 @@ std::string ensemble_key(const RunConfig& config, const Scenario& scenario, cons
 }
 
 std::vector<RunResult> carry_out_together(std::span<const LanedRun> runs, const std::atomic<bool>* stop) {
-  const auto started = Clock::now();
   const RunConfig& config = runs.front().config;
   std::vector<Problem> problems;
   std::vector<std::unique_ptr<System<double>>> truths;
@@ -141,6 +144,7 @@ std::vector<RunResult> carry_out_together(std::span<const LanedRun> runs, const 
   problems.resize(std::size_t(lane_count), problems.back());  // lanes that nobody looks at
   const auto system = make_ensemble(problems, config.formulation);
   const auto integrator = find_integrator(config.integrator)->make_lanes(*system, settings_of(config));
+  const auto started = Clock::now();
   const auto outcomes = simulate_ensemble(*system, *integrator, lanes, schedule_of(config), stop);
   const double seconds = seconds_since(started) / static_cast<double>(runs.size());
   std::vector<RunResult> results;

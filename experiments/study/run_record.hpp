@@ -59,7 +59,7 @@ struct RunResult {
   std::optional<double> position_error_max;     ///< m, absent without an exact solution
   std::optional<double> attitude_error_max;     ///< rad
   std::optional<double> angular_velocity_error_max_rel;
-  double seconds = 0;                           ///< wall time; goes to timings.csv only
+  double seconds = 0;                           ///< wall time of the motion, measuring included; goes to timings.csv only
   std::vector<SeriesPoint> series;
 };
 

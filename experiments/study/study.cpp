@@ -104,6 +104,19 @@ std::vector<Batch> batches_of(const std::vector<const PlannedRun*>& runs, const 
   return batches;
 }
 
+/// Where times matter, a run of less than some time slices of the machine is repeated: what disturbs it only ever makes it
+/// slower.
+RunResult carry_out_alone(const Experiment& experiment, const PlannedRun& run, const TrajectoryRequest& trajectory) {
+  constexpr double long_enough = 0.04;  // s
+  constexpr int most_times = 5;
+  RunResult result = carry_out(run.config, *run.scenario, trajectory, &stop_requested);
+  for (int k = 1; k < most_times && experiment.best_times && result.seconds < long_enough && !stop_requested; ++k) {
+    const RunResult again = carry_out(run.config, *run.scenario, {}, &stop_requested);
+    if (again.status == result.status) result.seconds = std::min(result.seconds, again.seconds);
+  }
+  return result;
+}
+
 /// Carries out what the store does not hold yet. Returns false when it was interrupted.
 bool carry_out_missing(const Experiment& experiment, const Options& options, const Plan& plan,
                        const std::filesystem::path& folder, Store& store, std::map<std::string, RunResult>& results) {
@@ -118,8 +131,7 @@ bool carry_out_missing(const Experiment& experiment, const Options& options, con
   const auto trajectory = [&](const PlannedRun& run) { return trajectory_of(experiment, options, folder, run); };
   const auto work = [&](const Batch& batch) -> std::vector<RunResult> {
     if (batch.size() == 1) {
-      const PlannedRun& run = *batch.front();
-      return {carry_out(run.config, *run.scenario, trajectory(run), &stop_requested)};
+      return {carry_out_alone(experiment, *batch.front(), trajectory(*batch.front()))};
     }
     std::vector<LanedRun> runs;
     for (const PlannedRun* run : batch) runs.push_back({run->config, *run->scenario});
@@ -154,6 +166,7 @@ StudyView view_of(const Experiment& experiment, const Options& options, const Pl
     }
     view.runs.push_back(std::move(record));
   }
+  if (experiment.analysis) view.analysis = experiment.analysis(view);
   return view;
 }
 

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "experiments/study/analysis.hpp"
 #include "experiments/study/run_record.hpp"
 
 namespace polhode::study {
@@ -19,14 +21,16 @@ struct StudyView {
   std::vector<std::string> invariants;  ///< names of further declared invariants, sorted: columns of runs.csv
   std::vector<RunRecord> runs;          ///< sorted by configuration, the order of runs.csv
   std::filesystem::path folder;         ///< --out
+  std::optional<Analysis> analysis{};   ///< the experiment's own
 };
 
-/// figures/: SVG and PDF by gnuplot with the .gp script and the data beside each, and a PGFPlots .tex. Throws
+/// figures/: SVG and PDF by gnuplot with the .gp script and the data beside each, and a PGFPlots .tex; timings/ likewise
+/// for what the analysis made from wall times. Throws
 /// std::runtime_error when gnuplot fails; where gnuplot is not installed the scripts and data are still written and the
 /// returned text says so (empty: all made).
 std::string write_figures(const StudyView& study);
 
-/// tables/: LaTeX (booktabs), Markdown, and \newcommand values.
+/// tables/: LaTeX (booktabs), Markdown, and \newcommand values; the files of the analysis.
 void write_tables(const StudyView& study);
 
 /// report.html: opens alone, without a network; says in words what was run and what is seen in it.

@@ -7,6 +7,7 @@
 
 #include "experiments/study/axes.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/report/notation.hpp"
 
 namespace polhode::study {
 namespace {
@@ -36,9 +37,61 @@ std::vector<std::size_t> shown_rows(std::size_t n) {
   return rows;
 }
 
+/// Columns of equal width, on the left or on the right.
+std::string aligned(const std::vector<std::vector<std::string>>& table, const std::vector<bool>& left) {
+  std::vector<std::size_t> width(table[0].size());
+  for (const auto& row : table) {
+    for (std::size_t k = 0; k < row.size(); ++k) width[k] = std::max(width[k], report::length(row[k]));
+  }
+  std::string text;
+  for (const auto& row : table) {
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      const std::string blanks(width[k] - report::length(row[k]), ' ');
+      text += (left[k] ? row[k] + blanks : blanks + row[k]) + "  ";
+    }
+    while (text.back() == ' ') text.pop_back();
+    text += '\n';
+  }
+  return text;
+}
+
+std::string plain(const report::Table& table) {
+  std::vector<std::vector<std::string>> cells(1);
+  std::vector<bool> left;
+  for (const auto& column : table.columns) {
+    cells[0].push_back(column.unit.empty() ? column.header : fmt::format("{} ({})", column.header, column.unit));
+    left.push_back(column.kind != report::Column::Kind::number);
+  }
+  for (const std::size_t i : shown_rows(table.rows.size())) {
+    auto& row = cells.emplace_back(table.rows[i]);
+    for (auto& cell : row) {
+      if (cell.empty()) cell = "-";
+    }
+  }
+  return aligned(cells, left);
+}
+
+/// The answer of the experiment in place of the table of runs.
+std::string analysis_summary(const Analysis& analysis) {
+  std::string text;
+  if (!analysis.tables.empty()) {
+    const report::Table& table = analysis.tables.front().table;
+    text += plain(table);
+    if (table.rows.size() > most_rows) {
+      text += fmt::format("({} of {} rows, evenly spread; all are in tables/{}.md)\n", most_rows, table.rows.size(),
+                          analysis.tables.front().name);
+    }
+  }
+  for (const auto* sentences : {&analysis.sentences, &analysis.timed.sentences}) {
+    for (const std::string& sentence : *sentences) text += "\n" + sentence + "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string summary_table(const StudyView& study) {
+  if (study.analysis) return analysis_summary(*study.analysis);
   const std::vector<std::string> names = config_columns(study.varied_keys);
   std::vector<std::vector<std::string>> cells;
   for (const RunRecord& run : study.runs) cells.push_back(config_cells(run.config));
@@ -57,20 +110,12 @@ std::string summary_table(const StudyView& study) {
       row.push_back(number(x));
     }
   }
-  std::vector<std::size_t> width(table[0].size());
-  for (const auto& row : table) {
-    for (std::size_t k = 0; k < row.size(); ++k) width[k] = std::max(width[k], row[k].size());
+  std::vector<bool> left;
+  for (std::size_t k = 0; k < table[0].size(); ++k) {
+    left.push_back(k == columns.size() ||
+                   (k < columns.size() && names[columns[k]] != "dt_s" && names[columns[k]] != "tolerance"));
   }
-  std::string text;
-  for (const auto& row : table) {
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      const bool left = k < columns.size() && names[columns[k]] != "dt_s" && names[columns[k]] != "tolerance";
-      text += left || k == columns.size() ? fmt::format("{:<{}}  ", row[k], width[k])
-                                          : fmt::format("{:>{}}  ", row[k], width[k]);
-    }
-    while (text.back() == ' ') text.pop_back();
-    text += '\n';
-  }
+  std::string text = aligned(table, left);
   if (rows.size() < study.runs.size()) {
     text += fmt::format("({} of {} runs, evenly spread; all are in runs.csv)\n", rows.size(), study.runs.size());
   }

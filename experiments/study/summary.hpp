@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table that ends a study on the terminal.
+// What ends a study on the terminal.
 #pragma once
 
 #include <string>

@@ -28,6 +28,18 @@ void write_tables(const StudyView& study) {
           "# {}\n\n{}\n\nAn empty cell is not defined for that run; runs.csv has all digits and all options.\n\n{}",
           markdown(study.experiment), markdown(study.question), markdown(table)));
   write_text(folder / "values.tex", tex_values(study));
+  if (!study.analysis) return;
+  for (const auto& [name, own] : study.analysis->tables) {
+    write_text(folder / (name + ".tex"),
+               fmt::format("% {}: {}\n% The preamble needs \\usepackage[T1]{{fontenc}}\\usepackage{{booktabs,longtable}}.\n{}",
+                           one_line(title), one_line(own.caption), latex(own)));
+    write_text(folder / (name + ".md"), fmt::format("# {}\n\n{}\n\n{}", markdown(study.analysis->heading),
+                                                    markdown(own.caption), markdown(own)));
+  }
+  for (const auto& file : study.analysis->files) write_text(study.folder / file.name, file.text);
+  if (study.analysis->timed.files.empty()) return;
+  std::filesystem::create_directories(study.folder / timings_folder);
+  for (const auto& file : study.analysis->timed.files) write_text(study.folder / timings_folder / file.name, file.text);
 }
 
 }  // namespace polhode::study

@@ -132,17 +132,6 @@ void sort_by_step(Curve& curve) {
                    [](const auto* a, const auto* b) { return abscissa(*a).value_or(0) > abscissa(*b).value_or(0); });
 }
 
-double epsilon(Precision precision) {
-  switch (precision) {
-    case Precision::single:
-      return std::numeric_limits<float>::epsilon();
-    case Precision::dual:
-      return std::numeric_limits<double>::epsilon();
-    default:
-      return static_cast<double>(std::numeric_limits<long double>::epsilon());
-  }
-}
-
 /// Logarithms of step and value, largest step first.
 using LogPoints = std::vector<std::pair<double, double>>;
 
@@ -305,6 +294,17 @@ bool ended_early(const RunRecord& run) { return run.result.status == "diverged" 
 std::optional<double> value(const RunRecord& run, const Quantity& quantity) {
   const auto found = completed(run) ? quantity.of(run.result) : std::nullopt;
   return found && std::isfinite(*found) ? found : std::nullopt;
+}
+
+double epsilon(Precision precision) {
+  switch (precision) {
+    case Precision::single:
+      return std::numeric_limits<float>::epsilon();
+    case Precision::dual:
+      return std::numeric_limits<double>::epsilon();
+    default:
+      return static_cast<double>(std::numeric_limits<long double>::epsilon());
+  }
 }
 
 double round_off_level(const RunRecord& run) {

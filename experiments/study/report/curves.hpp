@@ -75,6 +75,9 @@ bool ended_early(const RunRecord& run);  ///< it started and did not reach its e
 /// The quantity if the run was completed and the number is finite.
 std::optional<double> value(const RunRecord& run, const Quantity& quantity);
 
+/// The distance from 1 to the next number of that arithmetic.
+double epsilon(Precision precision);
+
 /// The relative drift below which rounding alone may stand: 16 ε √steps, a random walk of rounding errors.
 double round_off_level(const RunRecord& run);
 double round_off_level(const RunRecord& run, const Quantity& quantity);

@@ -56,6 +56,13 @@ struct PlottedCurve {
   std::size_t method = 0;   ///< index of the study's methods: decides colour and marker
   std::size_t variant = 0;  ///< index in the figure's variants: decides the dashes
   std::vector<Point> points{};
+  bool muted = false;  ///< one of many "other methods": a thin grey line without a name
+};
+
+/// A place on the lower envelope of the curves, with the name of the method that begins there; empty: as before.
+struct EnvelopeMark {
+  double x = 0, y = 0;
+  std::string label{};
 };
 
 /// A straight line in log–log that shows a slope.
@@ -72,6 +79,7 @@ struct Panel {
   std::string x_column{}, y_column{};  ///< names in the data file, with units
   std::vector<PlottedCurve> curves{};
   std::vector<Guide> guides{};
+  std::vector<EnvelopeMark> envelope{};  ///< drawn as a broad pale line behind the curves
 };
 
 struct Figure {
@@ -83,7 +91,7 @@ struct Figure {
   std::vector<std::string> methods{};  ///< of the whole study
   std::vector<std::size_t> used_methods{};
   std::vector<std::string> variants{};  ///< told apart by dashes; one entry where there is nothing to tell apart
-  bool has_zero_marks = false, has_edge_marks = false;
+  bool has_zero_marks = false, has_edge_marks = false, has_envelope = false, has_muted = false;
 };
 
 /// All figures of a study, and why the others were not made.

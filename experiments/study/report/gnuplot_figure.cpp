@@ -60,6 +60,8 @@ class Layout {
     std::vector<std::string> texts;
     for (const auto m : figure_.used_methods) texts.push_back(figure_.methods[m]);
     if (figure_.variants.size() > 1) texts.insert(texts.end(), figure_.variants.begin(), figure_.variants.end());
+    if (figure_.has_envelope) texts.emplace_back("lower envelope");
+    if (figure_.has_muted) texts.emplace_back("other methods");
     if (figure_.has_zero_marks) texts.emplace_back("exactly zero");
     if (figure_.has_edge_marks) texts.emplace_back("diverged or off scale");
     return texts;
@@ -134,6 +136,18 @@ void write_guides(std::string& out, const Panel& panel) {
   }
 }
 
+void write_envelope(std::string& out, const Panel& panel) {
+  for (std::size_t i = 0; i + 1 < panel.envelope.size(); ++i) {
+    const auto &a = panel.envelope[i], &b = panel.envelope[i + 1];
+    line(out, "  set arrow from first {},{} to first {},{} nohead back linestyle 9002", a.x, a.y, b.x, b.y);
+  }
+  for (const auto& mark : panel.envelope) {
+    if (mark.label.empty()) continue;
+    line(out, "  set label {} at first {},{} right offset character -0.8,-0.6 front noenhanced textcolor rgb '#7a5c00'",
+         gnuplot(mark.label), mark.x, mark.y);
+  }
+}
+
 bool has(const PlottedCurve& curve, Mark mark) {
   return std::any_of(curve.points.begin(), curve.points.end(), [&](const auto& point) { return point.mark == mark; });
 }
@@ -147,8 +161,10 @@ void write_plot(std::string& out, const Panel& panel, int& block) {
       if (!has(curve, mark)) return;
       items.push_back(fmt::format("data index {} using 1:(drawn('{}')) with {} notitle", block, name(mark), with));
     };
-    const int number = style_number(curve.method, curve.variant);
-    item(Mark::value, fmt::format("linespoints linestyle {}{}", number, over_time ? " pointnumber 6" : ""));
+    const int number = curve.muted ? 9003 : style_number(curve.method, curve.variant);
+    const bool line_alone = curve.muted && curve.points.size() > 1;
+    item(Mark::value, fmt::format("{} linestyle {}{}", line_alone ? "lines" : "linespoints", number,
+                                  over_time ? " pointnumber 6" : ""));
     const double size = style::mark_size(curve.method);
     item(Mark::zero, fmt::format("points linestyle {} pointtype 10 pointsize {:.2f} linewidth 1.5", number, size));
     item(Mark::edge, fmt::format("points linestyle {} pointtype 2 pointsize {:.2f} linewidth 2", number, size));
@@ -166,6 +182,7 @@ void write_panel(std::string& out, const Panel& panel, const Layout& layout, int
   write_axis(out, 'x', panel.x);
   write_axis(out, 'y', panel.y);
   write_guides(out, panel);
+  write_envelope(out, panel);
   write_plot(out, panel, block);
 }
 
@@ -179,6 +196,8 @@ void write_legend(std::string& out, const Figure& figure, const Layout& layout) 
   for (std::size_t v = 0; v < figure.variants.size() && figure.variants.size() > 1; ++v) {
     entries.push_back(fmt::format("keyentry with lines linestyle {} title {}", 9010 + v, gnuplot(figure.variants[v])));
   }
+  if (figure.has_envelope) entries.emplace_back("keyentry with lines linestyle 9002 title 'lower envelope'");
+  if (figure.has_muted) entries.emplace_back("keyentry with lines linestyle 9003 title 'other methods'");
   if (figure.has_zero_marks) {
     entries.emplace_back("keyentry with points pointtype 10 pointsize 1 linecolor rgb '#555555' title 'exactly zero'");
   }
@@ -215,6 +234,8 @@ std::string gnuplot_style(const FigureSet& set) {
   line(out, "set grid xtics ytics linetype 1 linewidth 0.6 linecolor rgb '#e2e2e2'");
   line(out, "set tics nomirror scale 0.6");
   line(out, "set style line 9001 linewidth 1.2 dashtype (6,4) linecolor rgb '#888888'");
+  line(out, "set style line 9002 linewidth 9 dashtype 1 linecolor rgb '#ffe08a'");
+  line(out, "set style line 9003 linewidth 1 dashtype 1 pointtype 7 pointsize 0.3 linecolor rgb '#bdbdbd'");
   std::size_t variants = 1;
   std::vector<std::string> methods;
   for (const auto& figure : set.figures) {

@@ -56,6 +56,20 @@ void write_guides(std::string& out, const Panel& panel) {
   }
 }
 
+void write_envelope(std::string& out, const Panel& panel) {
+  if (panel.envelope.empty()) return;
+  std::string points;
+  for (const auto& mark : panel.envelope) {
+    points += fmt::format(" ({:.5g},{:.5g})", panel.x.place(mark.x), panel.y.place(mark.y));
+  }
+  line(out, "\\addplot[yellow!80!orange!60, line width=4pt, no marks, forget plot] coordinates {{{} }};", points);
+  for (const auto& mark : panel.envelope) {
+    if (mark.label.empty()) continue;
+    line(out, "\\node[below left, orange!50!black, font=\\scriptsize] at (axis cs:{:.5g},{:.5g}) {{{}}};",
+         panel.x.place(mark.x), panel.y.place(mark.y), tex(mark.label));
+  }
+}
+
 void write_points(std::string& out, const Panel& panel, const PlottedCurve& curve, Mark mark,
                   const std::string& options) {
   std::string points;
@@ -74,6 +88,7 @@ void write_curve(std::string& out, const Panel& panel, const PlottedCurve& curve
   const std::size_t repeat = over_time ? std::max<std::size_t>(1, curve.points.size() / 6) : 1;
   const double size = style::mark_size(curve.method);
   line(out, "% {}", one_line(curve.label));
+  if (curve.muted) return write_points(out, panel, curve, Mark::value, "gray!50, thin, mark=*, mark size=0.3pt");
   write_points(
       out, panel, curve, Mark::value,
       fmt::format("{}, {}, line width={:.2f}pt, mark={}, mark size={:.2f}pt, mark options=solid, mark repeat={}",
@@ -96,6 +111,8 @@ void write_legend(std::string& out, const Figure& figure) {
   for (std::size_t v = 0; v < figure.variants.size() && figure.variants.size() > 1; ++v) {
     entry(fmt::format("gray, {}, no marks", style::dash(v).pgf), figure.variants[v]);
   }
+  if (figure.has_envelope) entry("yellow!80!orange!60, line width=4pt, no marks", "lower envelope");
+  if (figure.has_muted) entry("gray!50, thin, no marks", "other methods");
   if (figure.has_zero_marks) entry("gray, only marks, mark=triangle, mark options={rotate=180}", "exactly zero");
   if (figure.has_edge_marks) entry("gray, only marks, mark=x, thick", "diverged or off scale");
 }
@@ -129,6 +146,7 @@ void write_panel(std::string& out, const Figure& figure, const Panel& panel) {
   }
   line(out, "]");
   write_guides(out, panel);
+  write_envelope(out, panel);
   for (const auto& curve : panel.curves) write_curve(out, panel, curve);
   if (carries_legend(figure, panel)) write_legend(out, figure);
 }

@@ -70,6 +70,16 @@ std::vector<Panel> all_panels(const Selection& selection, const Quantity& quanti
   return panels;
 }
 
+/// A panel in which every value is exactly zero shows nothing, unless that is true of all.
+void drop_all_zero(std::vector<Panel>& panels) {
+  const auto all_zero = [](const Panel& panel) {
+    return std::all_of(panel.curves.begin(), panel.curves.end(), [](const auto& curve) {
+      return std::all_of(curve.points.begin(), curve.points.end(), [](const auto& p) { return p.mark == Mark::zero; });
+    });
+  };
+  if (!std::all_of(panels.begin(), panels.end(), all_zero)) std::erase_if(panels, all_zero);
+}
+
 Axis y_axis(const std::vector<Panel>& panels, const Quantity& quantity) {
   std::vector<double> values;
   Needs needs;
@@ -181,6 +191,7 @@ bool has_mark(const Curve& curve, const Quantity& quantity) {
 
 std::vector<Panel> panels_against_step(const Selection& selection, const Quantity& quantity, bool guides) {
   auto panels = all_panels(selection, quantity);
+  drop_all_zero(panels);
   share_y_axis(panels, y_axis(panels, quantity));
   for (auto& panel : panels) {
     if (!guides) break;

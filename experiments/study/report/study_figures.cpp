@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "experiments/study/report/figure_layout.hpp"
 #include "experiments/study/report/notation.hpp"
 #include "experiments/study/report/selection.hpp"
 #include "experiments/study/report/step_panels.hpp"
@@ -16,19 +17,6 @@
 namespace polhode::study::report {
 
 namespace {
-
-/// Puts panels that share a y axis into rows below what the figure has; only the leftmost of a row labels that axis.
-void add_rows(Figure& figure, std::vector<Panel> panels, std::size_t columns) {
-  const std::size_t first_row = figure.panels.empty() ? 0 : figure.rows;
-  for (std::size_t i = 0; i < panels.size(); ++i) {
-    panels[i].row = first_row + i / columns;
-    panels[i].column = i % columns;
-    panels[i].y.labelled = panels[i].column == 0;
-    figure.rows = panels[i].row + 1;
-    figure.columns = std::max(figure.columns, panels[i].column + 1);
-    figure.panels.push_back(std::move(panels[i]));
-  }
-}
 
 /// Rows of several panels as they are; single panels two abreast.
 void add_time_rows(Figure& figure, std::vector<std::vector<Panel>> rows) {
@@ -46,30 +34,6 @@ void add_time_rows(Figure& figure, std::vector<std::vector<Panel>> rows) {
   add_rows(figure, std::move(singles), 2);
   for (std::size_t i = first; i < figure.panels.size(); ++i)
     figure.panels[i].y.labelled = true;  // each has its own axis
-}
-
-void note_marks(Figure& figure) {
-  std::set<std::size_t> used;
-  for (const auto& panel : figure.panels) {
-    for (const auto& curve : panel.curves) {
-      used.insert(curve.method);
-      for (const auto& point : curve.points) {
-        figure.has_zero_marks = figure.has_zero_marks || point.mark == Mark::zero;
-        figure.has_edge_marks = figure.has_edge_marks || point.mark == Mark::edge;
-      }
-    }
-  }
-  figure.used_methods = {used.begin(), used.end()};
-}
-
-std::string marks_caption(const Figure& figure) {
-  std::string text;
-  if (figure.variants.size() > 1) text += " Dashes tell the variants of the formulation apart.";
-  if (figure.has_zero_marks) text += " An open triangle at the level 0 is a value of exactly zero.";
-  if (figure.has_edge_marks) {
-    text += fmt::format(" A cross at the edge is a run that diverged or failed, or a value above {}.", off_scale_above);
-  }
-  return text;
 }
 
 std::string time_caption(const Figure& figure) {
@@ -249,7 +213,8 @@ class Figures {
     const auto quantities = defined({quantity::attitude_error(), quantity::position_error()});
     Figure figure{.name = "error_against_step",
                   .title = "Error against the step",
-                  .caption = "The largest distance of each run from the exact motion, against its step."};
+                  .caption = "The largest distance of each run from the exact motion, against its step; a motion "
+                             "without any error of one kind has no panel for it."};
     if (quantities.empty()) return absent(figure, "no exact solution is known for these motions");
     if (!several_steps_) return absent(figure, "the study has one step size only; the table of runs has the errors");
     against_step(std::move(figure), quantities, true);
@@ -263,6 +228,12 @@ class Figures {
 
 }  // namespace
 
-FigureSet figures_of(const StudyView& study, const Grouping& grouping) { return Figures(study, grouping).all(); }
+FigureSet figures_of(const StudyView& study, const Grouping& grouping) {
+  auto set = Figures(study, grouping).all();
+  if (study.analysis) {
+    set.figures.insert(set.figures.begin(), study.analysis->figures.begin(), study.analysis->figures.end());
+  }
+  return set;
+}
 
 }  // namespace polhode::study::report

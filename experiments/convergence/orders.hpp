@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The observed order of every curve of a study beside the declared one.
+#pragma once
+
+#include "experiments/study/study_view.hpp"
+
+namespace polhode::study {
+
+/// Of fixed-step methods: the error against the step. Of adaptive ones: against the tolerance, to which it should be
+/// proportional.
+Analysis observed_orders(const StudyView& study);
+
+}  // namespace polhode::study

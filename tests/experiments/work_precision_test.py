@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The experiment `work_precision` as a user meets it: its envelope against the runs, and times kept apart.
+
+POLHODE_BIN_DIR is the folder of the program.
+"""
+import csv
+import math
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = pathlib.Path(os.environ.get("POLHODE_BIN_DIR", ".")) / "work_precision"
+
+SMALL = ["--scenario", "hairer_vilmart,detest_b5", "--integrator", "explicit_euler,explicit_midpoint,rk4,cvode_adams",
+         "--dt", "0.2,0.1,0.05,0.025,0.0125", "--tolerance", "1e-3,1e-6,1e-9"]
+
+
+def read(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def cost_to_reach(error, runs, column):
+    """By the definition, from the rows of runs.csv: the first run that is as good, and the line from the one before."""
+    runs = sorted(((float(r[column]), float(r["attitude_error_max_rad"])) for r in runs))
+    runs = [r for r in runs if r[1] < 1]
+    for k, (cost, at) in enumerate(runs):
+        if at <= error:
+            if k == 0:
+                return cost
+            before, was = runs[k - 1]
+            return before * (cost / before) ** (math.log(was / error) / math.log(was / at))
+    return math.inf
+
+
+class WorkPrecision(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        holder = tempfile.TemporaryDirectory(prefix="polhode_work_")
+        cls.addClassCleanup(holder.cleanup)
+        cls.folder = pathlib.Path(holder.name)
+        cls.out, cls.again = cls.folder / "out", cls.folder / "again"
+        cls.printed = cls.run_program(*SMALL, "--out", cls.out)
+        cls.run_program(*SMALL, "--jobs", "1", "--out", cls.again)
+        cls.runs, cls.envelope = read(cls.out / "runs.csv"), read(cls.out / "envelope.csv")
+
+    @classmethod
+    def run_program(cls, *arguments, status=0):
+        done = subprocess.run([str(PROGRAM), *map(str, arguments)], cwd=cls.folder, capture_output=True, text=True,
+                              timeout=120, stdin=subprocess.DEVNULL)
+        if done.returncode != status:
+            raise AssertionError(f"exit status {done.returncode}, not {status}: {done.stderr[-1500:]}")
+        return done.stdout
+
+    def check_envelope(self, envelope, runs, column):
+        for row in envelope:
+            costs = {}
+            for method in {r["integrator"] for r in runs}:
+                mine = [r for r in runs if r["integrator"] == method and r["scenario"] == row["scenario"]]
+                costs[method] = cost_to_reach(float(row["error_at_most"]) * (1 + 1e-9), mine, column)
+            least = min(costs.values())
+            self.assertAlmostEqual(costs[row["method"]], least, delta=1e-9 * least, msg=str(row))
+            self.assertAlmostEqual(float(row[column]), least, delta=1e-6 * least, msg=str(row))
+
+    def test_the_envelope_is_the_least_cost_at_each_decade(self):
+        self.assertEqual({r["scenario"] for r in self.envelope}, {"hairer_vilmart", "detest_b5"})
+        self.assertGreaterEqual(len(self.envelope), 8)
+        self.check_envelope(self.envelope, self.runs, "rhs_evaluations")
+
+    def test_so_is_the_one_by_time(self):
+        wall = {r["run"]: r["wall_s"] for r in read(self.out / "timings.csv")}
+        timed = [dict(r, wall_s=wall[r["run"]]) for r in self.runs]
+        self.check_envelope(read(self.out / "timings/envelope_time.csv"), timed, "wall_s")
+
+    def test_decades_go_down_one_by_one(self):
+        for scenario in ("hairer_vilmart", "detest_b5"):
+            decades = [int(r["error_at_most"].removeprefix("1e")) for r in self.envelope if r["scenario"] == scenario]
+            self.assertEqual(decades, list(range(decades[0], decades[0] - len(decades), -1)))
+
+    def test_the_cheapest_is_named_in_words_and_in_the_figure(self):
+        report = re.sub(r"<[^>]*>", "", (self.out / "report.html").read_text(encoding="utf-8"))
+        script = (self.out / "figures/error_against_evaluations.gp").read_text(encoding="utf-8")
+        sentence = re.search(r"Cheapest by right-hand sides on hairer_vilmart.*", self.printed)[0]
+        self.assertIn(sentence, report)
+        self.assertIn("Cheapest by wall time on hairer_vilmart", self.printed)
+        self.assertIn("lower envelope", script)
+        for row in self.envelope:
+            if row["scenario"] == "hairer_vilmart":
+                self.assertIn(row["method"], sentence)
+                self.assertIn(f"set label '{row['method']}'", script)
+
+    def test_times_are_kept_apart_from_what_is_the_same_at_every_call(self):
+        different = {"timings.csv", "manifest.json", "results.sqlite"}
+        files = {str(p.relative_to(self.out)) for p in self.out.rglob("*") if p.is_file()}
+        self.assertIn("timings/error_against_time.svg", files)
+        for name in sorted(files):
+            if name in different or name.startswith("timings/") or name.startswith("results.sqlite"):
+                continue
+            one, two = ((folder / name).read_bytes() for folder in (self.out, self.again))
+            if name == "report.html":  # the commands differ, in --out and --jobs
+                one, two = (re.sub(rb"<pre><code>.*?</code></pre>", b"", text, flags=re.S) for text in (one, two))
+            self.assertEqual(one, two, name)
+        report = (self.out / "report.html").read_text(encoding="utf-8")
+        self.assertIn('src="timings/error_against_time.svg"', report)
+        self.assertIn("Wall times differ from call to call", report)
+
+    def test_without_an_exact_solution_it_says_so(self):
+        out = self.folder / "none"
+        printed = self.run_program("--scenario", "kovalevskaya_top", "--integrator", "rk4", "--dt", "0.1,0.05", "--out", out)
+        self.assertIn("No error was measured", printed)
+        self.assertEqual(len((out / "envelope.csv").read_text(encoding="utf-8").splitlines()), 1, "the header alone")
+        self.assertFalse((out / "timings").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
