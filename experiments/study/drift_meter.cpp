@@ -75,7 +75,7 @@ DriftMeter::DriftMeter(const System<double>& system, const std::vector<std::stri
       exact_at_samples_(exact_at_samples),
       conserved_(conserved_momenta(system)),
       exact_(system),
-      has_exact_(exact_.has_attitude() || exact_.has_position()) {
+      has_exact_(exact_.has_anything()) {
   for (const std::string& name : invariants) invariants_.push_back({find_invariant(name)});
 }
 
