@@ -163,7 +163,7 @@ double cost_of(const RunConfig& config) {
 class Planner {
  public:
   Planner(const Experiment& experiment, const Options& options)
-      : experiment_(experiment), axes_(read_axes(options)), variants_(variants(options)) {
+      : experiment_(experiment), axes_(read_axes(options)), variants_(variants(options)), reference_(options.reference) {
     for (const auto& [key, text] : options.vary) plan_.varied_keys.push_back(key);
     std::sort(plan_.varied_keys.begin(), plan_.varied_keys.end());
     std::set<std::string> seen;
@@ -202,6 +202,7 @@ class Planner {
       RunConfig config;
       config.scenario = source.name();
       config.varied = variant;
+      config.reference = reference_;
       for (const std::string& name : axes_.integrators) {
         config.integrator = name;
         add_formulations(config, scenario);
@@ -251,6 +252,7 @@ class Planner {
     std::string text = fmt::format("{}\n{}\n", results_version, scenario->canonical);
     for (const std::string& cell : config_cells(config)) text += cell + "\n";
     if (config.samples) text += std::to_string(*config.samples);
+    if (config.reference) text += "\nreference";
     PlannedRun run;
     run.id = hash(text);
     if (!ids_.insert(run.id).second) return;  // the same run by another way: counted once
@@ -283,6 +285,7 @@ class Planner {
   const Experiment& experiment_;
   Axes axes_;
   std::vector<std::vector<Override>> variants_;
+  bool reference_;
   std::set<std::string> ids_;
   Plan plan_;
 };

@@ -16,6 +16,7 @@
 #include "experiments/study/options.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/progress.hpp"
+#include "experiments/study/references.hpp"
 #include "experiments/study/result_folder.hpp"
 #include "experiments/study/results.hpp"
 #include "experiments/study/run.hpp"
@@ -115,15 +116,17 @@ bool carry_out_missing(const Experiment& experiment, const Options& options, con
   if (missing.empty()) return true;
   const std::size_t kept = plan.runs.size() - missing.size();
   if (!results.empty()) fmt::print(stderr, "{}: {} of {} runs are there already\n", experiment.name, kept, plan.runs.size());
+  References references;
+  for (const PlannedRun* run : missing) references.expect(run->config, *run->scenario);
   const auto trajectory = [&](const PlannedRun& run) { return trajectory_of(experiment, options, folder, run); };
   const auto work = [&](const Batch& batch) -> std::vector<RunResult> {
     if (batch.size() == 1) {
       const PlannedRun& run = *batch.front();
-      return {carry_out(run.config, *run.scenario, trajectory(run), &stop_requested)};
+      return {carry_out(run.config, *run.scenario, trajectory(run), &stop_requested, &references)};
     }
     std::vector<LanedRun> runs;
     for (const PlannedRun* run : batch) runs.push_back({run->config, *run->scenario});
-    return carry_out_together(runs, &stop_requested);
+    return carry_out_together(runs, &stop_requested, &references);
   };
   const auto key = [&](const PlannedRun& run) { return ensemble_key(run.config, *run.scenario, trajectory(run)); };
   run_all(experiment.name, batches_of(missing, key), work, options.jobs, store, stop_requested, results);
