@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -166,6 +166,44 @@ TEST(ExactMotion, IsTheReference) {
       EXPECT_LE(c.angular_velocity ? *error.angular_velocity : 0, 1e-13) << c.name << " at t = " << t;
       const ExactMotion::Error self = exact.error(*system, state);
       EXPECT_LE(self.position.value_or(0) + self.attitude.value_or(0) + self.angular_velocity.value_or(0), 1e-14);
+    }
+  }
+}
+
+// Tops from anywhere, also upright, hanging, at rest and with components that vanish.
+TEST(ExactMotion, HeavyTopsFromAnywhere) {
+  std::mt19937 dice(7);
+  std::normal_distribution<double> normal;
+  const std::vector<Quaternion<double>> turns = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}, {0.8, 0.6, 0, 0}, {0.6, 0, 0, -0.8}, {0, 0.6, 0, 0.8}};
+  const std::vector<double> speeds = {0, 0, 1e-9, -1e-4, 3, -11};
+  for (int k = 0; k < 80; ++k) {
+    Body top = body({0.3, 0.3, k % 3 == 0 ? 0.55 : 0.1}, 1);
+    top.pinned = true;
+    top.center_of_mass = {0, 0, k % 2 == 0 ? 0.5 : -0.2};
+    BodyStart start;
+    const std::size_t turn = dice() % (turns.size() + 3);
+    start.orientation = turn < turns.size() ? turns[turn]
+                                            : Quaternion<double>(normal(dice), normal(dice), normal(dice), normal(dice)).normalized();
+    start.angular_velocity_in_body = true;
+    for (int i = 0; i < 3; ++i) start.angular_velocity[i] = k < 60 ? speeds[dice() % speeds.size()] : 4 * normal(dice);
+    const Problem problem{{top}, {start}, {gravity()}};
+    const auto system = make_system<double>(problem, {});
+    const ExactMotion exact(*system);
+    const auto reference = std::make_shared<const ReferenceMotion>(problem, true, 3.0);
+    ReferenceMotion::Follower follower(reference);
+    for (const double t : {0.0, 0.3, 3.0}) {
+      State<double> state = system->start();
+      state.t = t;
+      const RotationAt at = *exact.at(t, 0).rotation;
+      state.y.segment<4>(0) = *at.orientation;
+      state.y.segment<3>(4) = at.angular_velocity;
+      const ExactMotion::Error error = follower.error(*system, state);
+      const double allowed = 1e-14 * (1 + (start.angular_velocity.norm() + 7) * t) + 2 * reference->uncertainty().largest();
+      const auto what = ::testing::Message() << "top " << k << ", q = " << start.orientation.transpose()
+                                             << ", w = " << start.angular_velocity.transpose() << ", t = " << t;
+      EXPECT_LE(*error.attitude, allowed) << what;
+      const double speed = start.angular_velocity.norm();
+      EXPECT_LE(*error.angular_velocity * (speed > 0 ? speed : 1), 10 * allowed) << what;
     }
   }
 }
