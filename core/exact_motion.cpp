@@ -11,47 +11,31 @@ bool torque_free(const System<double>& system, std::size_t body) {
                       [&](const auto& force) { return force->effect_on(body).torque; });
 }
 
-/// The constant force on a body in N, or nothing if a force on it varies.
-std::optional<Vector3<double>> constant_force(const System<double>& system, std::size_t body) {
-  Vector3<double> total = Vector3<double>::Zero();
-  for (const auto& force : system.forces()) {
-    const auto f = force->effect_on(body).constant_force;
-    if (!f) return std::nullopt;
-    total += *f;
-  }
-  return total;
-}
-
 }  // namespace
 
 ExactMotion::ExactMotion(const System<double>& system) {
   const Problem& problem = system.problem();
-  for (std::size_t i = 0; i < system.moving(); ++i) has_attitude_ = has_attitude_ && torque_free(system, i);
   double fastest = 0;
-  bool all_paths = true;
+  bool any_path = false, all_paths = true;
   for (std::size_t i = 0; i < system.moving(); ++i) {
-    const Body& body = problem.bodies[i];
-    const BodyStart& start = problem.starts[i];
-    if (has_attitude_) {
-      const Quaternion<double> q = start.orientation / start.orientation.norm();
-      const Vector3<double> w = start.angular_velocity_in_body
-                                    ? start.angular_velocity
-                                    : Vector3<double>(rotation_matrix(q).transpose() * start.angular_velocity);
-      tops_.emplace_back(body.inertia, q, w);
-    }
-    fastest = std::max(fastest, start.angular_velocity.norm());
-    if (body.pinned) {
-      paths_.emplace_back();
-      continue;
-    }
-    const auto force = constant_force(system, i);
-    all_paths = all_paths && force.has_value();
-    has_position_ = true;
-    if (force) paths_.push_back(Path{start.position, start.velocity, *force / body.mass});
-    else paths_.emplace_back();
+    rotations_.push_back(exact_rotation(system, i));
+    paths_.push_back(exact_path(system, i));
+    has_angular_velocity_ = has_angular_velocity_ && rotations_[i];
+    has_attitude_ = has_attitude_ && rotations_[i] && rotations_[i](0).orientation;
+    fastest = std::max(fastest, problem.starts[i].angular_velocity.norm());
+    if (problem.bodies[i].pinned) continue;
+    any_path = true;
+    all_paths = all_paths && paths_[i];
   }
-  has_position_ = has_position_ && all_paths;
+  has_position_ = any_path && all_paths;
   if (fastest > 0) speed_scale_ = fastest;
+}
+
+ExactMotion::BodyAt ExactMotion::at(double t, std::size_t body) const {
+  BodyAt known;
+  if (paths_[body]) known.path = paths_[body](t);
+  if (rotations_[body]) known.rotation = rotations_[body](t);
+  return known;
 }
 
 ExactMotion::Error ExactMotion::error(const System<double>& system, const State<double>& state) const {
@@ -61,17 +45,12 @@ ExactMotion::Error ExactMotion::error(const System<double>& system, const State<
   };
   for (std::size_t i = 0; i < system.moving(); ++i) {
     const BodySnapshot<double> now = system.snapshot(state.y, i);
-    if (has_attitude_) {
-      const FreeTop::Motion exact = tops_[i].at(state.t);
-      raise(error.attitude, angle_between(now.orientation, exact.orientation));
-      const Vector3<double> w = rotation_matrix(exact.orientation) * exact.angular_velocity_body;
-      raise(error.angular_velocity, (now.angular_velocity - w).norm() / speed_scale_);
+    if (has_angular_velocity_) {
+      const RotationAt exact = rotations_[i](state.t);
+      if (has_attitude_) raise(error.attitude, angle_between(now.orientation, *exact.orientation));
+      raise(error.angular_velocity, (now.angular_velocity - exact.angular_velocity).norm() / speed_scale_);
     }
-    if (has_position_ && paths_[i]) {
-      const Path& path = *paths_[i];
-      const Vector3<double> p = path.position + state.t * (path.velocity + 0.5 * state.t * path.acceleration);
-      raise(error.position, (now.position - p).norm());
-    }
+    if (has_position_ && paths_[i]) raise(error.position, (now.position - paths_[i](state.t).position).norm());
   }
   return error;
 }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The exact motion of a problem, where there is one: the attitude of every body on which no torque acts (the free top)
-// and the path of the mass centre where the force on it is constant: p = p0 + v0 t + f t²/(2m).
+// The exact motion of a problem, where there is one: of each body the rotation (core/exact_rotation.hpp) and the path of
+// the mass centre (core/exact_path.hpp), each on its own, since they decouple in all motions that are known here.
 #pragma once
 
 #include <optional>
 #include <vector>
 
-#include "core/free_top.hpp"
+#include "core/exact_path.hpp"
+#include "core/exact_rotation.hpp"
 #include "core/system.hpp"
 
 namespace polhode {
@@ -16,8 +17,17 @@ class ExactMotion {
   /// Looks at what the forces of the system can do; the motion is that of the full equations, with the gyroscopic term.
   explicit ExactMotion(const System<double>& system);
 
-  bool has_attitude() const { return has_attitude_; }  ///< for every moving body
+  bool has_attitude() const { return has_attitude_; }                  ///< for every moving body
+  bool has_angular_velocity() const { return has_angular_velocity_; }  ///< for every moving body
   bool has_position() const { return has_position_; }  ///< for every moving body that is not pinned, if there is one
+  bool has_anything() const { return has_attitude_ || has_angular_velocity_ || has_position_; }
+
+  struct BodyAt {
+    std::optional<PathAt> path;
+    std::optional<RotationAt> rotation;
+  };
+  /// What is known of a moving body at t (s), also where it is not known of every body.
+  BodyAt at(double t, std::size_t body) const;
 
   struct Error {
     std::optional<double> position;          ///< m, largest over the bodies
@@ -27,12 +37,9 @@ class ExactMotion {
   Error error(const System<double>& system, const State<double>& state) const;
 
  private:
-  struct Path {
-    Vector3<double> position, velocity, acceleration;
-  };
-  bool has_attitude_ = true, has_position_ = false;
-  std::vector<FreeTop> tops_;
-  std::vector<std::optional<Path>> paths_;
+  bool has_attitude_ = true, has_angular_velocity_ = true, has_position_ = false;
+  std::vector<ExactRotation> rotations_;
+  std::vector<ExactPath> paths_;
   double speed_scale_ = 1;  ///< rad/s
 };
 

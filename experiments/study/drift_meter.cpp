@@ -69,13 +69,15 @@ std::vector<SeriesPoint> ThinnedSeries::finish(double energy_scale, double linea
 }
 
 DriftMeter::DriftMeter(const System<double>& system, const std::vector<std::string>& invariants, double t_end,
-                       bool exact_at_samples)
+                       bool exact_at_samples, std::shared_ptr<const ReferenceMotion> reference)
     : system_(system),
       t_end_(t_end),
       exact_at_samples_(exact_at_samples),
       conserved_(conserved_momenta(system)),
       exact_(system),
-      has_exact_(exact_.has_attitude() || exact_.has_position()) {
+      reference_(std::move(reference)),
+      has_exact_(exact_.has_anything() || reference_) {
+  if (reference_) follower_.emplace(reference_);
   for (const std::string& name : invariants) invariants_.push_back({find_invariant(name)});
 }
 
@@ -159,7 +161,13 @@ void DriftMeter::measure_further(const State<double>& state) {
 }
 
 void DriftMeter::measure_errors(const State<double>& state) {
-  const ExactMotion::Error e = exact_.error(system_, state);
+  ExactMotion::Error e = exact_.error(system_, state);
+  if (follower_) {
+    const ExactMotion::Error r = follower_->error(system_, state);
+    if (!e.position) e.position = r.position;
+    if (!e.attitude) e.attitude = r.attitude;
+    if (!e.angular_velocity) e.angular_velocity = r.angular_velocity;
+  }
   const auto keep = [](std::optional<double>& worst, const std::optional<double>& now) {
     if (now && !(worst && *now <= *worst)) worst = now;
   };
@@ -187,8 +195,25 @@ void DriftMeter::report(RunResult& result) {
   result.position_error_max = only_finite(worst_error_.position);
   result.attitude_error_max = only_finite(worst_error_.attitude);
   result.angular_velocity_error_max_rel = only_finite(worst_error_.angular_velocity);
+  if (reference_) judge_by_reference(result);
   result.series = series_.finish(energy_scale_, linear_scale_, angular_scale_);
   result.drift_class = result.status == "ok" ? classify_drift(result.series) : "";
+}
+
+void DriftMeter::judge_by_reference(RunResult& result) const {
+  constexpr double better = 100;
+  const auto judge = [](bool known, double uncertainty, std::optional<double>& error, std::optional<double>& used) {
+    if (known) return;
+    used = uncertainty;
+    if (!(error && *error >= better * uncertainty)) error.reset();
+  };
+  const ReferenceMotion::Uncertainty& u = reference_->uncertainty();
+  bool all_pinned = true;  // then no position is measured
+  for (std::size_t i = 0; i < system_.moving(); ++i) all_pinned = all_pinned && system_.problem().bodies[i].pinned;
+  judge(exact_.has_position() || all_pinned, u.position, result.position_error_max, result.position_reference);
+  judge(exact_.has_attitude(), u.attitude, result.attitude_error_max, result.attitude_reference);
+  judge(exact_.has_angular_velocity(), u.angular_velocity, result.angular_velocity_error_max_rel,
+        result.angular_velocity_reference_rel);
 }
 
 std::string classify_drift(const std::vector<SeriesPoint>& series) {

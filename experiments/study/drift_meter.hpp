@@ -5,11 +5,13 @@
 // drift is what the ledger cannot explain. Each relative drift is taken against a scale that is never zero.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "core/exact_motion.hpp"
 #include "core/invariants.hpp"
+#include "core/reference_motion.hpp"
 #include "core/simulate.hpp"
 #include "experiments/study/run_record.hpp"
 
@@ -38,8 +40,9 @@ class DriftMeter final : public Observer {
  public:
   /// `exact_at_samples`: the errors against the exact motion are taken at every sample; otherwise at 50 instants spread
   /// evenly over the run (the first sample at or after each) and at its end, since they cost more than a step.
+  /// `reference`: stands for what is not known exactly; may be null.
   DriftMeter(const System<double>& system, const std::vector<std::string>& invariants, double t_end,
-             bool exact_at_samples);
+             bool exact_at_samples, std::shared_ptr<const ReferenceMotion> reference = nullptr);
 
   std::size_t observe(std::span<const Sample> samples) override;
   void look(const State<double>& state, const Sample& sample) override;
@@ -52,6 +55,7 @@ class DriftMeter final : public Observer {
   void start(const State<double>& state, const Sample& sample);
   void measure_further(const State<double>& state);
   void measure_errors(const State<double>& state);
+  void judge_by_reference(RunResult& result) const;
 
   struct Watched {
     const InvariantKind* kind;
@@ -64,7 +68,9 @@ class DriftMeter final : public Observer {
   ConservedMomenta conserved_;
   std::vector<Watched> invariants_;
   ExactMotion exact_;
-  bool has_exact_;
+  std::shared_ptr<const ReferenceMotion> reference_;
+  std::optional<ReferenceMotion::Follower> follower_;
+  bool has_exact_;  ///< or a reference
   bool started_ = false;
 
   std::int64_t samples_ = 0;

@@ -73,7 +73,7 @@ std::string metrics() {
          line("angular_momentum_*", "|L - L0| over |L0|: one body about its mass centre or pivot, several about the origin") +
          line("<invariant>_*", "each further invariant that a scenario declares, over its scale") +
          line("orientation_defect_max", "| |q| - 1 |, or the Frobenius norm of R^T R - 1") +
-         line("position_error_max_m", "distance from the exact mass centre") +
+         line("position_error_max_m", "distance from the exact mass centre, or with --reference from a proven reference") +
          line("attitude_error_max_rad", "angle between the attitude and the exact one") +
          line("angular_velocity_error_*", "|w - w exact| over |w0|") +
          line("drift_class", "exponent of the drift's growth: round-off, bounded, random walk, linear, quadratic, faster");

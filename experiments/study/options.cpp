@@ -97,6 +97,10 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
       ->type_name("none|csv|hdf5")
       ->check(CLI::IsMember({"none", "csv", "hdf5"}).description(""))
       ->group("Results");
+  app.add_flag("--reference", options.reference,
+               "where no exact solution is known, measure errors against a motion in extended precision that proves its "
+               "digits by halving its step")
+      ->group("Results");
   app.add_flag("!--no-figures", options.figures, "no figures")->group("Results");
   app.add_option("--jobs", options.jobs, "runs at a time (default: one for each core)")
       ->type_name("N")

@@ -32,6 +32,7 @@ struct Options {
   TrajectoryFormat trajectory = TrajectoryFormat::none;
   bool figures = true;
   bool dry_run = false;
+  bool reference = false;
   std::optional<std::string> list;  ///< what to list, "" for everything
   std::string command;   ///< the command line, quoted for a shell
 };

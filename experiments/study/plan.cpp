@@ -20,7 +20,7 @@ namespace polhode::study {
 namespace {
 
 /// Raised whenever a change of the code changes a digit of a result: stored runs of an older version are then made anew.
-constexpr int results_version = 1;
+constexpr int results_version = 2;
 constexpr std::size_t most_runs = 10'000'000;
 
 std::string hash(std::string_view text) { return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size())); }
@@ -169,7 +169,11 @@ double cost_of(const RunConfig& config) {
 class Planner {
  public:
   Planner(const Experiment& experiment, const Options& options)
-      : experiment_(experiment), axes_(read_axes(options)), variants_(variants(options)), dt_label_(options.label("dt")) {
+      : experiment_(experiment),
+        axes_(read_axes(options)),
+        variants_(variants(options)),
+        dt_label_(options.label("dt")),
+        reference_(options.reference) {
     for (const auto& [key, text] : options.vary) plan_.varied_keys.push_back(key);
     std::sort(plan_.varied_keys.begin(), plan_.varied_keys.end());
     std::set<std::string> seen;
@@ -208,6 +212,7 @@ class Planner {
       RunConfig config;
       config.scenario = source.name();
       config.varied = variant;
+      config.reference = reference_;
       for (const std::string& name : axes_.integrators) {
         config.integrator = name;
         add_formulations(config, scenario);
@@ -257,6 +262,7 @@ class Planner {
     std::string text = fmt::format("{}\n{}\n", results_version, scenario->canonical);
     for (const std::string& cell : config_cells(config)) text += cell + "\n";
     if (config.samples) text += std::to_string(*config.samples);
+    if (config.reference) text += "\nreference";
     PlannedRun run;
     run.id = hash(text);
     if (!ids_.insert(run.id).second) return;  // the same run by another way: counted once
@@ -290,6 +296,7 @@ class Planner {
   Axes axes_;
   std::vector<std::vector<Override>> variants_;
   std::string dt_label_;
+  bool reference_;
   std::set<std::string> ids_;
   Plan plan_;
 };

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "experiments/study/axes.hpp"
@@ -15,6 +18,34 @@
 
 namespace polhode::study {
 namespace {
+
+bool has_references(const StudyView& study) {
+  return std::any_of(study.runs.begin(), study.runs.end(), [](const RunRecord& run) { return run.config.reference; });
+}
+
+/// How uncertain each reference is, once for each variant of a scenario and each duration.
+nlohmann::ordered_json references_of(const StudyView& study) {
+  using Json = nlohmann::ordered_json;
+  const auto number = [](const std::optional<double>& x) {
+    return !x ? Json() : std::isfinite(*x) ? Json(*x) : Json("could not follow the motion");
+  };
+  Json list = Json::array();
+  std::set<std::string> seen;
+  for (const RunRecord& run : study.runs) {
+    const RunResult& r = run.result;
+    if (!r.position_reference && !r.attitude_reference && !r.angular_velocity_reference_rel) continue;
+    Json varied = Json::object();
+    for (const Override& o : run.config.varied) varied[o.key] = o.value;
+    Json entry = {{"scenario", run.config.scenario},
+                  {"varied", varied},
+                  {"t_end_s", run.config.t_end},
+                  {"position_reference_m", number(r.position_reference)},
+                  {"attitude_reference_rad", number(r.attitude_reference)},
+                  {"angular_velocity_reference_rel", number(r.angular_velocity_reference_rel)}};
+    if (seen.insert(entry.dump()).second) list.push_back(std::move(entry));
+  }
+  return list;
+}
 
 std::string processor() {
   std::ifstream file("/proc/cpuinfo");
@@ -38,6 +69,8 @@ void write_runs_csv(const StudyView& study) {
   for (const std::string& invariant : study.invariants) header.push_back(invariant + "_drift_max_rel");
   add(header, {"orientation_defect_max", "position_error_max_m", "attitude_error_max_rad",
                "angular_velocity_error_max_rel"});
+  const bool references = has_references(study);
+  if (references) add(header, {"position_reference_m", "attitude_reference_rad", "angular_velocity_reference_rel"});
   std::string text = csv_row(header);
   for (const RunRecord& run : study.runs) {
     const RunResult& r = run.result;
@@ -52,6 +85,10 @@ void write_runs_csv(const StudyView& study) {
     }
     add(row, {csv_cell(r.orientation_defect_max), csv_cell(r.position_error_max), csv_cell(r.attitude_error_max),
               csv_cell(r.angular_velocity_error_max_rel)});
+    if (references) {
+      add(row, {csv_cell(r.position_reference), csv_cell(r.attitude_reference),
+                csv_cell(r.angular_velocity_reference_rel)});
+    }
     text += csv_row(row);
   }
   write_text(study.folder / "runs.csv", text);
@@ -79,7 +116,7 @@ void write_manifest(const StudyView& study, const Options& options, const Plan& 
   Json scenarios = Json::object();
   for (const Scenario& s : study.scenarios) scenarios[s.name] = {{"title", s.title}, {"resolved", s.canonical}};
   const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
-  const Json manifest = {
+  Json manifest = {
       {"experiment", study.experiment},
       {"command", study.command},
       {"study", plan.identity},
@@ -96,6 +133,7 @@ void write_manifest(const StudyView& study, const Options& options, const Plan& 
       {"libraries", {{"Eigen", build.eigen}, {"SUNDIALS", build.sundials}, {"Boost", build.boost}}},
       {"processor", processor()},
       {"cores", std::thread::hardware_concurrency()}};
+  if (has_references(study)) manifest["references"] = references_of(study);
   write_text(study.folder / "manifest.json",
              manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }

@@ -79,6 +79,13 @@ RunOutcome run_on(const System<double>& truth, const RunConfig& config, Observer
   }
 }
 
+std::shared_ptr<const ReferenceMotion> reference_of(const RunConfig& config, const Scenario& scenario,
+                                                    const System<double>& truth, const std::atomic<bool>* stop,
+                                                    References* shared) {
+  References own;
+  return (shared ? *shared : own).of(config, scenario, truth, stop);
+}
+
 }  // namespace
 
 std::string refusal(const RunConfig& config, const Scenario& scenario) {
@@ -101,9 +108,10 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
 }
 
 RunResult carry_out(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory,
-                    const std::atomic<bool>* stop) {
+                    const std::atomic<bool>* stop, References* references) {
   const auto truth = make_system<double>(scenario.problem, config.formulation);
-  DriftMeter meter(*truth, scenario.invariants, config.t_end, config.samples.has_value());
+  DriftMeter meter(*truth, scenario.invariants, config.t_end, config.samples.has_value(),
+                   reference_of(config, scenario, *truth, stop, references));
   const auto writer = open_trajectory(trajectory.format, trajectory.folder, *truth, meter);
   Observer& observer = writer ? static_cast<Observer&>(*writer) : meter;
   RunOutcome outcome;
@@ -129,7 +137,8 @@ std::string ensemble_key(const RunConfig& config, const Scenario& scenario, cons
                      f.gyroscopic, name(f.rotation_from), config.normalise, *config.dt, config.t_end);
 }
 
-std::vector<RunResult> carry_out_together(std::span<const LanedRun> runs, const std::atomic<bool>* stop) {
+std::vector<RunResult> carry_out_together(std::span<const LanedRun> runs, const std::atomic<bool>* stop,
+                                          References* references) {
   const RunConfig& config = runs.front().config;
   std::vector<Problem> problems;
   std::vector<std::unique_ptr<System<double>>> truths;
@@ -138,7 +147,9 @@ std::vector<RunResult> carry_out_together(std::span<const LanedRun> runs, const 
   for (const LanedRun& run : runs) {
     problems.push_back(run.scenario.problem);
     truths.push_back(make_system<double>(run.scenario.problem, config.formulation));
-    meters.push_back(std::make_unique<DriftMeter>(*truths.back(), run.scenario.invariants, config.t_end, false));
+    meters.push_back(std::make_unique<DriftMeter>(
+        *truths.back(), run.scenario.invariants, config.t_end, false,
+        reference_of(run.config, run.scenario, *truths.back(), stop, references)));
     lanes.push_back({*truths.back(), *meters.back()});
   }
   problems.resize(std::size_t(lane_count), problems.back());  // lanes that nobody looks at

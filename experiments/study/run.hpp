@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/study/references.hpp"
 #include "experiments/study/run_record.hpp"
 #include "experiments/study/trajectory.hpp"
 
@@ -22,9 +23,10 @@ struct TrajectoryRequest {
 };
 
 /// Never throws for what a method does; throws std::runtime_error when a trajectory cannot be written. A run stopped
-/// from outside has the status "interrupted" and must not be kept.
+/// from outside has the status "interrupted" and must not be kept. `references`: where the runs of a study share them;
+/// null: a run that asks for one makes its own.
 RunResult carry_out(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory,
-                    const std::atomic<bool>* stop);
+                    const std::atomic<bool>* stop, References* references = nullptr);
 
 /// Runs of the same non-empty key differ in initial values and parameters alone and can go side by side in the lanes of
 /// an ensemble. Empty: the run goes alone.
@@ -35,6 +37,7 @@ struct LanedRun {
   const Scenario& scenario;
 };
 /// At most lane_count runs of one key, together, with the digits that carry_out() gives to each; the time is shared out.
-std::vector<RunResult> carry_out_together(std::span<const LanedRun> runs, const std::atomic<bool>* stop);
+std::vector<RunResult> carry_out_together(std::span<const LanedRun> runs, const std::atomic<bool>* stop,
+                                          References* references = nullptr);
 
 }  // namespace polhode::study

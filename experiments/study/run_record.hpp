@@ -29,6 +29,7 @@ struct RunConfig {
   std::optional<double> tolerance;  ///< adaptive methods only
   double t_end = 1;                 ///< s
   std::optional<std::int64_t> samples;  ///< absent: observed after every step
+  bool reference = false;           ///< --reference: errors also where no exact solution is known
 };
 
 /// How the run went over time, thinned: each point stands for a stretch of the run and holds the largest value in it.
@@ -56,9 +57,14 @@ struct RunResult {
   std::optional<double> angular_momentum_drift_max_rel;
   std::map<std::string, double> invariant_drift_max_rel; ///< by name, of the scenario's declared invariants
   std::optional<double> orientation_defect_max;
-  std::optional<double> position_error_max;     ///< m, absent without an exact solution
+  std::optional<double> position_error_max;     ///< m, absent without an exact solution or a proven reference
   std::optional<double> attitude_error_max;     ///< rad
   std::optional<double> angular_velocity_error_max_rel;
+  /// How uncertain the reference is that stood for an unknown exact solution; absent where none was used. An error
+  /// that is not a hundred times larger is left out.
+  std::optional<double> position_reference;     ///< m
+  std::optional<double> attitude_reference;     ///< rad
+  std::optional<double> angular_velocity_reference_rel;
   double seconds = 0;                           ///< wall time of the motion, measuring included; goes to timings.csv only
   std::vector<SeriesPoint> series;
 };

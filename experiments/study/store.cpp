@@ -118,6 +118,10 @@ Store::Store(const std::filesystem::path& folder) : path_(folder / file_name) {
       " angular_momentum_drift_max_rel REAL, invariant_drifts_max_rel TEXT, orientation_defect_max REAL,"
       " position_error_max_m REAL, attitude_error_max_rad REAL, angular_velocity_error_max_rel REAL, wall_s REAL,"
       " series BLOB)");
+  // Of the runs that were judged by a reference, how uncertain it is.
+  execute(
+      "CREATE TABLE IF NOT EXISTS references_used (id TEXT PRIMARY KEY, position_m REAL, attitude_rad REAL,"
+      " angular_velocity_rel REAL)");
 }
 
 Store::~Store() = default;
@@ -151,6 +155,13 @@ std::map<std::string, RunResult> Store::load() const {
     r.seconds = rows.real();
     r.series = rows.series();
   }
+  Statement used(path_, db_.get(), "SELECT * FROM references_used");
+  while (used.step()) {
+    RunResult& r = results[used.text()];
+    r.position_reference = used.optional_real();
+    r.attitude_reference = used.optional_real();
+    r.angular_velocity_reference_rel = used.optional_real();
+  }
   return results;
 }
 
@@ -159,6 +170,7 @@ void Store::keep(std::span<const RunRecord> records) {
   try {
     Statement insert(path_, db_.get(),
                      "INSERT OR REPLACE INTO runs VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+    Statement used(path_, db_.get(), "INSERT OR REPLACE INTO references_used VALUES (?,?,?,?)");
     for (const RunRecord& record : records) {
       const RunResult& r = record.result;
       insert.bind(record.id);
@@ -183,6 +195,13 @@ void Store::keep(std::span<const RunRecord> records) {
       insert.bind(r.series);
       insert.step();
       insert.reset();
+      if (!r.position_reference && !r.attitude_reference && !r.angular_velocity_reference_rel) continue;
+      used.bind(record.id);
+      used.bind(r.position_reference);
+      used.bind(r.attitude_reference);
+      used.bind(r.angular_velocity_reference_rel);
+      used.step();
+      used.reset();
     }
     execute("COMMIT");
   } catch (...) {

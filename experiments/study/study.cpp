@@ -16,6 +16,7 @@
 #include "experiments/study/options.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/progress.hpp"
+#include "experiments/study/references.hpp"
 #include "experiments/study/result_folder.hpp"
 #include "experiments/study/results.hpp"
 #include "experiments/study/run.hpp"
@@ -106,12 +107,13 @@ std::vector<Batch> batches_of(const std::vector<const PlannedRun*>& runs, const 
 
 /// Where times matter, a run of less than some time slices of the machine is repeated: what disturbs it only ever makes it
 /// slower.
-RunResult carry_out_alone(const Experiment& experiment, const PlannedRun& run, const TrajectoryRequest& trajectory) {
+RunResult carry_out_alone(const Experiment& experiment, const PlannedRun& run, const TrajectoryRequest& trajectory,
+                          References& references) {
   constexpr double long_enough = 0.04;  // s
   constexpr int most_times = 5;
-  RunResult result = carry_out(run.config, *run.scenario, trajectory, &stop_requested);
+  RunResult result = carry_out(run.config, *run.scenario, trajectory, &stop_requested, &references);
   for (int k = 1; k < most_times && experiment.best_times && result.seconds < long_enough && !stop_requested; ++k) {
-    const RunResult again = carry_out(run.config, *run.scenario, {}, &stop_requested);
+    const RunResult again = carry_out(run.config, *run.scenario, {}, &stop_requested, &references);
     if (again.status == result.status) result.seconds = std::min(result.seconds, again.seconds);
   }
   return result;
@@ -128,14 +130,16 @@ bool carry_out_missing(const Experiment& experiment, const Options& options, con
   if (missing.empty()) return true;
   const std::size_t kept = plan.runs.size() - missing.size();
   if (!results.empty()) fmt::print(stderr, "{}: {} of {} runs are there already\n", experiment.name, kept, plan.runs.size());
+  References references;
+  for (const PlannedRun* run : missing) references.expect(run->config, *run->scenario);
   const auto trajectory = [&](const PlannedRun& run) { return trajectory_of(experiment, options, folder, run); };
   const auto work = [&](const Batch& batch) -> std::vector<RunResult> {
     if (batch.size() == 1) {
-      return {carry_out_alone(experiment, *batch.front(), trajectory(*batch.front()))};
+      return {carry_out_alone(experiment, *batch.front(), trajectory(*batch.front()), references)};
     }
     std::vector<LanedRun> runs;
     for (const PlannedRun* run : batch) runs.push_back({run->config, *run->scenario});
-    return carry_out_together(runs, &stop_requested);
+    return carry_out_together(runs, &stop_requested, &references);
   };
   const auto key = [&](const PlannedRun& run) { return ensemble_key(run.config, *run.scenario, trajectory(run)); };
   run_all(experiment.name, batches_of(missing, key), work, options.jobs, store, stop_requested, results);

@@ -69,9 +69,15 @@ void read_study_file(const std::string& path, Options& options) {
       read_vary(path, value, options);
       continue;
     }
+    if (name == "reference") {
+      const auto* on = value.as_boolean();
+      if (!on) throw InputError(where + "must be true or false");
+      options.reference = options.reference || on->get();
+      continue;
+    }
     std::replace(name.begin(), name.end(), '_', '-');
     if (std::find(names.begin(), names.end(), name) == names.end()) {
-      throw InputError(where + "no such axis; a study file takes the options that are axes, and vary");
+      throw InputError(where + "no such axis; a study file takes the options that are axes, vary and reference");
     }
     options.axes[name] = as_list(value, ',', where);
     options.places[name] = place(path, value.source()) + std::string(key.str());

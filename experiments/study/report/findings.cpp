@@ -15,6 +15,7 @@
 #include "experiments/study/report/gyroscopic.hpp"
 #include "experiments/study/report/method_table.hpp"
 #include "experiments/study/report/notation.hpp"
+#include "experiments/study/report/reference_words.hpp"
 #include "integrators/catalogue.hpp"
 
 namespace polhode::study::report {
@@ -234,9 +235,16 @@ Topic errors(const StudyView& study, const Grouping& grouping) {
     if (study.runs.size() > 1) add_extremes(topic, grouping, quantity);
     append(topic.sentences, slope_sentences(grouping, quantity));
   }
+  append(topic.sentences, reference_sentences(study));
   std::vector<std::string> without;
+  const auto by_reference = [&](const std::string& name) {
+    return std::any_of(study.runs.begin(), study.runs.end(), [&](const RunRecord& run) {
+      return run.config.scenario == name && used_reference(run);
+    });
+  };
   const auto no_position = undefined_in(study, quantity::position_error());
   for (const auto& name : undefined_in(study, quantity::attitude_error())) {
+    if (by_reference(name)) continue;
     if (std::find(no_position.begin(), no_position.end(), name) != no_position.end()) without.push_back(name);
   }
   if (!without.empty()) {
