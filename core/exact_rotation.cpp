@@ -36,8 +36,10 @@ struct Torques {
                      : Vector3<double>(rotation_matrix(orientation).transpose() * start.angular_velocity);
     for (std::size_t k = 0; k < system.forces().size(); ++k) {
       if (!system.forces()[k]->effect_on(i).torque) continue;
-      if (k < problem.forces.size()) forces.push_back(&problem.forces[k]);
-      else all_known = false;
+      if (k < problem.forces.size())
+        forces.push_back(&problem.forces[k]);
+      else
+        all_known = false;
     }
   }
 
@@ -83,9 +85,12 @@ ExactRotation about_an_axis(const Torques& at) {
   Vector3<double> in_body = Vector3<double>::Zero(), torque_world = in_body;
   double drag = 0;
   for (const ForceParameters* f : at.forces) {
-    if (f->kind == "drag") drag += f->number("angular");
-    else if (f->text("frame") == "body") in_body += f->vector("torque");
-    else torque_world += f->vector("torque");
+    if (f->kind == "drag")
+      drag += f->number("angular");
+    else if (f->text("frame") == "body")
+      in_body += f->vector("torque");
+    else
+      torque_world += f->vector("torque");
   }
   const Vector3<double> torque = in_body + r.transpose() * torque_world;
   Vector3<double> axis = at.omega_body.isZero(0) ? torque : at.omega_body;
@@ -104,8 +109,7 @@ ExactRotation about_an_axis(const Torques& at) {
       const double angle = speed * response.by_velocity + acceleration * response.by_acceleration;
       const double s = std::sin(angle / 2);
       const Quaternion<double> turn(std::cos(angle / 2), s * axis[0], s * axis[1], s * axis[2]);
-      return {product(q, turn),
-              (speed * response.rate_by_velocity + acceleration * response.by_velocity) * axis_world};
+      return {product(q, turn), (speed * response.rate_by_velocity + acceleration * response.by_velocity) * axis_world};
     };
   }
   if (isotropic(at.body.inertia) && in_body.isZero(0)) {

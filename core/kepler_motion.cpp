@@ -130,8 +130,7 @@ KeplerMotion::Motion KeplerMotion::at(double t) const {
   const Universal<Real> u = universal(beta_, solve(since));
   const Real distance = q_ * u.u0 + mu_ * u.u2;
   const Vector3<Real> position = (q_ - mu_ * u.u2) * towards_pericentre_ + momentum_ * u.u1 * across_;
-  const Vector3<Real> velocity =
-      (-mu_ * u.u1 * towards_pericentre_ + momentum_ * u.u0 * across_) / distance;
+  const Vector3<Real> velocity = (-mu_ * u.u1 * towards_pericentre_ + momentum_ * u.u0 * across_) / distance;
   return {position.cast<double>(), velocity.cast<double>()};
 }
 

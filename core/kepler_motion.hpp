@@ -11,18 +11,18 @@ namespace polhode {
 /// With s the fictitious time, ds = dt/r, from the pericentre, at distance q, and U_n = sⁿ c_n(βs²) by Stumpff's
 /// functions, β = 2μ/r − v² = μ(1 − e)/q:
 ///   t − T = q U1 + μ U3,  r = q U0 + μ U2,  (x, y) = (q − μU2, L U1),  (ẋ, ẏ) = (−μU1, L U0)/r.
-/// From the pericentre no difference of large numbers is left on any conic, near e = 0 and e = 1 alike. On a line (L = 0)
-/// the bodies bounce off each other, which is the limit of ever thinner ellipses or hyperbolas.
+/// From the pericentre no difference of large numbers is left on any conic, near e = 0 and e = 1 alike. On a line (L =
+/// 0) the bodies bounce off each other, which is the limit of ever thinner ellipses or hyperbolas.
 class KeplerMotion {
  public:
   /// μ in m³/s², positive; position (m, not zero) and velocity (m/s) of one body relative to the other at t = 0.
-  /// The numbers are taken as exact; costs about a tenth of a millisecond. Throws std::invalid_argument.
+  /// The numbers are taken as exact; costs about 0.2 ms. Throws std::invalid_argument.
   KeplerMotion(double mu, const Vector3<double>& position, const Vector3<double>& velocity);
 
   struct Motion {
     Vector3<double> position, velocity;
   };
-  /// At t (s, of either sign). Costs a few microseconds: Kepler's equation is solved by bracketed Newton iteration.
+  /// At t (s, of either sign). Costs about 2 µs: Kepler's equation is solved by bracketed Newton iteration.
   Motion at(double t) const;
 
   double eccentricity() const { return static_cast<double>(eccentricity_); }

@@ -71,8 +71,9 @@ bool symmetric_about(const Matrix3<double>& inertia, const Vector3<double>& axis
 }
 
 /// The axis of a planar swing, in the body: of the angular velocity or, at rest, of the torque. Zero: there is none.
-Vector3<double> swing_axis(const Matrix3<double>& inertia, const Vector3<double>& center, const Vector3<double>& gravity,
-                           const Quaternion<double>& orientation, const Vector3<double>& omega) {
+Vector3<double> swing_axis(const Matrix3<double>& inertia, const Vector3<double>& center,
+                           const Vector3<double>& gravity, const Quaternion<double>& orientation,
+                           const Vector3<double>& omega) {
   const Vector3<double> down = (rotation_matrix(orientation).transpose() * gravity).normalized();
   const Vector3<double> arm = center.normalized();
   const Vector3<double> axis = (omega.isZero(0) ? Vector3<double>(arm.cross(down)) : omega).stableNormalized();
@@ -102,14 +103,13 @@ LagrangeTop::LagrangeTop(double mass, const Matrix3<double>& inertia_body, const
   const Vector3<double> axis = center_of_mass.stableNormalized();
   double i1 = across(inertia_body, axis), i3 = axis.dot(inertia_body * axis);
   if (!symmetric_about(inertia_body, axis)) {
-    const Vector3<double> hinge =
-        swing_axis(inertia_body, center_of_mass, gravity, orientation, angular_velocity_body);
+    const Vector3<double> hinge = swing_axis(inertia_body, center_of_mass, gravity, orientation, angular_velocity_body);
     i1 = i3 = hinge.dot(inertia_body * hinge);
   }
 
   const Precise4 up = from_third_axis(direction(-gravity)), to_body = from_third_axis(direction(center_of_mass));
-  const Precise4 q = product(
-      product(conjugate(up), unit({orientation[0], orientation[1], orientation[2], orientation[3]})), to_body);
+  const Precise4 q =
+      product(product(conjugate(up), unit({orientation[0], orientation[1], orientation[2], orientation[3]})), to_body);
   const Precise4 turned = product(
       product(conjugate(to_body), {0, angular_velocity_body[0], angular_velocity_body[1], angular_velocity_body[2]}),
       to_body);

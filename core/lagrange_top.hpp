@@ -26,7 +26,7 @@ class LagrangeTop {
   /// gravity: m/s², world; center_of_mass: m, body axes, from the pivot, on an axis of symmetry of inertia_body
   /// (kg m², about the pivot), or anywhere in the plane of a planar swing; orientation: body to world at t = 0, of any
   /// length; angular_velocity_body: rad/s. The numbers are taken as exact: what a motion near a sleeping top or a
-  /// separatrix depends on is computed to 100 digits from them. Costs about 0.3 ms. Throws std::invalid_argument
+  /// separatrix depends on is computed to 100 digits from them. Costs about 0.2 ms. Throws std::invalid_argument
   /// where applies() is false.
   LagrangeTop(double mass, const Matrix3<double>& inertia_body, const Vector3<double>& center_of_mass,
               const Vector3<double>& gravity, const Quaternion<double>& orientation,
@@ -42,7 +42,7 @@ class LagrangeTop {
     Vector3<double> angular_velocity_body;  ///< rad/s
   };
 
-  /// The motion at t (s, of either sign), to a few units of round-off times 1 + (|ω| + λ) |t|. Costs about 0.5 µs.
+  /// The motion at t (s, of either sign), to a few units of round-off times 1 + (|ω| + λ) |t|. Costs about 0.2 µs.
   Motion at(double t) const;
 
   /// The nutation: cos θ goes between these.
@@ -60,8 +60,8 @@ class LagrangeTop {
 
   Quaternion<double> up_to_world_, body_to_axis_;
   Matrix3<double> axis_to_body_;
-  double spin_ = 0;                        // Ω3, rad/s
-  double phase_ = 0, phase_rate_ = 0;      // δ; λ, rad/s
+  double spin_ = 0;                    // Ω3, rad/s
+  double phase_ = 0, phase_rate_ = 0;  // δ; λ, rad/s
   double lowest_ = 0, highest_ = 0;
   JacobiElliptic jacobi_{1};
   Amplitude wz_, xy_, turning_;

@@ -14,8 +14,8 @@ class LinearMotion {
   /// What of x(t) and ẋ(t) is due to x(0) = 0, ẋ(0) = v and to the acceleration A = a − ω² x(0) at the start:
   ///   x(t) = x(0) + v by_velocity + A by_acceleration,  ẋ(t) = v rate_by_velocity + A by_velocity.
   struct Response {
-    double by_velocity;       ///< s
-    double by_acceleration;   ///< s²
+    double by_velocity;      ///< s
+    double by_acceleration;  ///< s²
     double rate_by_velocity;
   };
   /// To a few units of round-off times 1 + (ω + γ) t, for t ≥ 0.

@@ -82,7 +82,7 @@ ReferenceMotion::ReferenceMotion(const Problem& problem, bool gyroscopic, double
   constexpr double unknown = std::numeric_limits<double>::infinity();
   uncertainty_ = {unknown, unknown, unknown};
   const auto system = make();
-  const double most = budget / static_cast<double>(problem.moving() * intervals * rates_per_step);
+  const double most = std::max(4.0, budget / static_cast<double>(problem.moving() * intervals * rates_per_step));
   states_ = march(*system, steps_, stop);
   double before = unknown;
   for (int finer = 2; finer <= most && !(stop && *stop); finer *= 2) {

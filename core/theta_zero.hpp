@@ -36,9 +36,9 @@ class ThetaZeroDirection {
   // first term left out is below exp(−16π) of the first.
   static constexpr int terms = 4;
   bool constant_ = true, transformed_ = false;
-  double half_period_ = 0;                   // K
-  double frequency_ = 0;                     // π/2K, transformed: π/2K'
-  double turn_ = 0;                          // turn per unit of u
+  double half_period_ = 0;  // K
+  double frequency_ = 0;    // π/2K, transformed: π/2K'
+  double turn_ = 0;         // turn per unit of u
   double slope_at_k_ = 0;
   std::array<double, terms> re_{}, im_{};
 };

@@ -35,8 +35,10 @@ std::shared_ptr<const ReferenceMotion> References::of(const RunConfig& config, c
     auto& found = entries_[which];
     if (!found) found = std::make_shared<Entry>();
     entry = found;
-    if (entry->expected <= 1) entries_.erase(which);
-    else --entry->expected;
+    if (entry->expected <= 1)
+      entries_.erase(which);
+    else
+      --entry->expected;
   }
   if (known_in_full(system)) return nullptr;
   const std::lock_guard lock(entry->making);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The reference motions of a study (--reference): one for each variant of a scenario and each duration, shared by all runs
-// of it, made when the first of them needs it and let go after the last. Like the exact motion, it is that of the full
-// equations, whether a run leaves the gyroscopic term out or not.
+// The reference motions of a study (--reference): one for each variant of a scenario and each duration, shared by all
+// runs of it, made when the first of them needs it and let go after the last. Like the exact motion, it is that of the
+// full equations, whether a run leaves the gyroscopic term out or not.
 #pragma once
 
 #include <atomic>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is recognised as having an exact motion, and that it is the motion: each against a reference in extended precision
-// that knows nothing of it (core/reference_motion), which proves its digits.
+// What is recognised as having an exact motion, and that it is the motion: each against a reference in extended
+// precision that knows nothing of it (core/reference_motion), which proves its digits.
 #include "core/exact_motion.hpp"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,8 @@ std::vector<Case> cases() {
     return force("spring", {0}, v);
   };
   std::vector<Case> all;
-  all.push_back({"projectile", one(body(box), aslant(), {gravity(), force("constant_force", {0}, {{"force", Vector(1, 2, 0)}})}),
+  all.push_back({"projectile",
+                 one(body(box), aslant(), {gravity(), force("constant_force", {0}, {{"force", Vector(1, 2, 0)}})}),
                  true, true, true});
   all.push_back({"tumbling on a spring", one(body(box), aslant(), {gravity(), spring(30.0)}), true, true, true});
   all.push_back({"two springs, drag and a damper",
@@ -70,12 +71,18 @@ std::vector<Case> cases() {
                      {spring(3.0), spring(5.0), gravity(), force("drag", {0}, {{"linear", 0.7}}),
                       force("damper", {0}, {{"damping", 0.2}})}),
                  true, true, true});
-  all.push_back({"overdamped", one(body(box), aslant(), {spring(3.0), force("drag", {0}, {{"linear", 30.0}})}), true, true, true});
-  all.push_back({"falling with drag", one(body(box), aslant(), {gravity(), force("drag", {0}, {{"linear", 1.3}})}), true, true, true});
-  all.push_back({"spring with a rest length", one(body(box), aslant(), {spring(3.0, {{"rest_length", 0.5}})}), false, true, true});
-  all.push_back({"damping along the spring", one(body(box), aslant(), {spring(3.0, {{"damping", 0.5}})}), false, true, true});
-  all.push_back({"spring at a corner", one(body(box), aslant(), {spring(3.0, {{"anchor_body", Vector(0.1, 0, 0)}})}), false, false, false});
-  all.push_back({"quadratic drag", one(body(box), aslant(), {force("drag", {0}, {{"quadratic", 0.5}})}), false, true, true});
+  all.push_back({"overdamped", one(body(box), aslant(), {spring(3.0), force("drag", {0}, {{"linear", 30.0}})}), true,
+                 true, true});
+  all.push_back({"falling with drag", one(body(box), aslant(), {gravity(), force("drag", {0}, {{"linear", 1.3}})}),
+                 true, true, true});
+  all.push_back({"spring with a rest length", one(body(box), aslant(), {spring(3.0, {{"rest_length", 0.5}})}), false,
+                 true, true});
+  all.push_back(
+      {"damping along the spring", one(body(box), aslant(), {spring(3.0, {{"damping", 0.5}})}), false, true, true});
+  all.push_back({"spring at a corner", one(body(box), aslant(), {spring(3.0, {{"anchor_body", Vector(0.1, 0, 0)}})}),
+                 false, false, false});
+  all.push_back(
+      {"quadratic drag", one(body(box), aslant(), {force("drag", {0}, {{"quadratic", 0.5}})}), false, true, true});
 
   BodyStart about_x = aslant();
   about_x.angular_velocity = {3, 0, 0};
@@ -84,19 +91,24 @@ std::vector<Case> cases() {
     return force("constant_torque", {0}, {{"torque", t}, {"frame", frame}});
   };
   all.push_back({"axial torque in the body", one(body(box), about_x, {torque({0.4, 0, 0}, "body")}), true, true, true});
-  all.push_back({"axial torque against drag",
-                 one(body(box), about_x, {torque({0.4, 0, 0}, "body"), force("drag", {0}, {{"angular", 0.3}, {"linear", 0.2}})}),
-                 true, true, true});
+  all.push_back(
+      {"axial torque against drag",
+       one(body(box), about_x, {torque({0.4, 0, 0}, "body"), force("drag", {0}, {{"angular", 0.3}, {"linear", 0.2}})}),
+       true, true, true});
   all.push_back({"torque on a symmetric body, in the world",
-                 one(body({0.3, 0.3, 0.1}), {{}, identity_quaternion<double>(), {}, {0, 0, 4}, false}, {torque({0, 0, -0.2}, "world")}),
+                 one(body({0.3, 0.3, 0.1}), {{}, identity_quaternion<double>(), {}, {0, 0, 4}, false},
+                     {torque({0, 0, -0.2}, "world")}),
                  true, true, true});
   all.push_back({"torque across the axis", one(body(box), about_x, {torque({0, 0.4, 0}, "body")}), true, false, false});
-  all.push_back({"sphere from rest", one(body(ball), {{}, {0.5, -0.1, 0.7, 0.5}, {}, Vector::Zero(), false}, {torque({0.1, 0.2, -0.2}, "world")}),
-                 true, true, true});
-  all.push_back({"sphere slowed down", one(body(ball), aslant(), {force("drag", {0}, {{"angular", 0.3}})}), true, true, true});
+  all.push_back(
+      {"sphere from rest",
+       one(body(ball), {{}, {0.5, -0.1, 0.7, 0.5}, {}, Vector::Zero(), false}, {torque({0.1, 0.2, -0.2}, "world")}),
+       true, true, true});
+  all.push_back(
+      {"sphere slowed down", one(body(ball), aslant(), {force("drag", {0}, {{"angular", 0.3}})}), true, true, true});
   all.push_back({"sphere turned aside",
-                 one(body(ball), aslant(), {torque({0.3, 0.2, -0.2}, "world"), force("drag", {0}, {{"angular", 0.1}})}), true,
-                 false, true});
+                 one(body(ball), aslant(), {torque({0.3, 0.2, -0.2}, "world"), force("drag", {0}, {{"angular", 0.1}})}),
+                 true, false, true});
 
   Body top = body({0.3, 0.3, 0.1}, 1);
   top.pinned = true;
@@ -105,10 +117,11 @@ std::vector<Case> cases() {
   top.inertia = Vector(0.3, 0.29, 0.1).asDiagonal();
   all.push_back({"another top", one(top, aslant(), {gravity()}), false, false, false});
   all.push_back({"pendulum", one(top, {{}, {0.8, 0.6, 0, 0}, {}, {-1, 0, 0}, false}, {gravity()}), false, true, true});
-  all.push_back({"spun by a force at a point",
-                 one(body({0.3, 0.3, 0.1}), aslant(),
-                     {force("constant_force", {0}, {{"force", Vector(0, 1, 3)}, {"anchor_body", Vector(0, 0, 0.2)}}), gravity()}),
-                 true, true, true});
+  all.push_back(
+      {"spun by a force at a point",
+       one(body({0.3, 0.3, 0.1}), aslant(),
+           {force("constant_force", {0}, {{"force", Vector(0, 1, 3)}, {"anchor_body", Vector(0, 0, 0.2)}}), gravity()}),
+       true, true, true});
 
   const auto pair = [&](const Vector& v, std::vector<ForceParameters> more) {
     BodyStart left = aslant(), right = aslant();
@@ -174,7 +187,8 @@ TEST(ExactMotion, IsTheReference) {
 TEST(ExactMotion, HeavyTopsFromAnywhere) {
   std::mt19937 dice(7);
   std::normal_distribution<double> normal;
-  const std::vector<Quaternion<double>> turns = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}, {0.8, 0.6, 0, 0}, {0.6, 0, 0, -0.8}, {0, 0.6, 0, 0.8}};
+  const std::vector<Quaternion<double>> turns = {{1, 0, 0, 0},     {0, 1, 0, 0},      {0, 0, 1, 0},    {0, 0, 0, 1},
+                                                 {0.8, 0.6, 0, 0}, {0.6, 0, 0, -0.8}, {0, 0.6, 0, 0.8}};
   const std::vector<double> speeds = {0, 0, 1e-9, -1e-4, 3, -11};
   for (int k = 0; k < 80; ++k) {
     Body top = body({0.3, 0.3, k % 3 == 0 ? 0.55 : 0.1}, 1);
@@ -182,8 +196,9 @@ TEST(ExactMotion, HeavyTopsFromAnywhere) {
     top.center_of_mass = {0, 0, k % 2 == 0 ? 0.5 : -0.2};
     BodyStart start;
     const std::size_t turn = dice() % (turns.size() + 3);
-    start.orientation = turn < turns.size() ? turns[turn]
-                                            : Quaternion<double>(normal(dice), normal(dice), normal(dice), normal(dice)).normalized();
+    start.orientation = turn < turns.size()
+                            ? turns[turn]
+                            : Quaternion<double>(normal(dice), normal(dice), normal(dice), normal(dice)).normalized();
     start.angular_velocity_in_body = true;
     for (int i = 0; i < 3; ++i) start.angular_velocity[i] = k < 60 ? speeds[dice() % speeds.size()] : 4 * normal(dice);
     const Problem problem{{top}, {start}, {gravity()}};
@@ -198,7 +213,8 @@ TEST(ExactMotion, HeavyTopsFromAnywhere) {
       state.y.segment<4>(0) = *at.orientation;
       state.y.segment<3>(4) = at.angular_velocity;
       const ExactMotion::Error error = follower.error(*system, state);
-      const double allowed = 1e-14 * (1 + (start.angular_velocity.norm() + 7) * t) + 2 * reference->uncertainty().largest();
+      const double allowed =
+          1e-14 * (1 + (start.angular_velocity.norm() + 7) * t) + 2 * reference->uncertainty().largest();
       const auto what = ::testing::Message() << "top " << k << ", q = " << start.orientation.transpose()
                                              << ", w = " << start.angular_velocity.transpose() << ", t = " << t;
       EXPECT_LE(*error.attitude, allowed) << what;
@@ -211,7 +227,9 @@ TEST(ExactMotion, HeavyTopsFromAnywhere) {
 TEST(ReferenceMotion, SaysThatItCannotProveAChaoticMotion) {
   // a box on an off-centre spring, far beyond its linear range
   Problem chaos = cases()[0].problem;
-  chaos.forces = {gravity(), force("spring", {0}, {{"stiffness", 60.0}, {"rest_length", 1.0}, {"anchor_body", Vector(0.3, 0.2, 0.4)}})};
+  chaos.forces = {
+      gravity(),
+      force("spring", {0}, {{"stiffness", 60.0}, {"rest_length", 1.0}, {"anchor_body", Vector(0.3, 0.2, 0.4)}})};
   EXPECT_GE(ReferenceMotion(chaos, true, 400.0).uncertainty().largest(), 1e-3);
   EXPECT_LE(ReferenceMotion(chaos, true, 5.0).uncertainty().largest(), 1e-13);
 }

@@ -6,7 +6,7 @@ The equations of motion, I w' = (I w) x w + m c x (R^T g) and q' = 1/2 q (0, w),
 Taylor series of free_top_reference.py: no elliptic function, no Euler angle. The script checks itself: energy, p_phi
 and p_psi must stay to 1e-42, and some cases must agree to 1e-40 with a run of more digits and another order.
 
-Usage: /usr/bin/python3 lagrange_top_reference.py    (about two minutes on two cores)
+Usage: /usr/bin/python3 lagrange_top_reference.py    (about three minutes on two cores)
 """
 import csv
 import math

@@ -31,9 +31,7 @@ struct Row {
   LagrangeTop top() const { return {mass, inertia, center, gravity, q0, omega0}; }
   double least_moment() const { return inertia.diagonal().minCoeff(); }
   /// rad/s, of the fastest change: of the start, and of what the fall of the mass centre can add.
-  double rate() const {
-    return omega0.norm() + 2 * std::sqrt(mass * gravity.norm() * center.norm() / least_moment());
-  }
+  double rate() const { return omega0.norm() + 2 * std::sqrt(mass * gravity.norm() * center.norm() / least_moment()); }
 };
 
 std::vector<Row> reference_rows() {
@@ -107,9 +105,9 @@ TEST(LagrangeTop, GoesOnFromWhereItIs) {
     if (row.inertia(0, 0) != row.inertia(1, 1) && row.center.x() == 0) continue;  // rounding tilts the plane of a swing
     const LagrangeTop top = row.top();
     const LagrangeTop::Motion there = top.at(2.3), end = top.at(7.4);
-    const LagrangeTop::Motion again = LagrangeTop(row.mass, row.inertia, row.center, row.gravity, there.orientation,
-                                                  there.angular_velocity_body)
-                                          .at(5.1);
+    const LagrangeTop::Motion again =
+        LagrangeTop(row.mass, row.inertia, row.center, row.gravity, there.orientation, there.angular_velocity_body)
+            .at(5.1);
     EXPECT_LE((again.orientation - end.orientation).norm(), 1e-12 * (1 + row.rate())) << row.name;
   }
 }

@@ -5,7 +5,7 @@
 Kepler's r'' = -mu r/|r|^3 is integrated as it stands by Taylor series; the energy must stay to 1e-44. The linear
 oscillator x'' + 2 gamma x' + w^2 x = 1 comes from the matrix exponential. Doubles go in and are taken as exact.
 
-Usage: /usr/bin/python3 path_reference.py    (about a minute)
+Usage: /usr/bin/python3 path_reference.py    (a few minutes)
 """
 import csv
 import math

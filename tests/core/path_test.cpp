@@ -39,7 +39,8 @@ std::vector<Line> table(const std::string& file, bool named, std::size_t size) {
     std::istringstream cells(text);
     Line line;
     if (named) std::getline(cells, line.name, ',');
-    for (std::string cell; std::getline(cells, cell, ',');) line.x.push_back(std::strtod(cell.c_str(), nullptr));  // 0 where doubles end
+    for (std::string cell; std::getline(cells, cell, ',');)
+      line.x.push_back(std::strtod(cell.c_str(), nullptr));  // 0 where doubles end
     if (line.x.size() != size) throw std::runtime_error("not " + std::to_string(size) + " numbers: " + text);
     lines.push_back(line);
   }
@@ -54,7 +55,8 @@ TEST(KeplerMotion, AgreesWith40Digits) {
     const Vector r0 = line.vector(1), v0 = line.vector(4), r = line.vector(8), v = line.vector(11);
     const KeplerMotion::Motion m = KeplerMotion(mu, r0, v0).at(t);
     // the angle runs fastest at the pericentre
-    const double q = r0.cross(v0).squaredNorm() / mu / 2, rate = std::sqrt(mu / std::pow(std::max(q, 1e-3 * r0.norm()), 3));
+    const double q = r0.cross(v0).squaredNorm() / mu / 2,
+                 rate = std::sqrt(mu / std::pow(std::max(q, 1e-3 * r0.norm()), 3));
     const double tolerance = 1e-15 * (1 + rate * std::abs(t));
     EXPECT_LE((m.position - r).norm(), tolerance * std::max(r.norm(), r0.norm())) << line.name << " at t = " << t;
     EXPECT_LE((m.velocity - v).norm(), tolerance * std::max(v.norm(), v0.norm())) << line.name << " at t = " << t;

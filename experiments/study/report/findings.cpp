@@ -70,7 +70,8 @@ std::string run_sentence(const Grouping& grouping, const Curve& curve, const Run
       parts.push_back(fmt::format("the {} is {}", quantity.words, number(*found)));
   }
   if (const auto found = value(run, quantity::attitude_error())) {
-    parts.push_back(fmt::format("the attitude is off the exact one by up to {} rad", number(*found)));
+    parts.push_back(fmt::format("the attitude is off the {} one by up to {} rad",
+                                run.result.attitude_reference ? "reference" : "exact", number(*found)));
   }
   if (const auto found = value(run, quantity::position_error())) {
     parts.push_back(fmt::format("the position by up to {} m", number(*found)));

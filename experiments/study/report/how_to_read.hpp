@@ -20,7 +20,8 @@ conserve it.</dd>
 <dd>How far the stored numbers are from a rotation: ||q| − 1| of a quaternion, the Frobenius norm of RᵀR − 1
 of a matrix.</dd>
 <dt>Attitude error</dt>
-<dd>The angle between the exact and the computed attitude, where an exact solution is known.</dd>
+<dd>The angle between the exact and the computed attitude, where an exact solution is known. With <span class="nowrap">--reference</span> a
+motion in extended precision stands in for it elsewhere, where that proves its digits.</dd>
 <dt>Against time</dt>
 <dd>Long runs are thinned: each point stands for a stretch of the run and holds the largest value in it. The
 vertical axis is logarithmic on both sides of zero and linear about it, so that signs and many orders of
@@ -33,8 +34,8 @@ declared order is that of the motion’s error; an invariant may drift by a high
 <dd>A value below 16 ε √steps, what rounding errors alone may add up to (ε = 2.2e-16 in double
 precision).</dd>
 <dt>– in a table</dt>
-<dd>Not defined for that run: no exact solution is known, the forces do not conserve that momentum, or the run
-ended too early.</dd>
+<dd>Not defined for that run: no exact solution is known and no reference proves digits enough, the forces do
+not conserve that momentum, or the run ended too early.</dd>
 </dl>
 </aside>
 )html";

@@ -39,7 +39,8 @@ std::vector<std::string> reference_sentences(const StudyView& study) {
     raise(u.attitude, r.attitude_reference);
     raise(u.angular_velocity, r.angular_velocity_reference_rel);
     ++u.runs;
-    const bool judged = (!r.position_reference || r.position_error_max) && (!r.attitude_reference || r.attitude_error_max) &&
+    const bool judged = (!r.position_reference || r.position_error_max) &&
+                        (!r.attitude_reference || r.attitude_error_max) &&
                         (!r.angular_velocity_reference_rel || r.angular_velocity_error_max_rel);
     if (!judged) ++u.unjudged;
   }
@@ -60,9 +61,10 @@ std::vector<std::string> reference_sentences(const StudyView& study) {
     text += known ? fmt::format("which halving its step changed by at most {}", words(sizes))
                   : std::string("which could not follow the motion");
     if (u.unjudged > 0) {
-      text += fmt::format("; in {} of {} runs it could not prove digits enough (an error must be 100 times larger), and "
-                          "errors are left out",
-                          u.unjudged, u.runs);
+      text += fmt::format(
+          "; in {} of {} runs it could not prove digits enough (an error must be 100 times larger), and "
+          "errors are left out",
+          u.unjudged, u.runs);
     }
     sentences.push_back(text + ".");
   }

@@ -10,6 +10,7 @@
 
 #include "experiments/study/report/figure_layout.hpp"
 #include "experiments/study/report/notation.hpp"
+#include "experiments/study/report/reference_words.hpp"
 #include "experiments/study/report/selection.hpp"
 #include "experiments/study/report/step_panels.hpp"
 #include "experiments/study/report/time_panels.hpp"
@@ -211,11 +212,17 @@ class Figures {
 
   void error_against_step() {
     const auto quantities = defined({quantity::attitude_error(), quantity::position_error()});
+    const bool by_reference = std::any_of(study_.runs.begin(), study_.runs.end(), used_reference);
     Figure figure{.name = "error_against_step",
                   .title = "Error against the step",
-                  .caption = "The largest distance of each run from the exact motion, against its step; a motion "
-                             "without any error of one kind has no panel for it."};
-    if (quantities.empty()) return absent(figure, "no exact solution is known for these motions");
+                  .caption = fmt::format("The largest distance of each run from the exact motion{}, against its step; a motion "
+                                         "without any error of one kind has no panel for it.",
+                                         by_reference ? " or, where none is known, from the reference" : "")};
+    if (quantities.empty()) {
+      return absent(figure, by_reference ? "no exact solution is known for these motions, and their reference proves "
+                                           "too few digits"
+                                         : "no exact solution is known for these motions");
+    }
     if (!several_steps_) return absent(figure, "the study has one step size only; the table of runs has the errors");
     against_step(std::move(figure), quantities, true);
   }
