@@ -173,17 +173,18 @@ class Work {
 
   std::string csv() const {
     std::string text =
-        csv_row({"scenario", "motion", "error_of", "error_at_most", "method", "formulation", cost_.column,
-                 "is_upper_bound", "next_method", "next_formulation", "next_" + cost_.column});
+        csv_row({"scenario", "motion", "error_of", "error_at_most_rad", "error_at_most_m", "method", "formulation",
+                 cost_.column, "is_upper_bound", "next_method", "next_formulation", "next_" + cost_.column});
     for (const Motion& motion : motions_) {
       const Case& of = grouping_.cases[motion.case_index];
+      const bool rad = motion.quantity.unit == " rad";
       for (const auto& p : motion.envelope) {
         const auto method = [&](std::size_t i) { return grouping_.methods[motion.curves[i]->method_index]; };
         const auto variant = [&](std::size_t i) { return grouping_.variants[motion.curves[i]->variant_index]; };
-        text +=
-            csv_row({of.scenario, of.label(), motion.quantity.column, error_text(p.decade), method(p.curve),
-                     variant(p.curve), study::exact(p.cost), p.at_most ? "yes" : "no", p.next ? method(*p.next) : "",
-                     p.next ? variant(*p.next) : "", p.next ? study::exact(p.next_cost) : ""});
+        text += csv_row({of.scenario, of.label(), motion.quantity.column, rad ? error_text(p.decade) : "",
+                         rad ? "" : error_text(p.decade), method(p.curve), variant(p.curve), study::exact(p.cost),
+                         p.at_most ? "yes" : "no", p.next ? method(*p.next) : "", p.next ? variant(*p.next) : "",
+                         p.next ? study::exact(p.next_cost) : ""});
       }
     }
     return text;
