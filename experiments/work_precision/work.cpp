@@ -152,23 +152,25 @@ class Work {
 
   Table table() const {
     using Kind = Column::Kind;
-    Table table{
-        .caption = fmt::format("The cheapest method at each decade of error, by {}; ≤: no run was as bad", cost_.words),
-        .columns = {{"motion", "", Kind::name},
-                    {"error at most", "rad or m"},
-                    {"cheapest", "", Kind::text},
-                    {cost_.axis},
-                    {"next", "", Kind::text},
-                    {"times as much"}},
-        .rows = {}};
+    Table table{.caption = fmt::format(
+                    "The cheapest method at each decade of error, by {}; bound: its cheapest run is better than that",
+                    cost_.words),
+                .columns = {{"motion", "", Kind::name},
+                            {"error at most", "rad or m"},
+                            {"cheapest", "", Kind::text},
+                            {cost_.axis},
+                            {"bound", "", Kind::text},
+                            {"next", "", Kind::text},
+                            {"times as much"}},
+                .rows = {}};
     for (const Motion& motion : motions_) {
       for (const auto& p : motion.envelope) {
         table.rows.push_back({grouping_.cases[motion.case_index].label(), error_text(p.decade), label(motion, p.curve),
-                              (p.at_most ? "≤ " : "") + number(p.cost), p.next ? label(motion, *p.next) : "",
+                              number(p.cost), p.at_most ? "at most" : "", p.next ? label(motion, *p.next) : "",
                               p.next ? number(p.next_cost / p.cost) : ""});
       }
     }
-    return table;
+    return without_empty_columns(std::move(table));
   }
 
   std::string csv() const {
