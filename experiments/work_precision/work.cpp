@@ -324,7 +324,8 @@ Analysis work_against_error(const StudyView& study) {
   found.method = {
       "The error is the largest one that was seen (with samples = 1 the one at the end). Between two runs of a method "
       "its cost "
-      "for an error is read off the straight line of the logarithms; nothing is extrapolated: a cost marked ≤ is that "
+      "for an error is read off the straight line of the logarithms; nothing is extrapolated: a cost marked “at most” "
+      "is that "
       "of "
       "the method’s cheapest run, which is better than asked for. Errors of 1 rad (1 m) and more count for nothing."};
   if (!by_evaluations.empty()) {
