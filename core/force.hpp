@@ -73,6 +73,9 @@ class ForceModel {
   /// out of the BodyMotions, which saves a third of an RK4 step in body axes.
   virtual bool reads_rotation() const { return true; }
 
+  /// False when the wrench does not depend on velocities: a kick then takes one evaluation.
+  virtual bool reads_velocity() const { return true; }
+
   /// What it does to the body of that index.
   virtual Effect effect_on(std::size_t body) const = 0;
 };

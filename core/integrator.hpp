@@ -31,6 +31,7 @@ struct Declaration {
   int evaluations_per_step = 0;  ///< right-hand sides; 0: not constant, the method counts them
   bool multi_step = false;       ///< has a history, which an impact or a projection makes worthless
   bool lie_group = false;   ///< moves orientations by group steps: they stay on their manifold without projection
+  bool normalises = false;  ///< ends its own step with a normalisation
   /// Conserves every quadratic invariant of the flat ODE, as Gauss's methods do: |q|² and RᵀR among them.
   bool conserves_quadratics = false;
   bool symplectic = false;  ///< its map keeps the canonical two-form where forces have a potential

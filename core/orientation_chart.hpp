@@ -46,6 +46,14 @@ struct Chart<S, Orientation::quaternion> {
   static Value turned_in_world(const Value& q, const Quaternion<S>& d) { return product<S>(d, q); }
   static Value turned_in_body(const Value& q, const Quaternion<S>& d) { return product<S>(q, d); }
 
+  /// q d as q + q (d − 1), with 1 − d_w = |d_v|²/(1 + d_w): over many small turns the length of q keeps its digits, as
+  /// the round-off of |d| is not taken up.
+  static Value carried_in_body(const Value& q, const Quaternion<S>& d) {
+    if (!(d[0] > S(0))) return turned_in_body(q, d);
+    const S versine = d.template tail<3>().squaredNorm() / (S(1) + d[0]);
+    return q + product<S>(q, Quaternion<S>(-versine, d[1], d[2], d[3]));
+  }
+
   static S defect(const Value& q) {
     using std::abs, std::sqrt;
     return abs(sqrt(q.squaredNorm()) - S(1));
@@ -89,6 +97,12 @@ struct Chart<S, Orientation::matrix> {
 
   static Value turned_in_world(const Value& r, const Quaternion<S>& d) { return rotation_matrix<S>(d) * r; }
   static Value turned_in_body(const Value& r, const Quaternion<S>& d) { return r * rotation_matrix<S>(d); }
+
+  /// R dR as R + R (dR − 1), dR − 1 = 2 (w + v*) v*: over many small turns R keeps its digits.
+  static Value carried_in_body(const Value& r, const Quaternion<S>& d) {
+    const Matrix3<S> v = skew<S>(d.template tail<3>());
+    return r + r * (S(2) * (d[0] * v + v * v));
+  }
 
   static S defect(const Value& r) {
     using std::sqrt;

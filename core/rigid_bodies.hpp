@@ -57,7 +57,8 @@ concept MechanicalSystem = requires(const System& system, typename System::Scala
   system.bracket(theta, theta, xi);     ///< (0, a × b)
   system.carry_momentum(theta, xi, dy); ///< q ← (p + θ, R exp(θ)) and its momentum ← momentum + ξ, in the world
 
-  system.kick(t, h, dy);                ///< flow of the wrench alone over h, at rest in q
+  system.kick(t, h, dy);                ///< flow of the wrench alone over h, at rest in q, where v does not matter to it
+  system.kick(t, h, y, dy);             ///< adds h times the wrench and its power, both as they are in y
 };
 
 /// The constants of one body in the scalar S.
@@ -141,210 +142,48 @@ class RigidBodies final : public System<S> {
   // The group SO(3)ⁿ × R³ⁿ (Iserles, Munthe-Kaas, Nørsett & Zanna, Lie-group methods, Acta Numerica 2000).
 
   Tangent zero_tangent() const { return Tangent::Zero(this->layout().velocity_size); }
-
-  void twist(const Flat& y, Tangent& xi) const {
-    for (std::size_t i = 0; i < count(); ++i) {
-      const Layout::Slot s = slot(i);
-      const Vector a = load(y.data() + s.angular);
-      if constexpr (A == AngularState::momentum_world) {
-        store(angular_velocity_world(body(i), rotation(ChartOf::load(y.data() + s.orientation)), a), angular(xi, i));
-      } else {
-        store(a, angular(xi, i));
-      }
-      if (!pinned(i)) store(load(y.data() + s.velocity), linear(xi, i));
-    }
-  }
-
-  void retract(Flat& y, const Tangent& xi) const {
-    for (std::size_t i = 0; i < count(); ++i) {
-      S* c = y.data() + slot(i).orientation;
-      const Quaternion<S> turn = quaternion_from_rotation_vector<S>(load(angular(xi, i)));
-      ChartOf::store(in_body_axes ? ChartOf::turned_in_body(ChartOf::load(c), turn)
-                                  : ChartOf::turned_in_world(ChartOf::load(c), turn), c);
-      if (!pinned(i)) store(load(y.data() + slot(i).position) + load(linear(xi, i)), y.data() + slot(i).position);
-    }
-  }
+  void twist(const Flat& y, Tangent& xi) const;
+  void retract(Flat& y, const Tangent& xi) const;
 
   /// dexp⁻¹ of exp(θ) R is η − ½ θ × η + c θ × (θ × η), that of R exp(θ) has + ½; c = (1 − (θ/2) cot(θ/2))/θ².
-  void dexp_inverse(const Tangent& theta, const Tangent& eta, Tangent& out) const {
-    out = eta;
-    for (std::size_t i = 0; i < count(); ++i) {
-      const Vector t = load(angular(theta, i)), e = load(angular(eta, i));
-      const Vector te = t.cross(e);
-      const S half = in_body_axes ? S(0.5) : S(-0.5);
-      store(e + half * te + dexp_inverse_coefficient<S>(t.squaredNorm()) * t.cross(te), angular(out, i));
-    }
-  }
+  void dexp_inverse(const Tangent& theta, const Tangent& eta, Tangent& out) const;
 
   // The inertia map.
 
-  void wrench(S t, const Flat& y, Tangent& w) const {
-    w.setZero();
-    if (!this->has_forces()) return;
-    fill_motions(y.data());
-    fill_wrenches(t);
-    for (std::size_t i = 0; i < count(); ++i) {
-      store(wrenches_[i].torque, angular(w, i));
-      if (!pinned(i)) store(wrenches_[i].force, linear(w, i));
-    }
-  }
-
-  void momentum(const Flat& y, Tangent& p) const {
-    for (std::size_t i = 0; i < count(); ++i) {
-      const Layout::Slot s = slot(i);
-      const Matrix r = rotation(ChartOf::load(y.data() + s.orientation));
-      store(angular_momentum(body(i), r, load(y.data() + s.angular)), angular(p, i));
-      if (!pinned(i)) store(body(i).mass * load(y.data() + s.velocity), linear(p, i));
-    }
-  }
-
-  void set_momentum(const Tangent& p, Flat& y) const {
-    for (std::size_t i = 0; i < count(); ++i) {
-      const Layout::Slot s = slot(i);
-      const Matrix r = rotation(ChartOf::load(y.data() + s.orientation));
-      store(angular_state(body(i), r, load(angular(p, i))), y.data() + s.angular);
-      if (!pinned(i)) store(body(i).inverse_mass * load(linear(p, i)), y.data() + s.velocity);
-    }
-  }
+  void wrench(S t, const Flat& y, Tangent& w) const;
+  void momentum(const Flat& y, Tangent& p) const;
+  void set_momentum(const Tangent& p, Flat& y) const;
 
   // The body's frame, whatever the formulation, for methods whose source writes them there.
 
-  void body_twist(const Flat& y, Tangent& xi) const {
-    for (std::size_t i = 0; i < count(); ++i) {
-      const Layout::Slot s = slot(i);
-      const ChartValue c = ChartOf::load(y.data() + s.orientation);
-      store(angular_velocity_body(body(i), c, load(y.data() + s.angular)), angular(xi, i));
-      if (!pinned(i)) store(load(y.data() + s.velocity), linear(xi, i));
-    }
-  }
-
-  void set_body_twist(const Tangent& xi, Flat& y) const {
-    for (std::size_t i = 0; i < count(); ++i) {
-      const Layout::Slot s = slot(i);
-      Vector a = load(angular(xi, i));
-      if constexpr (A == AngularState::momentum_world) a = body(i).momentum(a);
-      if constexpr (!in_body_axes) a = rotation(ChartOf::load(y.data() + s.orientation)) * a;
-      store(a, y.data() + s.angular);
-      if (!pinned(i)) store(load(linear(xi, i)), y.data() + s.velocity);
-    }
-  }
-
-  void body_acceleration(const Flat& y, const Tangent& wrench, Tangent& rate) const {
-    for (std::size_t i = 0; i < count(); ++i) {
-      const Layout::Slot s = slot(i);
-      const Constants& b = body(i);
-      const ChartValue c = ChartOf::load(y.data() + s.orientation);
-      const Vector w = angular_velocity_body(b, c, load(y.data() + s.angular));
-      const Vector torque = rotation(c).transpose() * load(angular(wrench, i));
-      store(b.velocity(torque - w.cross(b.momentum(w))), angular(rate, i));
-      if (!pinned(i)) store(b.inverse_mass * load(linear(wrench, i)), linear(rate, i));
-    }
-  }
-
-  void retract_in_body(Flat& y, const Tangent& xi) const {
-    for (std::size_t i = 0; i < count(); ++i) {
-      S* c = y.data() + slot(i).orientation;
-      const Quaternion<S> turn = quaternion_from_rotation_vector<S>(load(angular(xi, i)));
-      ChartOf::store(ChartOf::turned_in_body(ChartOf::load(c), turn), c);
-      if (!pinned(i)) store(load(y.data() + slot(i).position) + load(linear(xi, i)), y.data() + slot(i).position);
-    }
-  }
+  void body_twist(const Flat& y, Tangent& xi) const;
+  void set_body_twist(const Tangent& xi, Flat& y) const;
+  void body_acceleration(const Flat& y, const Tangent& wrench, Tangent& rate) const;
+  void retract_in_body(Flat& y, const Tangent& xi) const;
 
   /// In increments, so that a free body keeps its momentum R I Ω whatever the defect of R, and no product with I and
   /// its inverse is repeated at every step.
-  void carry_momentum(const Tangent& theta, const Tangent& impulse, Flat& y) const {
-    for (std::size_t i = 0; i < count(); ++i) {
-      const Layout::Slot s = slot(i);
-      const Constants& b = body(i);
-      S* c = y.data() + s.orientation;
-      S* a = y.data() + s.angular;
-      const ChartValue old = ChartOf::load(c);
-      const Quaternion<S> turn = quaternion_from_rotation_vector<S>(load(angular(theta, i)));
-      const ChartValue now = ChartOf::turned_in_body(old, turn);
-      ChartOf::store(now, c);
-      const Vector torque = load(angular(impulse, i));
-      if constexpr (A == AngularState::momentum_world) {
-        store(load(a) + torque, a);
-      } else {
-        const Vector w = angular_velocity_body(b, old, load(a));
-        const Vector change = rotation(now).transpose() * torque + turning(conjugate<S>(turn), b.momentum(w));
-        const Vector dw = b.velocity(change);
-        if constexpr (in_body_axes) store(w + dw, a);
-        else store(load(a) + rotation(old) * Vector(dw + turning(turn, w + dw)), a);
-      }
-      if (!pinned(i)) {
-        S* p = y.data() + s.position;
-        S* v = y.data() + s.velocity;
-        store(load(p) + load(linear(theta, i)), p);
-        store(load(v) + body(i).inverse_mass * load(linear(impulse, i)), v);
-      }
-    }
-  }
-
-  void bracket(const Tangent& a, const Tangent& b, Tangent& out) const {
-    for (std::size_t i = 0; i < count(); ++i) {
-      store(load(angular(a, i)).cross(load(angular(b, i))), angular(out, i));
-      if (!pinned(i)) store(Vector::Zero(), linear(out, i));
-    }
-  }
+  void carry_momentum(const Tangent& theta, const Tangent& impulse, Flat& y) const;
+  void bracket(const Tangent& a, const Tangent& b, Tangent& out) const;
 
   // The split T + V: the wrench turns the momentum of bodies at rest, and bodies without a wrench move freely.
 
   /// v ← v + h M⁻¹ (f, τ), without the gyroscopic term, and the work of the wrench by the trapezoidal rule.
-  void kick(S t, S h, Flat& y) const {
-    if (!this->has_forces()) return;
-    fill_motions(y.data());
-    const S before = this->forces_do_work() ? power(t) : S(0);
-    fill_wrenches(t);
-    for (std::size_t i = 0; i < count(); ++i) {
-      const Layout::Slot s = slot(i);
-      const Matrix r = this->forces_exert_torques() ? rotation(ChartOf::load(y.data() + s.orientation))
-                                                    : Matrix(Matrix::Identity());
-      S* a = y.data() + s.angular;
-      if (this->forces_exert_torques()) store(load(a) + h * angular_state(body(i), r, wrenches_[i].torque), a);
-      if (!pinned(i)) {
-        S* v = y.data() + s.velocity;
-        store(load(v) + h * (wrenches_[i].force * body(i).inverse_mass), v);
-      }
-    }
-    if (this->forces_do_work()) {
-      fill_motions(y.data());
-      work_part(y) += h * (S(0.5) * (before + power(t)));
-    }
-  }
+  void kick(S t, S h, Flat& y) const;
+
+  /// The same increment of v with the wrench of the state `seen`, whose configuration is that of y, and its power in
+  /// that state: a stage of a rule for forces that depend on v.
+  void kick(S t, S h, const Flat& seen, Flat& y) const;
 
   /// Free motion over h: mass centres go straight, and each body turns as `rotor` says:
   /// Quaternion dq = rotor(constants, h, m) moves the angular momentum m, in principal axes, to that at the end of the
   /// step and returns the unit quaternion of the turn, so that R' = R dR in the same axes. constants.moments are the
-  /// principal moments. With momentum_world L stays as it is, to the bit.
+  /// principal moments. With momentum_world L stays as it is, to the bit. All else is moved by
+  /// increments, and Ω of velocity_world is that with R Ω = ω, so that the way into the body and back takes nothing:
+  /// I I⁻¹ is 1 to round-off only, RᵀR to its defect, and over many steps such factors would be a drift. For the same
+  /// reason R of a quaternion is here that of q/|q| always, the only one with R(q dq) = R(q) R(dq).
   template <class Rotor>
-  void free_flow(S h, Flat& y, Rotor&& rotor) const {
-    for (std::size_t i = 0; i < count(); ++i) {
-      const Layout::Slot s = slot(i);
-      const Constants& b = body(i);
-      S* c = y.data() + s.orientation;
-      S* a = y.data() + s.angular;
-      const ChartValue old = ChartOf::load(c);
-      Vector m = load(a);
-      if constexpr (in_body_axes) m = b.momentum(m);
-      else if constexpr (A == AngularState::velocity_world) m = b.momentum(rotation(old).transpose() * m);
-      else m = rotation(old).transpose() * m;
-      if (!b.principal) m = b.axes.transpose() * m;
-      Quaternion<S> turn = rotor(b, h, m);
-      if (!b.principal) {
-        m = b.axes * m;
-        turn.template tail<3>() = Vector(b.axes * turn.template tail<3>());
-      }
-      const ChartValue now = ChartOf::turned_in_body(old, turn);
-      ChartOf::store(now, c);
-      if constexpr (in_body_axes) store(b.velocity(m), a);
-      else if constexpr (A == AngularState::velocity_world) store(rotation(now) * b.velocity(m), a);
-      if (!pinned(i)) {
-        S* p = y.data() + s.position;
-        store(load(p) + h * load(y.data() + s.velocity), p);
-      }
-    }
-  }
+  void free_flow(S h, Flat& y, Rotor&& rotor) const;
 
   // ---- the erased interface ----------------------------------------------------------------------------------------
 
@@ -471,6 +310,13 @@ class RigidBodies final : public System<S> {
     else return b.velocity(rotation(c).transpose() * a);
   }
 
+  /// R⁻¹ a of the rotation of a quaternion, or by Cramer's rule of a stored matrix.
+  static Vector unturned(const Matrix& r, const Vector& a) {
+    if constexpr (O == Orientation::quaternion) return r.transpose() * a;
+    const Vector c0 = r.col(1).cross(r.col(2)), c1 = r.col(2).cross(r.col(0)), c2 = r.col(0).cross(r.col(1));
+    return Vector(c0.dot(a), c1.dot(a), c2.dot(a)) / c0.dot(r.col(0));
+  }
+
   /// Ω in body axes from an angular velocity a, in the frame of the formulation.
   static Vector body_velocity(const Matrix& r, const Vector& a) {
     if constexpr (A == AngularState::velocity_body) return a;
@@ -520,6 +366,22 @@ class RigidBodies final : public System<S> {
   void fill_wrenches(S t) const {
     for (auto& w : wrenches_) w = Wrench<S>{};
     for (const auto& force : this->forces()) force->add_wrench(t, motions_, wrenches_);
+  }
+
+  /// v ← v + h M⁻¹ (f, τ) with the wrenches that were filled last.
+  void push(S h, Flat& y) const {
+    for (std::size_t i = 0; i < count(); ++i) {
+      const Layout::Slot s = slot(i);
+      if (this->forces_exert_torques()) {
+        const Matrix r = rotation(ChartOf::load(y.data() + s.orientation));
+        S* a = y.data() + s.angular;
+        store(load(a) + h * angular_state(body(i), r, wrenches_[i].torque), a);
+      }
+      if (!pinned(i)) {
+        S* v = y.data() + s.velocity;
+        store(load(v) + h * (wrenches_[i].force * body(i).inverse_mass), v);
+      }
+    }
   }
 
   S power(S t) const {
@@ -643,3 +505,5 @@ auto visit_system(const System<S>& system, F&& f) {
 }
 
 }  // namespace polhode
+
+#include "core/rigid_bodies_motions.hpp"

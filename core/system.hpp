@@ -60,6 +60,7 @@ class System {
   bool forces_do_work() const { return forces_do_work_; }
   bool forces_exert_torques() const { return forces_exert_torques_; }
   bool forces_read_rotation() const { return forces_read_rotation_; }
+  bool forces_read_velocity() const { return forces_read_velocity_; }
 
   /// Registers a force beyond those that the problem names: before a run, never during one.
   void add_force(ForcePointer<S> force) {
@@ -68,6 +69,7 @@ class System {
       forces_exert_torques_ = forces_exert_torques_ || force->effect_on(i).torque;
     }
     forces_read_rotation_ = forces_read_rotation_ || force->reads_rotation();
+    forces_read_velocity_ = forces_read_velocity_ || force->reads_velocity();
     forces_.push_back(std::move(force));
   }
 
@@ -99,6 +101,7 @@ class System {
   bool forces_do_work_ = false;
   bool forces_exert_torques_ = false;
   bool forces_read_rotation_ = false;
+  bool forces_read_velocity_ = false;
 };
 
 /// Builds the instantiation that fits: one free body, or many. Throws std::invalid_argument, with the reason, for a

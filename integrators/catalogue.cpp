@@ -19,6 +19,23 @@
   METHOD(buss2) \
   METHOD(lie_midpoint) \
   METHOD(simo_wong) \
+  METHOD(implicit_midpoint) \
+  METHOD(gauss4) \
+  METHOD(gauss6) \
+  METHOD(dmv) \
+  METHOD(dmv4) \
+  METHOD(dmv6) \
+  METHOD(mclachlan_reich) \
+  METHOD(mclachlan_reich_yoshida4) \
+  METHOD(mclachlan_reich_suzuki4) \
+  METHOD(mclachlan_reich_kahan_li6) \
+  METHOD(symmetric_rotor2) \
+  METHOD(symmetric_rotor4) \
+  METHOD(no_squish) \
+  METHOD(exact_rotor) \
+  METHOD(exact_rotor_yoshida4) \
+  METHOD(exact_rotor_suzuki4) \
+  METHOD(exact_rotor_kahan_li6) \
   METHOD(recipe_ode) \
   METHOD(recipe_bullet) \
   METHOD(recipe_simbody) \

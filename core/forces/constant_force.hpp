@@ -56,6 +56,8 @@ class ConstantForce final : public ForceModel<S> {
     return p;
   }
 
+  bool reads_velocity() const override { return false; }
+
   Effect effect_on(std::size_t body) const override {
     for (const std::size_t i : bodies_) {
       if (i != body) continue;

@@ -35,6 +35,8 @@ class ConstantTorque final : public ForceModel<S> {
     return p;
   }
 
+  bool reads_velocity() const override { return false; }
+
   Effect effect_on(std::size_t body) const override {
     for (const std::size_t i : bodies_) {
       if (i == body) return {true, Vector3<double>::Zero()};

@@ -48,6 +48,7 @@ class LaneForce final : public ForceModel<Lanes> {
 
   bool internal() const override { return forces_.front()->internal(); }
   bool reads_rotation() const override { return rotation_; }
+  bool reads_velocity() const override { return forces_.front()->reads_velocity(); }
   Effect effect_on(std::size_t body) const override { return forces_.front()->effect_on(body); }
 
  private:

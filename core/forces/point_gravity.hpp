@@ -51,6 +51,8 @@ class PointGravity final : public ForceModel<S> {
   bool internal() const override { return both_free_; }
   bool reads_rotation() const override { return offset_; }
 
+  bool reads_velocity() const override { return false; }
+
   Effect effect_on(std::size_t body) const override {
     if (body == a_) return {!center_a_.isZero(0), std::nullopt};
     if (body == b_) return {!center_b_.isZero(0), std::nullopt};

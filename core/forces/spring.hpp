@@ -68,6 +68,7 @@ class Spring final : public ForceModel<S> {
   }
 
   bool internal() const override { return ends_.internal(); }
+  bool reads_velocity() const override { return damped_; }
   bool reads_rotation() const override { return does_work() || ends_.reads_rotation(); }
   Effect effect_on(std::size_t body) const override { return ends_.effect_on(body); }
 

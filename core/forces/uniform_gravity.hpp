@@ -48,6 +48,8 @@ class UniformGravity final : public ForceModel<S> {
     return std::any_of(loads_.begin(), loads_.end(), [](const Load& load) { return load.pinned; });
   }
 
+  bool reads_velocity() const override { return false; }
+
   Effect effect_on(std::size_t body) const override {
     for (const Load& load : loads_) {
       if (load.body != body) continue;

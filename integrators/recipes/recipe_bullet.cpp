@@ -54,7 +54,8 @@ IntegratorEntry recipe_bullet() {
        .summary = "Bullet: one Newton step of the implicit gyroscopic equation, then q' = exp(h w') q, normalised",
        .order = 1,
        .evaluations_per_step = 1,
-       .lie_group = true});
+       .lie_group = true,
+       .normalises = true});
 }
 
 }  // namespace polhode

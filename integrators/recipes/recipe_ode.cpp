@@ -12,7 +12,8 @@ IntegratorEntry recipe_ode() {
                                  .family = "engine recipe",
                                  .summary = "ODE: v' = v + h a, then q' = q + h/2 w' q, normalised",
                                  .order = 1,
-                                 .evaluations_per_step = 1});
+                                 .evaluations_per_step = 1,
+                                 .normalises = true});
 }
 
 }  // namespace polhode

@@ -28,7 +28,8 @@ IntegratorEntry recipe_simbody() {
                                      .family = "engine recipe",
                                      .summary = "Simbody: ODE's recipe in two half steps",
                                      .order = 1,
-                                     .evaluations_per_step = 2});
+                                     .evaluations_per_step = 2,
+                                     .normalises = true});
 }
 
 }  // namespace polhode

@@ -25,7 +25,7 @@ class Heun {
 };
 
 IntegratorEntry heun() {
-  return fixed_step<Heun>({.name = "heun",
+  return fixed_step<Heun, in_lanes>({.name = "heun",
                            .family = "textbook",
                            .summary = "y' = y + h/2 (f(t, y) + f(t + h, y + h f(t, y)))",
                            .order = 2,

@@ -1,34 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Heun's method: y' = y + h/2 (f(t, y) + f(t + h, y + h f(t, y))). Source: Hairer, Nørsett & Wanner I, II.1.
+// Ralston's method: y' = y + h/4 (k1 + 3 k2), k1 = f(t, y), k2 = f(t + 2h/3, y + 2h/3 k1).
+// Source: Ralston, Math. Comp. 16 (1962).
 #include "integrators/fixed_step.hpp"
 
 namespace polhode {
 
 template <class System>
-class Heun {
+class Ralston {
  public:
   using S = typename System::Scalar;
   using Flat = typename System::Flat;  // (q, v, work), contiguous
 
-  explicit Heun(const System& system) : k1_(system.zero()), k2_(system.zero()), end_(system.zero()) {}
+  explicit Ralston(const System& system) : k1_(system.zero()), k2_(system.zero()), inner_(system.zero()) {}
 
   void step(const System& system, S t, S h, Flat& y) {
     system.rate(t, y, k1_);
-    end_ = y + h * k1_;
-    system.rate(t + h, end_, k2_);
-    y += (h / S(2)) * (k1_ + k2_);
+    const S part = S(2) * h / S(3);
+    inner_ = y + part * k1_;
+    system.rate(t + part, inner_, k2_);
+    y += (h / S(4)) * (k1_ + S(3) * k2_);
   }
 
  private:
-  Flat k1_, k2_, end_;
+  Flat k1_, k2_, inner_;
 };
 
-IntegratorEntry heun() {
-  return fixed_step<Heun>({.name = "heun",
-                           .family = "textbook",
-                           .summary = "y' = y + h/2 (f(t, y) + f(t + h, y + h f(t, y)))",
-                           .order = 2,
-                           .evaluations_per_step = 2});
+IntegratorEntry ralston() {
+  return fixed_step<Ralston>({.name = "ralston",
+                              .family = "textbook",
+                              .summary = "y' = y + h/4 (k1 + 3 k2), k2 = f(t + 2h/3, y + 2h/3 k1)",
+                              .order = 2,
+                              .evaluations_per_step = 2});
 }
 
 }  // namespace polhode

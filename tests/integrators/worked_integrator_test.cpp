@@ -44,7 +44,7 @@ TEST(WorkedIntegrator, HasTheOrderItDeclares) {
   problem.starts.resize(1);
   problem.starts[0].angular_velocity = {1, 2, 0.5};
   const auto system = make_system<double>(problem, {});
-  const IntegratorEntry entry = heun();
+  const IntegratorEntry entry = ralston();
   const double order = std::log2(error(entry, *system, 0.01) / error(entry, *system, 0.005));
   EXPECT_NEAR(order, entry.declaration.order, 0.1);
 }

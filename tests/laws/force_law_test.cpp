@@ -293,6 +293,24 @@ TEST_P(ForceLaw, EffectTellsTheTruth) {
   });
 }
 
+// A wrench that reads no velocity is the same where velocities are no numbers at all.
+TEST_P(ForceLaw, ReadsVelocitiesWhereItSaysSo) {
+  for_every_sample([](const Sample&, const ForceModel<Real>& force) {
+    if (force.reads_velocity()) return;
+    const Motions motions = random_motions<Real>(6);
+    Motions still = motions;
+    for (auto& m : still) {
+      m.velocity.setConstant(std::numeric_limits<Real>::quiet_NaN());
+      m.angular_velocity.setConstant(std::numeric_limits<Real>::quiet_NaN());
+    }
+    const Wrenches expected = wrenches(force, motions), w = wrenches(force, still);
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      EXPECT_EQ(w[i].force, expected[i].force) << "body " << i;
+      EXPECT_EQ(w[i].torque, expected[i].torque) << "body " << i;
+    }
+  });
+}
+
 // A force that reads no rotation is the same where rotations and angular velocities are no numbers at all.
 TEST_P(ForceLaw, ReadsRotationsWhereItSaysSo) {
   for_every_sample([](const Sample&, const ForceModel<Real>& force) {

@@ -18,8 +18,8 @@ class IntegratorTrait : public OverTheCatalogue {
   /// method's way over 10 s. It stops at a deviation of more than 1. deviation(system, state) is asked after every
   /// `stride` steps.
   template <class Deviation>
-  double worst(const Formulation& f, int steps, const Deviation& deviation) const {
-    const double h = 0.05, t_end = adaptive() ? 10 : steps * h;
+  double worst(const Formulation& f, int steps, const Deviation& deviation, double h = 0.05) const {
+    const double t_end = adaptive() ? 10 : steps * h;
     const int stride = 10;
     const auto system = make_system<double>(free_top(), f);
     const auto integrator = make(*system, 1e-8, t_end);
@@ -51,7 +51,8 @@ class IntegratorTrait : public OverTheCatalogue {
       if (refuses(free_top(), f)) continue;
       SCOPED_TRACE(label(f));
       ++accepted;
-      const double now = worst(f, steps, deviation);
+      // Steps that are not small show what a method of high order does not keep.
+      const double now = worst(f, steps, deviation, is_declared ? 0.05 : 0.1);
       if (is_declared) {
         EXPECT_LT(now, limit);
       }
@@ -98,8 +99,8 @@ TEST_P(IntegratorTrait, SymmetricMethodsReturn) {
 // Without projection the orientation stays on its manifold to round-off by group steps, to the tolerance of the
 // iteration where quadratic invariants are conserved, and otherwise leaves it.
 TEST_P(IntegratorTrait, OrientationsStayOnTheirManifold) {
-  const bool stays = declared().lie_group || declared().conserves_quadratics;
-  expect_kept(stays, 1000, declared().lie_group ? 1e-12 : 1e-11, 1e-10,
+  const bool stays = declared().lie_group || declared().normalises || declared().conserves_quadratics;
+  expect_kept(stays, 1000, declared().conserves_quadratics ? 1e-11 : 1e-12, 1e-10,
               [](const System<double>& system, const State<double>& state) {
                 return system.measure(state.y).orientation_defect;
               });

@@ -128,11 +128,12 @@ class OverTheCatalogue : public testing::TestWithParam<std::string> {
   }
 
   /// The state of a run of one second from the start of the trial.
-  State<double> run(const System<double>& system, double tolerance, std::int64_t fixed_steps = 60) const {
-    State<double> state = system.start();
-    const auto integrator = make(system, tolerance);
+  template <class S>
+  State<S> run(const System<S>& system, double tolerance, std::int64_t fixed_steps = 60) const {
+    State<S> state = system.start();
+    const auto integrator = make<S>(system, tolerance);
     integrator->begin(state);
-    go(*integrator, state, 1, fixed_steps);
+    go(*integrator, state, 1, fixed_steps, adaptive());
     return state;
   }
 };

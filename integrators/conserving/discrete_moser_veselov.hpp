@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The discrete Moser–Veselov algorithm for the free rigid body, and what prepares its moments of inertia.
+//
+// One step with moments J finds the rotation R(ρ) of the unit quaternion ρ = (ρ0, ρ1, ρ2, ρ3) with
+//   h m1 = 2 J1 ρ0 ρ1 + 2 (J3 − J2) ρ2 ρ3, and cyclically,
+// that is h m* = R D − D Rᵀ with J_i = d_j + d_k, and takes m' = Rᵀ m, Q' = Q R. It keeps Q m, |m| and ½ m·J⁻¹m.
+// Sources: Moser & Veselov, Commun. Math. Phys. 139 (1991) 217; McLachlan & Zanna, Found. Comput. Math. 5 (2005) 87
+// (quaternions); Hairer & Vilmart, J. Phys. A 39 (2006) 13225, section 2.
+//
+// By backward error analysis the step is exact for a free body whose energy is a function of H = ½ m·J⁻¹m and
+// C = ½ |m|² (McLachlan & Zanna; Hairer & Vilmart, section 3). Hence moments J̃ with
+//   1/J̃_i = (1 + h² s3 + h⁴ s5)/J_i + h² d3 + h⁴ d5
+// make it of order 4 (s3, d3) or 6 (all four), while H, C and Q m stay. With e1, e2, e3 the elementary symmetric
+// functions of J:
+//   s3 = −(e2/3e3) H + (e1/6e3) C,  d3 = (e1/6e3) H − (1/3e3) C,
+//   60 e3² s5 = (2 e2² − e1 e3) H² + (8 e3 − 2 e1 e2) H C + (2 e1² − 6 e2) C²,
+//   60 e3² d5 = −(e1 e2 + 6 e3) H² + (8 e2 − e1²) H C − e1 C².
+// These follow by putting the Taylor series of the exact ρ into the equations above.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "integrators/conserving/rotor_splitting.hpp"
+
+namespace polhode {
+
+/// The step with moments j, by u = ρ/ρ0: j1 u1 + (j3 − j2) u2 u3 = (h/2)(1 + |u|²) m1, and cyclically, in Newton's
+/// iteration to round-off. The solution is the one on the branch from h = 0, which ends where the Jacobian does.
+template <class S>
+const char* moser_veselov_turn(const Vector3<S>& j, S h, Vector3<S>& m, Quaternion<S>& dq) {
+  using std::sqrt;
+  const Vector3<S> d(j[2] - j[1], j[0] - j[2], j[1] - j[0]);
+  const Vector3<S> b = (h / S(2)) * m;
+  const auto products = [&](const Vector3<S>& u) {
+    return Vector3<S>(d[0] * (u[1] * u[2]), d[1] * (u[2] * u[0]), d[2] * (u[0] * u[1]));
+  };
+  Vector3<S> u = b.cwiseQuotient(j);
+  u -= products(u).cwiseQuotient(j);
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    const S u2 = u.squaredNorm();
+    const Vector3<S> residual = (j.cwiseProduct(u) - b) + (products(u) - u2 * b);
+    // The rows of the Jacobian, less the common −2 b uᵀ first.
+    const Vector3<S> v = S(2) * u;
+    const Vector3<S> r0(j[0] - b[0] * v[0], d[0] * u[2] - b[0] * v[1], d[0] * u[1] - b[0] * v[2]);
+    const Vector3<S> r1(d[1] * u[2] - b[1] * v[0], j[1] - b[1] * v[1], d[1] * u[0] - b[1] * v[2]);
+    const Vector3<S> r2(d[2] * u[1] - b[2] * v[0], d[2] * u[0] - b[2] * v[1], j[2] - b[2] * v[2]);
+    const Vector3<S> c0 = r1.cross(r2), c1 = r2.cross(r0), c2 = r0.cross(r1);
+    const S determinant = r0.dot(c0);
+    const Vector3<S> delta = (residual[0] * c0 + residual[1] * c1 + residual[2] * c2) / determinant;
+    u -= delta;
+    // The error after a step is about the square of the step: stop when that is below round-off.
+    if (delta.squaredNorm() <= std::numeric_limits<S>::epsilon() / S(16) * u.squaredNorm()) {
+      if (!(determinant > S(0))) break;
+      const S length2 = S(1) + u.squaredNorm();
+      const Vector3<S> um = u.cross(m);
+      m += (S(2) / length2) * (u.cross(um) - um);  // Rᵀ m
+      const S scale = S(1) / sqrt(length2);
+      dq = Quaternion<S>(scale, scale * u[0], scale * u[1], scale * u[2]);
+      return nullptr;
+    }
+  }
+  return "the discrete Moser-Veselov equation has no solution near the motion: the step is too long";
+}
+
+/// The rotor of the order 2, 4 or 6.
+template <int order>
+struct MoserVeselov {
+  template <class S>
+  [[gnu::noinline]] static const char* turn(const BodyConstants<S>& body, S h, Vector3<S>& m, Quaternion<S>& dq) {
+    if constexpr (order == 2) {
+      return moser_veselov_turn(body.moments, h, m, dq);
+    } else {
+      const Vector3<S>&j = body.moments, &inverse = body.inverse_moments;
+      const S energy = inverse.dot(m.cwiseProduct(m)) / S(2), casimir = m.squaredNorm() / S(2);
+      const S e1 = j.sum(), e2 = j[0] * j[1] + j[1] * j[2] + j[2] * j[0];
+      const S per_e3 = inverse[0] * inverse[1] * inverse[2], h2 = h * h;
+      S s = (e1 * casimir - S(2) * e2 * energy) * (per_e3 / S(6)) * h2;
+      S d = (e1 * energy - S(2) * casimir) * (per_e3 / S(6)) * h2;
+      if constexpr (order == 6) {
+        const S e3 = j[0] * j[1] * j[2], h4 = h2 * h2 * (per_e3 * per_e3 / S(60));
+        const S hh = energy * energy, hc = energy * casimir, cc = casimir * casimir;
+        s += h4 * ((S(2) * e2 * e2 - e1 * e3) * hh + (S(8) * e3 - S(2) * e1 * e2) * hc + (S(2) * e1 * e1 - S(6) * e2) * cc);
+        d += h4 * ((S(8) * e2 - e1 * e1) * hc - (e1 * e2 + S(6) * e3) * hh - e1 * cc);
+      }
+      const Vector3<S> prepared = inverse + (s * inverse + Vector3<S>::Constant(d));
+      if (!(prepared.minCoeff() > S(0))) return "a prepared moment of inertia is not positive: the step is too long";
+      return moser_veselov_turn<S>(prepared.cwiseInverse(), h, m, dq);
+    }
+  }
+};
+
+}  // namespace polhode

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The discrete Moser–Veselov algorithm in the Strang splitting with kicks; of order 2, free or forced.
+#include "integrators/conserving/discrete_moser_veselov.hpp"
+
+namespace polhode {
+
+template <class System>
+using Dmv = RotorSplitting<System, MoserVeselov<2>>;
+
+IntegratorEntry dmv() {
+  return rotor_method<Dmv>({.name = "dmv",
+                            .family = "conserving",
+                            .summary = "kick, h m* = R D - D R^T and m' = R^T m (discrete Moser-Veselov), kick",
+                            .order = 2,
+                            .implicit = true,
+                            .lie_group = true,
+                            .symplectic = true,
+                            .symmetric = true,
+                            .conserves_energy = true,
+                            .conserves_momentum = true,
+                            .conserves_casimir = true});
+}
+
+}  // namespace polhode

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The exact free rotor: each step is the exact torque-free motion by elliptic functions, from the momentum at its start.
+// In float it is the motion in double, rounded; there is none in long double, where the elliptic functions have no
+// digits to offer. Source: Celledoni, Fassò, Säfström & Zanna, SIAM J. Sci. Comput. 30 (2008) 2084.
+#pragma once
+
+#include "core/free_top.hpp"
+#include "integrators/conserving/rotor_splitting.hpp"
+
+namespace polhode {
+
+/// The turn of the free top with these principal moments over h, from the momentum m, which becomes that after h.
+inline Quaternion<double> free_top_turn(const Vector3<double>& moments, double h, Vector3<double>& m) {
+  const FreeTop top(moments.asDiagonal(), identity_quaternion<double>(), m.cwiseQuotient(moments));
+  const FreeTop::Motion end = top.at(h);
+  m = end.angular_velocity_body.cwiseProduct(moments);
+  return end.orientation;
+}
+
+struct ExactRotor {
+  template <class S>
+  [[gnu::noinline]] static const char* turn(const BodyConstants<S>& body, S h, Vector3<S>& m, Quaternion<S>& dq) {
+    if (!m.allFinite()) return "the angular momentum is no number";
+    Vector3<double> end = m.template cast<double>();
+    dq = free_top_turn(body.moments.template cast<double>(), double(h), end).template cast<S>();
+    m = end.template cast<S>();
+    return nullptr;
+  }
+};
+
+template <class System>
+using ExactRotorMethod = RotorSplitting<System, ExactRotor>;
+
+/// An entry without long double.
+template <template <class> class Method>
+IntegratorEntry exact_rotor_method(Declaration declaration) {
+  IntegratorEntry entry = rotor_method<Method>(std::move(declaration));
+  entry.make_long_double = {};
+  return entry;
+}
+
+}  // namespace polhode

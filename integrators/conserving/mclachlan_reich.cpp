@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// McLachlan 1993, Reich 1994: kick(h/2), the three-rotation splitting of the free body over h, kick(h/2).
+#include "integrators/conserving/mclachlan_reich.hpp"
+
+namespace polhode {
+
+IntegratorEntry mclachlan_reich() {
+  return rotor_method<MclachlanReich>({.name = "mclachlan_reich",
+                                       .family = "conserving",
+                                       .summary = "kick, rotations about the axes 1 2 3 2 1, kick",
+                                       .order = 2,
+                                       .lie_group = true,
+                                       .symplectic = true,
+                                       .symmetric = true,
+                                       .conserves_momentum = true,
+                                       .conserves_casimir = true});
+}
+
+}  // namespace polhode

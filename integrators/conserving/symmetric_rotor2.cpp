@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The symmetric top and the rotation in the Strang splitting R(h/2) S(h) R(h/2), between two kicks of h/2.
+// Sources: Touma & Wisdom, Astron. J. 107 (1994) 1189; Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997) 5840.
+#include "integrators/conserving/symmetric_rotor.hpp"
+
+namespace polhode {
+
+struct StrangScheme {
+  template <class S>
+  static void compose(auto&& rotation, auto&& symmetric_top) {
+    rotation(S(0.5));
+    symmetric_top(S(1));
+    rotation(S(0.5));
+  }
+};
+
+template <class System>
+using SymmetricRotor2 = RotorSplitting<System, SymmetricRotor<StrangScheme>>;
+
+IntegratorEntry symmetric_rotor2() {
+  return rotor_method<SymmetricRotor2>({.name = "symmetric_rotor2",
+                                        .family = "conserving",
+                                        .summary = "kick, R(h/2) S(h) R(h/2) of a rotation and a symmetric top, kick",
+                                        .order = 2,
+                                        .lie_group = true,
+                                        .symplectic = true,
+                                        .symmetric = true,
+                                        .conserves_momentum = true,
+                                        .conserves_casimir = true});
+}
+
+}  // namespace polhode
