@@ -152,38 +152,41 @@ class Work {
 
   Table table() const {
     using Kind = Column::Kind;
-    Table table{
-        .caption = fmt::format("The cheapest method at each decade of error, by {}; ≤: no run was as bad", cost_.words),
-        .columns = {{"motion", "", Kind::name},
-                    {"error at most", "rad or m"},
-                    {"cheapest", "", Kind::text},
-                    {cost_.axis},
-                    {"next", "", Kind::text},
-                    {"times as much"}},
-        .rows = {}};
+    Table table{.caption = fmt::format(
+                    "The cheapest method at each decade of error, by {}; bound: its cheapest run is better than that",
+                    cost_.words),
+                .columns = {{"motion", "", Kind::name},
+                            {"error at most", "rad or m"},
+                            {"cheapest", "", Kind::text},
+                            {cost_.axis},
+                            {"bound", "", Kind::text},
+                            {"next", "", Kind::text},
+                            {"times as much"}},
+                .rows = {}};
     for (const Motion& motion : motions_) {
       for (const auto& p : motion.envelope) {
         table.rows.push_back({grouping_.cases[motion.case_index].label(), error_text(p.decade), label(motion, p.curve),
-                              (p.at_most ? "≤ " : "") + number(p.cost), p.next ? label(motion, *p.next) : "",
+                              number(p.cost), p.at_most ? "at most" : "", p.next ? label(motion, *p.next) : "",
                               p.next ? number(p.next_cost / p.cost) : ""});
       }
     }
-    return table;
+    return without_empty_columns(std::move(table));
   }
 
   std::string csv() const {
     std::string text =
-        csv_row({"scenario", "motion", "error_of", "error_at_most", "method", "formulation", cost_.column,
-                 "is_upper_bound", "next_method", "next_formulation", "next_" + cost_.column});
+        csv_row({"scenario", "motion", "error_of", "error_at_most_rad", "error_at_most_m", "method", "formulation",
+                 cost_.column, "is_upper_bound", "next_method", "next_formulation", "next_" + cost_.column});
     for (const Motion& motion : motions_) {
       const Case& of = grouping_.cases[motion.case_index];
+      const bool rad = motion.quantity.unit == " rad";
       for (const auto& p : motion.envelope) {
         const auto method = [&](std::size_t i) { return grouping_.methods[motion.curves[i]->method_index]; };
         const auto variant = [&](std::size_t i) { return grouping_.variants[motion.curves[i]->variant_index]; };
-        text +=
-            csv_row({of.scenario, of.label(), motion.quantity.column, error_text(p.decade), method(p.curve),
-                     variant(p.curve), study::exact(p.cost), p.at_most ? "yes" : "no", p.next ? method(*p.next) : "",
-                     p.next ? variant(*p.next) : "", p.next ? study::exact(p.next_cost) : ""});
+        text += csv_row({of.scenario, of.label(), motion.quantity.column, rad ? error_text(p.decade) : "",
+                         rad ? "" : error_text(p.decade), method(p.curve), variant(p.curve), study::exact(p.cost),
+                         p.at_most ? "yes" : "no", p.next ? method(*p.next) : "", p.next ? variant(*p.next) : "",
+                         p.next ? study::exact(p.next_cost) : ""});
       }
     }
     return text;
@@ -321,7 +324,8 @@ Analysis work_against_error(const StudyView& study) {
   found.method = {
       "The error is the largest one that was seen (with samples = 1 the one at the end). Between two runs of a method "
       "its cost "
-      "for an error is read off the straight line of the logarithms; nothing is extrapolated: a cost marked ≤ is that "
+      "for an error is read off the straight line of the logarithms; nothing is extrapolated: a cost marked “at most” "
+      "is that "
       "of "
       "the method’s cheapest run, which is better than asked for. Errors of 1 rad (1 m) and more count for nothing."};
   if (!by_evaluations.empty()) {
