@@ -9,6 +9,7 @@
 #include <set>
 
 #include "experiments/study/csv.hpp"
+#include "experiments/study/declared_order.hpp"
 #include "experiments/study/order_estimate.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/report/curves.hpp"
@@ -32,24 +33,6 @@ struct Order {
   OrderEstimate estimate;
   OrderVerdict verdict;
 };
-
-bool torque_acts(const Scenario& scenario, const Formulation& formulation) {
-  const auto system = make_system<double>(scenario.problem, formulation);
-  for (std::size_t i = 0; i < system->moving(); ++i) {
-    for (const auto& force : system->forces()) {
-      if (force->effect_on(i).torque) return true;
-    }
-  }
-  return false;
-}
-
-/// What a fixed order is declared for this motion: bodies are free without forces, and their attitude without torques.
-std::optional<double> declared_order(const Declaration& method, const Scenario& scenario, const RunConfig& config,
-                                     bool attitude) {
-  const bool free = scenario.problem.forces.empty() || (attitude && !torque_acts(scenario, config.formulation));
-  const int order = free && method.free_order > 0 ? method.free_order : method.order;
-  return order == Declaration::exact_order ? std::nullopt : std::optional<double>(order);
-}
 
 std::vector<LadderPoint> ladder(const Curve& curve, const Quantity& quantity) {
   std::vector<LadderPoint> points;

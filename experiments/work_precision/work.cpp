@@ -11,12 +11,14 @@
 #include <utility>
 
 #include "experiments/study/csv.hpp"
+#include "experiments/study/declared_order.hpp"
 #include "experiments/study/envelope.hpp"
 #include "experiments/study/report/axis.hpp"
 #include "experiments/study/report/curves.hpp"
 #include "experiments/study/report/figure_layout.hpp"
 #include "experiments/study/report/figure_style.hpp"
 #include "experiments/study/report/notation.hpp"
+#include "integrators/catalogue.hpp"
 
 namespace polhode::study {
 namespace {
@@ -49,8 +51,16 @@ bool measured(const Curve& curve, const Quantity& quantity) {
   return std::any_of(curve.runs.begin(), curve.runs.end(), [&](const auto* run) { return value(*run, quantity); });
 }
 
-/// Round-off at every step, from the largest on: for this motion the method is no approximation.
-bool is_exact(const Curve& curve, const Quantity& quantity) {
+/// By its own declaration, or at round-off at every step: for this motion the method is no approximation.
+bool is_exact(const StudyView& study, const Curve& curve, const Quantity& quantity) {
+  const auto& config = curve.runs.front()->config;
+  const auto* entry = find_integrator(config.integrator);
+  const auto scenario = std::find_if(study.scenarios.begin(), study.scenarios.end(),
+                                     [&](const auto& s) { return s.name == config.scenario; });
+  if (entry != nullptr && scenario != study.scenarios.end() && !curve.adaptive &&
+      !declared_order(entry->declaration, *scenario, config, quantity.unit == " rad")) {
+    return true;
+  }
   constexpr double near = 10;
   return curve.runs.size() > 1 && std::all_of(curve.runs.begin(), curve.runs.end(), [&](const auto* run) {
            const auto error = value(*run, quantity);
@@ -66,7 +76,7 @@ std::vector<WorkPoint> work_points(const Curve& curve, const Quantity& quantity,
   return points;
 }
 
-std::vector<Motion> motions_of(const Grouping& grouping, const Cost& cost) {
+std::vector<Motion> motions_of(const StudyView& study, const Grouping& grouping, const Cost& cost) {
   std::vector<Motion> motions;
   for (std::size_t c = 0; c < grouping.cases.size(); ++c) {
     for (const auto& quantity : {quantity::attitude_error(), quantity::position_error()}) {
@@ -80,7 +90,7 @@ std::vector<Motion> motions_of(const Grouping& grouping, const Cost& cost) {
         const bool costs = std::any_of(work.begin(), work.end(), [](const auto& p) { return p.cost > 0; });
         if (!costs)
           motion.without.push_back(&curve);
-        else if (is_exact(curve, quantity))
+        else if (is_exact(study, curve, quantity))
           motion.exact.push_back(&curve);
         else
           motion.curves.push_back(&curve), points.push_back(std::move(work));
@@ -114,8 +124,8 @@ std::vector<Reign> reigns(const std::vector<EnvelopePoint>& envelope) {
 
 class Work {
  public:
-  Work(const Grouping& grouping, const Cost& cost)
-      : grouping_(grouping), cost_(cost), motions_(motions_of(grouping, cost)) {}
+  Work(const StudyView& study, const Grouping& grouping, const Cost& cost)
+      : grouping_(grouping), cost_(cost), motions_(motions_of(study, grouping, cost)) {}
 
   bool empty() const { return motions_.empty(); }
 
@@ -139,9 +149,8 @@ class Work {
       for (const auto* curve : motion.without) without.insert(grouping_.methods[curve->method_index]);
     }
     for (const auto& [labels, cases] : exact) {
-      all.push_back(fmt::format(
-          "{} {} at round-off at every step on {}: no approximation competes, so the envelope is that of the others.",
-          words(labels), labels.size() == 1 ? "is" : "are", words(cases)));
+      all.push_back(fmt::format("{} {} exact on {}: no approximation competes, so the envelope is that of the others.",
+                                words(labels), labels.size() == 1 ? "is" : "are", words(cases)));
     }
     if (!without.empty()) {
       all.push_back(fmt::format("{} count no {} and do not stand against them.",
@@ -312,7 +321,7 @@ constexpr const char* reading =
 Analysis work_against_error(const StudyView& study) {
   const Grouping grouping = group(study);
   Analysis found{.heading = "The cheapest method for an error"};
-  const Work by_evaluations(grouping, right_hand_sides), by_time(grouping, wall_time);
+  const Work by_evaluations(study, grouping, right_hand_sides), by_time(study, grouping, wall_time);
   found.sentences = by_evaluations.sentences();
   for (auto& text : by_evaluations.outside()) found.sentences.push_back(std::move(text));
   found.files.push_back({"envelope.csv", by_evaluations.csv()});

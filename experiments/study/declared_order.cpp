@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/declared_order.hpp"
+
+namespace polhode::study {
+namespace {
+
+bool torque_acts(const Scenario& scenario, const Formulation& formulation) {
+  const auto system = make_system<double>(scenario.problem, formulation);
+  for (std::size_t i = 0; i < system->moving(); ++i) {
+    for (const auto& force : system->forces()) {
+      if (force->effect_on(i).torque) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+std::optional<double> declared_order(const Declaration& method, const Scenario& scenario, const RunConfig& config,
+                                     bool attitude) {
+  const bool free = scenario.problem.forces.empty() || (attitude && !torque_acts(scenario, config.formulation));
+  const int order = free && method.free_order > 0 ? method.free_order : method.order;
+  return order == Declaration::exact_order ? std::nullopt : std::optional<double>(order);
+}
+
+}  // namespace polhode::study
