@@ -17,7 +17,11 @@
 namespace polhode::study {
 namespace {
 
-std::string line(const std::string& name, const std::string& text) { return fmt::format("  {:<22} {}\n", name, text); }
+constexpr std::size_t name_width = 30;  // of the longest name
+
+std::string line(const std::string& name, const std::string& text) {
+  return fmt::format("  {:<{}} {}\n", name, name_width, text);
+}
 
 std::string integrators() {
   std::string text;

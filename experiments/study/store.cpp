@@ -98,6 +98,9 @@ std::map<std::string, double> unpack(const std::string& text) {
   return values;
 }
 
+/// How long another program that looks into the store may hold it.
+constexpr int patience_ms = 5000;
+
 }  // namespace
 
 void Store::Close::operator()(sqlite3* db) const { sqlite3_close(db); }
@@ -107,7 +110,7 @@ Store::Store(const std::filesystem::path& folder) : path_(folder / file_name) {
   const int code = sqlite3_open(path_.c_str(), &db);
   db_.reset(db);
   if (code != SQLITE_OK) fail(path_, db);
-  sqlite3_busy_timeout(db, 5000);
+  sqlite3_busy_timeout(db, patience_ms);
   // A commit survives the death of the process without waiting for the disk; the disk is waited for at checkpoints.
   execute("PRAGMA journal_mode=WAL");
   execute("PRAGMA synchronous=NORMAL");
@@ -218,6 +221,7 @@ std::set<std::string> Store::ids_in(const std::filesystem::path& folder) {
   const int code = sqlite3_open_v2(path.c_str(), &db, SQLITE_OPEN_READWRITE, nullptr);
   const std::unique_ptr<sqlite3, Close> guard(db);
   if (code != SQLITE_OK) fail(path, db);
+  sqlite3_busy_timeout(db, patience_ms);
   // A program killed at once leaves a store without its table.
   Statement table(path, db, "SELECT name FROM sqlite_master WHERE name = 'runs'");
   if (!table.step()) return ids;
