@@ -48,14 +48,14 @@ System<S>::System(std::vector<Problem> problems, const Formulation& formulation)
 
 template <class S>
 BodyConstants<S>::BodyConstants(const Body& b)
-    : mass(S(b.mass)),
+    : principal(b.inertia.isDiagonal(0)),
+      pinned(b.pinned),
       inverse_mass(S(1) / S(b.mass)),
+      mass(S(b.mass)),
       inertia(b.inertia.cast<S>()),
       inverse_inertia(inertia.inverse()),
       axes(Matrix3<S>::Identity()),
-      center_of_mass(b.center_of_mass.cast<S>()),
-      principal(b.inertia.isDiagonal(0)),
-      pinned(b.pinned) {
+      center_of_mass(b.center_of_mass.cast<S>()) {
   if (principal) {
     moments = inertia.diagonal();
   } else {
@@ -108,7 +108,7 @@ Value start_of(const std::vector<Problem>& problems, std::size_t body, Member me
 
 template <class S, Orientation O, AngularState A, BodyCount N>
 RigidBodies<S, O, A, N>::RigidBodies(std::vector<Problem> problems, const Formulation& formulation)
-    : System<S>(std::move(problems), formulation) {
+    : Base(std::move(problems), formulation) {
   for (std::size_t i = 0; i < this->moving(); ++i) bodies_.push_back(constants_of<S>(this->problems(), i));
   const std::size_t all = this->problem().bodies.size();
   motions_.resize(all, {Vector::Zero(), Matrix::Identity(), Vector::Zero(), Vector::Zero()});
@@ -122,8 +122,7 @@ RigidBodies<S, O, A, N>::RigidBodies(std::vector<Problem> problems, const Formul
 
 template <class S, Orientation O, AngularState A, BodyCount N>
 void RigidBodies<S, O, A, N>::full_rate(S t, const S* y, S* dy) const {
-  if constexpr (is_one) flattened_rate(t, y, dy);
-  else rate_of<true, true>(t, y, dy);
+  rate_of<true, true>(t, y, dy);
 }
 template <class S, Orientation O, AngularState A, BodyCount N>
 void RigidBodies<S, O, A, N>::velocity_rate(S t, const S* y, S* dy) const {
@@ -187,20 +186,6 @@ BodySnapshot<S> RigidBodies<S, O, A, N>::snapshot(const VectorX<S>& flat, std::s
 template <class S, Orientation O, AngularState A, BodyCount N>
 void RigidBodies<S, O, A, N>::project(VectorX<S>& y) const {
   project_flat(y.data());
-}
-
-/// build<O, A>() of the formulation.
-template <class Build>
-auto in_formulation(const Formulation& formulation, const Build& build) {
-  const auto chart = [&]<Orientation O>() {
-    switch (formulation.angular_state) {
-      case AngularState::velocity_world: return build.template operator()<O, AngularState::velocity_world>();
-      case AngularState::velocity_body: return build.template operator()<O, AngularState::velocity_body>();
-      default: return build.template operator()<O, AngularState::momentum_world>();
-    }
-  };
-  return formulation.orientation == Orientation::quaternion ? chart.template operator()<Orientation::quaternion>()
-                                                            : chart.template operator()<Orientation::matrix>();
 }
 
 template <class S>

@@ -14,6 +14,7 @@
 
 #include <array>
 #include <concepts>
+#include <functional>
 #include <stdexcept>
 #include <type_traits>
 #include <vector>
@@ -64,21 +65,25 @@ concept MechanicalSystem = requires(const System& system, typename System::Scala
 /// The constants of one body in the scalar S.
 template <class S>
 struct BodyConstants {
-  S mass{}, inverse_mass{};
-  Matrix3<S> inertia, inverse_inertia;
-  Vector3<S> moments, inverse_moments;  ///< principal
-  Matrix3<S> axes;                      ///< principal axes as columns, a rotation
-  Vector3<S> center_of_mass;
+  // What a rate of a free body reads stands together, in one line of the cache.
   bool principal = true;  ///< body axes are principal axes: the products below are three multiplications
   bool pinned = false;
+  S inverse_mass{};
+  Vector3<S> moments, inverse_moments;  ///< principal
+  S mass{};
+  Matrix3<S> inertia, inverse_inertia;
+  Matrix3<S> axes;                      ///< principal axes as columns, a rotation
+  Vector3<S> center_of_mass;
 
   BodyConstants() = default;
   explicit BodyConstants(const Body& b);
   Vector3<S> momentum(const Vector3<S>& w) const {
-    return principal ? Vector3<S>(moments.cwiseProduct(w)) : Vector3<S>(inertia * w);
+    if (principal) [[likely]] return moments.cwiseProduct(w);
+    return inertia * w;
   }
   Vector3<S> velocity(const Vector3<S>& l) const {
-    return principal ? Vector3<S>(inverse_moments.cwiseProduct(l)) : Vector3<S>(inverse_inertia * l);
+    if (principal) [[likely]] return inverse_moments.cwiseProduct(l);
+    return inverse_inertia * l;
   }
 };
 
@@ -92,9 +97,57 @@ S dexp_inverse_coefficient(S theta2) {
   return select(theta2 < S(1e-2), series, S((S(1) - half / tan(half)) / theta2));
 }
 
-template <class S, Orientation O, AngularState A, BodyCount N>
-class RigidBodies final : public System<S> {
+/// (constants, h, m): what a rotor is to free_flow().
+template <class S>
+using Rotor = std::function<Quaternion<S>(const BodyConstants<S>&, S, Vector3<S>&)>;
+
+/// Many bodies, or any number in float and long double, whatever the formulation: the concept with one virtual call for
+/// each operation on all the bodies. A method is compiled for it once; for one body such a call would cost as much as
+/// the work, so that one body is compiled for each formulation, and inlines.
+template <class S>
+class ManyBodies : public System<S> {
  public:
+  using Flat = VectorX<S>;
+  using Tangent = VectorX<S>;
+  static constexpr bool is_one = false;
+
+  Flat zero() const { return Flat::Zero(this->layout().size()); }
+  Tangent zero_tangent() const { return Tangent::Zero(this->layout().velocity_size); }
+  auto configuration_part(Flat& y) const { return y.head(this->layout().configuration_size); }
+  auto velocity_part(Flat& y) const { return y.segment(this->layout().configuration_size, this->layout().velocity_size); }
+  S& work_part(Flat& y) const { return y[y.size() - 1]; }
+
+  using System<S>::rate;
+  virtual void rate(S t, const Flat& y, Flat& dy) const = 0;
+  virtual void acceleration(S t, const Flat& y, Flat& dy) const = 0;
+  virtual void configuration_rate(S t, const Flat& y, Flat& dy) const = 0;
+  virtual void twist(const Flat& y, Tangent& xi) const = 0;
+  virtual void retract(Flat& y, const Tangent& xi) const = 0;
+  virtual void dexp_inverse(const Tangent& theta, const Tangent& eta, Tangent& out) const = 0;
+  virtual void wrench(S t, const Flat& y, Tangent& w) const = 0;
+  virtual void momentum(const Flat& y, Tangent& p) const = 0;
+  virtual void set_momentum(const Tangent& p, Flat& y) const = 0;
+  virtual void body_twist(const Flat& y, Tangent& xi) const = 0;
+  virtual void set_body_twist(const Tangent& xi, Flat& y) const = 0;
+  virtual void body_acceleration(const Flat& y, const Tangent& wrench, Tangent& rate) const = 0;
+  virtual void retract_in_body(Flat& y, const Tangent& xi) const = 0;
+  virtual void carry_momentum(const Tangent& theta, const Tangent& impulse, Flat& y) const = 0;
+  virtual void bracket(const Tangent& a, const Tangent& b, Tangent& out) const = 0;
+  virtual void kick(S t, S h, Flat& y) const = 0;
+  virtual void kick(S t, S h, const Flat& seen, Flat& y) const = 0;
+  virtual void free_flow(S h, Flat& y, const Rotor<S>& rotor) const = 0;
+  virtual Measurement<S> measure_flat(const S* y) const = 0;
+  virtual void project_flat(S* y) const = 0;
+
+ protected:
+  using System<S>::System;
+};
+
+/// The members that ManyBodies declares override it; those of one body are called by their concrete type alone.
+template <class S, Orientation O, AngularState A, BodyCount N>
+class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<S>, ManyBodies<S>> {
+ public:
+  using Base = std::conditional_t<N == BodyCount::one, System<S>, ManyBodies<S>>;
   using Scalar = S;
   using Vector = Vector3<S>;
   using Matrix = Matrix3<S>;
@@ -182,16 +235,19 @@ class RigidBodies final : public System<S> {
   /// increments, and Ω of velocity_world is that with R Ω = ω, so that the way into the body and back takes nothing:
   /// I I⁻¹ is 1 to round-off only, RᵀR to its defect, and over many steps such factors would be a drift. For the same
   /// reason R of a quaternion is here that of q/|q| always, the only one with R(q dq) = R(q) R(dq).
-  template <class Rotor>
-  void free_flow(S h, Flat& y, Rotor&& rotor) const;
+  template <class AnyRotor>
+  void free_flow(S h, Flat& y, AnyRotor&& rotor) const;
+  void free_flow(S h, Flat& y, const Rotor<S>& rotor) const {
+    if constexpr (!is_one) free_flow<const Rotor<S>&>(h, y, rotor);
+  }
 
   // ---- the erased interface ----------------------------------------------------------------------------------------
 
-  void rate(S t, const S* y, S* dy) const override { full_rate(t, y, dy); }
-  State<S> start() const override;
-  Measurement<S> measure(const VectorX<S>& y) const override;
-  BodySnapshot<S> snapshot(const VectorX<S>& y, std::size_t body) const override;
-  void project(VectorX<S>& y) const override;
+  void rate(S t, const S* y, S* dy) const { full_rate(t, y, dy); }
+  State<S> start() const;
+  Measurement<S> measure(const VectorX<S>& y) const;
+  BodySnapshot<S> snapshot(const VectorX<S>& y, std::size_t body) const;
+  void project(VectorX<S>& y) const;
 
   /// What measure() and project() do, on the bare numbers, for callers that know the concrete type.
   Measurement<S> measure_flat(const S* y) const {
@@ -237,12 +293,7 @@ class RigidBodies final : public System<S> {
   /// bodies are compiled once, which keeps the build of a method short.
   static constexpr bool inlines = is_one;
 
-  POLHODE_FLATTEN void flattened_rate(S t, const S* y, S* dy) const
-    requires(is_one)
-  {
-    rate_of<true, true>(t, y, dy);
-  }
-  void full_rate(S t, const S* y, S* dy) const;
+  POLHODE_FLATTEN void full_rate(S t, const S* y, S* dy) const;
   void velocity_rate(S t, const S* y, S* dy) const;
   void kinematic_rate(S t, const S* y, S* dy) const;
 
@@ -392,10 +443,10 @@ class RigidBodies final : public System<S> {
     return p;
   }
 
-  /// dΩ/dt of a body under the torque m about its reference point, body axes.
-  Vector angular_rate_body(const Constants& b, const Vector& w, Vector m) const {
-    if (this->formulation().gyroscopic) m -= w.cross(b.momentum(w));
-    return b.velocity(m);
+  /// IΩ × Ω in body axes, or nothing where the formulation leaves it out.
+  Vector gyroscopic_torque(const Constants& b, const Vector& w) const {
+    if (this->formulation().gyroscopic) [[likely]] return b.momentum(w).cross(w);
+    return Vector::Zero();
   }
 
   /// dω/dt, or dL/dt, of a body with rotation r under the torque about its reference point; null: no torque.
@@ -405,10 +456,8 @@ class RigidBodies final : public System<S> {
     } else {
       if (orthonormal()) {  // R RᵀR = R: the products with R around the gyroscopic term cancel
         const Vector w = r.transpose() * a;
-        Vector m = torque ? Vector(r.transpose() * *torque) : Vector(Vector::Zero());
-        if (this->formulation().gyroscopic) m -= w.cross(b.momentum(w));
-        else if (!torque) return m;
-        return r * b.velocity(m);
+        const Vector m = gyroscopic_torque(b, w);
+        return r * b.velocity(torque ? Vector(r.transpose() * *torque + m) : m);
       }
       Vector m = torque ? *torque : Vector(Vector::Zero());
       if (this->formulation().gyroscopic) {
@@ -443,8 +492,8 @@ class RigidBodies final : public System<S> {
       }
       if constexpr (in_body_axes) {  // the matrix is needed for torques only
         if constexpr (WithVelocity) {
-          const Vector m = torque ? Vector(rotation_now().transpose() * *torque) : Vector(Vector::Zero());
-          store(angular_rate_body(b, a, m), dy + s.angular);
+          const Vector m = gyroscopic_torque(b, a);
+          store(b.velocity(torque ? Vector(rotation_now().transpose() * *torque + m) : m), dy + s.angular);
         }
       } else {
         const Matrix r = rotation_now();
@@ -480,28 +529,30 @@ inline bool fits_one_body_form(const Problem& problem) {
   return problem.bodies.size() == 1 && !problem.bodies.front().pinned;
 }
 
-/// Calls f with the concrete system behind the erased one.
+/// build<O, A>() of the formulation.
+template <class Build>
+auto in_formulation(const Formulation& formulation, const Build& build) {
+  const auto chart = [&]<Orientation O>() {
+    switch (formulation.angular_state) {
+      case AngularState::velocity_world: return build.template operator()<O, AngularState::velocity_world>();
+      case AngularState::velocity_body: return build.template operator()<O, AngularState::velocity_body>();
+      default: return build.template operator()<O, AngularState::momentum_world>();
+    }
+  };
+  return formulation.orientation == Orientation::quaternion ? chart.template operator()<Orientation::quaternion>()
+                                                            : chart.template operator()<Orientation::matrix>();
+}
+
+/// Calls f with the system behind the erased one: that of one body in its formulation, or ManyBodies.
 template <class S, class F>
 auto visit_system(const System<S>& system, F&& f) {
-  const auto with = [&]<Orientation O, AngularState A>() {
-    if constexpr (has_one_body_form<S>) {
-      if (is_lanes<S> || fits_one_body_form(system.problem())) {
-        return f(static_cast<const RigidBodies<S, O, A, BodyCount::one>&>(system));
-      }
-    }
-    if constexpr (!is_lanes<S>) return f(static_cast<const RigidBodies<S, O, A, BodyCount::many>&>(system));
-    else throw std::logic_error("an ensemble is of single bodies");
+  const auto many = [&](auto& g) { return g(static_cast<const ManyBodies<S>&>(system)); };
+  const auto one = [&]<Orientation O, AngularState A>() {
+    return f(static_cast<const RigidBodies<S, O, A, BodyCount::one>&>(system));
   };
-  const auto with_chart = [&]<Orientation O>() {
-    switch (system.formulation().angular_state) {
-      case AngularState::velocity_world: return with.template operator()<O, AngularState::velocity_world>();
-      case AngularState::velocity_body: return with.template operator()<O, AngularState::velocity_body>();
-      default: return with.template operator()<O, AngularState::momentum_world>();
-    }
-  };
-  return system.formulation().orientation == Orientation::quaternion
-             ? with_chart.template operator()<Orientation::quaternion>()
-             : with_chart.template operator()<Orientation::matrix>();
+  if constexpr (!has_one_body_form<S>) return many(f);
+  else if constexpr (is_lanes<S>) return in_formulation(system.formulation(), one);
+  else return fits_one_body_form(system.problem()) ? in_formulation(system.formulation(), one) : many(f);
 }
 
 }  // namespace polhode

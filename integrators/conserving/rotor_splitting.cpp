@@ -16,17 +16,15 @@ const char* KickFlowKick<System>::step(const System& system, S t, S h, Flat& y, 
   return failure ? failure : kick_(system, t + h, half, y);
 }
 
-#define POLHODE_INSTANTIATE(S, N)                                                                           \
-  template class KickFlowKick<RigidBodies<S, Orientation::quaternion, AngularState::velocity_world, N>>;    \
-  template class KickFlowKick<RigidBodies<S, Orientation::quaternion, AngularState::velocity_body, N>>;     \
-  template class KickFlowKick<RigidBodies<S, Orientation::quaternion, AngularState::momentum_world, N>>;    \
-  template class KickFlowKick<RigidBodies<S, Orientation::matrix, AngularState::velocity_world, N>>;        \
-  template class KickFlowKick<RigidBodies<S, Orientation::matrix, AngularState::velocity_body, N>>;         \
-  template class KickFlowKick<RigidBodies<S, Orientation::matrix, AngularState::momentum_world, N>>
+#define POLHODE_INSTANTIATE(O)                                                                         \
+  template class KickFlowKick<RigidBodies<double, O, AngularState::velocity_world, BodyCount::one>>;   \
+  template class KickFlowKick<RigidBodies<double, O, AngularState::velocity_body, BodyCount::one>>;    \
+  template class KickFlowKick<RigidBodies<double, O, AngularState::momentum_world, BodyCount::one>>
 
-POLHODE_INSTANTIATE(double, BodyCount::one);
-POLHODE_INSTANTIATE(double, BodyCount::many);
-POLHODE_INSTANTIATE(float, BodyCount::many);
-POLHODE_INSTANTIATE(long double, BodyCount::many);
+POLHODE_INSTANTIATE(Orientation::quaternion);
+POLHODE_INSTANTIATE(Orientation::matrix);
+template class KickFlowKick<ManyBodies<double>>;
+template class KickFlowKick<ManyBodies<float>>;
+template class KickFlowKick<ManyBodies<long double>>;
 
 }  // namespace polhode
