@@ -67,7 +67,7 @@ Rise rise_of(const Problem& problem, const Family& family) {
 }
 
 std::string step_text(const Family& family, double step) {
-  return family.adaptive() ? fmt::format("tolerance {}", number(step, 6)) : fmt::format("dt = {} s", number(step, 6));
+  return family.adaptive() ? fmt::format("tolerance {}", report::exact(step)) : fmt::format("dt = {} s", report::exact(step));
 }
 std::string words_of(const Quantity& quantity) {
   return quantity.unit == " rad" ? "attitude" : quantity.unit == " m" ? "position" : "energy";
@@ -137,8 +137,8 @@ class Rounding {
           never.push_back(l.family->arithmetic());
           continue;
         }
-        parts.push_back(fmt::format("in {} from {} on (least {}, {}{} at {})", l.family->arithmetic(),
-                                    step_text(*l.family, *l.split.takes_over), words_of(l.quantity) + " error",
+        parts.push_back(fmt::format("in {} from {} down (least {} {}{}, at {})", l.family->arithmetic(),
+                                    step_text(*l.family, *l.split.takes_over), l.quantity.words,
                                     number(l.split.least_error), l.quantity.unit, step_text(*l.family, l.split.at_step)));
       }
       if (!never.empty()) parts.push_back(fmt::format("not at any of these steps in {}", words(never)));
