@@ -92,16 +92,16 @@ void add_step_guides(std::vector<Panel>& panels) {
     const auto* curve = panel.x_column == "dt_s" ? highest(panel, 0) : nullptr;
     if (curve == nullptr) continue;
     const auto& end = curve->points.back();
-    panel.guides.push_back(guide_through(end.x, 4 * end.value, 12 * end.x, -0.5, "h^{−1/2}"));
+    panel.guides.push_back(guide_through(end.x, 10 * end.value, 6 * end.x, -0.5, "h^{−1/2}"));
   }
 }
 
-/// The rung of the smallest step whose runs are all of them rounding.
-const Rung* smallest_in_rounding(const Family& family) {
-  for (auto rung = family.rungs.rbegin(); rung != family.rungs.rend(); ++rung) {
-    if (std::all_of(rung->runs.begin(), rung->runs.end(), precision::is_rounding)) return &*rung;
-  }
-  return nullptr;
+/// The rung of the largest step whose runs are all of them rounding: the errors of its steps hang together the least.
+const Rung* largest_in_rounding(const Family& family) {
+  const auto rung = std::find_if(family.rungs.begin(), family.rungs.end(), [](const Rung& r) {
+    return std::all_of(r.runs.begin(), r.runs.end(), precision::is_rounding);
+  });
+  return rung == family.rungs.end() ? nullptr : &*rung;
 }
 
 using Path = std::vector<std::pair<double, double>>;
@@ -144,7 +144,7 @@ std::vector<Panel> growth_panels(const std::vector<const Problem*>& problems, co
     Panel panel{.title = {problem->label()}, .x_column = "t_s", .y_column = column};
     std::vector<double> times;
     for (const Family& family : problem->families) {
-      const Rung* rung = smallest_in_rounding(family);
+      const Rung* rung = largest_in_rounding(family);
       if (rung == nullptr) continue;
       auto curve = curve_of(family);
       curve.points = spread(*rung, path_of);
@@ -206,7 +206,7 @@ std::vector<Figure> rounding_figures(const std::vector<Problem>& problems) {
   }
   Figure growth{.name = "rounding_against_time",
                 .title = "How rounding grows",
-                .caption = "Root mean square over the starts, at the smallest step at which the energy drift of every run is "
+                .caption = "Root mean square over the starts, at the largest step at which the energy drift of every run is "
                            "rounding. A random walk of the energy is parallel to √t, and the attitude that follows from it to "
                            "t to the 3/2."};
   auto energy = growth_panels(shown, "energy drift (relative)", "energy_drift_rel", energies);

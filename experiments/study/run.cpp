@@ -106,8 +106,10 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
                        *config.tolerance, report::epsilon(config.precision), name(config.precision));
   }
   if (is_compensated(config) && !entry->declaration.additive) {
-    return config.integrator + ": compensated summation makes no sense: its step is not a sum of the state and an "
-                               "increment, or it chooses its steps";
+    return config.integrator + (entry->declaration.adaptive
+                                    ? ": compensated summation is for methods of a fixed step"
+                                    : ": compensated summation makes no sense: its step is not the sum of the state "
+                                      "and an increment");
   }
   if (entry->refusal) {
     if (std::string reason = entry->refusal(scenario.problem, config.formulation); !reason.empty()) {
