@@ -18,6 +18,7 @@ using namespace report;
 
 constexpr double lost_attitude = 0.5;     ///< rad
 constexpr double agrees = 1.25;           ///< a run within this factor of the more precise one shows truncation alone
+constexpr double widest_interval = 0.5;   ///< of an order
 constexpr double dominates = 3;           ///< rounding of at least that many times the truncation error
 constexpr double clearly_dominates = 10;  ///< so that the growth in time is that of rounding
 // Errors are measured in double: the energy of a state to about its ε, the exact motion to some.
@@ -179,6 +180,7 @@ std::optional<Split> split(const Family& family, const Quantity& quantity) {
   OrderSettings settings;
   if (quantity.unit == " rad") settings.lost = lost_attitude;
   found.truncation = estimate_order(std::move(truncated), settings);
+  if (found.truncation.line && found.truncation.line->half_width_95 > widest_interval) found.truncation.line.reset();
   found.rounding_power = power(rounded);
   return found;
 }

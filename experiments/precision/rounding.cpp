@@ -189,7 +189,8 @@ class Rounding {
     for (const auto& [kind, start] :
          {std::pair(Growth::random_walk, "Brouwer’s law is seen, an energy drift of rounding as a random walk, ∝ √t: "),
           std::pair(Growth::linear, "Biased rounding, an energy drift in proportion to time: "),
-          std::pair(Growth::bounded, "An energy drift of rounding that does not grow: ")}) {
+          std::pair(Growth::bounded, "An energy drift of rounding that does not grow: "),
+          std::pair(Growth::not_told, "None of these, or not told: ")}) {
       std::vector<std::string> items;
       for (const Rise& r : rises_) {
         if (!r.energy || judge_energy_growth(*r.energy) != kind) continue;
@@ -256,7 +257,7 @@ class Rounding {
                             {"energy", "", Kind::text},
                             {"attitude p"},
                             {"±"},
-                            {"attitude as if energy", "", Kind::text}},
+                            {"told by the attitude", "", Kind::text}},
                 .rows = {}};
     for (const Rise& r : rises_) {
       if (!r.energy && !r.attitude) continue;

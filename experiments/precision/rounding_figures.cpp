@@ -27,8 +27,8 @@ PlottedCurve curve_of(const Family& family) {
   return {.label = family.arithmetic(), .method = static_cast<std::size_t>(family.precision), .variant = family.compensated};
 }
 
-/// One axis for all panels of a row.
-Axis shared_axis(const std::string& label, const std::vector<Panel>& panels) {
+/// One axis for all panels of a row, with so much room above for guides.
+Axis shared_axis(const std::string& label, const std::vector<Panel>& panels, double headroom = 1) {
   std::vector<double> values;
   Needs needs;
   for (const auto& panel : panels) {
@@ -39,6 +39,7 @@ Axis shared_axis(const std::string& label, const std::vector<Panel>& panels) {
       }
     }
   }
+  if (!values.empty()) values.push_back(headroom * *std::max_element(values.begin(), values.end()));
   return log_axis(label, values, needs);
 }
 
@@ -155,7 +156,7 @@ std::vector<Panel> growth_panels(const std::vector<const Problem*>& problems, co
     panel.x = step_axis("time (s)", times);
     panels.push_back(std::move(panel));
   }
-  if (!panels.empty()) share_y_axis(panels, shared_axis(axis, panels));
+  if (!panels.empty()) share_y_axis(panels, shared_axis(axis, panels, 5));
   return panels;
 }
 
