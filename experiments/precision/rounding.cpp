@@ -76,7 +76,7 @@ std::string between(const GrowthEstimate& e) { return fmt::format("{:.2f} ± {:.
 
 class Rounding {
  public:
-  explicit Rounding(const StudyView& study) : study_(study), problems_(problems_of(study)) {
+  explicit Rounding(const StudyView& study) : problems_(problems_of(study)) {
     for (const Problem& problem : problems_) {
       for (const Family& family : problem.families) {
         for (const auto& quantity : {quantity::attitude_error(), quantity::position_error(), quantity::energy_drift()}) {
@@ -328,7 +328,6 @@ class Rounding {
     return all;
   }
 
-  const StudyView& study_;
   std::vector<Problem> problems_;
   std::vector<Ladder> ladders_;
   std::vector<Rise> rises_;
