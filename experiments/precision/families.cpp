@@ -33,15 +33,16 @@ struct Texts {
 
 Texts texts_of(const RunConfig& c) {
   const auto& f = c.formulation;
-  return {{c.scenario, fmt::format("t_end = {} s", number(c.t_end, 6)),
-           c.samples ? fmt::format("{} samples", *c.samples) : "every step seen", c.reference ? "with a reference" : ""},
-          {std::string(name(f.orientation)), std::string(name(f.angular_state)),
-           f.gyroscopic ? "gyroscopic on" : "gyroscopic off", fmt::format("rotation {}", name(f.rotation_from)),
-           c.normalise ? "normalize step" : "normalize never"}};
+  return {
+      {c.scenario, fmt::format("t_end = {} s", number(c.t_end, 6)),
+       c.samples ? fmt::format("{} samples", *c.samples) : "every step seen", c.reference ? "with a reference" : ""},
+      {std::string(name(f.orientation)), std::string(name(f.angular_state)),
+       f.gyroscopic ? "gyroscopic on" : "gyroscopic off", fmt::format("rotation {}", name(f.rotation_from)),
+       c.normalise ? "normalize step" : "normalize never"}};
 }
 
 /// The texts at the places where the runs of the study differ.
-std::string varying(const std::vector<Texts>& all, const Key Texts::* part, const Key& of) {
+std::string varying(const std::vector<Texts>& all, const Key Texts::*part, const Key& of) {
   std::vector<std::string> kept;
   for (std::size_t k = 0; k < of.size(); ++k) {
     const bool varies = std::any_of(all.begin(), all.end(), [&](const auto& t) { return (t.*part)[k] != of[k]; });
@@ -127,8 +128,10 @@ std::vector<Problem> problems_of(const StudyView& study) {
     const auto [at, is_new] =
         seen.emplace(std::tuple(all[i].motion, all[i].formulation, run.config.integrator), problems.size());
     if (is_new) {
-      problems.push_back({run.config.integrator, varying(all, &Texts::motion, all[i].motion),
-                          varying(all, &Texts::formulation, all[i].formulation), {}});
+      problems.push_back({run.config.integrator,
+                          varying(all, &Texts::motion, all[i].motion),
+                          varying(all, &Texts::formulation, all[i].formulation),
+                          {}});
     }
     auto& families = problems[at->second].families;
     const bool compensated = is_compensated(run.config);
@@ -136,7 +139,8 @@ std::vector<Problem> problems_of(const StudyView& study) {
       return f.precision == run.config.precision && f.compensated == compensated;
     });
     if (family == families.end()) family = families.insert(family, {run.config.precision, compensated, {}});
-    auto rung = std::find_if(family->rungs.begin(), family->rungs.end(), [&](const Rung& r) { return r.step <= *step; });
+    auto rung =
+        std::find_if(family->rungs.begin(), family->rungs.end(), [&](const Rung& r) { return r.step <= *step; });
     if (rung == family->rungs.end() || rung->step != *step) rung = family->rungs.insert(rung, {*step, {}});
     rung->runs.push_back({&run, nullptr});
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The runs of a study sorted for the question of rounding: a problem is a motion, a formulation and a method; a family is
-// the problem in one arithmetic, its runs down a ladder of steps from one or many starts.
+// The runs of a study sorted for the question of rounding: a problem is a motion, a formulation and a method; a family
+// is the problem in one arithmetic, its runs down a ladder of steps from one or many starts.
 #pragma once
 
 #include <optional>
@@ -49,11 +49,11 @@ std::optional<double> truncation_of(const Rung& rung, const report::Quantity& qu
 
 /// What a ladder shows. Rounding is seen where a run is off by more than one in higher precision.
 struct Split {
-  OrderEstimate truncation;           ///< order, and the steps at which truncation alone shows
-  std::optional<double> takes_over;   ///< the largest step from which on rounding is more than truncation
+  OrderEstimate truncation;              ///< order, and the steps at which truncation alone shows
+  std::optional<double> takes_over;      ///< the largest step from which on rounding is more than truncation
   std::optional<double> rounding_power;  ///< p in rounding ∝ step^p over the steps at which it dominates
   double least_error = 0, at_step = 0;
-  bool has_yardstick = false;         ///< there are runs in a higher precision
+  bool has_yardstick = false;  ///< there are runs in a higher precision
 };
 /// Absent where the quantity is not measured.
 std::optional<Split> split(const Family& family, const report::Quantity& quantity);

@@ -67,7 +67,8 @@ Rise rise_of(const Problem& problem, const Family& family) {
 }
 
 std::string step_text(const Family& family, double step) {
-  return family.adaptive() ? fmt::format("tolerance {}", report::exact(step)) : fmt::format("dt = {} s", report::exact(step));
+  return family.adaptive() ? fmt::format("tolerance {}", report::exact(step))
+                           : fmt::format("dt = {} s", report::exact(step));
 }
 std::string words_of(const Quantity& quantity) {
   return quantity.unit == " rad" ? "attitude" : quantity.unit == " m" ? "position" : "energy";
@@ -79,7 +80,8 @@ class Rounding {
   explicit Rounding(const StudyView& study) : problems_(problems_of(study)) {
     for (const Problem& problem : problems_) {
       for (const Family& family : problem.families) {
-        for (const auto& quantity : {quantity::attitude_error(), quantity::position_error(), quantity::energy_drift()}) {
+        for (const auto& quantity :
+             {quantity::attitude_error(), quantity::position_error(), quantity::energy_drift()}) {
           if (const auto found = split(family, quantity)) ladders_.push_back({&problem, &family, quantity, *found});
         }
         rises_.push_back(rise_of(problem, family));
@@ -94,15 +96,21 @@ class Rounding {
       for (auto& text : (this->*part)()) found.sentences.push_back(std::move(text));
     }
     found.method = {
-        "Rounding is told from truncation by the run from the same start, at the same step, in the highest precision of "
-        "the study. Truncation: the steps at which the two agree to a quarter; its order is the slope of the logarithms "
+        "Rounding is told from truncation by the run from the same start, at the same step, in the highest precision "
+        "of "
+        "the study. Truncation: the steps at which the two agree to a quarter; its order is the slope of the "
+        "logarithms "
         "there. Rounding takes over at the largest step from which on the error is more than twice the more precise "
         "one. All errors are root mean squares over the starts.",
-        "Growth: |error| ∝ t^p, from the root mean squares of each octave of time, for each run whose energy drift is ten "
-        "times that of its more precise counterpart; mean over these runs, with the 95 % confidence interval of Student’s t. "
-        "Unbiased rounding makes the energy a random walk, p = ½ (Brouwer’s law), and the attitude, which adds it up, p = 3/2; "
+        "Growth: |error| ∝ t^p, from the root mean squares of each octave of time, for each run whose energy drift is "
+        "ten "
+        "times that of its more precise counterpart; mean over these runs, with the 95 % confidence interval of "
+        "Student’s t. "
+        "Unbiased rounding makes the energy a random walk, p = ½ (Brouwer’s law), and the attitude, which adds it up, "
+        "p = 3/2; "
         "biased rounding makes them 1 and 2, a bounded drift 0 and 1. Told where within 0.2, with ±0.2 at most.",
-        "Compensated summation keeps what rounding loses of each increment and adds it to the next one. The state itself is "
+        "Compensated summation keeps what rounding loses of each increment and adds it to the next one. The state "
+        "itself is "
         "still stored to its precision, so that a compensated energy stays some units of that above zero.",
         "Energies and errors are measured in double, and so is the exact motion: of runs in long double nothing below "
         "about 1e-15 (energy) and 1e-14 (attitude, growing with time) is seen."};
@@ -139,7 +147,8 @@ class Rounding {
         }
         parts.push_back(fmt::format("in {} from {} down (least {} {}{}, at {})", l.family->arithmetic(),
                                     step_text(*l.family, *l.split.takes_over), l.quantity.words,
-                                    number(l.split.least_error), l.quantity.unit, step_text(*l.family, l.split.at_step)));
+                                    number(l.split.least_error), l.quantity.unit,
+                                    step_text(*l.family, l.split.at_step)));
       }
       if (!never.empty()) parts.push_back(fmt::format("not at any of these steps in {}", words(never)));
       if (!parts.empty()) all.push_back(fmt::format("{}: rounding takes over {}.", problem.label(), words(parts)));
@@ -170,7 +179,8 @@ class Rounding {
           const auto before = error_of(plain.rungs.back(), quantity), after = error_of(other->rungs.back(), quantity);
           const auto exact = truncation_of(plain.rungs.back(), quantity);
           if (!before || !after || !exact || !(*before > 2 * *exact)) continue;
-          gains.push_back(fmt::format("the {} from {} to {}{}", quantity.words, number(*before), number(*after), quantity.unit));
+          gains.push_back(
+              fmt::format("the {} from {} to {}{}", quantity.words, number(*before), number(*after), quantity.unit));
         }
         if (!gains.empty()) {
           parts.push_back(fmt::format("in {} {} at {}", name(plain.precision), words(gains),
@@ -178,7 +188,8 @@ class Rounding {
         }
       }
       if (!parts.empty()) {
-        all.push_back(fmt::format("{}: compensated summation brings {}.", problem.label(), fmt::format("{}", fmt::join(parts, "; "))));
+        all.push_back(fmt::format("{}: compensated summation brings {}.", problem.label(),
+                                  fmt::format("{}", fmt::join(parts, "; "))));
       }
     }
     return all;
@@ -194,7 +205,8 @@ class Rounding {
       std::vector<std::string> items;
       for (const Rise& r : rises_) {
         if (!r.energy || judge_energy_growth(*r.energy) != kind) continue;
-        std::string item = fmt::format("{} in {}, t^({})", r.problem->label(), r.family->arithmetic(), between(*r.energy));
+        std::string item =
+            fmt::format("{} in {}, t^({})", r.problem->label(), r.family->arithmetic(), between(*r.energy));
         if (r.attitude) item += fmt::format(", attitude t^({})", between(*r.attitude));
         items.push_back(fmt::format("{} ({})", item, count(r.energy->paths, "run")));
       }
@@ -235,7 +247,7 @@ class Rounding {
                             words_of(l.quantity), t.line ? fmt::format("{:.2f}", t.line->order) : "",
                             t.line ? fmt::format("{:.2f}", t.line->half_width_95) : "",
                             t.line ? fmt::format("{} … {}", number(t.largest), number(t.smallest)) : "",
-                            l.split.takes_over     ? number(*l.split.takes_over)
+                            l.split.takes_over      ? number(*l.split.takes_over)
                             : l.split.has_yardstick ? "nowhere"
                                                     : "",
                             number(l.split.least_error), number(l.split.at_step),
@@ -261,15 +273,15 @@ class Rounding {
                 .rows = {}};
     for (const Rise& r : rises_) {
       if (!r.energy && !r.attitude) continue;
-      const auto digits = [](const std::optional<GrowthEstimate>& e, double GrowthEstimate::* of) {
+      const auto digits = [](const std::optional<GrowthEstimate>& e, double GrowthEstimate::*of) {
         return e ? fmt::format("{:.2f}", (*e).*of) : std::string();
       };
-      table.rows.push_back({r.problem->method, r.problem->motion, r.problem->formulation, r.family->arithmetic(),
-                            r.energy ? std::to_string(r.energy->paths) : "", digits(r.energy, &GrowthEstimate::exponent),
-                            digits(r.energy, &GrowthEstimate::half_width_95),
-                            r.energy ? text(judge_energy_growth(*r.energy)) : "",
-                            digits(r.attitude, &GrowthEstimate::exponent), digits(r.attitude, &GrowthEstimate::half_width_95),
-                            r.attitude ? text(judge_attitude_growth(*r.attitude)) : ""});
+      table.rows.push_back(
+          {r.problem->method, r.problem->motion, r.problem->formulation, r.family->arithmetic(),
+           r.energy ? std::to_string(r.energy->paths) : "", digits(r.energy, &GrowthEstimate::exponent),
+           digits(r.energy, &GrowthEstimate::half_width_95), r.energy ? text(judge_energy_growth(*r.energy)) : "",
+           digits(r.attitude, &GrowthEstimate::exponent), digits(r.attitude, &GrowthEstimate::half_width_95),
+           r.attitude ? text(judge_attitude_growth(*r.attitude)) : ""});
     }
     return without_empty_columns(std::move(table));
   }
@@ -277,22 +289,31 @@ class Rounding {
   static std::vector<std::string> named(const Problem& problem, const Family& family) {
     const RunConfig& c = family.config();
     const auto& f = c.formulation;
-    return {c.scenario, problem.method, std::string(name(f.orientation)), std::string(name(f.angular_state)),
-            f.gyroscopic ? "on" : "off", c.normalise ? "step" : "never", std::string(name(f.rotation_from)),
-            study::exact(c.t_end), c.samples ? std::to_string(*c.samples) : "", std::string(name(family.precision)),
+    return {c.scenario,
+            problem.method,
+            std::string(name(f.orientation)),
+            std::string(name(f.angular_state)),
+            f.gyroscopic ? "on" : "off",
+            c.normalise ? "step" : "never",
+            std::string(name(f.rotation_from)),
+            study::exact(c.t_end),
+            c.samples ? std::to_string(*c.samples) : "",
+            std::string(name(family.precision)),
             family.compensated ? "compensated" : "plain"};
   }
   static std::vector<std::string> with_names(std::initializer_list<const char*> more) {
-    std::vector<std::string> all = {"scenario", "integrator", "orientation", "angular_state", "gyroscopic", "normalize",
-                                    "rotation_from", "t_end_s", "samples", "precision", "summation"};
+    std::vector<std::string> all = {"scenario",   "integrator", "orientation",   "angular_state",
+                                    "gyroscopic", "normalize",  "rotation_from", "t_end_s",
+                                    "samples",    "precision",  "summation"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
 
   std::string ladder_csv() const {
-    std::string text = csv_row(with_names({"error_of", "against", "order", "confidence_95_low", "confidence_95_high",
-                                           "truncation_largest_step", "truncation_smallest_step", "rounding_takes_over_at",
-                                           "least_error", "least_error_at", "rounding_power_of_step"}));
+    std::string text =
+        csv_row(with_names({"error_of", "against", "order", "confidence_95_low", "confidence_95_high",
+                            "truncation_largest_step", "truncation_smallest_step", "rounding_takes_over_at",
+                            "least_error", "least_error_at", "rounding_power_of_step"}));
     for (const Ladder& l : ladders_) {
       auto row = named(*l.problem, *l.family);
       const auto& t = l.split.truncation;
@@ -310,7 +331,8 @@ class Rounding {
   }
 
   std::string growth_csv() const {
-    std::string all = csv_row(with_names({"growth_of", "runs", "exponent", "confidence_95_low", "confidence_95_high", "growth"}));
+    std::string all =
+        csv_row(with_names({"growth_of", "runs", "exponent", "confidence_95_low", "confidence_95_high", "growth"}));
     const auto add = [&](const Rise& r, const char* of, const std::optional<GrowthEstimate>& e, auto judge) {
       if (!e) return;
       auto row = named(*r.problem, *r.family);

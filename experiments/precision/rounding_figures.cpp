@@ -24,7 +24,9 @@ constexpr std::size_t most_problems = 3;  // beside each other
 constexpr Precision precisions[] = {Precision::single, Precision::dual, Precision::extended};
 
 PlottedCurve curve_of(const Family& family) {
-  return {.label = family.arithmetic(), .method = static_cast<std::size_t>(family.precision), .variant = family.compensated};
+  return {.label = family.arithmetic(),
+          .method = static_cast<std::size_t>(family.precision),
+          .variant = family.compensated};
 }
 
 /// One axis for all panels of a row, with so much room above for guides.
@@ -71,9 +73,10 @@ std::vector<Panel> ladder_panels(const std::vector<const Problem*>& problems, co
       for (const Rung& rung : family.rungs) {
         const auto error = error_of(rung, quantity);
         if (!error) continue;
-        curve.points.push_back({rung.step, *error, 0, !std::isfinite(*error) || *error > off_scale_above ? Mark::edge
-                                                      : *error > 0                                      ? Mark::value
-                                                                                                        : Mark::zero});
+        curve.points.push_back({rung.step, *error, 0,
+                                !std::isfinite(*error) || *error > off_scale_above ? Mark::edge
+                                : *error > 0                                       ? Mark::value
+                                                                                   : Mark::zero});
         steps.push_back(rung.step);
       }
       if (!curve.points.empty()) panel.curves.push_back(std::move(curve));
@@ -193,9 +196,10 @@ std::vector<Figure> rounding_figures(const std::vector<Problem>& problems) {
   std::vector<Figure> figures;
   Figure ladder{.name = "error_against_step_by_precision",
                 .title = "Truncation and rounding",
-                .caption = "Root mean square over the starts. To the right truncation: the precisions agree, on a line of the "
-                           "method’s order. To the left rounding: with plain summation the error grows again as the steps "
-                           "become more, as the square root of their number; the dashed lines are compensated."};
+                .caption =
+                    "Root mean square over the starts. To the right truncation: the precisions agree, on a line of the "
+                    "method’s order. To the left rounding: with plain summation the error grows again as the steps "
+                    "become more, as the square root of their number; the dashed lines are compensated."};
   for (const auto& quantity : {quantity::attitude_error(), quantity::energy_drift()}) {
     auto panels = ladder_panels(shown, quantity);
     add_step_guides(panels);
@@ -207,9 +211,10 @@ std::vector<Figure> rounding_figures(const std::vector<Problem>& problems) {
   }
   Figure growth{.name = "rounding_against_time",
                 .title = "How rounding grows",
-                .caption = "Root mean square over the starts, at the largest step at which the energy drift of every run is "
-                           "rounding. A random walk of the energy is parallel to √t, and the attitude that follows from it to "
-                           "t to the 3/2."};
+                .caption =
+                    "Root mean square over the starts, at the largest step at which the energy drift of every run is "
+                    "rounding. A random walk of the energy is parallel to √t, and the attitude that follows from it to "
+                    "t to the 3/2."};
   auto energy = growth_panels(shown, "energy drift (relative)", "energy_drift_rel", energies);
   add_time_guides(energy, 0.5, "t^{1/2}");
   auto attitude = growth_panels(shown, "attitude error (rad)", "attitude_error_rad", attitudes);
