@@ -195,4 +195,10 @@ bool is_rounding(const Rung::Run& run) {
   return drift && exact && *drift > clearly_dominates * std::max(*exact, energy_in_double);
 }
 
+bool is_rounding_in_attitude(const Rung::Run& run) {
+  if (!is_rounding(run)) return false;
+  const auto error = run.run->result.attitude_error_max, exact = run.exact->result.attitude_error_max;
+  return error && exact && *error > clearly_dominates * *exact;
+}
+
 }  // namespace polhode::study::precision

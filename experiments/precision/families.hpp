@@ -60,5 +60,7 @@ std::optional<Split> split(const Family& family, const report::Quantity& quantit
 
 /// True where this run's energy drift is rounding: ten times that of its counterpart, and of what double can measure.
 bool is_rounding(const Rung::Run& run);
+/// True where besides its attitude error is ten times that of its counterpart.
+bool is_rounding_in_attitude(const Rung::Run& run);
 
 }  // namespace polhode::study::precision

@@ -46,20 +46,13 @@ std::vector<PathPoint> attitude_path(const RunRecord& run) {
   return path;
 }
 
-/// Of the attitude, a run counts where its error there is rounding too.
-bool attitude_is_rounding(const Rung::Run& run) {
-  constexpr double clearly = 10;
-  const auto error = run.run->result.attitude_error_max, exact = run.exact->result.attitude_error_max;
-  return error && exact && *error > clearly * *exact;
-}
-
 Rise rise_of(const Problem& problem, const Family& family) {
   std::vector<double> energy, attitude;
   for (const Rung& rung : family.rungs) {
     for (const auto& run : rung.runs) {
       if (!is_rounding(run)) continue;
       if (const auto p = path_exponent(energy_path(*run.run))) energy.push_back(*p);
-      if (!attitude_is_rounding(run)) continue;
+      if (!is_rounding_in_attitude(run)) continue;
       if (const auto p = path_exponent(attitude_path(*run.run))) attitude.push_back(*p);
     }
   }

@@ -101,10 +101,9 @@ void add_step_guides(std::vector<Panel>& panels) {
 }
 
 /// The rung of the largest step whose runs are all of them rounding: the errors of its steps hang together the least.
-const Rung* largest_in_rounding(const Family& family) {
-  const auto rung = std::find_if(family.rungs.begin(), family.rungs.end(), [](const Rung& r) {
-    return std::all_of(r.runs.begin(), r.runs.end(), precision::is_rounding);
-  });
+const Rung* largest_in_rounding(const Family& family, bool (*is_rounding)(const Rung::Run&)) {
+  const auto rung = std::find_if(family.rungs.begin(), family.rungs.end(),
+                                 [&](const Rung& r) { return std::all_of(r.runs.begin(), r.runs.end(), is_rounding); });
   return rung == family.rungs.end() ? nullptr : &*rung;
 }
 
@@ -142,13 +141,14 @@ std::vector<Point> spread(const Rung& rung, Path (*path_of)(const RunRecord&)) {
 }
 
 std::vector<Panel> growth_panels(const std::vector<const Problem*>& problems, const std::string& axis,
-                                 const std::string& column, Path (*path_of)(const RunRecord&)) {
+                                 const std::string& column, Path (*path_of)(const RunRecord&),
+                                 bool (*is_rounding)(const Rung::Run&)) {
   std::vector<Panel> panels;
   for (const Problem* problem : problems) {
     Panel panel{.title = {problem->label()}, .x_column = "t_s", .y_column = column};
     std::vector<double> times;
     for (const Family& family : problem->families) {
-      const Rung* rung = largest_in_rounding(family);
+      const Rung* rung = largest_in_rounding(family, is_rounding);
       if (rung == nullptr) continue;
       auto curve = curve_of(family);
       curve.points = spread(*rung, path_of);
@@ -212,12 +212,13 @@ std::vector<Figure> rounding_figures(const std::vector<Problem>& problems) {
   Figure growth{.name = "rounding_against_time",
                 .title = "How rounding grows",
                 .caption =
-                    "Root mean square over the starts, at the largest step at which the energy drift of every run is "
+                    "Root mean square over the starts, at the largest step at which the error of every run is "
                     "rounding. A random walk of the energy is parallel to √t, and the attitude that follows from it to "
                     "t to the 3/2."};
-  auto energy = growth_panels(shown, "energy drift (relative)", "energy_drift_rel", energies);
+  auto energy = growth_panels(shown, "energy drift (relative)", "energy_drift_rel", energies, precision::is_rounding);
   add_time_guides(energy, 0.5, "t^{1/2}");
-  auto attitude = growth_panels(shown, "attitude error (rad)", "attitude_error_rad", attitudes);
+  auto attitude =
+      growth_panels(shown, "attitude error (rad)", "attitude_error_rad", attitudes, precision::is_rounding_in_attitude);
   add_time_guides(attitude, 1.5, "t^{3/2}");
   if (!energy.empty()) add_rows(growth, std::move(energy), most_problems);
   if (!attitude.empty()) add_rows(growth, std::move(attitude), most_problems);
