@@ -30,6 +30,8 @@ struct Declaration {
   bool implicit = false;
   int evaluations_per_step = 0;  ///< right-hand sides; 0: not constant, the method counts them
   bool multi_step = false;       ///< has a history, which an impact or a projection makes worthless
+  /// Its step adds an increment to the flat state, y' = y + Δ(t, h, y), so that these sums can be compensated.
+  bool additive = false;
   bool lie_group = false;   ///< moves orientations by group steps: they stay on their manifold without projection
   bool normalises = false;  ///< ends its own step with a normalisation
   /// Conserves every quadratic invariant of the flat ODE, as Gauss's methods do: |q|² and RᵀR among them.

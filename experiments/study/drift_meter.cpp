@@ -9,6 +9,7 @@ namespace polhode::study {
 namespace {
 
 constexpr int exact_instants = 50;
+constexpr int most_attitude_errors = 64;
 constexpr double hopeless = 1e6;  ///< relative energy drift beyond which a run is called off as diverged
 
 /// max(a, |x|) that a NaN does not get lost in.
@@ -162,6 +163,8 @@ void DriftMeter::measure_further(const State<double>& state) {
 
 void DriftMeter::measure_errors(const State<double>& state) {
   ExactMotion::Error e = exact_.error(system_, state);
+  const double next_kept = t_end_ * static_cast<double>(attitude_errors_.size()) / most_attitude_errors;
+  if (e.attitude && state.t >= next_kept * (1 - 1e-12)) attitude_errors_.push_back({state.t, *e.attitude});
   if (follower_) {
     const ExactMotion::Error r = follower_->error(system_, state);
     if (!e.position) e.position = r.position;
@@ -196,6 +199,7 @@ void DriftMeter::report(RunResult& result) {
   result.attitude_error_max = only_finite(worst_error_.attitude);
   result.angular_velocity_error_max_rel = only_finite(worst_error_.angular_velocity);
   if (reference_) judge_by_reference(result);
+  result.attitude_errors = attitude_errors_;
   result.series = series_.finish(energy_scale_, linear_scale_, angular_scale_);
   result.drift_class = result.status == "ok" ? classify_drift(result.series) : "";
 }

@@ -82,6 +82,7 @@ class DriftMeter final : public Observer {
   double next_exact_ = 0;
   std::int64_t exact_count_ = 0;
   ExactMotion::Error worst_error_;
+  std::vector<AttitudeError> attitude_errors_;
   /// Sums for the least-squares slope of the drift, over t/t_end.
   double sum_t_ = 0, sum_tt_ = 0, sum_d_ = 0, sum_td_ = 0;
   ThinnedSeries series_;

@@ -5,6 +5,8 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "experiments/study/study_view.hpp"
 
@@ -15,6 +17,8 @@ struct Experiment {
   std::string question;  ///< one sentence
   /// The values of options that are not given, as the command line writes them: {"dt", "1e-3,1e-2"}.
   std::map<std::string, std::string> defaults;
+  /// An ensemble of starts, as --vary writes it; taken where neither a scenario, a study file nor that key is given.
+  std::vector<std::pair<std::string, std::string>> vary{};
   bool one_run = false;  ///< exactly one run, whose trajectory goes into the folder itself
   bool best_times = false;  ///< short runs are carried out several times, and the least wall time is kept
   /// What it makes of its finished runs beyond what every study shows; empty: nothing.

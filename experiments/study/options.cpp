@@ -32,7 +32,8 @@ constexpr AxisHelp axis_help[] = {
     {"gyroscopic", "on|off", "the term w x Iw, which both source documents leave out (default: on)"},
     {"normalize", "never|step", "project the orientation after each step (default: never)"},
     {"rotation-from", "normalised|stored", "what a quaternion off the unit sphere stands for (default: normalised)"},
-    {"precision", "float|double|long_double", "arithmetic; other than double for our own methods only (default: double)"},
+    {"precision", "float|double|long_double", "arithmetic; other than double for our own methods and Odeint's (default: double)"},
+    {"summation", "plain|compensated", "how increments are added to the state; compensated: what rounding loses is kept and added to the next one (default: plain)"},
     {"dt", "S", "step of fixed-step methods, in s"},
     {"tolerance", "X", "relative and absolute tolerance of adaptive methods"},
     {"t-end", "S", "duration in s (default: the scenario's)"},
@@ -79,8 +80,12 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
         ->group("Axes");
   }
   std::vector<std::string> vary;
+  std::string preset_vary;
+  for (const auto& [key, values] : experiment.vary) {
+    preset_vary += (preset_vary.empty() ? " (default, of the default scenario: " : " ") + key + "=" + values;
+  }
   app.add_option("--vary", vary, "any key of the scenario as an axis: body.0.inertia.1=0.5:3:20, or whole vectors: "
-                                 "'body.0.angular_velocity=[0,1,0];[1,0,0]'")
+                                 "'body.0.angular_velocity=[0,1,0];[1,0,0]'" + preset_vary + (preset_vary.empty() ? "" : ")"))
       ->type_name("KEY=VALUES")
       ->allow_extra_args(false)
       ->group("Axes");
@@ -130,6 +135,7 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   options.command = experiment.name;
   for (int i = 1; i < argc; ++i) options.command += " " + quoted(argv[i]);
   options.axes = experiment.defaults;
+  if (study_file.empty() && !given.contains("scenario")) options.vary = experiment.vary;
   if (!study_file.empty()) read_study_file(study_file, options);
   for (const auto& [name, text] : given) {
     options.axes[name] = text;

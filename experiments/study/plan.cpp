@@ -76,6 +76,7 @@ struct Axes {
   std::vector<bool> gyroscopic, normalise;
   std::vector<RotationFrom> rotation_from;
   std::vector<Precision> precisions;
+  std::vector<std::optional<Summation>> summations;
   std::vector<double> steps, tolerances, durations;
   std::vector<std::optional<std::int64_t>> samples;
 };
@@ -106,6 +107,8 @@ Axes read_axes(const Options& options) {
   axes.precisions = choices<Precision>(
       options, "precision",
       {{"float", Precision::single}, {"double", Precision::dual}, {"long_double", Precision::extended}}, Precision::dual);
+  axes.summations = choices<std::optional<Summation>>(
+      options, "summation", {{"plain", Summation::plain}, {"compensated", Summation::compensated}}, std::nullopt);
   axes.steps = positive(options, "dt", " of seconds");
   axes.tolerances = positive(options, "tolerance", "");
   for (const double x : axes.tolerances) {
@@ -192,6 +195,7 @@ class Planner {
       throw InputError(fmt::format("{} makes one run, and this is {}; give each axis one value, or use energy_drift",
                                    experiment_.name, plan_.runs.size()));
     }
+    plan_.names_summation = axes_.summations.front().has_value();
     const auto sense = [](const PlannedRun& r) { return r.refusal.empty(); };
     if (std::none_of(plan_.runs.begin(), plan_.runs.end(), sense)) {
       throw InputError(plan_.runs.front().config.integrator + " on " + plan_.runs.front().config.scenario + ": " +
@@ -242,15 +246,18 @@ class Planner {
         axes_.durations.empty() ? std::vector<double>{scenario->t_end} : axes_.durations;
     for (const bool normalise : axes_.normalise) {
       for (const Precision precision : axes_.precisions) {
-        for (const double size : sizes) {
-          for (const double t_end : durations) {
-            for (const auto& samples : axes_.samples) {
-              config.normalise = normalise;
-              config.precision = precision;
-              (adaptive ? config.tolerance : config.dt) = size;
-              config.t_end = t_end;
-              config.samples = samples;
-              add_run(config, scenario);
+        for (const auto& summation : axes_.summations) {
+          for (const double size : sizes) {
+            for (const double t_end : durations) {
+              for (const auto& samples : axes_.samples) {
+                config.normalise = normalise;
+                config.precision = precision;
+                config.summation = summation;
+                (adaptive ? config.tolerance : config.dt) = size;
+                config.t_end = t_end;
+                config.samples = samples;
+                add_run(config, scenario);
+              }
             }
           }
         }
@@ -260,9 +267,12 @@ class Planner {
 
   void add_run(const RunConfig& config, const std::shared_ptr<const Scenario>& scenario) {
     std::string text = fmt::format("{}\n{}\n", results_version, scenario->canonical);
-    for (const std::string& cell : config_cells(config)) text += cell + "\n";
+    RunConfig plain = config;  // what was always so does not enter
+    plain.summation.reset();
+    for (const std::string& cell : config_cells(plain)) text += cell + "\n";
     if (config.samples) text += std::to_string(*config.samples);
     if (config.reference) text += "\nreference";
+    if (is_compensated(config)) text += "\ncompensated";
     PlannedRun run;
     run.id = hash(text);
     if (!ids_.insert(run.id).second) return;  // the same run by another way: counted once
@@ -305,11 +315,12 @@ class Planner {
 
 Plan make_plan(const Experiment& experiment, const Options& options) { return Planner(experiment, options).finish(); }
 
-std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys) {
+std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys, bool names_summation) {
   std::vector<std::string> columns = {"scenario",      "integrator",    "orientation",  "angular_state",
                                       "gyroscopic",    "normalize",     "rotation_from", "precision",
                                       "dt_s",          "tolerance",     "t_end_s",      "broad_phase",
                                       "narrow_phase",  "response",      "impact_timing"};
+  if (names_summation) columns.emplace_back("summation");
   columns.insert(columns.end(), varied_keys.begin(), varied_keys.end());
   return columns;
 }
@@ -331,6 +342,7 @@ std::vector<std::string> config_cells(const RunConfig& config) {
                                     "",
                                     "",
                                     ""};
+  if (config.summation) cells.emplace_back(name(*config.summation));
   for (const Override& o : config.varied) cells.push_back(o.value);
   return cells;
 }

@@ -22,6 +22,7 @@ struct PlannedRun {
 struct Plan {
   std::vector<Scenario> scenarios;       ///< each one of the study once, without overrides
   std::vector<std::string> varied_keys;  ///< sorted
+  bool names_summation = false;          ///< --summation was given: its runs have that column
   std::vector<std::string> invariants;   ///< further declared invariants of all scenarios, sorted
   std::vector<PlannedRun> runs;          ///< sorted by configuration, none twice
   std::string identity;                  ///< hash over the ids of all runs
@@ -31,7 +32,7 @@ struct Plan {
 Plan make_plan(const Experiment& experiment, const Options& options);
 
 /// The configuration of a run as the cells of runs.csv, in the order of config_columns().
-std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys);
+std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys, bool names_summation);
 std::vector<std::string> config_cells(const RunConfig& config);
 
 }  // namespace polhode::study

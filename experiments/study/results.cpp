@@ -62,7 +62,7 @@ void write_runs_csv(const StudyView& study) {
   const auto add = [](std::vector<std::string>& row, const std::vector<std::string>& cells) {
     row.insert(row.end(), cells.begin(), cells.end());
   };
-  add(header, config_columns(study.varied_keys));
+  add(header, config_columns(study.varied_keys, study.names_summation));
   add(header, {"status", "message", "steps", "rhs_evaluations", "energy_initial_J", "energy_drift_max_rel",
                "energy_drift_final_rel", "energy_drift_rate_W", "drift_class", "linear_momentum_drift_max_rel",
                "angular_momentum_drift_max_rel"});

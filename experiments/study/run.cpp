@@ -8,7 +8,9 @@
 
 #include "core/simulate_ensemble.hpp"
 #include "experiments/study/drift_meter.hpp"
+#include "experiments/study/report/curves.hpp"
 #include "integrators/catalogue.hpp"
+#include "integrators/compensated.hpp"
 
 namespace polhode::study {
 namespace {
@@ -58,7 +60,9 @@ RunResult result_of(const RunOutcome& outcome, DriftMeter& meter, double seconds
 template <class S>
 RunOutcome run_in(const System<S>& system, const System<double>& truth, const RunConfig& config, Observer& observer,
                   const std::atomic<bool>* stop, double& seconds) {
-  const auto integrator = find_integrator(config.integrator)->maker<S>()(system, settings_of(config));
+  const IntegratorEntry& entry = *find_integrator(config.integrator);
+  const auto integrator = is_compensated(config) ? make_compensated<S>(entry, system, settings_of(config))
+                                                 : entry.maker<S>()(system, settings_of(config));
   State<S> state = system.start();
   const auto started = Clock::now();
   RunOutcome outcome = simulate(system, truth, *integrator, state, schedule_of(config), observer, stop);
@@ -97,6 +101,16 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
                    : config.precision == Precision::extended ? static_cast<bool>(entry->make_long_double)
                                                              : static_cast<bool>(entry->make);
   if (!has) return config.integrator + " works in double only, not in " + std::string(name(config.precision));
+  if (config.tolerance && *config.tolerance < report::epsilon(config.precision)) {
+    return fmt::format("{}: a tolerance of {:g} is below the {:.2g} to which numbers are kept in {}", config.integrator,
+                       *config.tolerance, report::epsilon(config.precision), name(config.precision));
+  }
+  if (is_compensated(config) && !entry->declaration.additive) {
+    return config.integrator + (entry->declaration.adaptive
+                                    ? ": compensated summation is for methods of a fixed step"
+                                    : ": compensated summation makes no sense: its step is not the sum of the state "
+                                      "and an increment");
+  }
   if (entry->refusal) {
     if (std::string reason = entry->refusal(scenario.problem, config.formulation); !reason.empty()) {
       return config.integrator + ": " + reason;
@@ -128,7 +142,7 @@ RunResult carry_out(const RunConfig& config, const Scenario& scenario, const Tra
 
 std::string ensemble_key(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory) {
   const bool plain = config.dt && !config.samples && config.precision == Precision::dual &&
-                     trajectory.format == TrajectoryFormat::none;
+                     !is_compensated(config) && trajectory.format == TrajectoryFormat::none;
   if (!plain || !find_integrator(config.integrator)->make_lanes) return {};
   const std::string key = lane_key(*make_system<double>(scenario.problem, config.formulation));
   if (key.empty()) return {};

@@ -18,6 +18,10 @@ constexpr std::string_view name(Precision p) {
   return p == Precision::single ? "float" : p == Precision::dual ? "double" : "long_double";
 }
 
+/// How the increments of the state are added up.
+enum class Summation { plain, compensated };
+constexpr std::string_view name(Summation s) { return s == Summation::plain ? "plain" : "compensated"; }
+
 struct RunConfig {
   std::string scenario;             ///< name
   std::vector<Override> varied;     ///< the varied keys of the scenario with this run's values, in the axes' order
@@ -25,6 +29,7 @@ struct RunConfig {
   Formulation formulation;
   bool normalise = false;           ///< --normalize step
   Precision precision = Precision::dual;
+  std::optional<Summation> summation;  ///< absent: plain, and the study does not speak of it
   std::optional<double> dt;         ///< s; fixed-step methods only
   std::optional<double> tolerance;  ///< adaptive methods only
   double t_end = 1;                 ///< s
@@ -41,6 +46,14 @@ struct SeriesPoint {
   double angular_momentum_drift_rel = 0;
   double orientation_defect = 0;
 };
+
+/// The attitude error at one of at most 64 instants spread over the run.
+struct AttitudeError {
+  double t = 0;          ///< s
+  double error_rad = 0;
+};
+
+inline bool is_compensated(const RunConfig& config) { return config.summation == Summation::compensated; }
 
 struct RunResult {
   std::string status;   ///< "ok", "diverged", "failed", "refused"
@@ -67,6 +80,7 @@ struct RunResult {
   std::optional<double> angular_velocity_reference_rel;
   double seconds = 0;                           ///< wall time of the motion, measuring included; goes to timings.csv only
   std::vector<SeriesPoint> series;
+  std::vector<AttitudeError> attitude_errors;   ///< empty without an exact solution, and where a reference stands for it
 };
 
 struct RunRecord {

@@ -34,9 +34,10 @@ class Statement {
     if (x) bind(*x);
     else sqlite3_bind_null(statement_, ++at_);
   }
-  void bind(const std::vector<SeriesPoint>& series) {
-    static_assert(std::is_trivially_copyable_v<SeriesPoint>);
-    sqlite3_bind_blob(statement_, ++at_, series.data(), static_cast<int>(series.size() * sizeof(SeriesPoint)),
+  template <class Point>
+  void bind(const std::vector<Point>& series) {
+    static_assert(std::is_trivially_copyable_v<Point>);
+    sqlite3_bind_blob(statement_, ++at_, series.data(), static_cast<int>(series.size() * sizeof(Point)),
                       SQLITE_TRANSIENT);
   }
 
@@ -66,11 +67,12 @@ class Statement {
     }
     return real();
   }
-  std::vector<SeriesPoint> series() {
+  template <class Point>
+  std::vector<Point> series() {
     const void* bytes = sqlite3_column_blob(statement_, column_);
     const auto n = static_cast<std::size_t>(sqlite3_column_bytes(statement_, column_++));
-    std::vector<SeriesPoint> points(n / sizeof(SeriesPoint));
-    if (!points.empty()) std::memcpy(points.data(), bytes, points.size() * sizeof(SeriesPoint));
+    std::vector<Point> points(n / sizeof(Point));
+    if (!points.empty()) std::memcpy(points.data(), bytes, points.size() * sizeof(Point));
     return points;
   }
 
@@ -125,6 +127,8 @@ Store::Store(const std::filesystem::path& folder) : path_(folder / file_name) {
   execute(
       "CREATE TABLE IF NOT EXISTS references_used (id TEXT PRIMARY KEY, position_m REAL, attitude_rad REAL,"
       " angular_velocity_rel REAL)");
+  // Of the runs with an exact motion, their attitude error over time.
+  execute("CREATE TABLE IF NOT EXISTS attitude_errors (id TEXT PRIMARY KEY, series BLOB)");
 }
 
 Store::~Store() = default;
@@ -156,7 +160,7 @@ std::map<std::string, RunResult> Store::load() const {
     r.attitude_error_max = rows.optional_real();
     r.angular_velocity_error_max_rel = rows.optional_real();
     r.seconds = rows.real();
-    r.series = rows.series();
+    r.series = rows.series<SeriesPoint>();
   }
   Statement used(path_, db_.get(), "SELECT * FROM references_used");
   while (used.step()) {
@@ -164,6 +168,11 @@ std::map<std::string, RunResult> Store::load() const {
     r.position_reference = used.optional_real();
     r.attitude_reference = used.optional_real();
     r.angular_velocity_reference_rel = used.optional_real();
+  }
+  Statement errors(path_, db_.get(), "SELECT * FROM attitude_errors");
+  while (errors.step()) {
+    RunResult& r = results[errors.text()];
+    r.attitude_errors = errors.series<AttitudeError>();
   }
   return results;
 }
@@ -174,8 +183,15 @@ void Store::keep(std::span<const RunRecord> records) {
     Statement insert(path_, db_.get(),
                      "INSERT OR REPLACE INTO runs VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
     Statement used(path_, db_.get(), "INSERT OR REPLACE INTO references_used VALUES (?,?,?,?)");
+    Statement errors(path_, db_.get(), "INSERT OR REPLACE INTO attitude_errors VALUES (?,?)");
     for (const RunRecord& record : records) {
       const RunResult& r = record.result;
+      if (!r.attitude_errors.empty()) {
+        errors.bind(record.id);
+        errors.bind(r.attitude_errors);
+        errors.step();
+        errors.reset();
+      }
       insert.bind(record.id);
       insert.bind(r.status);
       insert.bind(r.message);

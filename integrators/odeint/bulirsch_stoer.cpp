@@ -13,21 +13,22 @@ namespace {
 
 namespace odeint = boost::numeric::odeint;
 
+template <class S>
 class BulirschStoer {
  public:
-  using Vector = std::vector<double>;
+  using Vector = std::vector<S>;
   static constexpr int order = 8;  // of the first step: extrapolation begins with four columns
   static constexpr bool first_same_as_last = false;
 
-  BulirschStoer(double tolerance, std::size_t) : stepper_(tolerance, tolerance) {}
+  BulirschStoer(double tolerance, std::size_t) : stepper_(S(tolerance), S(tolerance)) {}
 
   template <class Rate>
-  bool try_step(const Rate& rate, const Vector& x, const Vector& dx, double& t, Vector& next, Vector&, double& h) {
+  bool try_step(const Rate& rate, const Vector& x, const Vector& dx, S& t, Vector& next, Vector&, S& h) {
     return stepper_.try_step(rate, x, dx, t, next, h) == odeint::success;
   }
 
  private:
-  odeint::bulirsch_stoer<Vector> stepper_;
+  odeint::bulirsch_stoer<Vector, S> stepper_;
 };
 
 }  // namespace

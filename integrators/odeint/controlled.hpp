@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What Odeint's controlled steppers share here: the first step, steps cut short, rejected trials, dense output.
 //
-// Method has a constructor Method(tolerance, size) and try_step(rate, x, dx, t, next, next_dx, h), which takes a step
-// of h, is true where its error estimate lets the step pass, and leaves its next proposal in h. dx is f(t, x); a method
+// Method has a constructor Method(double tolerance, size) and try_step(rate, x, dx, t, next, next_dx, h), which takes a
+// step of h, is true where its error estimate lets the step pass, and leaves its next proposal in h. dx is f(t, x); a method
 // that is `first_same_as_last` fills next_dx, and one that has calc_state(t, y, x0, dx0, t0, x1, dx1, t1) has dense
 // output. Method::order sets the first step.
 //
@@ -20,65 +20,64 @@
 
 namespace polhode {
 
-template <class Method>
-class OdeintControlled final : public Integrator<double> {
+template <class Method, class S>
+class OdeintControlled final : public Integrator<S> {
  public:
-  using Vector = std::vector<double>;
+  using Vector = std::vector<S>;
 
-  OdeintControlled(const System<double>& system, const IntegratorSettings& settings)
+  OdeintControlled(const System<S>& system, const IntegratorSettings& settings)
       : system_(system), tolerance_(settings.tolerance), t_end_(settings.t_end) {}
 
-  void begin(const State<double>& state) override {
+  void begin(const State<S>& state) override {
     evaluations_ = 0;
     take_over(state);
-    rate(x_, rate_, state.t);
+    rate(x_, rate_, S(state.t));
     fresh_ = true;
     h_ = first_step();
   }
 
-  StepResult step(State<double>& state, double h) override {
-    const auto rhs = [this](const Vector& y, Vector& dy, double t) { rate(y, dy, t); };
-    if (!fresh_) rate(x_, rate_, state.t);
+  StepResult step(State<S>& state, double h) override {
+    const auto rhs = [this](const Vector& y, Vector& dy, S t) { rate(y, dy, t); };
+    if (!fresh_) rate(x_, rate_, S(state.t));
     fresh_ = true;
     const double wanted = h_;
     double trial = std::min(wanted, h);
     bool cut_short = trial < wanted;
     for (;;) {
-      double t = state.t;
-      double proposal = trial;
-      const bool last = trial == h;
+      S t = S(state.t), proposal = S(trial);
+      const double taken = trial == h ? h : double(proposal);  // time is kept in double, whatever the scalar
       bool passed = method_->try_step(rhs, x_, rate_, t, next_, next_rate_, proposal);
       if (passed && !is_finite(next_)) {
         passed = false;
-        proposal = retreat * trial;
+        proposal = S(retreat * trial);
       }
       if (passed) {
         // A step that was cut short at the end of the interval says nothing about the one that comes after it.
-        h_ = cut_short ? std::max(wanted, proposal) : proposal;
-        accept(state, last ? state.t + h : t);
+        h_ = cut_short ? std::max(wanted, double(proposal)) : double(proposal);
+        accept(state, state.t + taken);
         return {};
       }
       // Where the right-hand side is no number a proposal may be none, or a longer step.
-      if (!(proposal < trial)) proposal = retreat * trial;
-      if (state.t + proposal == state.t) return {"Odeint's step size fell to nothing"};
-      trial = proposal;
+      if (!(double(proposal) < trial)) proposal = S(retreat * trial);
+      trial = double(proposal);
+      if (state.t + trial == state.t) return {"Odeint's step size fell to nothing"};
       cut_short = false;
     }
   }
 
   std::int64_t evaluations() const override { return evaluations_; }
 
-  void discard_history(const State<double>& state) override {
+  void discard_history(const State<S>& state) override {
     take_over(state);
     fresh_ = false;
   }
 
   bool has_dense_output() const override { return dense; }
-  bool interpolate(double t, State<double>& state) const override {
+  bool interpolate(double t, State<S>& state) const override {
     if constexpr (dense) {
       if (!(t_before_ <= t && t <= t_now_)) return false;
       Vector y(x_.size());
-      method_->calc_state(t, y, x_before_, rate_before_, t_before_, x_, rate_, t_now_);
+      method_->calc_state(S(t), y, x_before_, rate_before_, S(t_before_), x_, rate_, S(t_now_));
       state.t = t;
       std::copy(y.begin(), y.end(), state.y.data());
       return true;
@@ -88,21 +87,21 @@ class OdeintControlled final : public Integrator<double> {
   }
 
  private:
-  static constexpr bool dense = requires(const Method& m, Vector& v, double t) {
+  static constexpr bool dense = requires(const Method& m, Vector& v, S t) {
     m.calc_state(t, v, v, v, t, v, v, t);
   };
   static constexpr double retreat = 0.2;
 
   static bool is_finite(const Vector& x) {
-    return std::all_of(x.begin(), x.end(), [](double number) { return std::isfinite(number); });
+    return std::all_of(x.begin(), x.end(), [](S number) { return std::isfinite(number); });
   }
 
-  void rate(const Vector& y, Vector& dy, double t) {
+  void rate(const Vector& y, Vector& dy, S t) {
     ++evaluations_;
     system_.rate(t, y.data(), dy.data());
   }
 
-  void take_over(const State<double>& state) {
+  void take_over(const State<S>& state) {
     x_.resize(static_cast<std::size_t>(state.y.size()));
     std::copy(state.y.data(), state.y.data() + state.y.size(), x_.begin());
     next_ = rate_ = next_rate_ = x_before_ = rate_before_ = x_;
@@ -110,7 +109,7 @@ class OdeintControlled final : public Integrator<double> {
     method_.emplace(tolerance_, x_.size());
   }
 
-  void accept(State<double>& state, double t) {
+  void accept(State<S>& state, double t) {
     t_before_ = state.t;
     x_before_.swap(x_);
     rate_before_.swap(rate_);
@@ -124,12 +123,14 @@ class OdeintControlled final : public Integrator<double> {
   /// A first step that the error control corrects at once: tol^(1/p) of the time in which the state changes by itself.
   double first_step() const {
     double scale = 0;
-    for (std::size_t i = 0; i < x_.size(); ++i) scale = std::max(scale, std::abs(rate_[i]) / (std::abs(x_[i]) + 1));
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      scale = std::max(scale, double(std::abs(rate_[i]) / (std::abs(x_[i]) + 1)));
+    }
     const double t = scale > 0 ? 1 / scale : t_end_;
     return std::min(t_end_, 0.1 * t * std::pow(tolerance_, 1.0 / Method::order));
   }
 
-  const System<double>& system_;
+  const System<S>& system_;
   double tolerance_, t_end_;
   std::optional<Method> method_;
   double h_ = 0;
@@ -139,12 +140,24 @@ class OdeintControlled final : public Integrator<double> {
   std::int64_t evaluations_ = 0;
 };
 
-/// The one line that registers a controlled method.
-template <class Method>
+/// The one line that registers a controlled method: Method<S> in float, double and long double.
+template <template <class> class Method>
 IntegratorEntry odeint_controlled(Declaration declaration) {
   declaration.adaptive = true;
+  const auto maker = []<class S>(const System<S>& system, const IntegratorSettings& settings) {
+    return std::make_unique<OdeintControlled<Method<S>, S>>(system, settings);
+  };
+  return {std::move(declaration), [maker](const System<double>& s, const IntegratorSettings& x) { return maker(s, x); },
+          [maker](const System<float>& s, const IntegratorSettings& x) { return maker(s, x); },
+          [maker](const System<long double>& s, const IntegratorSettings& x) { return maker(s, x); }};
+}
+
+/// The same for a method in double only.
+template <class Method>
+IntegratorEntry odeint_controlled_in_double(Declaration declaration) {
+  declaration.adaptive = true;
   return {std::move(declaration), [](const System<double>& system, const IntegratorSettings& settings) {
-            return std::make_unique<OdeintControlled<Method>>(system, settings);
+            return std::make_unique<OdeintControlled<Method, double>>(system, settings);
           }};
 }
 

@@ -13,25 +13,26 @@ namespace {
 
 namespace odeint = boost::numeric::odeint;
 
+template <class S>
 class Dopri5 {
  public:
-  using Vector = std::vector<double>;
-  using Stepper = odeint::runge_kutta_dopri5<Vector>;
+  using Vector = std::vector<S>;
+  using Stepper = odeint::runge_kutta_dopri5<Vector, S>;
   static constexpr int order = 5;
   static constexpr bool first_same_as_last = true;
 
   Dopri5(double tolerance, std::size_t)
-      : stepper_(odeint::default_error_checker<double, Stepper::algebra_type, Stepper::operations_type>(tolerance,
-                                                                                                        tolerance)) {}
+      : stepper_(odeint::default_error_checker<S, typename Stepper::algebra_type, typename Stepper::operations_type>(
+            S(tolerance), S(tolerance))) {}
 
   template <class Rate>
-  bool try_step(const Rate& rate, const Vector& x, const Vector& dx, double& t, Vector& next, Vector& next_dx,
-                double& h) {
+  bool try_step(const Rate& rate, const Vector& x, const Vector& dx, S& t, Vector& next, Vector& next_dx,
+                S& h) {
     return stepper_.try_step(rate, x, dx, t, next, next_dx, h) == odeint::success;
   }
 
-  void calc_state(double t, Vector& y, const Vector& x0, const Vector& dx0, double t0, const Vector& x1,
-                  const Vector& dx1, double t1) const {
+  void calc_state(S t, Vector& y, const Vector& x0, const Vector& dx0, S t0, const Vector& x1,
+                  const Vector& dx1, S t1) const {
     stepper_.stepper().calc_state(t, y, x0, dx0, t0, x1, dx1, t1);
   }
 

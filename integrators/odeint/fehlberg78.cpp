@@ -12,19 +12,20 @@ namespace {
 
 namespace odeint = boost::numeric::odeint;
 
+template <class S>
 class Fehlberg78 {
  public:
-  using Vector = std::vector<double>;
-  using Stepper = odeint::runge_kutta_fehlberg78<Vector>;
+  using Vector = std::vector<S>;
+  using Stepper = odeint::runge_kutta_fehlberg78<Vector, S>;
   static constexpr int order = 8;
   static constexpr bool first_same_as_last = false;
 
   Fehlberg78(double tolerance, std::size_t)
-      : stepper_(odeint::default_error_checker<double, Stepper::algebra_type, Stepper::operations_type>(tolerance,
-                                                                                                        tolerance)) {}
+      : stepper_(odeint::default_error_checker<S, typename Stepper::algebra_type, typename Stepper::operations_type>(
+            S(tolerance), S(tolerance))) {}
 
   template <class Rate>
-  bool try_step(const Rate& rate, const Vector& x, const Vector& dx, double& t, Vector& next, Vector&, double& h) {
+  bool try_step(const Rate& rate, const Vector& x, const Vector& dx, S& t, Vector& next, Vector&, S& h) {
     return stepper_.try_step(rate, x, dx, t, next, h) == odeint::success;
   }
 

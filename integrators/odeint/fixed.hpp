@@ -70,9 +70,10 @@ class OdeintFixed final : public Integrator<S> {
   std::int64_t evaluations_ = 0;
 };
 
-/// The one line that registers a stepper.
+/// The one line that registers a stepper. Odeint's are all additive: they know no other sum than y + h Σ b k.
 template <template <class> class Stepper>
 IntegratorEntry odeint_fixed(Declaration declaration) {
+  declaration.additive = true;
   const auto maker = []<class S>(const System<S>& system) { return std::make_unique<OdeintFixed<Stepper, S>>(system); };
   return {std::move(declaration), [maker](const System<double>& s, const IntegratorSettings&) { return maker(s); },
           [maker](const System<float>& s, const IntegratorSettings&) { return maker(s); },

@@ -34,7 +34,7 @@ class Rosenbrock4 {
 }  // namespace
 
 IntegratorEntry odeint_rosenbrock4() {
-  return odeint_controlled<Rosenbrock4>(
+  return odeint_controlled_in_double<Rosenbrock4>(
       {.name = "odeint_rosenbrock4",
        .family = "Boost.Odeint",
        .summary = "Rosenbrock 4(3), L-stable, Jacobian by difference quotients, error control per step, dense output",

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "integrators/compensated.hpp"
 #include "tests/laws/integrator_trials.hpp"
 
 namespace polhode::laws {
@@ -93,6 +94,54 @@ TEST_P(IntegratorTrait, SymmetricMethodsReturn) {
   });
   if (!declared().symmetric) {
     EXPECT_GT(most, 1e-10) << "it is symmetric and does not say so";
+  }
+}
+
+// A step with compensated sums is the step itself to round-off, whatever the forces; a method whose step is no sum has none.
+TEST_P(IntegratorTrait, AdditiveMethodsTakeCompensatedSteps) {
+  if (!declared().additive) {
+    const auto system = make_system<double>(free_top(), {});
+    EXPECT_THROW(make_compensated<double>(entry(), *system, {}), std::invalid_argument);
+    return;
+  }
+  everywhere([&](const Trial& trial, const Formulation& f) {
+    const auto system = build<double>(trial, f);
+    const auto plain = make(*system);
+    const auto compensated = make_compensated<double>(entry(), *system, {.dt = 1.0 / 64});
+    State<double> a = system->start(), b = a;
+    plain->begin(a);
+    compensated->begin(b);
+    for (int k = 1; k <= 20; ++k) {
+      ASSERT_TRUE(plain->step(a, 1.0 / 64).ok());
+      ASSERT_TRUE(compensated->step(b, 1.0 / 64).ok());
+      ASSERT_LT(difference(a.y, b.y), 4e-15 * k);
+      ASSERT_EQ(a.t, b.t);
+    }
+    EXPECT_EQ(plain->evaluations() > 0, compensated->evaluations() > 0);
+  });
+}
+
+// Over many small steps in float the sums round far more than the increments do: in the same steps in long double neither.
+TEST_P(IntegratorTrait, CompensatedSumsLoseLess) {
+  if (!declared().additive) GTEST_SKIP() << "its step is not a sum";
+  constexpr std::int64_t steps = 8192;
+  constexpr double h = 1.0 / 4096;
+  for (const Orientation o : {Orientation::quaternion, Orientation::matrix}) {
+    const Formulation f{o, AngularState::velocity_body};
+    const auto system = make_system<float>(free_top(), f);
+    const auto exact = make_system<long double>(free_top(), f);
+    const auto after = [&](auto& integrator, auto state) {
+      integrator.begin(state);
+      EXPECT_TRUE(integrator.advance(state, h, steps).ok());
+      return state.y;
+    };
+    const State<float> start = system->start();
+    const auto truth = after(*make<long double>(*exact), State<long double>{0, start.y.cast<long double>()});
+    const double plain = difference(after(*make<float>(*system), start), truth);
+    const double compensated = difference(after(*make_compensated<float>(entry(), *system, {.dt = h}), start), truth);
+    EXPECT_LT(compensated, plain / 5);
+    EXPECT_LT(compensated, 1e-6);
+    EXPECT_GT(plain, 1e-6);
   }
 }
 

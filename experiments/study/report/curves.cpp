@@ -92,7 +92,8 @@ Options variant_options(const std::vector<RunRecord>& runs) {
            [](const RunConfig& c) { return fmt::format("gyroscopic {}", c.formulation.gyroscopic ? "on" : "off"); },
            [](const RunConfig& c) { return fmt::format("normalize {}", c.normalise ? "step" : "never"); },
            [](const RunConfig& c) { return fmt::format("rotation {}", name(c.formulation.rotation_from)); },
-           [](const RunConfig& c) { return std::string(name(c.precision)); }}};
+           [](const RunConfig& c) { return std::string(name(c.precision)); },
+           [](const RunConfig& c) { return c.summation ? std::string(name(*c.summation)) : std::string(); }}};
 }
 
 /// A TOML value; of a number no more than six digits, for a range has values like 2.4000000000000004.

@@ -57,6 +57,8 @@ std::vector<Field> configuration(const StudyView& study) {
   option("rotation from", "", Kind::text,
          [](const RunConfig& c) { return std::string(name(c.formulation.rotation_from)); });
   option("precision", "", Kind::text, [](const RunConfig& c) { return std::string(name(c.precision)); });
+  option("summation", "", Kind::text,
+         [](const RunConfig& c) { return c.summation ? std::string(name(*c.summation)) : std::string(); });
   option("t_end", "s", Kind::number, [](const RunConfig& c) { return number(c.t_end, 6); });
   option("samples", "", Kind::number, [](const RunConfig& c) { return c.samples ? std::to_string(*c.samples) : ""; });
   fields.push_back({{"dt", "s"}, [](const RunRecord& r) { return given(r.config.dt); }});

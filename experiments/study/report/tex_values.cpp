@@ -92,6 +92,7 @@ std::string options_of(const RunConfig& c, double t_end) {
   if (c.normalise) out += "NormalizeStep";
   if (c.formulation.rotation_from != usual.rotation_from) out += "RotationStored";
   if (c.precision != Precision::dual) out += spelt_name(std::string(name(c.precision)));
+  if (is_compensated(c)) out += "Compensated";
   if (c.t_end != t_end) out += "TEnd" + spelt_number(c.t_end);
   if (c.samples) out += "Samples" + spelt(std::to_string(*c.samples));
   return out;

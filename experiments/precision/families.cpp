@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/precision/families.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include "experiments/study/report/notation.hpp"
+
+namespace polhode::study::precision {
+namespace {
+
+using namespace report;
+
+constexpr double lost_attitude = 0.5;     ///< rad
+constexpr double agrees = 1.25;           ///< a run within this factor of the more precise one shows truncation alone
+constexpr double widest_interval = 0.5;   ///< of an order
+constexpr double dominates = 3;           ///< rounding of at least that many times the truncation error
+constexpr double clearly_dominates = 10;  ///< so that the growth in time is that of rounding
+// Errors are measured in double: the energy of a state to about its ε, the exact motion to some.
+constexpr double energy_in_double = 2 * std::numeric_limits<double>::epsilon();
+constexpr double motion_in_double = 16 * std::numeric_limits<double>::epsilon();
+
+/// What tells one problem from another, but for the method.
+using Key = std::vector<std::string>;
+struct Texts {
+  Key motion, formulation;
+};
+
+Texts texts_of(const RunConfig& c) {
+  const auto& f = c.formulation;
+  return {
+      {c.scenario, fmt::format("t_end = {} s", number(c.t_end, 6)),
+       c.samples ? fmt::format("{} samples", *c.samples) : "every step seen", c.reference ? "with a reference" : ""},
+      {std::string(name(f.orientation)), std::string(name(f.angular_state)),
+       f.gyroscopic ? "gyroscopic on" : "gyroscopic off", fmt::format("rotation {}", name(f.rotation_from)),
+       c.normalise ? "normalize step" : "normalize never"}};
+}
+
+/// The texts at the places where the runs of the study differ.
+std::string varying(const std::vector<Texts>& all, const Key Texts::*part, const Key& of) {
+  std::vector<std::string> kept;
+  for (std::size_t k = 0; k < of.size(); ++k) {
+    const bool varies = std::any_of(all.begin(), all.end(), [&](const auto& t) { return (t.*part)[k] != of[k]; });
+    if (varies && !of[k].empty()) kept.push_back(of[k]);
+  }
+  return fmt::format("{}", fmt::join(kept, ", "));
+}
+
+/// The most precise family that is more precise than this one.
+const Family* yardstick_of(const Problem& problem, const Family& family) {
+  const Family* best = nullptr;
+  for (const Family& other : problem.families) {
+    if (other.precision > family.precision) best = &other;  // in rising order, compensated last
+  }
+  return best;
+}
+
+void match(Problem& problem) {
+  for (Family& family : problem.families) {
+    const Family* yardstick = yardstick_of(problem, family);
+    if (yardstick == nullptr) continue;
+    for (Rung& rung : family.rungs) {
+      const auto same_step = std::find_if(yardstick->rungs.begin(), yardstick->rungs.end(),
+                                          [&](const Rung& other) { return other.step == rung.step; });
+      if (same_step == yardstick->rungs.end()) continue;
+      for (auto& [run, exact] : rung.runs) {
+        for (const auto& other : same_step->runs) {
+          if (other.run->config.varied == run->config.varied) exact = other.run;
+        }
+      }
+    }
+  }
+}
+
+template <class Pick>
+std::optional<double> root_mean_square(const Rung& rung, const Quantity& quantity, const Pick& pick) {
+  double sum = 0;
+  std::size_t measured = 0;
+  for (const auto& both : rung.runs) {
+    const RunRecord* run = pick(both);
+    if (run == nullptr) return std::nullopt;
+    if (!completed(*run)) return std::numeric_limits<double>::quiet_NaN();
+    if (const auto found = value(*run, quantity)) sum += *found * *found, ++measured;
+  }
+  if (measured < rung.runs.size()) return std::nullopt;
+  return std::sqrt(sum / static_cast<double>(measured));
+}
+
+/// The slope of a straight line through the logarithms.
+std::optional<double> power(const std::vector<std::pair<double, double>>& points) {
+  const auto n = static_cast<double>(points.size());
+  double x = 0, y = 0, xx = 0, xy = 0;
+  for (const auto& [a, b] : points) x += std::log(a) / n, y += std::log(b) / n;
+  for (const auto& [a, b] : points) {
+    xx += (std::log(a) - x) * (std::log(a) - x);
+    xy += (std::log(a) - x) * (std::log(b) - y);
+  }
+  return points.size() >= 3 ? std::optional(xy / xx) : std::nullopt;
+}
+
+}  // namespace
+
+std::string Family::arithmetic() const {
+  const std::string plain(name(precision));
+  return compensated ? plain + ", compensated" : plain;
+}
+
+std::string Problem::label() const {
+  std::string text = method;
+  if (!formulation.empty()) text += fmt::format(" ({})", formulation);
+  return motion.empty() ? text : fmt::format("{} on {}", text, motion);
+}
+
+std::vector<Problem> problems_of(const StudyView& study) {
+  std::vector<Texts> all;
+  for (const auto& run : study.runs) all.push_back(texts_of(run.config));
+  std::vector<Problem> problems;
+  std::map<std::tuple<Key, Key, std::string>, std::size_t> seen;
+  for (std::size_t i = 0; i < study.runs.size(); ++i) {
+    const RunRecord& run = study.runs[i];
+    const auto step = abscissa(run);
+    if (run.result.status == "refused" || !step) continue;
+    const auto [at, is_new] =
+        seen.emplace(std::tuple(all[i].motion, all[i].formulation, run.config.integrator), problems.size());
+    if (is_new) {
+      problems.push_back({run.config.integrator,
+                          varying(all, &Texts::motion, all[i].motion),
+                          varying(all, &Texts::formulation, all[i].formulation),
+                          {}});
+    }
+    auto& families = problems[at->second].families;
+    const bool compensated = is_compensated(run.config);
+    auto family = std::find_if(families.begin(), families.end(), [&](const Family& f) {
+      return f.precision == run.config.precision && f.compensated == compensated;
+    });
+    if (family == families.end()) family = families.insert(family, {run.config.precision, compensated, {}});
+    auto rung =
+        std::find_if(family->rungs.begin(), family->rungs.end(), [&](const Rung& r) { return r.step <= *step; });
+    if (rung == family->rungs.end() || rung->step != *step) rung = family->rungs.insert(rung, {*step, {}});
+    rung->runs.push_back({&run, nullptr});
+  }
+  for (Problem& problem : problems) {
+    std::sort(problem.families.begin(), problem.families.end(), [](const Family& a, const Family& b) {
+      return std::pair(a.precision, a.compensated) < std::pair(b.precision, b.compensated);
+    });
+    match(problem);
+  }
+  return problems;
+}
+
+std::optional<double> error_of(const Rung& rung, const Quantity& quantity) {
+  return root_mean_square(rung, quantity, [](const Rung::Run& r) { return r.run; });
+}
+std::optional<double> truncation_of(const Rung& rung, const Quantity& quantity) {
+  return root_mean_square(rung, quantity, [](const Rung::Run& r) { return r.exact; });
+}
+
+std::optional<Split> split(const Family& family, const Quantity& quantity) {
+  Split found;
+  std::vector<LadderPoint> truncated;
+  std::vector<std::pair<double, double>> rounded;
+  bool rounding_so_far = false;
+  found.least_error = std::numeric_limits<double>::infinity();
+  for (const Rung& rung : family.rungs) {
+    const auto error = error_of(rung, quantity), exact = truncation_of(rung, quantity);
+    if (!error) continue;
+    if (*error < found.least_error) found.least_error = *error, found.at_step = rung.step;
+    found.has_yardstick = found.has_yardstick || exact;
+    if (!exact || !(std::isfinite(*error)) || (*error <= agrees * *exact && *exact <= agrees * *error)) {
+      truncated.push_back({rung.step, *error, motion_in_double});
+    }
+    if (exact && *error > dominates * *exact) rounded.emplace_back(rung.step, *error);
+    const bool now = exact && *error > 2 * *exact;  // as much rounding again as there is truncation
+    if (now && !rounding_so_far) found.takes_over = rung.step;
+    if (!now) found.takes_over.reset();
+    rounding_so_far = now;
+  }
+  if (!std::isfinite(found.least_error)) return std::nullopt;
+  OrderSettings settings;
+  if (quantity.unit == " rad") settings.lost = lost_attitude;
+  found.truncation = estimate_order(std::move(truncated), settings);
+  if (found.truncation.line && found.truncation.line->half_width_95 > widest_interval) found.truncation.line.reset();
+  found.rounding_power = power(rounded);
+  return found;
+}
+
+bool is_rounding(const Rung::Run& run) {
+  if (run.exact == nullptr || !completed(*run.run) || !completed(*run.exact)) return false;
+  const auto drift = run.run->result.energy_drift_max_rel, exact = run.exact->result.energy_drift_max_rel;
+  return drift && exact && *drift > clearly_dominates * std::max(*exact, energy_in_double);
+}
+
+bool is_rounding_in_attitude(const Rung::Run& run) {
+  if (!is_rounding(run)) return false;
+  const auto error = run.run->result.attitude_error_max, exact = run.exact->result.attitude_error_max;
+  return error && exact && *error > clearly_dominates * *exact;
+}
+
+}  // namespace polhode::study::precision

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/precision/rounding_figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "experiments/study/report/axis.hpp"
+#include "experiments/study/report/figure_layout.hpp"
+
+namespace polhode::study {
+namespace {
+
+using namespace report;
+using precision::Family;
+using precision::Problem;
+using precision::Rung;
+
+constexpr std::size_t most_problems = 3;  // beside each other
+constexpr Precision precisions[] = {Precision::single, Precision::dual, Precision::extended};
+
+PlottedCurve curve_of(const Family& family) {
+  return {.label = family.arithmetic(),
+          .method = static_cast<std::size_t>(family.precision),
+          .variant = family.compensated};
+}
+
+/// One axis for all panels of a row, with so much room above for guides.
+Axis shared_axis(const std::string& label, const std::vector<Panel>& panels, double headroom = 1) {
+  std::vector<double> values;
+  Needs needs;
+  for (const auto& panel : panels) {
+    for (const auto& curve : panel.curves) {
+      for (const auto& point : curve.points) {
+        if (point.mark == Mark::value) values.push_back(point.value);
+        needs.edge = needs.edge || point.mark == Mark::edge;
+      }
+    }
+  }
+  if (!values.empty()) values.push_back(headroom * *std::max_element(values.begin(), values.end()));
+  return log_axis(label, values, needs);
+}
+
+/// A line of slope `power` through a point, over a stretch of the axis.
+Guide guide_through(double x, double y, double to, double power, std::string label) {
+  const double end = y * std::pow(to / x, power);
+  return {x, y, to, end, std::move(label), end};
+}
+
+/// Of the curve that stands highest at its end (its beginning for `at_front`): where a guide beside it may start.
+const PlottedCurve* highest(const Panel& panel, std::size_t variant) {
+  const PlottedCurve* best = nullptr;
+  for (const auto& curve : panel.curves) {
+    if (curve.variant != variant || curve.points.size() < 3) continue;
+    if (best == nullptr || curve.points.back().value > best->points.back().value) best = &curve;
+  }
+  return best;
+}
+
+std::vector<Panel> ladder_panels(const std::vector<const Problem*>& problems, const Quantity& quantity) {
+  std::vector<Panel> panels;
+  bool any = false;
+  for (const Problem* problem : problems) {
+    const bool adaptive = problem->families.front().adaptive();
+    Panel panel{.title = {problem->label()}, .x_column = adaptive ? "tolerance" : "dt_s", .y_column = quantity.column};
+    std::vector<double> steps;
+    for (const Family& family : problem->families) {
+      auto curve = curve_of(family);
+      for (const Rung& rung : family.rungs) {
+        const auto error = error_of(rung, quantity);
+        if (!error) continue;
+        curve.points.push_back({rung.step, *error, 0,
+                                !std::isfinite(*error) || *error > off_scale_above ? Mark::edge
+                                : *error > 0                                       ? Mark::value
+                                                                                   : Mark::zero});
+        steps.push_back(rung.step);
+      }
+      if (!curve.points.empty()) panel.curves.push_back(std::move(curve));
+    }
+    if (steps.empty()) continue;
+    any = true;
+    panel.x = step_axis(adaptive ? "tolerance" : "step h = dt (s)", steps);
+    panels.push_back(std::move(panel));
+  }
+  if (any) share_y_axis(panels, shared_axis(quantity.axis, panels));
+  return panels;
+}
+
+/// Beside the end of plain summation in the lowest precision: what a random walk of n = T/h rounding errors adds up to.
+void add_step_guides(std::vector<Panel>& panels) {
+  for (Panel& panel : panels) {
+    const auto* curve = panel.x_column == "dt_s" ? highest(panel, 0) : nullptr;
+    if (curve == nullptr) continue;
+    const auto& end = curve->points.back();
+    panel.guides.push_back(guide_through(end.x, 10 * end.value, 6 * end.x, -0.5, "h^{−1/2}"));
+  }
+}
+
+/// The rung of the largest step whose runs are all of them rounding: the errors of its steps hang together the least.
+const Rung* largest_in_rounding(const Family& family, bool (*is_rounding)(const Rung::Run&)) {
+  const auto rung = std::find_if(family.rungs.begin(), family.rungs.end(),
+                                 [&](const Rung& r) { return std::all_of(r.runs.begin(), r.runs.end(), is_rounding); });
+  return rung == family.rungs.end() ? nullptr : &*rung;
+}
+
+using Path = std::vector<std::pair<double, double>>;
+Path energies(const RunRecord& run) {
+  Path path;
+  for (const auto& p : run.result.series) path.emplace_back(p.t, p.energy_drift_rel);
+  return path;
+}
+Path attitudes(const RunRecord& run) {
+  Path path;
+  for (const auto& p : run.result.attitude_errors) path.emplace_back(p.t, p.error_rad);
+  return path;
+}
+
+/// Root mean square over the starts at times a factor √2 apart, as far as the runs were seen at the same times.
+std::vector<Point> spread(const Rung& rung, Path (*path_of)(const RunRecord&)) {
+  std::vector<Path> paths;
+  for (const auto& run : rung.runs) paths.push_back(path_of(*run.run));
+  std::vector<Point> points;
+  const std::size_t n = paths.front().size();
+  for (const auto& path : paths) {
+    if (path.size() != n) return {};
+  }
+  double next = 0;
+  for (std::size_t i = 1; i < n; ++i) {
+    const double t = paths.front()[i].first;
+    if (!(t >= next)) continue;
+    double square = 0;
+    for (const auto& path : paths) square += path[i].second * path[i].second / static_cast<double>(paths.size());
+    if (square > 0) points.push_back({t, std::sqrt(square), 0, Mark::value});
+    next = t * std::sqrt(2.0) * (1 - 1e-9);
+  }
+  return points;
+}
+
+std::vector<Panel> growth_panels(const std::vector<const Problem*>& problems, const std::string& axis,
+                                 const std::string& column, Path (*path_of)(const RunRecord&),
+                                 bool (*is_rounding)(const Rung::Run&)) {
+  std::vector<Panel> panels;
+  for (const Problem* problem : problems) {
+    Panel panel{.title = {problem->label()}, .x_column = "t_s", .y_column = column};
+    std::vector<double> times;
+    for (const Family& family : problem->families) {
+      const Rung* rung = largest_in_rounding(family, is_rounding);
+      if (rung == nullptr) continue;
+      auto curve = curve_of(family);
+      curve.points = spread(*rung, path_of);
+      for (const auto& point : curve.points) times.push_back(point.x);
+      if (curve.points.size() > 2) panel.curves.push_back(std::move(curve));
+    }
+    if (panel.curves.empty()) continue;
+    panel.x = step_axis("time (s)", times);
+    panels.push_back(std::move(panel));
+  }
+  if (!panels.empty()) share_y_axis(panels, shared_axis(axis, panels, 5));
+  return panels;
+}
+
+void add_time_guides(std::vector<Panel>& panels, double power, const std::string& label) {
+  for (Panel& panel : panels) {
+    const auto* curve = highest(panel, 0);
+    if (curve == nullptr) continue;
+    const auto& end = curve->points.back();
+    const double from = end.x / 16, to = end.x / 1.6;
+    panel.guides.push_back(guide_through(from, 4 * end.value * std::pow(from / end.x, power), to, power, label));
+  }
+}
+
+/// The precisions take the place of the methods: a colour and a marker for each.
+void finish(Figure& figure, const std::vector<const Problem*>& problems, std::size_t all) {
+  for (const Precision p : precisions) figure.methods.emplace_back(name(p));
+  bool compensated = false, plain = false;
+  for (const Problem* problem : problems) {
+    for (const Family& family : problem->families) (family.compensated ? compensated : plain) = true;
+  }
+  figure.variants = {""};
+  if (compensated) figure.variants = {"plain", "compensated"};
+  note_marks(figure);
+  if (problems.size() < all) figure.caption += fmt::format(" The first {} of {} problems.", problems.size(), all);
+}
+
+}  // namespace
+
+std::vector<Figure> rounding_figures(const std::vector<Problem>& problems) {
+  std::vector<const Problem*> shown;
+  for (const Problem& problem : problems) {
+    if (shown.size() < most_problems) shown.push_back(&problem);
+  }
+  std::vector<Figure> figures;
+  Figure ladder{.name = "error_against_step_by_precision",
+                .title = "Truncation and rounding",
+                .caption =
+                    "Root mean square over the starts. To the right truncation: the precisions agree, on a line of the "
+                    "method’s order. To the left rounding: with plain summation the error grows again as the steps "
+                    "become more, as the square root of their number; the dashed lines are compensated."};
+  for (const auto& quantity : {quantity::attitude_error(), quantity::energy_drift()}) {
+    auto panels = ladder_panels(shown, quantity);
+    add_step_guides(panels);
+    if (!panels.empty()) add_rows(ladder, std::move(panels), most_problems);
+  }
+  if (!ladder.panels.empty()) {
+    finish(ladder, shown, problems.size());
+    figures.push_back(std::move(ladder));
+  }
+  Figure growth{.name = "rounding_against_time",
+                .title = "How rounding grows",
+                .caption =
+                    "Root mean square over the starts, at the largest step at which the error of every run is "
+                    "rounding. A random walk of the energy is parallel to √t, and the attitude that follows from it to "
+                    "t to the 3/2."};
+  auto energy = growth_panels(shown, "energy drift (relative)", "energy_drift_rel", energies, precision::is_rounding);
+  add_time_guides(energy, 0.5, "t^{1/2}");
+  auto attitude =
+      growth_panels(shown, "attitude error (rad)", "attitude_error_rad", attitudes, precision::is_rounding_in_attitude);
+  add_time_guides(attitude, 1.5, "t^{3/2}");
+  if (!energy.empty()) add_rows(growth, std::move(energy), most_problems);
+  if (!attitude.empty()) add_rows(growth, std::move(attitude), most_problems);
+  if (!growth.panels.empty()) {
+    finish(growth, shown, problems.size());
+    figures.push_back(std::move(growth));
+  }
+  return figures;
+}
+
+}  // namespace polhode::study
