@@ -92,8 +92,10 @@ class Report {
     return all;
   }
 
-  /// "rk4 (order, forced: 3.2, declared 4, in matrix, velocity_body)", one for each method and trait.
-  std::vector<std::string> of_verdict(Verdict verdict, bool with_variants) const {
+  enum class Share { any, some, all };  ///< of the formulations
+
+  /// "rk4: order, forced 3.20, declared 4, in matrix, velocity_body", one for each method and trait.
+  std::vector<std::string> of_verdict(Verdict verdict, Share share) const {
     std::vector<std::string> items;
     for (const std::string& method : methods()) {
       for (std::size_t k = 0; k < trait_columns().size(); ++k) {
@@ -104,11 +106,13 @@ class Report {
           ++all;
           if (c.findings[k].verdict == verdict) those.push_back(&c);
         }
-        if (those.empty()) continue;
+        if (those.empty() || (share == Share::all && those.size() < all)) continue;
+        if (share == Share::some && those.size() == all) continue;
         const Finding& first = those.front()->findings[k];
         std::string text = fmt::format("{}: {}", method, trait_columns()[k].heading);
-        if (const std::string shown = measured_text(first); with_variants && !shown.empty()) text += " " + shown;
-        if (with_variants && !first.declared.empty()) text += fmt::format(", declared {}", first.declared);
+        if (const std::string shown = measured_text(first); !shown.empty()) text += " " + shown;
+        if (verdict == Verdict::does_not_hold) text += fmt::format(", declared {}", first.declared);
+        if (verdict == Verdict::undecided && !first.note.empty()) text += fmt::format(" ({})", first.note);
         if (those.size() < all) {
           text += those.size() == 1 ? fmt::format(" in {}", those.front()->variant)
                                     : fmt::format(" in {} of {} formulations", those.size(), all);
@@ -137,11 +141,21 @@ class Report {
     std::vector<std::string> all = {fmt::format(
         "{} of {} of {} that were decided by a measurement hold.", counts[Verdict::holds],
         count(declared, "declared trait"), count(methods().size(), "method"))};
-    for (const auto& [verdict, start, variants] :
-         {std::tuple(Verdict::does_not_hold, "Declared, and measured not to hold: ", true),
-          std::tuple(Verdict::undeclared, "Not declared, and measured to hold: ", false),
-          std::tuple(Verdict::undecided, "Undecided: ", false)}) {
-      if (const auto items = of_verdict(verdict, variants); !items.empty()) all.push_back(start + joined(items) + ".");
+    if (const auto items = of_verdict(Verdict::does_not_hold, Share::any); !items.empty()) {
+      all.push_back("Declared, and measured not to hold: " + joined(items) + ".");
+    }
+    if (const auto items = of_verdict(Verdict::undeclared, Share::all); !items.empty()) {
+      all.push_back(fmt::format("Not declared, and measured to hold{}: {}.",
+                                several_variants() ? " in every formulation" : "", joined(items)));
+    }
+    if (const auto items = of_verdict(Verdict::undeclared, Share::some); !items.empty()) {
+      all.push_back(fmt::format(
+          "In some formulations only, {} hold that {} not declared: where the world’s momentum is the state nothing "
+          "moves it without a torque, and in body axes energy and Casimir are quadratic.",
+          count(items.size(), "trait"), items.size() == 1 ? "is" : "are"));
+    }
+    if (const auto items = of_verdict(Verdict::undecided, Share::any); !items.empty()) {
+      all.push_back("Undecided: " + joined(items) + ".");
     }
     if (!study_.varied_keys.empty()) {
       all.emplace_back(
@@ -214,7 +228,7 @@ class Report {
                     "steps there and 20 back, up to {2}. Symplectic: ‖DᵀωD − ω‖/‖ω‖ of one step of {0} s in the "
                     "left-trivialised phase space, in long double where the method works in it, also at half, a quarter and an "
                     "eighth of that step.",
-                    number(course.step), number(return_limit), number(many_return_limit)),
+                    number(measures_.map_step()), number(return_limit), number(many_return_limit)),
         fmt::format("Energy, momentum, Casimir |IΩ| and orientation: the largest relative drift, or defect, over {} s at "
                     "h = {} s (adaptive methods: tolerance {}); kept: up to {}. What a drift under forces grows like "
                     "stands behind it.",

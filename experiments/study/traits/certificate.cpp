@@ -87,9 +87,9 @@ std::vector<Certificate> certify(const StudyView& study, const Measures& measure
     const auto& [stages, course, steps, tolerances] = measures;
     auto findings = run_traits(subject, *runs[i], stages, study.scenarios);
     findings.push_back(shaken.order(subject, steps, tolerances));
-    findings.push_back(time_reversibility(subject, stages, course.step));
-    findings.push_back(time_reversibility(subject, stages, course.step, many_steps));
-    findings.push_back(symplecticity(subject, stages, course.step));
+    findings.push_back(time_reversibility(subject, stages, measures.map_step()));
+    findings.push_back(time_reversibility(subject, stages, measures.map_step(), many_steps));
+    findings.push_back(symplecticity(subject, stages, measures.map_step()));
     findings.push_back(casimir(subject, stages, course));
     findings.push_back(evaluations_per_step(subject, stages, course));
     if (!c.config.formulation.gyroscopic) drop_what_needs_the_full_equations(findings);

@@ -24,7 +24,10 @@ struct Certificate {
 struct Measures {
   std::vector<Stage> stages;
   Course course;                          ///< that of the longest runs
-  std::vector<double> steps, tolerances;  ///< those of the ladders
+  std::vector<double> steps, tolerances;  ///< those of the shortest ladders
+  /// s: of maps. Half of that of the drifts, which is so large that a method does not keep by its order alone what it
+  /// does not conserve.
+  double map_step() const { return course.step / 2; }
 };
 Measures measures_of(const StudyView& study);
 

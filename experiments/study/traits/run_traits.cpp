@@ -63,8 +63,12 @@ class RunTraits {
     std::vector<Finding> findings;
     for (const Motion& motion : motions_) {
       if (motion.stage->free != free || !motion.ladder) continue;
-      for (const auto& quantity : {quantity::attitude_error(), quantity::position_error()}) {
-        findings.push_back(order_on(trait, motion, quantity));
+      const auto attitude = quantity::attitude_error(), position = quantity::position_error();
+      if (declared(motion, true) == declared(motion, false)) {
+        findings.push_back(order_on(trait, motion, {attitude, position}));
+      } else {
+        findings.push_back(order_on(trait, motion, {attitude}));
+        findings.push_back(order_on(trait, motion, {position}));
       }
     }
     return findings.empty() ? not_applicable(trait, free ? "no ladder of steps without forces"
@@ -91,25 +95,49 @@ class RunTraits {
     return finding;
   }
 
-  Finding order_on(const std::string& trait, const Motion& motion, const Quantity& quantity) const {
+  std::optional<double> declared(const Motion& motion, bool attitude) const {
+    return declared_order(subject_.declaration(), *motion.scenario, motion.ladder->runs.front()->config, attitude);
+  }
+
+  static bool seen_in(const Curve& curve, const Quantity& quantity) {
+    return std::any_of(curve.runs.begin(), curve.runs.end(),
+                       [&](const auto* run) { return quantity.of(run->result).has_value(); });
+  }
+
+  /// The larger of the errors of all quantities: rad, m.
+  static std::vector<LadderPoint> largest_errors(const Curve& curve, const std::vector<Quantity>& quantities) {
+    std::vector<LadderPoint> all;
+    for (const Quantity& quantity : quantities) {
+      auto ladder = error_ladder(curve, quantity);
+      if (all.empty()) all = ladder;
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        if (!(ladder[k].error <= all[k].error)) all[k] = ladder[k];
+      }
+    }
+    return all;
+  }
+
+  Finding order_on(const std::string& trait, const Motion& motion, std::vector<Quantity> quantities) const {
     const RunRecord& run = *motion.ladder->runs.front();
-    const bool attitude = quantity.unit == " rad";
     if (run.result.status == "refused") return without_run(trait, run);
-    const bool measured = std::any_of(motion.ladder->runs.begin(), motion.ladder->runs.end(),
-                                      [&](const auto* r) { return quantity.of(r->result).has_value(); });
-    const Declaration& d = subject_.declaration();
-    const auto declared = declared_order(d, *motion.scenario, run.config, attitude);
+    std::erase_if(quantities, [&](const Quantity& q) { return !seen_in(*motion.ladder, q); });
     Finding finding;
-    if (!measured) {
+    if (quantities.empty()) {
       finding = not_applicable(trait, "no exact motion is known; --reference makes one");
     } else {
+      const Declaration& d = subject_.declaration();
+      const bool attitude = quantities.front().unit == quantity::attitude_error().unit;
+      const auto order = declared(motion, attitude);
       auto settings = order_settings(d.adaptive);
       settings.epsilon = epsilon(run.config.precision);
-      auto ladder = error_ladder(*motion.ladder, quantity);
+      auto ladder = largest_errors(*motion.ladder, quantities);
+      if (!motion.stage->free) {  // sums of forces and torques lose more digits
+        for (LadderPoint& point : ladder) point.round_off *= 4;
+      }
       // A body that moves along a straight line, or not at all, has a position that no method gets wrong.
-      const bool trivial = !attitude && declared && estimate_order(ladder, settings).exact;
+      const bool trivial = !attitude && order && estimate_order(ladder, settings).exact;
       finding = trivial ? not_applicable(trait, "no method gets the path of the mass centre wrong")
-                        : order_finding(trait, d.adaptive, declared ? static_cast<int>(*declared) : Declaration::exact_order,
+                        : order_finding(trait, d.adaptive, order ? static_cast<int>(*order) : Declaration::exact_order,
                                         std::move(ladder), settings);
     }
     finding.on = run.config.scenario;

@@ -219,6 +219,48 @@ ShakenMotions::ShakenMotions(std::span<const Stage> stages) {
   }
 }
 
+namespace {
+
+/// The largest error at eight instants of one second.
+LadderPoint shaken_error(const Subject& subject, const System<double>& system,
+                         const std::shared_ptr<const ReferenceMotion>& reference, double size) {
+  constexpr std::int64_t instants = 8;
+  const bool adaptive = subject.declaration().adaptive;
+  const auto steps = static_cast<std::int64_t>(std::ceil(1 / size / instants * (1 - 1e-12)));  // between two instants
+  const double h = 1 / static_cast<double>(instants * steps);
+  const auto integrator = subject.entry.make(system, {.dt = h, .tolerance = adaptive ? size : 0, .t_end = 1});
+  State<double> state = system.start();
+  integrator->begin(state);
+  ReferenceMotion::Follower follower(reference);
+  double worst = 0;
+  std::int64_t taken = 0;
+  for (std::int64_t k = 1; k <= instants && std::isfinite(worst); ++k) {
+    const double end = static_cast<double>(k) / instants;
+    StepResult result;
+    if (adaptive) {
+      for (; state.t < end && result.ok(); ++taken) result = integrator->step(state, end - state.t);
+    } else {
+      result = integrator->advance(state, Stretch{.h = h, .count = steps, .first = (k - 1) * steps});
+      taken += steps;
+    }
+    state.t = end;
+    if (!result.ok() || !state.y.allFinite()) {
+      worst = infinity;
+    } else {
+      const auto e = follower.error(system, state);
+      worst = std::max({worst, e.position.value_or(0), e.attitude.value_or(0), e.angular_velocity.value_or(0)});
+    }
+  }
+  if (worst < 100 * reference->uncertainty().largest()) worst = 0;
+  // Four times what a run of the study counts: forces and angular velocities carry more of it than free attitudes.
+  const double roundings = std::sqrt(static_cast<double>(std::max<std::int64_t>(taken, 1)));
+  return {.step = adaptive ? size : h,
+          .error = worst,
+          .round_off = 64 * std::numeric_limits<double>::epsilon() * roundings};
+}
+
+}  // namespace
+
 Finding ShakenMotions::order(const Subject& subject, std::span<const double> steps,
                              std::span<const double> tolerances) const {
   const std::string trait = "order_time_dependent";
@@ -232,26 +274,7 @@ Finding ShakenMotions::order(const Subject& subject, std::span<const double> ste
     const auto system = stage->system<double>(subject.formulation);
     std::vector<LadderPoint> ladder;
     for (const double size : adaptive ? tolerances : steps) {
-      const auto n = static_cast<std::int64_t>(std::ceil(1 / size * (1 - 1e-12)));
-      const double h = adaptive ? 1 : 1 / static_cast<double>(n);
-      State<double> state = system->start();
-      const auto integrator = subject.entry.make(*system, {.dt = h, .tolerance = adaptive ? size : 0, .t_end = 1});
-      integrator->begin(state);
-      StepResult result;
-      std::int64_t taken = adaptive ? 0 : n;
-      if (!adaptive) result = integrator->advance(state, h, n);
-      for (; adaptive && state.t < 1 && result.ok(); ++taken) result = integrator->step(state, 1 - state.t);
-      state.t = 1;
-      double error = infinity;
-      if (result.ok() && state.y.allFinite()) {
-        const auto e = ReferenceMotion::Follower(reference).error(*system, state);
-        error = std::max({e.position.value_or(0), e.attitude.value_or(0), e.angular_velocity.value_or(0)});
-        if (error < 100 * reference->uncertainty().largest()) error = 0;
-      }
-      ladder.push_back({.step = adaptive ? size : h,
-                        .error = error,
-                        .round_off = 16 * std::numeric_limits<double>::epsilon() *
-                                     std::sqrt(static_cast<double>(std::max<std::int64_t>(taken, 1)))});
+      ladder.push_back(shaken_error(subject, *system, reference, size));
     }
     const int declared = subject.declaration().order;
     findings.push_back(order_finding(trait, adaptive, declared, std::move(ladder)));

@@ -34,8 +34,8 @@ struct Course {
 /// The largest drift of |I Rᵀω|, relative to the start, over the free stages.
 Finding casimir(const Subject& subject, std::span<const Stage> stages, const Course& course);
 
-/// The error at the end of one second on each shaken stage against its reference, in radians, metres or relative to the
-/// largest |ω|, whichever is most, down a ladder of steps or tolerances.
+/// The largest error at eight instants of one second on each shaken stage against its reference, in radians, metres or
+/// relative to the largest |ω|, whichever is most, down a ladder of steps or tolerances.
 class ShakenMotions {
  public:
   explicit ShakenMotions(std::span<const Stage> stages);
