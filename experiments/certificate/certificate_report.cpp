@@ -64,7 +64,7 @@ class Report {
       : study_(study), measures_(measures_of(study)), certificates_(certify(study, measures_)) {}
 
   Analysis analysis() const {
-    Analysis found{.heading = "Declared and measured"};
+    Analysis found{.alone = true, .heading = "Declared and measured"};
     found.sentences = sentences();
     found.tables.push_back({"certificate", overview()});
     if (several_variants()) found.tables.push_back({"certificate_by_formulation", by_formulation()});

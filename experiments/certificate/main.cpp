@@ -23,7 +23,6 @@ int main(int argc, char** argv) {
                               {"dt", "0.1"},
                               {"tolerance", "1e-8"},
                               {"t-end", "200"}}}},
-       .figures = false,
        .analysis = polhode::study::certificates},
       argc, argv);
 }

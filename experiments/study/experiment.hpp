@@ -25,7 +25,6 @@ struct Experiment {
   std::map<std::string, std::string> defaults;
   bool reference = false;  ///< as if --reference were given
   std::vector<FurtherAxes> more{};
-  bool figures = true;  ///< draws what every study draws; false where its runs are means to another end
   bool one_run = false;  ///< exactly one run, whose trajectory goes into the folder itself
   bool best_times = false;  ///< short runs are carried out several times, and the least wall time is kept
   /// What it makes of its finished runs beyond what every study shows; empty: nothing.

@@ -130,7 +130,6 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   options.command = experiment.name;
   for (int i = 1; i < argc; ++i) options.command += " " + quoted(argv[i]);
   options.axes = experiment.defaults;
-  options.figures = options.figures && experiment.figures;
   if (!study_file.empty()) read_study_file(study_file, options);
   for (const auto& [name, text] : given) {
     options.axes[name] = text;
