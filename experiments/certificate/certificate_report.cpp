@@ -157,6 +157,11 @@ class Report {
     if (const auto items = of_verdict(Verdict::undecided, Share::any); !items.empty()) {
       all.push_back("Undecided: " + joined(items) + ".");
     }
+    all.emplace_back(
+        "In the table: yes, declared and measured to hold; NOT, declared, and it does not hold; (yes), holds though not "
+        "declared; no, neither, in brackets in how many formulations it holds all the same; ?, undecided; –, makes no "
+        "sense. Orders and counts without a mark are as declared; of adaptive methods the slope of the error against "
+        "the tolerance stands for the order.");
     if (!study_.varied_keys.empty()) {
       all.emplace_back(
           "Reversibility, symplecticity, Casimir, the order under f(t) and the counts are of the scenarios as they "
@@ -181,11 +186,8 @@ class Report {
   }
 
   Table overview() const {
-    Table table{.caption =
-                    "Declared and measured, the worst over the formulations. yes: declared and measured to hold. NOT: "
-                    "declared, and it does not hold. (yes): holds, though not declared. no: neither; in brackets in how "
-                    "many formulations it holds all the same. ?: undecided. Orders and counts without a mark are as "
-                    "declared; those of adaptive methods are slopes against the tolerance",
+    Table table{.caption = several_variants() ? "Declared and measured, the worst over the formulations"
+                                              : "Declared and measured",
                 .columns = {{"method", "", Column::Kind::name}},
                 .rows = {}};
     for (const TraitColumn& column : trait_columns()) table.columns.push_back({column.heading, "", Column::Kind::text});

@@ -57,7 +57,9 @@ std::vector<Motion> motions_of(const std::vector<const Curve*>& curves, const st
 
 class RunTraits {
  public:
-  RunTraits(const Subject& subject, std::vector<Motion> motions) : subject_(subject), motions_(std::move(motions)) {}
+  RunTraits(const Subject& subject, std::vector<Motion> motions) : subject_(subject), motions_(std::move(motions)) {
+    for (const Motion& motion : motions_) longest_ = std::max(longest_, motion.longest->config.t_end);
+  }
 
   Finding order(const std::string& trait, bool free) const {
     std::vector<Finding> findings;
@@ -82,6 +84,7 @@ class RunTraits {
                 const std::function<bool(const Stage&)>& select, const Drift& of) const {
     std::vector<Finding> findings;
     for (const Motion& motion : motions_) {
+      if (motion.longest->config.t_end < longest_) continue;  // it was run for its order
       if (select(*motion.stage)) findings.push_back(drift_on(trait, declared, *motion.longest, of));
     }
     return findings.empty() ? not_applicable(trait, none) : worst(findings);
@@ -162,6 +165,7 @@ class RunTraits {
 
   const Subject& subject_;
   std::vector<Motion> motions_;
+  double longest_ = 0;  ///< s
 };
 
 }  // namespace
