@@ -34,8 +34,8 @@ PhaseSpace<S>::PhaseSpace(const System<S>& system) : system_(system) {
   for (std::size_t i = 0; i < system.moving(); ++i) {
     const Body& body = system.problem().bodies[i];
     const S speed = system.snapshot(y, i).angular_velocity.norm();
-    scales_.push_back({.length = S(std::sqrt(body.inertia.trace() / (2 * body.mass))),
-                       .action = S(body.inertia.norm()) * std::max(speed, S(1))});
+    lengths_.push_back(S(std::sqrt(body.inertia.trace() / (2 * body.mass))));
+    action_ = std::max(action_, S(body.inertia.norm()) * std::max(speed, S(1)));
     dimension_ += body.pinned ? 6 : 12;
   }
 }
@@ -92,10 +92,10 @@ PhasePoint<S> PhaseSpace<S>::moved(const PhasePoint<S>& from, const VectorX<S>& 
   for (std::size_t i = 0; i < to.bodies.size(); ++i) {
     auto& body = to.bodies[i];
     const bool free = !system_.problem().bodies[i].pinned;
-    if (free) body.position += scales_[i].length * next();
+    if (free) body.position += lengths_[i] * next();
     body.attitude = unit<S>(product<S>(body.attitude, quaternion_from_rotation_vector<S>(next())));
-    if (free) body.momentum += scales_[i].action / scales_[i].length * next();
-    body.body_momentum += scales_[i].action * next();
+    if (free) body.momentum += action_ / lengths_[i] * next();
+    body.body_momentum += action_ * next();
   }
   return to;
 }
@@ -107,12 +107,11 @@ VectorX<S> PhaseSpace<S>::coordinates(const PhasePoint<S>& from, const PhasePoin
   const auto put = [&](const Vector3<S>& part) { all.template segment<3>((k += 3) - 3) = part; };
   for (std::size_t i = 0; i < to.bodies.size(); ++i) {
     const auto &a = from.bodies[i], &b = to.bodies[i];
-    const auto [length, action] = scales_[i];
     const bool free = !system_.problem().bodies[i].pinned;
-    if (free) put((b.position - a.position) / length);
+    if (free) put((b.position - a.position) / lengths_[i]);
     put(rotation_vector<S>(product<S>(conjugate<S>(a.attitude), b.attitude)));
-    if (free) put((b.momentum - a.momentum) * (length / action));
-    put((b.body_momentum - a.body_momentum) / action);
+    if (free) put((b.momentum - a.momentum) * (lengths_[i] / action_));
+    put((b.body_momentum - a.body_momentum) / action_);
   }
   return all;
 }
@@ -126,7 +125,7 @@ MatrixX<S> PhaseSpace<S>::two_form(const PhasePoint<S>& at) const {
     form.block(k, k + half, half, half).setIdentity();
     form.block(k + half, k, half, half) = -MatrixX<S>::Identity(half, half);
     // ⟨π, ξ_a × ξ_b⟩ = −ξ_aᵀ π* ξ_b
-    form.template block<3, 3>(k + half - 3, k + half - 3) = -skew<S>(at.bodies[i].body_momentum / scales_[i].action);
+    form.template block<3, 3>(k + half - 3, k + half - 3) = -skew<S>(at.bodies[i].body_momentum / action_);
     k += 2 * half;
   }
   return form;

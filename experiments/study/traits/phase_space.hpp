@@ -7,8 +7,8 @@
 // (Abraham & Marsden, Foundations of Mechanics, 2nd ed., proposition 4.4.1; the last term comes from dξ(ξ_a, ξ_b) =
 // −[ξ_a, ξ_b], the bracket of fields that are invariant from the left).
 //
-// Coordinates have no dimension: lengths over the radius of gyration ℓ, angular momenta over A = |I| max(|Ω|, 1/s) at
-// the start, linear ones over A/ℓ, so that ω/A has entries of the order of one.
+// Coordinates have no dimension: lengths over the radius of gyration ℓ of the body, angular momenta over the largest
+// A = |I| max(|Ω|, 1/s) of all bodies at the start, one for all, and linear ones over A/ℓ: these are the entries of ω/A.
 #pragma once
 
 #include <vector>
@@ -61,11 +61,9 @@ class PhaseSpace {
   MatrixX<S> two_form(const PhasePoint<S>& at) const;
 
  private:
-  struct Scale {
-    S length, action;
-  };
   const System<S>& system_;
-  std::vector<Scale> scales_;
+  std::vector<S> lengths_;
+  S action_ = 0;
   int dimension_ = 0;
 };
 
