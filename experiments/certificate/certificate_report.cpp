@@ -38,12 +38,18 @@ std::string measured_text(const Finding& finding) {
 std::string mark(const Finding& finding) {
   const bool claims_nothing = finding.declared.empty() && finding.verdict == Verdict::absent;
   switch (finding.verdict) {
-    case Verdict::holds: return is_order(finding.trait) || is_count(finding.trait) ? "" : "yes ";
-    case Verdict::does_not_hold: return "NOT ";
-    case Verdict::undeclared: return "(yes) ";
-    case Verdict::absent: return claims_nothing ? "" : "no ";
-    case Verdict::undecided: return "? ";
-    default: return "";
+    case Verdict::holds:
+      return is_order(finding.trait) || is_count(finding.trait) ? "" : "yes ";
+    case Verdict::does_not_hold:
+      return "NOT ";
+    case Verdict::undeclared:
+      return "(yes) ";
+    case Verdict::absent:
+      return claims_nothing ? "" : "no ";
+    case Verdict::undecided:
+      return "? ";
+    default:
+      return "";
   }
 }
 
@@ -53,7 +59,10 @@ std::string cell(const Finding& finding) {
   if (finding.verdict == Verdict::does_not_hold && (is_order(finding.trait) || is_count(finding.trait))) {
     text += fmt::format(", declared {}", finding.declared);
   }
-  if (finding.trait == "energy_forced" && !finding.note.empty()) text += " " + finding.note;
+  // "bounded", "linear", …, or "diverged" without its message.
+  if (finding.trait == "energy_forced" && !finding.note.empty()) {
+    text += " " + finding.note.substr(0, finding.note.find(':'));
+  }
   while (!text.empty() && text.back() == ' ') text.pop_back();
   return text;
 }
@@ -138,9 +147,10 @@ class Report {
       for (const Finding& f : c.findings) ++counts[f.verdict];
     }
     const auto declared = counts[Verdict::holds] + counts[Verdict::does_not_hold];
-    std::vector<std::string> all = {fmt::format(
-        "{} of {} of {} that were decided by a measurement hold.", counts[Verdict::holds],
-        count(declared, "declared trait"), count(methods().size(), "method"))};
+    std::vector<std::string> all = {fmt::format("{} of {} of {}{} that were decided by a measurement hold.",
+                                                counts[Verdict::holds], count(declared, "declared trait"),
+                                                count(methods().size(), "method"),
+                                                several_variants() ? ", counted in every formulation," : "")};
     if (const auto items = of_verdict(Verdict::does_not_hold, Share::any); !items.empty()) {
       all.push_back("Declared, and measured not to hold: " + joined(items) + ".");
     }
@@ -158,7 +168,8 @@ class Report {
       all.push_back("Undecided: " + joined(items) + ".");
     }
     all.emplace_back(
-        "In the table: yes, declared and measured to hold; NOT, declared, and it does not hold; (yes), holds though not "
+        "In the table: yes, declared and measured to hold; NOT, declared, and it does not hold; (yes), holds though "
+        "not "
         "declared; no, neither, in brackets in how many formulations it holds all the same; ?, undecided; –, makes no "
         "sense. Orders and counts without a mark are as declared; of adaptive methods the slope of the error against "
         "the tolerance stands for the order.");
@@ -223,32 +234,27 @@ class Report {
   std::vector<std::string> method() const {
     const Course& course = measures_.course;
     return {
-        fmt::format("Orders: as in the experiment convergence, from the runs of {} s; f(t): the same after 1 s under a "
-                    "force and a torque that depend on time.",
-                    number(shortest())),
-        fmt::format("Reversible: ‖Φ₋ₕΦₕy − y‖/(1 + ‖y‖) at h = {0} s from a point off all symmetries, up to {1}; many: 20 "
-                    "steps there and 20 back, up to {2}. Symplectic: ‖DᵀωD − ω‖/‖ω‖ of one step of {0} s in the "
-                    "left-trivialised phase space, in long double where the method works in it, also at half, a quarter and an "
-                    "eighth of that step.",
-                    number(measures_.map_step()), number(return_limit), number(many_return_limit)),
-        fmt::format("Energy, momentum, Casimir |IΩ| and orientation: the largest relative drift, or defect, over {} s at "
-                    "h = {} s (adaptive methods: tolerance {}); kept: up to {}. What a drift under forces grows like "
-                    "stands behind it.",
-                    number(course.t_end), number(course.step), number(course.tolerance), number(kept_limit)),
+        "Orders: as in the experiment convergence, from the shortest runs of each scenario; f(t): the same over 1 s "
+        "under a force and a torque that depend on time.",
+        fmt::format(
+            "Reversible: ‖Φ₋ₕΦₕy − y‖/(1 + ‖y‖) at h = {0} s from a point off all symmetries, up to {1}; many: 20 "
+            "steps there and 20 back, up to {2}. Symplectic: ‖DᵀωD − ω‖/‖ω‖ of one step of {0} s in the "
+            "left-trivialised phase space, in long double where the method works in it, also at half, a quarter and an "
+            "eighth of that step.",
+            number(measures_.map_step()), number(return_limit), number(many_return_limit)),
+        fmt::format(
+            "Energy, momentum, Casimir |IΩ| and orientation: the largest relative drift, or defect, over {} s at "
+            "h = {} s (adaptive methods: tolerance {}); kept: up to {}. What a drift under forces grows like "
+            "stands behind it.",
+            number(course.t_end), number(course.step), number(course.tolerance), number(kept_limit)),
         fmt::format("Right-hand sides per step are counted by a force; the time of a step is in {}/cost.csv.",
                     timings_folder)};
   }
 
-  double shortest() const {
-    double least = measures_.course.t_end;
-    for (const RunRecord& run : study_.runs) least = std::min(least, run.config.t_end);
-    return least;
-  }
-
   /// Those columns of a run's configuration that tell certificates apart.
   std::vector<std::string> kept_cells(const std::vector<std::string>& cells) const {
-    static const std::set<std::string> kept = {"integrator",    "orientation",   "angular_state", "gyroscopic",
-                                               "normalize",     "rotation_from", "precision"};
+    static const std::set<std::string> kept = {"integrator", "orientation",   "angular_state", "gyroscopic",
+                                               "normalize",  "rotation_from", "precision"};
     const auto names = config_columns({});
     std::vector<std::string> some;
     for (std::size_t k = 0; k < names.size(); ++k) {
@@ -295,7 +301,8 @@ class Report {
     if (by_time.size() > 1) {
       const auto [least, cheap] = *by_time.begin();
       const auto [most, dear] = *by_time.rbegin();
-      sentences.push_back(fmt::format("A step takes {} ns ({}) to {} ns ({}).", number(least), cheap, number(most), dear));
+      sentences.push_back(
+          fmt::format("A step takes {} ns ({}) to {} ns ({}).", number(least), cheap, number(most), dear));
     }
     return text;
   }

@@ -87,7 +87,7 @@ class Certificate(unittest.TestCase):
 
     def test_report_tables_and_terminal_say_the_same(self):
         words = re.sub(r"<[^>]*>", "", (self.out / "report.html").read_text(encoding="utf-8"))
-        sentence = re.search(r"\d+ of \d+ declared traits of 5 methods .*?\.", self.printed)[0]
+        sentence = re.search(r"\d+ of \d+ declared traits of 5 methods, .*?\.", self.printed)[0]
         self.assertIn(sentence, words)
         order = f"{float(self.row('rk4', 'order_free')['measured']):.2f}"
         for text in (words, (self.out / "tables/certificate_by_formulation.md").read_text(encoding="utf-8"),

@@ -38,9 +38,7 @@ double defect_of(const Problem& problem, const Formulation& f,
   return symplecticity_defect<Real>(space, map, space.generic(), best_increment<Real>).value_or(-1);
 }
 
-void flow(const System<Real>& system, VectorX<Real>& y, Real h) {
-  y = laws::reference_flow(system, y, 0, h, 100);
-}
+void flow(const System<Real>& system, VectorX<Real>& y, Real h) { y = laws::reference_flow(system, y, 0, h, 100); }
 
 // The flow of a system whose forces have a potential is symplectic; with friction it is not.
 TEST(Symplecticity, OfTheExactFlowIsRoundOff) {

@@ -11,12 +11,18 @@ namespace {
 
 int gravity_of(Verdict verdict) {
   switch (verdict) {
-    case Verdict::does_not_hold: return 5;
-    case Verdict::absent: return 4;
-    case Verdict::undeclared: return 3;
-    case Verdict::holds: return 2;
-    case Verdict::undecided: return 1;
-    default: return 0;
+    case Verdict::does_not_hold:
+      return 5;
+    case Verdict::absent:
+      return 4;
+    case Verdict::undeclared:
+      return 3;
+    case Verdict::holds:
+      return 2;
+    case Verdict::undecided:
+      return 1;
+    default:
+      return 0;
   }
 }
 
@@ -29,12 +35,18 @@ bool worse(const Finding& a, const Finding& b) {
 
 std::string text(Verdict verdict) {
   switch (verdict) {
-    case Verdict::holds: return "holds";
-    case Verdict::does_not_hold: return "does not hold";
-    case Verdict::undeclared: return "holds, not declared";
-    case Verdict::absent: return "not declared";
-    case Verdict::undecided: return "undecided";
-    default: return "not applicable";
+    case Verdict::holds:
+      return "holds";
+    case Verdict::does_not_hold:
+      return "does not hold";
+    case Verdict::undeclared:
+      return "holds, not declared";
+    case Verdict::absent:
+      return "not declared";
+    case Verdict::undecided:
+      return "undecided";
+    default:
+      return "not applicable";
   }
 }
 
@@ -73,8 +85,8 @@ Finding kept(std::string trait, bool declared, double defect, double limit, std:
                   .on = std::move(on),
                   .note = {}};
   const bool holds = defect <= limit;  // false of what is no number
-  finding.verdict = declared ? (holds ? Verdict::holds : Verdict::does_not_hold)
-                             : (holds ? Verdict::undeclared : Verdict::absent);
+  finding.verdict =
+      declared ? (holds ? Verdict::holds : Verdict::does_not_hold) : (holds ? Verdict::undeclared : Verdict::absent);
   return finding;
 }
 

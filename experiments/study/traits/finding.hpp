@@ -19,14 +19,14 @@ enum class Verdict {
 std::string text(Verdict verdict);
 
 struct Finding {
-  std::string trait;              ///< one of trait_columns(): "symplecticity"
-  std::string declared;           ///< "yes", "no", an order, a number; empty: nothing is declared of it
-  std::optional<double> measured; ///< absent: at round-off, or not measured
-  std::string unit;               ///< "1", "rad", …
-  std::optional<double> limit;    ///< it holds up to here
+  std::string trait;               ///< one of trait_columns(): "symplecticity"
+  std::string declared;            ///< "yes", "no", an order, a number; empty: nothing is declared of it
+  std::optional<double> measured;  ///< absent: at round-off, or not measured
+  std::string unit;                ///< "1", "rad", …
+  std::optional<double> limit;     ///< it holds up to here
   Verdict verdict = Verdict::not_applicable;
-  std::string on;                 ///< the scenario that showed the worst
-  std::string note;               ///< why, or what else was seen
+  std::string on;    ///< the scenario that showed the worst
+  std::string note;  ///< why, or what else was seen
 };
 
 struct TraitColumn {

@@ -22,10 +22,13 @@ constexpr double lost = 0.5;              // rad, or m: such an error says nothi
 Verdict verdict_of(OrderVerdict seen) {
   switch (seen) {
     case OrderVerdict::as_declared:
-    case OrderVerdict::exact_here: return Verdict::holds;
+    case OrderVerdict::exact_here:
+      return Verdict::holds;
     case OrderVerdict::higher:
-    case OrderVerdict::lower: return Verdict::does_not_hold;
-    default: return Verdict::undecided;
+    case OrderVerdict::lower:
+      return Verdict::does_not_hold;
+    default:
+      return Verdict::undecided;
   }
 }
 
@@ -95,8 +98,9 @@ Finding order_finding(std::string trait, bool adaptive, int declared, std::vecto
   if (exact || finding.verdict == Verdict::holds) return finding;
   const auto limit = limit_order(std::move(ladder), settings.lost, declared);
   if (limit && std::abs(*limit - declared) <= order_margin) {
-    finding.note = fmt::format("a line through all points has {:.2f}; this is between the last two, and they tend to {}",
-                               finding.measured.value_or(0), declared);
+    finding.note =
+        fmt::format("a line through all points has {:.2f}; this is between the last two, and they tend to {}",
+                    finding.measured.value_or(0), declared);
     finding.measured = limit;
     finding.verdict = Verdict::holds;
   }

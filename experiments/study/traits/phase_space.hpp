@@ -8,7 +8,8 @@
 // −[ξ_a, ξ_b], the bracket of fields that are invariant from the left).
 //
 // Coordinates have no dimension: lengths over the radius of gyration ℓ of the body, angular momenta over the largest
-// A = |I| max(|Ω|, 1/s) of all bodies at the start, one for all, and linear ones over A/ℓ: these are the entries of ω/A.
+// A = |I| max(|Ω|, 1/s) of all bodies at the start, one for all, and linear ones over A/ℓ: these are the entries of
+// ω/A.
 #pragma once
 
 #include <vector>
@@ -23,10 +24,10 @@ using MatrixX = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
 template <class S>
 struct PhasePoint {
   struct Body {
-    Vector3<S> position;      ///< m, of the mass centre; free bodies only
-    Quaternion<S> attitude;   ///< of length one
-    Vector3<S> momentum;      ///< kg m/s; free bodies only
-    Vector3<S> body_momentum; ///< π, kg m²/s
+    Vector3<S> position;       ///< m, of the mass centre; free bodies only
+    Quaternion<S> attitude;    ///< of length one
+    Vector3<S> momentum;       ///< kg m/s; free bodies only
+    Vector3<S> body_momentum;  ///< π, kg m²/s
   };
   std::vector<Body> bodies;
 };

@@ -73,9 +73,9 @@ class RunTraits {
         findings.push_back(order_on(trait, motion, {position}));
       }
     }
-    return findings.empty() ? not_applicable(trait, free ? "no ladder of steps without forces"
-                                                         : "no ladder of steps under forces")
-                            : worst(findings);
+    return findings.empty()
+               ? not_applicable(trait, free ? "no ladder of steps without forces" : "no ladder of steps under forces")
+               : worst(findings);
   }
 
   using Drift = std::function<std::optional<double>(const RunResult&)>;
@@ -152,14 +152,12 @@ class RunTraits {
     if (run.result.status == "refused") return without_run(trait, run);
     const double limit = kept_limit * epsilon(run.config.precision) / std::numeric_limits<double>::epsilon();
     const auto most = of(run.result);
-    if (!most || (run.result.status == "failed" && *most <= limit)) return without_run(trait, run);
-    const bool diverged = run.result.status == "diverged";
+    // A run that ended early shows what was kept until then, if it went any way at all.
+    constexpr std::int64_t least_steps = 10;
+    if (!most || (*most <= limit && run.result.steps < least_steps)) return without_run(trait, run);
     Finding finding = kept(trait, declared.value_or(false), *most, limit, run.config.scenario);
-    if (diverged && finding.verdict != Verdict::does_not_hold && finding.verdict != Verdict::absent) {
-      return without_run(trait, run);
-    }
     if (!declared) finding.declared.clear();
-    if (run.result.status != "ok") finding.note = run.result.status;
+    if (run.result.status != "ok") finding.note = run.result.status + ": " + run.result.message;
     return finding;
   }
 
@@ -183,7 +181,8 @@ std::vector<Finding> run_traits(const Subject& subject, const std::vector<const 
   // ½ Ω·IΩ is quadratic in the body's angular velocity.
   const bool quadratic_energy =
       d.conserves_quadratics && subject.formulation.angular_state == AngularState::velocity_body;
-  Finding forced = traits.drift("energy_forced", std::nullopt, "no forces that all have a potential", conservative, energy);
+  Finding forced =
+      traits.drift("energy_forced", std::nullopt, "no forces that all have a potential", conservative, energy);
   for (const Motion& motion : motions) {
     if (motion.stage->name != forced.on || motion.longest->result.status != "ok") continue;
     forced.note = motion.longest->result.drift_class;

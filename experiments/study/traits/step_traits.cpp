@@ -87,8 +87,7 @@ Finding symplecticity_on(const Subject& subject, const Stage& stage, double larg
     // Truncation and round-off add to a defect: the least is nearest to it.
     double least = infinity;
     for (const double part : {1.0, 0.25}) {
-      const auto defect =
-          symplecticity_defect<S>(space, map, space.generic(), best_increment<S> * part);
+      const auto defect = symplecticity_defect<S>(space, map, space.generic(), best_increment<S> * part);
       if (!defect) return failed(trait, failure.empty() ? "no finite numbers" : failure);
       least = std::min(least, *defect);
     }
@@ -186,8 +185,8 @@ Finding casimir(const Subject& subject, std::span<const Stage> stages, const Cou
   const std::string trait = "casimir";
   const Declaration& d = subject.declaration();
   // |IΩ|² is a quadratic invariant of Euler's equations.
-  const bool declared =
-      d.conserves_casimir || (d.conserves_quadratics && subject.formulation.angular_state == AngularState::velocity_body);
+  const bool declared = d.conserves_casimir ||
+                        (d.conserves_quadratics && subject.formulation.angular_state == AngularState::velocity_body);
   return over_stages(
       trait, subject, stages, "no body without forces", [](const Stage& stage) { return stage.free; },
       [&](const Stage& stage) {
@@ -213,9 +212,8 @@ Finding casimir(const Subject& subject, std::span<const Stage> stages, const Cou
 ShakenMotions::ShakenMotions(std::span<const Stage> stages) {
   for (const Stage& stage : stages) {
     if (!stage.shaken) continue;
-    motions_.push_back({&stage, std::make_shared<ReferenceMotion>(
-                                    stage.problem, true, 1.0, nullptr,
-                                    [](System<long double>& system) { shake(system); })});
+    motions_.push_back({&stage, std::make_shared<ReferenceMotion>(stage.problem, true, 1.0, nullptr,
+                                                                  [](System<long double>& system) { shake(system); })});
   }
 }
 

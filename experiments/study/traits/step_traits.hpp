@@ -27,9 +27,9 @@ Finding symplecticity(const Subject& subject, std::span<const Stage> stages, dou
 
 /// How far a run goes: fixed steps of `step`, or as far as `tolerance` lets an adaptive method.
 struct Course {
-  double step = 0.05;       ///< s
+  double step = 0.05;  ///< s
   double tolerance = 1e-8;
-  double t_end = 200;       ///< s
+  double t_end = 200;  ///< s
 };
 /// The largest drift of |I Rᵀω|, relative to the start, over the free stages.
 Finding casimir(const Subject& subject, std::span<const Stage> stages, const Course& course);

@@ -15,8 +15,8 @@ namespace polhode::study {
 template <class S>
 using FlatMap = std::function<bool(VectorX<S>& y)>;
 
-/// The derivative is taken by central differences of sixth order with steps of `increment`, 6 evaluations of the map for
-/// each dimension. Absent where the map fails. S: double or long double.
+/// The derivative is taken by central differences of sixth order with steps of `increment`, 6 evaluations of the map
+/// for each dimension. Absent where the map fails. S: double or long double.
 template <class S>
 std::optional<double> symplecticity_defect(const PhaseSpace<S>& space, const FlatMap<S>& map, const PhasePoint<S>& at,
                                            double increment);
