@@ -72,8 +72,9 @@ void raise(double& worst, Real x) {
 
 double ReferenceMotion::Uncertainty::largest() const { return std::max({position, attitude, angular_velocity}); }
 
-ReferenceMotion::ReferenceMotion(const Problem& problem, bool gyroscopic, double t_end, const std::atomic<bool>* stop)
-    : problem_(problem), gyroscopic_(gyroscopic), t_end_(t_end) {
+ReferenceMotion::ReferenceMotion(const Problem& problem, bool gyroscopic, double t_end, const std::atomic<bool>* stop,
+                                 std::function<void(System<long double>&)> prepare)
+    : problem_(problem), gyroscopic_(gyroscopic), prepare_(std::move(prepare)), t_end_(t_end) {
   double fastest = 0;
   for (std::size_t i = 0; i < problem.moving(); ++i) {
     fastest = std::max(fastest, problem.starts[i].angular_velocity.norm());
@@ -100,7 +101,9 @@ ReferenceMotion::ReferenceMotion(const Problem& problem, bool gyroscopic, double
 }
 
 std::unique_ptr<System<long double>> ReferenceMotion::make() const {
-  return make_system<Real>(problem_, {Orientation::quaternion, AngularState::velocity_body, gyroscopic_});
+  auto system = make_system<Real>(problem_, {Orientation::quaternion, AngularState::velocity_body, gyroscopic_});
+  if (prepare_) prepare_(*system);
+  return system;
 }
 
 std::vector<Flat> ReferenceMotion::march(const System<Real>& system, int steps, const std::atomic<bool>* stop) const {

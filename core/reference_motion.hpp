@@ -6,6 +6,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -17,8 +18,10 @@ namespace polhode {
 class ReferenceMotion {
  public:
   /// Of the equations as they are with or without the gyroscopic term, from t = 0 to t_end (s). It takes what work it
-  /// needs to reach round-off, up to some seconds; with `stop` set it ends at once, as uncertain as it is.
-  ReferenceMotion(const Problem& problem, bool gyroscopic, double t_end, const std::atomic<bool>* stop = nullptr);
+  /// needs to reach round-off, up to some seconds; with `stop` set it ends at once, as uncertain as it is. `prepare`
+  /// adds forces beyond those of the problem.
+  ReferenceMotion(const Problem& problem, bool gyroscopic, double t_end, const std::atomic<bool>* stop = nullptr,
+                  std::function<void(System<long double>&)> prepare = {});
 
   /// The largest change by the last halving, over the bodies and over 50 instants and the end; infinite where a motion
   /// could not be followed.
@@ -57,6 +60,7 @@ class ReferenceMotion {
 
   Problem problem_;
   bool gyroscopic_;
+  std::function<void(System<long double>&)> prepare_;
   double t_end_;
   double speed_scale_ = 1;  ///< rad/s
   int steps_ = 1;           ///< in an interval

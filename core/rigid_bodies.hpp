@@ -543,16 +543,16 @@ auto in_formulation(const Formulation& formulation, const Build& build) {
                                                             : chart.template operator()<Orientation::matrix>();
 }
 
-/// Calls f with the system behind the erased one: that of one body in its formulation, or ManyBodies.
+/// Calls f with the system behind the erased one: ManyBodies, or that of one body in its formulation.
 template <class S, class F>
 auto visit_system(const System<S>& system, F&& f) {
-  const auto many = [&](auto& g) { return g(static_cast<const ManyBodies<S>&>(system)); };
   const auto one = [&]<Orientation O, AngularState A>() {
     return f(static_cast<const RigidBodies<S, O, A, BodyCount::one>&>(system));
   };
-  if constexpr (!has_one_body_form<S>) return many(f);
+  if constexpr (!has_one_body_form<S>) return f(static_cast<const ManyBodies<S>&>(system));
   else if constexpr (is_lanes<S>) return in_formulation(system.formulation(), one);
-  else return fits_one_body_form(system.problem()) ? in_formulation(system.formulation(), one) : many(f);
+  else if (const auto* many = dynamic_cast<const ManyBodies<S>*>(&system)) return f(*many);
+  else return in_formulation(system.formulation(), one);
 }
 
 }  // namespace polhode

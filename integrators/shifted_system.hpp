@@ -3,54 +3,77 @@
 // the state, and what a method computes of it carries rounding errors in proportion to the change alone.
 #pragma once
 
-#include "core/system.hpp"
+#include <stdexcept>
+
+#include "core/rigid_bodies.hpp"
 
 namespace polhode {
 
-/// Its flat state is dynamic and its rate a virtual call: one instantiation for each scalar serves all formulations. Of
-/// the concept MechanicalSystem it has what a method on the flat ODE and its halves asks for.
+/// Has what a method on the flat ODE and its halves asks for; no group steps, inertia map or flows, since z is no
+/// configuration: a method that asks for those is not additive, and gets a std::logic_error.
 template <class S>
-class ShiftedSystem final : public System<S> {
+class ShiftedSystem final : public ManyBodies<S> {
  public:
-  using Scalar = S;
   using Flat = VectorX<S>;
+  using Tangent = VectorX<S>;
 
   /// The system must outlive it.
   explicit ShiftedSystem(const System<S>& system)
-      : System<S>(system.problems(), system.formulation()), system_(system), from_(zero()), seen_(zero()), whole_(zero()) {}
+      : ManyBodies<S>(system.problems(), system.formulation()),
+        system_(system),
+        from_(this->zero()),
+        seen_(this->zero()),
+        whole_(this->zero()) {}
 
   /// y0 from now on.
   void stand_at(const Flat& y) { from_ = y; }
-
-  Flat zero() const { return Flat::Zero(this->layout().size()); }
-  void rate(S t, const Flat& z, Flat& dz) const { rate(t, z.data(), dz.data()); }
-  void acceleration(S t, const Flat& z, Flat& dz) const {
-    rate(t, z, whole_);
-    velocity_part(dz) = velocity_part(whole_);
-  }
-  void configuration_rate(S t, const Flat& z, Flat& dz) const {
-    rate(t, z, whole_);
-    configuration_part(dz) = configuration_part(whole_);
-    work_part(dz) = work_part(whole_);
-  }
-  auto configuration_part(Flat& z) const { return z.head(this->layout().configuration_size); }
-  auto velocity_part(Flat& z) const { return z.segment(this->layout().configuration_size, this->layout().velocity_size); }
-  S& work_part(Flat& z) const { return z[z.size() - 1]; }
 
   void rate(S t, const S* z, S* dz) const override {
     seen_ = from_ + Eigen::Map<const Flat>(z, from_.size());
     system_.rate(t, seen_.data(), dz);
   }
-  State<S> start() const override { return {0, zero()}; }
-  Measurement<S> measure(const Flat& z) const override { return system_.measure(from_ + z); }
-  BodySnapshot<S> snapshot(const Flat& z, std::size_t body) const override { return system_.snapshot(from_ + z, body); }
-  void project(Flat& z) const override {
-    seen_ = from_ + z;
-    system_.project(seen_);
-    z = seen_ - from_;
+  void rate(S t, const Flat& z, Flat& dz) const override { rate(t, z.data(), dz.data()); }
+  void acceleration(S t, const Flat& z, Flat& dz) const override {
+    rate(t, z, whole_);
+    this->velocity_part(dz) = this->velocity_part(whole_);
+  }
+  void configuration_rate(S t, const Flat& z, Flat& dz) const override {
+    rate(t, z, whole_);
+    this->configuration_part(dz) = this->configuration_part(whole_);
+    this->work_part(dz) = this->work_part(whole_);
   }
 
+  State<S> start() const override { return {0, this->zero()}; }
+  Measurement<S> measure(const Flat& z) const override { return system_.measure(from_ + z); }
+  Measurement<S> measure_flat(const S* z) const override { return measure(Eigen::Map<const Flat>(z, from_.size())); }
+  BodySnapshot<S> snapshot(const Flat& z, std::size_t body) const override { return system_.snapshot(from_ + z, body); }
+  void project(Flat& z) const override { project_flat(z.data()); }
+  void project_flat(S* z) const override {
+    Eigen::Map<Flat> change(z, from_.size());
+    seen_ = from_ + change;
+    system_.project(seen_);
+    change = seen_ - from_;
+  }
+
+  void twist(const Flat&, Tangent&) const override { refuse(); }
+  void retract(Flat&, const Tangent&) const override { refuse(); }
+  void dexp_inverse(const Tangent&, const Tangent&, Tangent&) const override { refuse(); }
+  void wrench(S, const Flat&, Tangent&) const override { refuse(); }
+  void momentum(const Flat&, Tangent&) const override { refuse(); }
+  void set_momentum(const Tangent&, Flat&) const override { refuse(); }
+  void body_twist(const Flat&, Tangent&) const override { refuse(); }
+  void set_body_twist(const Tangent&, Flat&) const override { refuse(); }
+  void body_acceleration(const Flat&, const Tangent&, Tangent&) const override { refuse(); }
+  void retract_in_body(Flat&, const Tangent&) const override { refuse(); }
+  void carry_momentum(const Tangent&, const Tangent&, Flat&) const override { refuse(); }
+  void bracket(const Tangent&, const Tangent&, Tangent&) const override { refuse(); }
+  void kick(S, S, Flat&) const override { refuse(); }
+  void kick(S, S, const Flat&, Flat&) const override { refuse(); }
+  void free_flow(S, Flat&, const Rotor<S>&) const override { refuse(); }
+
  private:
+  [[noreturn]] static void refuse() { throw std::logic_error("a change of the state is no configuration"); }
+
   const System<S>& system_;
   Flat from_;
   mutable Flat seen_, whole_;

@@ -13,6 +13,7 @@
 #include "experiments/study/order_estimate.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/report/curves.hpp"
+#include "experiments/study/report/error_ladder.hpp"
 #include "experiments/study/report/notation.hpp"
 #include "integrators/catalogue.hpp"
 
@@ -34,17 +35,6 @@ struct Order {
   OrderVerdict verdict;
 };
 
-std::vector<LadderPoint> ladder(const Curve& curve, const Quantity& quantity) {
-  std::vector<LadderPoint> points;
-  for (const auto* run : curve.runs) {
-    if (!completed(*run) && !ended_early(*run)) continue;  // refused
-    points.push_back({abscissa(*run).value_or(0),
-                      value(*run, quantity).value_or(std::numeric_limits<double>::quiet_NaN()),
-                      round_off_level(*run, quantity)});
-  }
-  return points;
-}
-
 Order order_of(const Curve& curve, const Quantity& quantity, std::optional<double> declared) {
   OrderSettings settings;
   if (is_attitude(quantity)) settings.lost = lost_attitude;
@@ -55,7 +45,7 @@ Order order_of(const Curve& curve, const Quantity& quantity, std::optional<doubl
     settings.straightness = std::numeric_limits<double>::infinity();
     settings.least_fall = 0;
   }
-  const auto estimate = estimate_order(ladder(curve, quantity), settings);
+  const auto estimate = estimate_order(error_ladder(curve, quantity), settings);
   return {&curve, quantity, declared, estimate, judge(estimate, declared)};
 }
 

@@ -26,6 +26,8 @@ struct Analysis {
     std::string text;
   };
 
+  /// Its runs are means to another end: the report shows it instead of what every study says and draws of its runs.
+  bool alone = false;
   std::string heading{};                 ///< of its part of the report: "Observed order"
   std::vector<std::string> sentences{};  ///< what is seen
   std::vector<std::string> method{};     ///< how the numbers were made; below the tables

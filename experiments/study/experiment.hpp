@@ -12,6 +12,13 @@
 
 namespace polhode::study {
 
+/// A further product of axes: what it runs that differs from the first one's defaults. An option that the user gives
+/// holds for all of them.
+struct FurtherAxes {
+  std::map<std::string, std::string> defaults{};
+  bool reference = false;  ///< as --reference
+};
+
 struct Experiment {
   std::string name;
   std::string question;  ///< one sentence
@@ -19,6 +26,8 @@ struct Experiment {
   std::map<std::string, std::string> defaults;
   /// An ensemble of starts, as --vary writes it; taken where neither a scenario, a study file nor that key is given.
   std::vector<std::pair<std::string, std::string>> vary{};
+  bool reference = false;  ///< as if --reference were given
+  std::vector<FurtherAxes> more{};
   bool one_run = false;  ///< exactly one run, whose trajectory goes into the folder itself
   bool best_times = false;  ///< short runs are carried out several times, and the least wall time is kept
   /// What it makes of its finished runs beyond what every study shows; empty: nothing.

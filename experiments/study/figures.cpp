@@ -120,8 +120,9 @@ std::string draw(const FigureSet& set, const StudyView& study, const std::string
 }  // namespace
 
 std::string write_figures(const StudyView& study) {
+  const bool alone = study.analysis && study.analysis->alone;
   const auto grouping = group(study);
-  auto said = draw(figures_of(study, grouping), study, "figures");
+  auto said = draw(alone ? FigureSet{study.analysis->figures, {}} : figures_of(study, grouping), study, "figures");
   if (!study.analysis) return said;
   const auto said_of_timed = draw({.figures = study.analysis->timed.figures, .absent = {}}, study, timings_folder);
   return said.empty() ? said_of_timed : said;

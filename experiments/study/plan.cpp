@@ -173,17 +173,21 @@ class Planner {
  public:
   Planner(const Experiment& experiment, const Options& options)
       : experiment_(experiment),
-        axes_(read_axes(options)),
         variants_(variants(options)),
-        dt_label_(options.label("dt")),
-        reference_(options.reference) {
+        dt_label_(options.label("dt")) {
     for (const auto& [key, text] : options.vary) plan_.varied_keys.push_back(key);
     std::sort(plan_.varied_keys.begin(), plan_.varied_keys.end());
-    std::set<std::string> seen;
-    for (const std::string& name : split_list(options.axes.at("scenario"), ',', options.label("scenario"))) {
-      const ScenarioSource source = ScenarioSource::open(name, options.label("scenario"));
-      if (!seen.insert(source.name()).second) throw InputError(options.label("scenario") + ": '" + source.name() + "' is named twice");
-      add_scenario(source);
+    add_product(options, options.reference || experiment.reference);
+    for (const FurtherAxes& more : experiment.more) {
+      Options other = options;
+      for (const auto& [axis, text] : more.defaults) {
+        const auto before = experiment.defaults.find(axis), now = options.axes.find(axis);
+        const bool given =
+            now != options.axes.end() && (before == experiment.defaults.end() || now->second != before->second);
+        if (!given) other.axes[axis] = text;
+      }
+      plan_.further_axes.push_back(other.axes);
+      add_product(other, options.reference || more.reference);
     }
   }
 
@@ -208,9 +212,23 @@ class Planner {
   }
 
  private:
+  void add_product(const Options& options, bool reference) {
+    axes_ = read_axes(options);
+    reference_ = reference;
+    std::set<std::string> seen;
+    for (const std::string& name : split_list(options.axes.at("scenario"), ',', options.label("scenario"))) {
+      const ScenarioSource source = ScenarioSource::open(name, options.label("scenario"));
+      if (!seen.insert(source.name()).second) throw InputError(options.label("scenario") + ": '" + source.name() + "' is named twice");
+      add_scenario(source);
+    }
+  }
+
   void add_scenario(const ScenarioSource& source) {
-    plan_.scenarios.push_back(source.resolve());
-    for (const std::string& invariant : plan_.scenarios.back().invariants) plan_.invariants.push_back(invariant);
+    const auto same = [&](const Scenario& s) { return s.name == source.name(); };
+    if (std::none_of(plan_.scenarios.begin(), plan_.scenarios.end(), same)) {
+      plan_.scenarios.push_back(source.resolve());
+      for (const std::string& invariant : plan_.scenarios.back().invariants) plan_.invariants.push_back(invariant);
+    }
     for (const auto& variant : variants_) {
       const auto scenario = std::make_shared<const Scenario>(source.resolve(variant));
       RunConfig config;
@@ -271,11 +289,11 @@ class Planner {
     plain.summation.reset();
     for (const std::string& cell : config_cells(plain)) text += cell + "\n";
     if (config.samples) text += std::to_string(*config.samples);
+    if (!texts_.insert(text).second) return;  // the same run by another way: counted once
     if (config.reference) text += "\nreference";
     if (is_compensated(config)) text += "\ncompensated";
     PlannedRun run;
     run.id = hash(text);
-    if (!ids_.insert(run.id).second) return;  // the same run by another way: counted once
     run.config = config;
     run.scenario = scenario;
     try {
@@ -306,8 +324,8 @@ class Planner {
   Axes axes_;
   std::vector<std::vector<Override>> variants_;
   std::string dt_label_;
-  bool reference_;
-  std::set<std::string> ids_;
+  bool reference_ = false;
+  std::set<std::string> texts_;
   Plan plan_;
 };
 

@@ -2,6 +2,7 @@
 // The plan of a study: the product of its axes, each run with its identity, before anything is run or written.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,6 +26,8 @@ struct Plan {
   bool names_summation = false;          ///< --summation was given: its runs have that column
   std::vector<std::string> invariants;   ///< further declared invariants of all scenarios, sorted
   std::vector<PlannedRun> runs;          ///< sorted by configuration, none twice
+  /// Of the further products, where the experiment has some: their axes as the command line would write them.
+  std::vector<std::map<std::string, std::string>> further_axes;
   std::string identity;                  ///< hash over the ids of all runs
 };
 

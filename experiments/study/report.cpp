@@ -29,6 +29,7 @@ namespace {
 using namespace report;
 
 constexpr std::size_t open_rows = 40;  // a table up to here stands open, a longer one folded
+constexpr std::size_t open_rows_of_analysis = 60;
 constexpr std::size_t most_open_rows_in_text = 12;
 constexpr std::size_t most_runs_shown = 400;  // of thousands: runs.csv has them all
 constexpr std::size_t most_curves_shown = 300;
@@ -60,17 +61,19 @@ std::string folded(const std::string& summary, const std::string& content, bool 
   return fmt::format("<details{}>\n<summary>{}</summary>\n{}</details>\n", open ? " open" : "", html(summary), content);
 }
 
+bool alone(const StudyView& study) { return study.analysis && study.analysis->alone; }
+
 std::string head(const StudyView& study) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{} – "
       "polhode</title>\n<style>{}</style>\n"
       "</head>\n<body>\n<header>\n<h1>{}</h1>\n<p class=\"question\">{}</p>\n"
-      "<nav aria-label=\"Contents\"><ul><li><a href=\"#seen\">What is seen</a></li><li><a "
-      "href=\"#figures\">Figures</a></li>"
-      "<li><a href=\"#methods\">Method by method</a></li><li><a href=\"#run\">What was run</a></li>"
-      "<li><a href=\"#runs\">All runs</a></li></ul></nav>\n</header>\n<main>\n",
-      html(title_of(study)), page_style, html(title_of(study)), html(study.question));
+      "<nav aria-label=\"Contents\"><ul><li><a href=\"#seen\">What is seen</a></li>{}<li><a href=\"#run\">What was "
+      "run</a></li><li><a href=\"#runs\">All runs</a></li></ul></nav>\n</header>\n<main>\n",
+      html(title_of(study)), page_style, html(title_of(study)), html(study.question),
+      alone(study) ? ""
+                   : "<li><a href=\"#figures\">Figures</a></li><li><a href=\"#methods\">Method by method</a></li>");
 }
 
 /// What the experiment made of its runs: the answer to its question, so before everything else.
@@ -78,7 +81,7 @@ std::string analysis_html(const Analysis& analysis) {
   std::string out = fmt::format("<h3>{}</h3>\n", html(analysis.heading));
   if (!analysis.sentences.empty()) out += list(analysis.sentences);
   for (const auto& [name, table] : analysis.tables) {
-    out += table.rows.size() > open_rows ? folded(table.caption, html(table, Caption::spoken), false) : html(table);
+    out += table.rows.size() > open_rows_of_analysis ? folded(table.caption, html(table, Caption::spoken), false) : html(table);
     out += fmt::format("<p>For a text: <a href=\"tables/{0}.tex\">LaTeX</a>, <a href=\"tables/{0}.md\">Markdown</a>.</p>\n",
                        name);
   }
@@ -92,6 +95,7 @@ std::string analysis_html(const Analysis& analysis) {
 std::string what_is_seen(const StudyView& study, const Findings& findings) {
   std::string out = fmt::format("<section id=\"seen\">\n<h2>What is seen</h2>\n<p class=\"outcome\">{}</p>\n",
                                 html(findings.outcome));
+  if (alone(study)) return out + analysis_html(*study.analysis) + "</section>\n";
   for (const auto& caution : findings.cautions) {
     out += fmt::format("<div class=\"caution\" role=\"note\"><strong>Caution</strong> {}</div>\n", prose(caution));
   }
@@ -328,6 +332,11 @@ std::string foot() {
 
 void write_report(const StudyView& study) {
   const auto grouping = group(study);
+  if (alone(study)) {
+    write_text(study.folder / "report.html", head(study) + what_is_seen(study, findings_of(study, grouping)) +
+                                                 what_was_run(study, grouping) + all_runs(study) + foot());
+    return;
+  }
   const auto set = figures_of(study, grouping);
   write_text(study.folder / "report.html", head(study) + what_is_seen(study, findings_of(study, grouping)) +
                                                std::string(how_to_read) + figures(study, set) + methods(grouping) +

@@ -133,6 +133,7 @@ void write_manifest(const StudyView& study, const Options& options, const Plan& 
       {"libraries", {{"Eigen", build.eigen}, {"SUNDIALS", build.sundials}, {"Boost", build.boost}}},
       {"processor", processor()},
       {"cores", std::thread::hardware_concurrency()}};
+  if (!plan.further_axes.empty()) manifest["further_axes"] = plan.further_axes;
   if (has_references(study)) manifest["references"] = references_of(study);
   write_text(study.folder / "manifest.json",
              manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");

@@ -204,8 +204,11 @@ int run_study(const Experiment& experiment, const Options& options) {
   const StudyView view = view_of(experiment, options, plan, folder, results);
   write_everything(view, options, plan);
   fmt::print("{}\n{}\n", summary_table(view), (folder / "report.html").string());
-  const bool all = std::all_of(view.runs.begin(), view.runs.end(), [](const RunRecord& r) {
-    return r.result.status == "ok" || r.result.status == "diverged";
+  // Where the analysis is the result, a refusal is one of its answers.
+  const bool answers_refusals = view.analysis && view.analysis->alone;
+  const bool all = std::all_of(view.runs.begin(), view.runs.end(), [&](const RunRecord& r) {
+    return r.result.status == "ok" || r.result.status == "diverged" ||
+           (answers_refusals && r.result.status == "refused");
   });
   return all ? 0 : not_carried_out;
 }

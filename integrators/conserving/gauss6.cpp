@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The Gauss method of three stages, order 6 (Kuntzmann 1961, Butcher 1964).
 // Source: Hairer, Lubich & Wanner, Geometric Numerical Integration, 2nd ed., II.1.3 and IV.2.
-#include "integrators/additive.hpp"
 #include "integrators/conserving/collocation.hpp"
 
 namespace polhode {
@@ -10,13 +9,14 @@ template <class System>
 using Gauss6 = GaussMethod<System, 3>;
 
 IntegratorEntry gauss6() {
-  return additive<Gauss6>(fixed_step<Gauss6>({.name = "gauss6",
+  return fixed_step<Gauss6>({.name = "gauss6",
                              .family = "conserving",
                              .summary = "the implicit Runge-Kutta method of Gauss with three stages",
                              .order = 6,
                              .implicit = true,
+                             .additive = true,
                              .conserves_quadratics = true,
-                             .symmetric = true}));
+                             .symmetric = true});
 }
 
 }  // namespace polhode

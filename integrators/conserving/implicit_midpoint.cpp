@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The implicit midpoint rule y' = y + h f(t + h/2, (y + y')/2), the Gauss method of one stage.
 // Source: Hairer, Lubich & Wanner, Geometric Numerical Integration, 2nd ed., II.1.3 and IV.2.
-#include "integrators/additive.hpp"
 #include "integrators/conserving/collocation.hpp"
 
 namespace polhode {
@@ -10,13 +9,14 @@ template <class System>
 using ImplicitMidpoint = GaussMethod<System, 1>;
 
 IntegratorEntry implicit_midpoint() {
-  return additive<ImplicitMidpoint>(fixed_step<ImplicitMidpoint>({.name = "implicit_midpoint",
+  return fixed_step<ImplicitMidpoint>({.name = "implicit_midpoint",
                                        .family = "conserving",
                                        .summary = "y' = y + h f(t + h/2, (y + y')/2)",
                                        .order = 2,
                                        .implicit = true,
+                                       .additive = true,
                                        .conserves_quadratics = true,
-                                       .symmetric = true}));
+                                       .symmetric = true});
 }
 
 }  // namespace polhode

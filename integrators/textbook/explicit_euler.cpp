@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Explicit Euler: q' = q + h N(q) v, v' = v + h v̇(t, q, v), all from the old state.
 // Source: the engine slides, "Integration": p_next = p + p'Δt, θ_next = θ + (Δt/2) ω θ, θ'_next = θ' + θ''Δt.
-#include "integrators/additive.hpp"
 #include "integrators/fixed_step.hpp"
 
 namespace polhode {
@@ -24,11 +23,12 @@ class ExplicitEuler {
 };
 
 IntegratorEntry explicit_euler() {
-  return additive<ExplicitEuler>(fixed_step<ExplicitEuler, in_lanes>({.name = "explicit_euler",
+  return fixed_step<ExplicitEuler, in_lanes>({.name = "explicit_euler",
                                     .family = "textbook",
                                     .summary = "y' = y + h f(t, y), all from the old state, as the slides write it",
                                     .order = 1,
-                                    .evaluations_per_step = 1}));
+                                    .evaluations_per_step = 1,
+                                    .additive = true});
 }
 
 }  // namespace polhode

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Explicit midpoint rule: y' = y + h f(t + h/2, y + (h/2) f(t, y)).
 // Source: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.1 (Runge 1895).
-#include "integrators/additive.hpp"
 #include "integrators/fixed_step.hpp"
 
 namespace polhode {
@@ -27,11 +26,12 @@ class ExplicitMidpoint {
 };
 
 IntegratorEntry explicit_midpoint() {
-  return additive<ExplicitMidpoint>(fixed_step<ExplicitMidpoint, in_lanes>({.name = "explicit_midpoint",
+  return fixed_step<ExplicitMidpoint, in_lanes>({.name = "explicit_midpoint",
                                        .family = "textbook",
                                        .summary = "y' = y + h f(t + h/2, y + h/2 f(t, y))",
                                        .order = 2,
-                                       .evaluations_per_step = 2}));
+                                       .evaluations_per_step = 2,
+                                       .additive = true});
 }
 
 }  // namespace polhode

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Heun's method, the explicit trapezoidal rule: y' = y + h/2 (f(t, y) + f(t + h, y + h f(t, y))).
 // Source: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.1 (Heun 1900).
-#include "integrators/additive.hpp"
 #include "integrators/fixed_step.hpp"
 
 namespace polhode {
@@ -26,11 +25,12 @@ class Heun {
 };
 
 IntegratorEntry heun() {
-  return additive<Heun>(fixed_step<Heun, in_lanes>({.name = "heun",
+  return fixed_step<Heun, in_lanes>({.name = "heun",
                            .family = "textbook",
                            .summary = "y' = y + h/2 (f(t, y) + f(t + h, y + h f(t, y)))",
                            .order = 2,
-                           .evaluations_per_step = 2}));
+                           .evaluations_per_step = 2,
+                           .additive = true});
 }
 
 }  // namespace polhode

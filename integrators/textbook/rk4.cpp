@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The classical Runge–Kutta method: y' = y + h/6 (k1 + 2 k2 + 2 k3 + k4).
 // Source: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.1 (Kutta 1901).
-#include "integrators/additive.hpp"
 #include "integrators/fixed_step.hpp"
 
 namespace polhode {
@@ -32,11 +31,12 @@ class Rk4 {
 };
 
 IntegratorEntry rk4() {
-  return additive<Rk4>(fixed_step<Rk4, in_lanes>({.name = "rk4",
+  return fixed_step<Rk4, in_lanes>({.name = "rk4",
                           .family = "textbook",
                           .summary = "the classical Runge-Kutta method, y' = y + h/6 (k1 + 2 k2 + 2 k3 + k4)",
                           .order = 4,
-                          .evaluations_per_step = 4}));
+                          .evaluations_per_step = 4,
+                          .additive = true});
 }
 
 }  // namespace polhode

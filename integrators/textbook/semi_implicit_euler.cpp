@@ -2,7 +2,6 @@
 // Semi-implicit Euler: v' = v + h v̇(t, q, v), then q' = q + h N(q) v', with the new velocity and the old q in N.
 // Source: the course report, section 2.1, whose update() moves the velocities first and then the positions:
 // ds = v dt, dR = ω* R dt. Additive in the orientation; symplectic for translation under a potential only.
-#include "integrators/additive.hpp"
 #include "integrators/fixed_step.hpp"
 
 namespace polhode {
@@ -28,11 +27,12 @@ class SemiImplicitEuler {
 };
 
 IntegratorEntry semi_implicit_euler() {
-  return additive<SemiImplicitEuler>(fixed_step<SemiImplicitEuler, in_lanes>({.name = "semi_implicit_euler",
+  return fixed_step<SemiImplicitEuler, in_lanes>({.name = "semi_implicit_euler",
                                         .family = "textbook",
                                         .summary = "v' = v + h a(t, q, v), then q' = q + h N(q) v', as the report updates",
                                         .order = 1,
-                                        .evaluations_per_step = 1}));
+                                        .evaluations_per_step = 1,
+                                        .additive = true});
 }
 
 }  // namespace polhode

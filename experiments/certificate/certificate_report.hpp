@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The certificates of a study as tables, sentences and certificate.csv.
+#pragma once
+
+#include "experiments/study/study_view.hpp"
+
+namespace polhode::study {
+
+Analysis certificates(const StudyView& study);
+
+}  // namespace polhode::study

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/traits/order_finding.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/integrator.hpp"
+
+namespace polhode::study {
+namespace {
+
+constexpr double order_margin = 0.25;
+constexpr double above_rounding = 10;
+constexpr double tolerance_margin = 0.4;  // of the slope against a tolerance, as the laws of integrators have it
+constexpr double straightness = 0.03;     // of ln(error): methods of several steps come to their order late
+constexpr double lost = 0.5;              // rad, or m: such an error says nothing about an order
+
+Verdict verdict_of(OrderVerdict seen) {
+  switch (seen) {
+    case OrderVerdict::as_declared:
+    case OrderVerdict::exact_here:
+      return Verdict::holds;
+    case OrderVerdict::higher:
+    case OrderVerdict::lower:
+      return Verdict::does_not_hold;
+    default:
+      return Verdict::undecided;
+  }
+}
+
+Verdict against_tolerance(const OrderEstimate& estimate) {
+  if (estimate.exact) return Verdict::holds;
+  if (!estimate.line) return Verdict::undecided;
+  const double off = std::abs(estimate.line->order - 1);
+  if (off <= tolerance_margin) return Verdict::holds;
+  return off <= estimate.line->half_width_95 ? Verdict::undecided : Verdict::does_not_hold;
+}
+
+/// The order between the two smallest steps above round-off, where the orders between steps have come nearer to
+/// `declared` from one to the next: what it tends to.
+std::optional<double> limit_order(std::vector<LadderPoint> ladder, double largest, double declared) {
+  std::erase_if(ladder, [&](const LadderPoint& p) {
+    return !(p.error < largest && p.error > above_rounding * p.round_off && p.step > 0);
+  });
+  std::sort(ladder.begin(), ladder.end(), [](const auto& a, const auto& b) { return a.step > b.step; });
+  std::vector<double> orders;
+  for (std::size_t k = 1; k < ladder.size(); ++k) {
+    orders.push_back(std::log(ladder[k - 1].error / ladder[k].error) / std::log(ladder[k - 1].step / ladder[k].step));
+  }
+  if (orders.size() < 3) return std::nullopt;
+  const auto off = [&](std::size_t from_end) { return std::abs(orders[orders.size() - from_end] - declared); };
+  return off(3) > off(2) && off(2) > off(1) ? std::optional(orders.back()) : std::nullopt;
+}
+
+std::string note_of(const OrderEstimate& estimate, OrderVerdict seen) {
+  if (estimate.exact) return "round-off at every step";
+  std::string note;
+  if (estimate.line) note = fmt::format("± {:.2f} over {} points", estimate.line->half_width_95, estimate.points);
+  if (seen == OrderVerdict::as_declared) return note;
+  return note.empty() ? text(seen) : note + "; " + text(seen);
+}
+
+}  // namespace
+
+OrderSettings order_settings(bool adaptive) {
+  OrderSettings settings;
+  settings.lost = lost;
+  settings.straightness = straightness;
+  if (adaptive) {
+    settings.straightness = std::numeric_limits<double>::infinity();
+    settings.least_fall = 0;
+  }
+  return settings;
+}
+
+Finding order_finding(std::string trait, bool adaptive, int declared, std::vector<LadderPoint> ladder,
+                      OrderSettings settings) {
+  Finding finding;
+  finding.trait = std::move(trait);
+  finding.unit = "1";
+  const auto estimate = estimate_order(ladder, settings);
+  if (estimate.line) finding.measured = estimate.line->order;
+  if (adaptive) {
+    finding.declared = "1, against the tolerance";
+    finding.verdict = against_tolerance(estimate);
+    finding.note = note_of(estimate, OrderVerdict::as_declared);
+    return finding;
+  }
+  const bool exact = declared == Declaration::exact_order;
+  finding.declared = exact ? "exact" : std::to_string(declared);
+  const auto seen = judge(estimate, exact ? std::nullopt : std::optional<double>(declared));
+  finding.verdict = verdict_of(seen);
+  finding.note = note_of(estimate, seen);
+  if (exact || finding.verdict == Verdict::holds) return finding;
+  const auto limit = limit_order(std::move(ladder), settings.lost, declared);
+  if (limit && std::abs(*limit - declared) <= order_margin) {
+    finding.note =
+        fmt::format("a line through all points has {:.2f}; this is between the last two, and they tend to {}",
+                    finding.measured.value_or(0), declared);
+    finding.measured = limit;
+    finding.verdict = Verdict::holds;
+  }
+  return finding;
+}
+
+}  // namespace polhode::study
