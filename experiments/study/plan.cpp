@@ -80,16 +80,25 @@ struct Axes {
   std::vector<std::optional<std::int64_t>> samples;
 };
 
-std::vector<std::string> integrator_names(const Options& options) {
-  std::vector<std::string> known;
-  for (const IntegratorEntry& e : integrator_catalogue()) known.push_back(e.declaration.name);
-  if (options.axes.at("integrator") == "all") return known;
-  return names(options, "integrator", known);
+std::vector<std::string> integrator_names(const Experiment& experiment, const Options& options) {
+  std::vector<std::string> known, fitting;
+  for (const IntegratorEntry& e : integrator_catalogue()) {
+    known.push_back(e.declaration.name);
+    if (!e.declaration.adaptive || !experiment.fixed_steps_only) fitting.push_back(e.declaration.name);
+  }
+  if (options.axes.at("integrator") == "all") return fitting;
+  const auto chosen = names(options, "integrator", known);
+  for (const std::string& name : chosen) {
+    if (std::find(fitting.begin(), fitting.end(), name) != fitting.end()) continue;
+    throw InputError(fmt::format("{}: {} chooses its own steps, and {} is about steps; name methods that take --dt",
+                                 options.label("integrator"), name, experiment.name));
+  }
+  return chosen;
 }
 
-Axes read_axes(const Options& options) {
+Axes read_axes(const Experiment& experiment, const Options& options) {
   Axes axes;
-  axes.integrators = integrator_names(options);
+  axes.integrators = integrator_names(experiment, options);
   axes.orientations = choices<Orientation>(
       options, "orientation", {{"quaternion", Orientation::quaternion}, {"matrix", Orientation::matrix}},
       Orientation::quaternion);
@@ -113,11 +122,19 @@ Axes read_axes(const Options& options) {
     throw InputError(fmt::format("{}: {} is too large; it must be below 1", options.label("tolerance"), x));
   }
   axes.durations = positive(options, "t-end", " of seconds");
+  if (experiment.duration && axes.durations.size() > 1) {
+    throw InputError(fmt::format("{}: {} takes one, since its runs last as long as their steps have it",
+                                 options.label("t-end"), experiment.name));
+  }
   for (const double n : positive(options, "samples", "")) {
     if (n != std::floor(n) || n > 1e9) {
       throw InputError(fmt::format("{}: {} is not a whole number below 1e9", options.label("samples"), n));
     }
     axes.samples.emplace_back(static_cast<std::int64_t>(n));
+  }
+  if (experiment.duration && !axes.samples.empty()) {
+    throw InputError(fmt::format("{}: {} looks at every step; leave the option out", options.label("samples"),
+                                 experiment.name));
   }
   if (axes.samples.empty()) axes.samples.emplace_back(std::nullopt);
   for (const char* none : {"broad-phase", "narrow-phase", "response", "impact-timing"}) names(options, none, {});
@@ -166,11 +183,38 @@ double cost_of(const RunConfig& config) {
   return config.t_end / *config.dt * (stages + 1);
 }
 
+/// The run with its identity. Throws std::invalid_argument on an impossible step.
+PlannedRun planned(const RunConfig& config, const std::shared_ptr<const Scenario>& scenario) {
+  std::string text = fmt::format("{}\n{}\n", results_version, scenario->canonical);
+  for (const std::string& cell : config_cells(config)) text += cell + "\n";
+  if (config.samples) text += std::to_string(*config.samples);
+  if (config.reference) text += "\nreference";
+  return {.id = hash(text),
+          .config = config,
+          .scenario = scenario,
+          .refusal = refusal(config, *scenario),
+          .cost = cost_of(config)};
+}
+
+void sort_by_configuration(std::vector<PlannedRun>& runs) {
+  std::vector<std::pair<std::vector<std::string>, std::size_t>> keys;
+  for (std::size_t i = 0; i < runs.size(); ++i) keys.emplace_back(config_cells(runs[i].config), i);
+  std::sort(keys.begin(), keys.end(), [&](const auto& a, const auto& b) {
+    for (std::size_t k = 0; k < a.first.size(); ++k) {
+      if (a.first[k] != b.first[k]) return cell_less(a.first[k], b.first[k]);
+    }
+    return runs[a.second].id < runs[b.second].id;
+  });
+  std::vector<PlannedRun> sorted;
+  for (const auto& [cells, i] : keys) sorted.push_back(std::move(runs[i]));
+  runs = std::move(sorted);
+}
+
 class Planner {
  public:
   Planner(const Experiment& experiment, const Options& options)
       : experiment_(experiment),
-        axes_(read_axes(options)),
+        axes_(read_axes(experiment, options)),
         variants_(variants(options)),
         dt_label_(options.label("dt")),
         reference_(options.reference) {
@@ -187,7 +231,7 @@ class Planner {
   Plan finish() {
     std::sort(plan_.invariants.begin(), plan_.invariants.end());
     plan_.invariants.erase(std::unique(plan_.invariants.begin(), plan_.invariants.end()), plan_.invariants.end());
-    sort();
+    sort_by_configuration(plan_.runs);
     if (experiment_.one_run && plan_.runs.size() != 1) {
       throw InputError(fmt::format("{} makes one run, and this is {}; give each axis one value, or use energy_drift",
                                    experiment_.name, plan_.runs.size()));
@@ -248,7 +292,7 @@ class Planner {
               config.normalise = normalise;
               config.precision = precision;
               (adaptive ? config.tolerance : config.dt) = size;
-              config.t_end = t_end;
+              config.t_end = experiment_.duration ? experiment_.duration(t_end, size) : t_end;
               config.samples = samples;
               add_run(config, scenario);
             }
@@ -259,37 +303,14 @@ class Planner {
   }
 
   void add_run(const RunConfig& config, const std::shared_ptr<const Scenario>& scenario) {
-    std::string text = fmt::format("{}\n{}\n", results_version, scenario->canonical);
-    for (const std::string& cell : config_cells(config)) text += cell + "\n";
-    if (config.samples) text += std::to_string(*config.samples);
-    if (config.reference) text += "\nreference";
-    PlannedRun run;
-    run.id = hash(text);
-    if (!ids_.insert(run.id).second) return;  // the same run by another way: counted once
-    run.config = config;
-    run.scenario = scenario;
     try {
-      run.refusal = refusal(config, *scenario);
+      PlannedRun run = planned(config, scenario);
+      if (!ids_.insert(run.id).second) return;  // the same run by another way: counted once
+      plan_.runs.push_back(std::move(run));
     } catch (const std::invalid_argument& error) {
       throw InputError(dt_label_ + ": " + std::string(error.what()));
     }
-    run.cost = cost_of(config);
-    plan_.runs.push_back(std::move(run));
     if (plan_.runs.size() > most_runs) throw InputError("more than 10 million runs; make the axes shorter");
-  }
-
-  void sort() {
-    std::vector<std::pair<std::vector<std::string>, std::size_t>> keys;
-    for (std::size_t i = 0; i < plan_.runs.size(); ++i) keys.emplace_back(config_cells(plan_.runs[i].config), i);
-    std::sort(keys.begin(), keys.end(), [this](const auto& a, const auto& b) {
-      for (std::size_t k = 0; k < a.first.size(); ++k) {
-        if (a.first[k] != b.first[k]) return cell_less(a.first[k], b.first[k]);
-      }
-      return plan_.runs[a.second].id < plan_.runs[b.second].id;
-    });
-    std::vector<PlannedRun> sorted;
-    for (const auto& [cells, i] : keys) sorted.push_back(std::move(plan_.runs[i]));
-    plan_.runs = std::move(sorted);
   }
 
   const Experiment& experiment_;
@@ -304,6 +325,23 @@ class Planner {
 }  // namespace
 
 Plan make_plan(const Experiment& experiment, const Options& options) { return Planner(experiment, options).finish(); }
+
+std::size_t widen(Plan& plan, const std::vector<RunConfig>& configs) {
+  std::set<std::string> ids;
+  for (const PlannedRun& run : plan.runs) ids.insert(run.id);
+  std::vector<PlannedRun> added;
+  for (const RunConfig& config : configs) {
+    const auto like = std::find_if(plan.runs.begin(), plan.runs.end(), [&](const PlannedRun& run) {
+      return run.config.scenario == config.scenario && run.config.varied == config.varied;
+    });
+    if (like == plan.runs.end()) throw std::logic_error("a further run of a scenario that the study does not have");
+    PlannedRun run = planned(config, like->scenario);
+    if (ids.insert(run.id).second) added.push_back(std::move(run));
+  }
+  for (PlannedRun& run : added) plan.runs.push_back(std::move(run));
+  if (!added.empty()) sort_by_configuration(plan.runs);
+  return added.size();
+}
 
 std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys) {
   std::vector<std::string> columns = {"scenario",      "integrator",    "orientation",  "angular_state",

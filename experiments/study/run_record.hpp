@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -73,6 +74,7 @@ struct RunRecord {
   std::string id;  ///< 16 hexadecimal digits: hash of the resolved scenario, the options and the results version
   RunConfig config;
   RunResult result;
+  std::shared_ptr<const Scenario> scenario{};  ///< with the varied keys set; of the runs of a StudyView
 };
 
 }  // namespace polhode::study

@@ -64,9 +64,9 @@ class Options {
 /// apart by it.
 class Durations {
  public:
-  explicit Durations(const std::vector<RunRecord>& runs) {
-    for (const auto& run : runs) {
-      ends_[run.config.scenario].insert(run.config.t_end);
+  explicit Durations(const StudyView& study) {
+    for (const auto& run : study.runs) {
+      ends_[run.config.scenario].insert(study.durations_follow_steps ? 0 : run.config.t_end);
       samples_[run.config.scenario].insert(run.config.samples);
     }
   }
@@ -187,7 +187,7 @@ Grouping group(const StudyView& study) {
   std::map<std::string, std::size_t> method_index, cases, variants;
   for (const auto& method : grouping.methods) method_index.emplace(method, method_index.size());
   std::map<std::tuple<std::size_t, std::size_t, std::size_t, bool>, std::size_t> curves;
-  const Durations durations(study.runs);
+  const Durations durations(study);
   const auto formulations = variant_options(study.runs);
 
   for (const auto& run : study.runs) {
