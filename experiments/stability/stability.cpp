@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "experiments/stability/charts.hpp"
 #include "experiments/stability/findings.hpp"
 #include "experiments/study/csv.hpp"
 #include "experiments/study/axes.hpp"
@@ -44,6 +45,13 @@ class Stability {
     all.sentences = sentences();
     all.method = method();
     if (!found_.empty()) all.tables.push_back({"critical_steps", table()});
+    all.figures = stability_charts(grouping_, found_);
+    if (study_.varied_keys.size() == 1) {
+      for (auto& figure : stability_maps(grouping_, found_, study_.varied_keys.front())) {
+        all.figures.push_back(std::move(figure));
+      }
+    }
+    for (auto& figure : all.figures) figure.methods = grouping_.methods;
     all.files.push_back({"critical_steps.csv", critical_csv()});
     all.files.push_back({"stability.csv", runs_csv()});
     return all;
