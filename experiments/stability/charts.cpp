@@ -27,7 +27,7 @@ constexpr double logarithmic_from = 30;       // largest over smallest value of 
 
 /// In the order of Verdict. Blue holds, orange to brown grows; the four differ in lightness as well as in hue.
 std::vector<Shade> shades() {
-  return {{"stable", "3B8FC4"}, {"damped", "BFE0F2"}, {"gaining", "F5B041"}, {"blown up", "7B2D12"}};
+  return {{"stable", "3B8FC4"}, {"damped", "BFE0F2"}, {"gaining", "F5B041"}, {"blown up or failed", "7B2D12"}};
 }
 
 struct Interval {
@@ -39,10 +39,13 @@ std::vector<Interval> cells_about(const std::vector<double>& values, bool logari
   std::vector<double> at;
   for (const double v : values) at.push_back(logarithmic ? std::log(v) : v);
   const auto back = [&](double x) { return logarithmic ? std::exp(x) : x; };
+  // At its ends as much room as the widest gap has, for a bisection may have been at work there.
+  double widest = at.size() > 1 ? 0 : 0.1;
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) widest = std::max(widest, at[i + 1] - at[i]);
   std::vector<Interval> cells;
   for (std::size_t i = 0; i < at.size(); ++i) {
-    const double below = i > 0 ? at[i] - at[i - 1] : at.size() > 1 ? at[1] - at[0] : 1;
-    const double above = i + 1 < at.size() ? at[i + 1] - at[i] : below;
+    const double below = i > 0 ? at[i] - at[i - 1] : widest;
+    const double above = i + 1 < at.size() ? at[i + 1] - at[i] : widest;
     cells.push_back({back(at[i] - below / 2), back(at[i] + above / 2)});
   }
   return cells;
@@ -61,7 +64,6 @@ std::vector<Band> bands(const StabilityFinding& f) {
   std::vector<Band> all;
   for (std::size_t i = 0; i < about.size(); ++i) {
     const Verdict v = f.ladder.steps[i].verdict;
-    // The scan is coarse and the bisection fine: the limit stands where the two runs that bracket it meet.
     if (!all.empty() && all.back().verdict == v) all.back().step.high = about[i].high;
     else all.push_back({about[i], v});
   }

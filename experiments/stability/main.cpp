@@ -4,12 +4,24 @@
 #include "experiments/stability/stability.hpp"
 #include "experiments/study/study.hpp"
 
+namespace {
+
+/// The second moment of inertia beside 0.6 and 1 kg m², as far as a rigid body can have it.
+const polhode::study::Grid map_over_inertia = {
+    {{"scenario", "hairer_vilmart"},
+     {"integrator", "explicit_euler,heun,rk4,simo_wong,lie_midpoint,dmv4"},
+     {"dt", "0.02:10:24:log"}},
+    {{"body.0.inertia.1", "0.42:1.58:16"}}};
+
+}  // namespace
+
 int main(int argc, char** argv) {
   return polhode::study::run_experiment({.name = "stability",
                                          .question = "Up to which step is each method stable?",
                                          .defaults = {{"scenario", "oscillator,hairer_vilmart"},
                                                       {"integrator", "all"},
                                                       {"dt", "0.02:100:38:log"}},
+                                         .further = {map_over_inertia},
                                          .fixed_steps_only = true,
                                          .failures_are_results = true,
                                          .duration = polhode::study::whole_steps,

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "experiments/stability/charts.hpp"
 #include "experiments/stability/findings.hpp"
@@ -36,15 +38,16 @@ std::string radius_text(double r) {
 class Stability {
  public:
   explicit Stability(const StudyView& study)
-      : study_(study), grouping_(group(study)), found_(stability_findings(grouping_)) {
-    for (const auto& f : found_) linear_ = linear_ || f.linear.has_value();
-  }
+      : study_(study), grouping_(group(study)), found_(stability_findings(grouping_)) {}
 
   Analysis analysis() const {
     Analysis all{.heading = "Stability"};
     all.sentences = sentences();
     all.method = method();
-    if (!found_.empty()) all.tables.push_back({"critical_steps", table()});
+    for (const bool varied : {false, true}) {
+      Table one = table(varied);
+      if (!one.rows.empty()) all.tables.push_back({varied ? "critical_steps_varied" : "critical_steps", std::move(one)});
+    }
     all.figures = stability_charts(grouping_, found_);
     if (study_.varied_keys.size() == 1) {
       for (auto& figure : stability_maps(grouping_, found_, study_.varied_keys.front())) {
@@ -123,7 +126,11 @@ class Stability {
     return low == high ? low : fmt::format("{} … {}", low, high);
   }
 
-  Table table() const {
+  bool is_varied(const StabilityFinding& f) const {
+    return !grouping_.cases[f.ladder.curve->case_index].details.empty();
+  }
+
+  Table table(bool varied) const {
     using C = Column::Kind;
     const auto unit = symbol();
     Table table{.caption = "Critical steps; every step: the energy grows at the smallest step tried and at all others",
@@ -139,6 +146,7 @@ class Stability {
                             {"spectral radius"}},
                 .rows = {}};
     for (const auto& f : found_) {
+      if (is_varied(f) != varied) continue;
       const Curve& curve = *f.ladder.curve;
       table.rows.push_back({grouping_.methods[curve.method_index],
                             grouping_.cases.size() > 1 ? grouping_.cases[curve.case_index].label() : "",
@@ -161,42 +169,97 @@ class Stability {
     return words(items);
   }
 
-  template <class Test, class Text>
-  std::string list_of(const std::string& scenario, const Test& test, const Text& text) const {
-    std::vector<std::string> items;
-    for (const auto& f : found_) {
-      if (motion(f) == scenario && test(f)) items.push_back(text(f));
-    }
-    return listed(std::move(items));
-  }
+  /// The findings of one method in one variant on one scenario: several where keys of the scenario are varied.
+  struct Group {
+    std::string label;
+    std::vector<const StabilityFinding*> members{};
+  };
 
-  /// One motion for each scenario: with varied keys, the map says more than a sentence could.
-  std::vector<std::string> sentences() const {
-    std::vector<std::string> all;
-    for (const auto& scenario : study_.scenarios) {
-      const auto say = [&](const std::string& start, const std::string& items) {
-        if (!items.empty()) all.push_back(fmt::format("{}, {}: {}.", scenario.name, start, items));
-      };
-      const auto kind = [](Kind k) { return [k](const StabilityFinding& f) { return f.growth.kind == k; }; };
-      const auto plain = [&](const auto& f) { return label_of_variant(f); };
-      say(fmt::format("critical {}", symbol()), list_of(scenario.name, kind(Kind::found), [&](const auto& f) {
-            return fmt::format("{} {}", label_of_variant(f), in_units(f, f.growth.fails));
-          }));
-      say("no critical step up to the largest tried", list_of(scenario.name, kind(Kind::none), plain));
-      say("the energy grows at the smallest step tried already",
-          list_of(scenario.name, kind(Kind::from_start), plain));
-      say("the energy stays bounded again at some larger step",
-          list_of(scenario.name, [](const auto& f) { return f.growth.holds_again; }, plain));
-      if (auto text = linear_sentence(scenario.name); !text.empty()) all.push_back(std::move(text));
+  std::vector<Group> groups(const std::string& scenario) const {
+    std::vector<Group> all;
+    for (const auto& f : found_) {
+      if (motion(f) != scenario) continue;
+      std::string name = label(f);
+      if (is_varied(f)) name += " with varied keys";
+      const auto known = std::find_if(all.begin(), all.end(), [&](const auto& g) { return g.label == name; });
+      Group& group = known == all.end() ? all.emplace_back(Group{name}) : *known;
+      group.members.push_back(&f);
     }
-    if (auto text = left_out(); !text.empty()) all.push_back(std::move(text));
     return all;
   }
 
-  /// "rk4", and where there are varied keys "rk4 at body.0.inertia.1 = 2".
-  std::string label_of_variant(const StabilityFinding& f) const {
-    const auto& motion = grouping_.cases[f.ladder.curve->case_index];
-    return motion.details.empty() ? label(f) : fmt::format("{} at {}", label(f), fmt::join(motion.details, ", "));
+  /// Those of a group that pass a test: how they are named, and from where to where their limits go.
+  struct Passed {
+    std::string label;
+    double low = 0;
+    std::string limits;  ///< "2.83", "1.2 … 2.5"
+  };
+  template <class Test>
+  static std::optional<Passed> passed(const Group& group, const Test& test, CriticalStep StabilityFinding::*limit) {
+    std::vector<std::pair<double, std::string>> at;
+    for (const auto* f : group.members) {
+      const double dt = (f->*limit).fails;
+      if (test(*f)) at.emplace_back(dt * f->rate.value_or(1), in_units(*f, dt));
+    }
+    if (at.empty()) return std::nullopt;
+    std::sort(at.begin(), at.end());
+    const std::string &from = at.front().second, &to = at.back().second;
+    Passed found{group.label, at.front().first, from == to ? from : fmt::format("{} … {}", from, to)};
+    if (at.size() < group.members.size()) found.label += fmt::format(" ({} of {})", at.size(), group.members.size());
+    return found;
+  }
+
+  template <class Test>
+  std::vector<Passed> all_passed(const std::string& scenario, const Test& test,
+                                 CriticalStep StabilityFinding::*limit = &StabilityFinding::growth) const {
+    std::vector<Passed> all;
+    for (const auto& group : groups(scenario)) {
+      if (auto found = passed(group, test, limit)) all.push_back(std::move(*found));
+    }
+    return all;
+  }
+
+  static std::string names_of(const std::vector<Passed>& all) {
+    std::vector<std::string> names;
+    for (const auto& p : all) names.push_back(p.label);
+    return listed(std::move(names));
+  }
+
+  /// "2 (dmv and velocity_verlet), 2.83 (rk4)", from the least limit on.
+  static std::string limits_of(std::vector<Passed> all) {
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.low < b.low; });
+    std::vector<std::pair<std::string, std::vector<std::string>>> by_limit;
+    for (auto& p : all) {
+      if (by_limit.empty() || by_limit.back().first != p.limits) by_limit.push_back({p.limits, {}});
+      by_limit.back().second.push_back(std::move(p.label));
+    }
+    std::vector<std::string> items;
+    for (const auto& [limit, names] : by_limit) items.push_back(fmt::format("{} ({})", limit, words(names)));
+    return fmt::format("{}", fmt::join(items, ", "));
+  }
+
+  std::vector<std::string> sentences() const {
+    std::vector<std::string> all;
+    const auto grows = [](Kind k) { return [k](const StabilityFinding& f) { return f.growth.kind == k; }; };
+    const auto breaks = [](const StabilityFinding& f) {
+      return f.blow_up.kind == Kind::found && f.growth.fails < f.blow_up.fails;
+    };
+    for (const auto& scenario : study_.scenarios) {
+      const std::string& where = scenario.name;
+      const auto say = [&](const std::string& start, const std::string& items) {
+        if (!items.empty()) all.push_back(fmt::format("{}, {}: {}.", where, start, items));
+      };
+      say(fmt::format("critical {}", symbol()), limits_of(all_passed(where, grows(Kind::found))));
+      say("no critical step up to the largest tried", names_of(all_passed(where, grows(Kind::none))));
+      say("the energy grows at the smallest step tried already", names_of(all_passed(where, grows(Kind::from_start))));
+      say(fmt::format("the energy grows before the run breaks down, which it does from {}", symbol()),
+          limits_of(all_passed(where, breaks, &StabilityFinding::blow_up)));
+      say("the energy stays bounded again at some larger step",
+          names_of(all_passed(where, [](const auto& f) { return f.growth.holds_again; })));
+      if (auto text = linear_sentence(where); !text.empty()) all.push_back(std::move(text));
+    }
+    if (auto text = left_out(); !text.empty()) all.push_back(std::move(text));
+    return all;
   }
 
   static bool agrees(const StabilityFinding& f) {
@@ -214,14 +277,14 @@ class Stability {
     if (n == 0) return "";
     std::string text =
         fmt::format("{} is linear: the spectral radius of the step map gives the same limit to 1 % for {} of {}", scenario,
-                    same, count(n, "method"));
-    const auto others = list_of(scenario, [](const auto& f) { return f.linear && !agrees(f); },
-                                [&](const auto& f) {
-                                  return fmt::format("{} (measured {}, by linear theory {})", label_of_variant(f),
-                                                     step_text(f, f.growth, false),
-                                                     step_text(f, f.linear->critical, false));
-                                });
-    return text + (others.empty() ? "." : "; not for " + others + ".");
+                    same, count(n, "case"));
+    std::vector<std::string> others;
+    for (const auto& f : found_) {
+      if (motion(f) != scenario || !f.linear || agrees(f)) continue;
+      others.push_back(fmt::format("{} (measured {}, by linear theory {})", label(f), step_text(f, f.growth, false),
+                                   step_text(f, f.linear->critical, false)));
+    }
+    return text + (others.empty() ? "." : "; not for " + listed(std::move(others)) + ".");
   }
 
   static std::string left_out() {
@@ -306,7 +369,6 @@ class Stability {
   const StudyView& study_;
   Grouping grouping_;
   std::vector<StabilityFinding> found_;
-  bool linear_ = false;
 };
 
 }  // namespace

@@ -5,17 +5,25 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/study/study_view.hpp"
 
 namespace polhode::study {
 
+/// A product of axes as the command line writes them, the rest as in the defaults.
+struct Grid {
+  std::map<std::string, std::string> axes;
+  std::vector<std::pair<std::string, std::string>> vary;  ///< key of the scenario and its values
+};
+
 struct Experiment {
   std::string name;
   std::string question;  ///< one sentence
   /// The values of options that are not given, as the command line writes them: {"dt", "1e-3,1e-2"}.
   std::map<std::string, std::string> defaults;
+  std::vector<Grid> further{};  ///< beside the defaults, where no axis is said at all
   bool one_run = false;  ///< exactly one run, whose trajectory goes into the folder itself
   bool best_times = false;  ///< short runs are carried out several times, and the least wall time is kept
   bool fixed_steps_only = false;  ///< methods that choose their own steps have no place in it

@@ -130,6 +130,7 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   options.command = experiment.name;
   for (int i = 1; i < argc; ++i) options.command += " " + quoted(argv[i]);
   options.axes = experiment.defaults;
+  options.plain = given.empty() && vary.empty() && study_file.empty();
   if (!study_file.empty()) read_study_file(study_file, options);
   for (const auto& [name, text] : given) {
     options.axes[name] = text;

@@ -186,7 +186,9 @@ double cost_of(const RunConfig& config) {
 /// The run with its identity. Throws std::invalid_argument on an impossible step.
 PlannedRun planned(const RunConfig& config, const std::shared_ptr<const Scenario>& scenario) {
   std::string text = fmt::format("{}\n{}\n", results_version, scenario->canonical);
-  for (const std::string& cell : config_cells(config)) text += cell + "\n";
+  RunConfig said = config;  // a key that this run leaves as it is, is none of its own
+  std::erase_if(said.varied, [](const Override& o) { return o.value.empty(); });
+  for (const std::string& cell : config_cells(said)) text += cell + "\n";
   if (config.samples) text += std::to_string(*config.samples);
   if (config.reference) text += "\nreference";
   return {.id = hash(text),
@@ -322,9 +324,47 @@ class Planner {
   Plan plan_;
 };
 
+/// Adds another plan of the same experiment; a run has an empty value for a key that its own plan does not vary.
+void add_plan(Plan& plan, Plan&& other) {
+  for (Scenario& s : other.scenarios) {
+    const auto same = [&](const Scenario& known) { return known.name == s.name; };
+    if (std::none_of(plan.scenarios.begin(), plan.scenarios.end(), same)) plan.scenarios.push_back(std::move(s));
+  }
+  const auto unite = [](std::vector<std::string>& all, const std::vector<std::string>& more) {
+    std::set<std::string> united(all.begin(), all.end());
+    united.insert(more.begin(), more.end());
+    all.assign(united.begin(), united.end());
+  };
+  unite(plan.varied_keys, other.varied_keys);
+  unite(plan.invariants, other.invariants);
+  std::move(other.runs.begin(), other.runs.end(), std::back_inserter(plan.runs));
+  std::set<std::string> ids;
+  std::erase_if(plan.runs, [&](const PlannedRun& run) { return !ids.insert(run.id).second; });
+  for (PlannedRun& run : plan.runs) {
+    std::vector<Override> varied;
+    for (const std::string& key : plan.varied_keys) {
+      const auto own = std::find_if(run.config.varied.begin(), run.config.varied.end(),
+                                    [&](const Override& o) { return o.key == key; });
+      varied.push_back(own == run.config.varied.end() ? Override{key, ""} : *own);
+    }
+    run.config.varied = std::move(varied);
+  }
+  sort_by_configuration(plan.runs);
+  plan.identity = hash(plan.identity + other.identity);
+}
+
 }  // namespace
 
-Plan make_plan(const Experiment& experiment, const Options& options) { return Planner(experiment, options).finish(); }
+Plan make_plan(const Experiment& experiment, const Options& options) {
+  Plan plan = Planner(experiment, options).finish();
+  for (std::size_t i = 0; options.plain && i < experiment.further.size(); ++i) {
+    Options grid = options;
+    for (const auto& [axis, values] : experiment.further[i].axes) grid.axes[axis] = values;
+    grid.vary = experiment.further[i].vary;
+    add_plan(plan, Planner(experiment, grid).finish());
+  }
+  return plan;
+}
 
 std::size_t widen(Plan& plan, const std::vector<RunConfig>& configs) {
   std::set<std::string> ids;

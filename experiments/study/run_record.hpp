@@ -21,7 +21,8 @@ constexpr std::string_view name(Precision p) {
 
 struct RunConfig {
   std::string scenario;             ///< name
-  std::vector<Override> varied;     ///< the varied keys of the scenario with this run's values, in the axes' order
+  /// The varied keys of the scenario with this run's values, in the axes' order; an empty value leaves the key as it is.
+  std::vector<Override> varied;
   std::string integrator;
   Formulation formulation;
   bool normalise = false;           ///< --normalize step

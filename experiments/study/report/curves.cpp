@@ -105,6 +105,7 @@ std::string shown_value(const std::string& text) {
 Case case_of(const RunConfig& config, const Durations& durations) {
   Case found{.scenario = config.scenario, .details = {}};
   for (const auto& varied : config.varied) {
+    if (varied.value.empty()) continue;
     found.details.push_back(fmt::format("{} = {}", varied.key, shown_value(varied.value)));
   }
   for (auto& text : durations.describe(config)) found.details.push_back(std::move(text));

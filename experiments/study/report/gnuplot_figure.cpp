@@ -224,7 +224,7 @@ void write_legend(std::string& out, const Figure& figure, const Layout& layout) 
     entries.push_back(fmt::format("keyentry with lines linestyle {} title {}", 9010 + v, gnuplot(figure.variants[v])));
   }
   for (const auto& shade : figure.shades) {
-    entries.push_back(fmt::format("keyentry with boxes fillstyle solid 1 border linecolor rgb '#{}' title {}",
+    entries.push_back(fmt::format("keyentry with boxes fillcolor rgb '#{}' fillstyle solid 1 noborder title {}",
                                   shade.colour, gnuplot(shade.label)));
   }
   if (figure.has_envelope) entries.emplace_back("keyentry with lines linestyle 9002 title 'lower envelope'");
