@@ -27,7 +27,7 @@ constexpr double logarithmic_from = 30;       // largest over smallest value of 
 
 /// In the order of Verdict. Blue holds, orange to brown grows; the four differ in lightness as well as in hue.
 std::vector<Shade> shades() {
-  return {{"stable", "3B8FC4"}, {"damped", "BFE0F2"}, {"gaining", "F5B041"}, {"blown up or failed", "7B2D12"}};
+  return {{"stable", "3B8FC4"}, {"damped", "BFE0F2"}, {"gaining", "F5B041"}, {"blown up", "7B2D12"}};
 }
 
 struct Interval {
@@ -175,7 +175,7 @@ std::vector<Figure> stability_charts(const Grouping& grouping, const std::vector
     const std::string which = panels.size() > 1 ? fmt::format("_{}", figures.size() + 1) : "";
     Figure figure{.name = "stability_chart" + which,
                   .title = fmt::format("Stability on {}", grouping.cases[place.first].scenario),
-                  .caption = "What becomes of the energy against the step; the limits are those of the bisection."};
+                  .caption = "What becomes of the energy against the step; blown up: or the method failed."};
     if (methods.size() < used.size()) {
       figure.caption += fmt::format(" {} methods are left out.", used.size() - methods.size());
     }
@@ -214,7 +214,7 @@ std::vector<Figure> stability_maps(const Grouping& grouping, const std::vector<S
       const std::size_t last = std::min(drawn.size(), first + maps_in_figure);
       Figure figure{.name = fmt::format("stability_map_{}", figures.size() + 1),
                     .title = fmt::format("Stability of {} over {}", scenario, key),
-                    .caption = fmt::format("What becomes of the energy over {} and the step, one panel for each method.",
+                    .caption = fmt::format("What becomes of the energy over {} and the step, one panel for each method; blown up: or the method failed.",
                                            key)};
       if (drawn.size() > maps_in_figure) {
         figure.caption += fmt::format(" Methods {} to {} of {}.", first + 1, last, drawn.size());

@@ -133,7 +133,9 @@ class Stability {
   Table table(bool varied) const {
     using C = Column::Kind;
     const auto unit = symbol();
-    Table table{.caption = "Critical steps; every step: the energy grows at the smallest step tried and at all others",
+    Table table{.caption = fmt::format("Critical steps{}; every step: the energy grows at the smallest step tried and at "
+                                         "all others",
+                                         varied ? " with varied keys" : ""),
                 .columns = {{"method", "", C::name},
                             {"motion", "", C::text},
                             {"formulation", "", C::text},

@@ -188,20 +188,22 @@ bool widened(const Experiment& experiment, const Options& options, Plan& plan, c
   return widen(plan, experiment.refine(view_of(experiment, options, plan, folder, results, copy))) > 0;
 }
 
-/// Widens the plan as far as the results in its folder lead: those of its further runs are its own as well. Changes no
-/// file.
-void widen_by_what_is_there(const Experiment& experiment, const Options& options, Plan& plan,
-                            const std::filesystem::path& folder) {
-  if (!experiment.refine) return;
+/// The runs of the study, with those that the results in its folder lead to. A study that was stopped, or is wider than
+/// it was, lacks some results: what follows from the others is its own all the same. Changes no file.
+std::set<std::string> ids_of(const Experiment& experiment, const Options& options, Plan plan,
+                             const std::filesystem::path& folder) {
   std::map<std::string, RunResult> results;
   try {
-    if (!Store::ids_in(folder).empty()) results = Store(folder).load();
-  } catch (const std::runtime_error&) {
-    return;  // ResultFolder says what is wrong with it
+    if (experiment.refine && !Store::ids_in(folder).empty()) results = Store(folder).load();
+  } catch (const std::runtime_error&) {  // ResultFolder says what is wrong with it
   }
-  const auto there = [&](const PlannedRun& run) { return !run.refusal.empty() || results.contains(run.id); };
-  while (std::all_of(plan.runs.begin(), plan.runs.end(), there) &&
-         widened(experiment, options, plan, folder, results)) {
+  std::set<std::string> ids;
+  for (std::size_t known = 0;;) {
+    for (const PlannedRun& run : plan.runs) ids.insert(run.id);
+    if (ids.size() == known || !experiment.refine) return ids;
+    known = ids.size();
+    std::erase_if(plan.runs, [&](const PlannedRun& run) { return run.refusal.empty() && !results.contains(run.id); });
+    widened(experiment, options, plan, folder, results);
   }
 }
 
@@ -224,9 +226,7 @@ int run_study(const Experiment& experiment, const Options& options) {
     fmt::print("{}", plan_text(experiment, plan, folder));
     return 0;
   }
-  widen_by_what_is_there(experiment, options, plan, folder);
-  std::set<std::string> ids;
-  for (const PlannedRun& run : plan.runs) ids.insert(run.id);
+  const std::set<std::string> ids = ids_of(experiment, options, plan, folder);
   const ResultFolder held(folder, ids, options.force);
   stop_on_signals();
   Store store(folder);
