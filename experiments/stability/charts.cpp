@@ -18,12 +18,12 @@ namespace {
 
 using namespace report;
 
-constexpr std::size_t most_chart_rows = 40;   // of methods in one chart
-constexpr std::size_t most_charts = 6;        // figures
+constexpr std::size_t most_chart_rows = 40;  // of methods in one chart
+constexpr std::size_t most_charts = 6;       // figures
 constexpr std::size_t maps_in_figure = 9;
 constexpr std::size_t most_map_figures = 4;
-constexpr double row_height = 17;             // pixels
-constexpr double logarithmic_from = 30;       // largest over smallest value of the varied key
+constexpr double row_height = 17;        // pixels
+constexpr double logarithmic_from = 30;  // largest over smallest value of the varied key
 
 /// In the order of Verdict. Blue holds, orange to brown grows; the four differ in lightness as well as in hue.
 std::vector<Shade> shades() {
@@ -64,8 +64,10 @@ std::vector<Band> bands(const StabilityFinding& f) {
   std::vector<Band> all;
   for (std::size_t i = 0; i < about.size(); ++i) {
     const Verdict v = f.ladder.steps[i].verdict;
-    if (!all.empty() && all.back().verdict == v) all.back().step.high = about[i].high;
-    else all.push_back({about[i], v});
+    if (!all.empty() && all.back().verdict == v)
+      all.back().step.high = about[i].high;
+    else
+      all.push_back({about[i], v});
   }
   return all;
 }
@@ -108,8 +110,8 @@ Panel chart_panel(const Grouping& grouping, const std::vector<const StabilityFin
     if (at == methods.end()) continue;
     const double top = panel.y.high - static_cast<double>(at - methods.begin());
     for (const auto& band : bands(*f)) {
-      panel.cells.push_back({band.step.low, band.step.high, top - 0.92, top - 0.08,
-                             static_cast<std::size_t>(band.verdict)});
+      panel.cells.push_back(
+          {band.step.low, band.step.high, top - 0.92, top - 0.08, static_cast<std::size_t>(band.verdict)});
     }
   }
   return panel;
@@ -146,8 +148,8 @@ Panel map_panel(const Grouping& grouping, const Columns& columns, const std::str
   std::size_t i = 0;
   for (const auto& [value, f] : columns) {
     for (const auto& band : bands(*f)) {
-      panel.cells.push_back({about[i].low, about[i].high, band.step.low, band.step.high,
-                             static_cast<std::size_t>(band.verdict)});
+      panel.cells.push_back(
+          {about[i].low, about[i].high, band.step.low, band.step.high, static_cast<std::size_t>(band.verdict)});
     }
     ++i;
   }
@@ -214,13 +216,15 @@ std::vector<Figure> stability_maps(const Grouping& grouping, const std::vector<S
       const std::size_t last = std::min(drawn.size(), first + maps_in_figure);
       Figure figure{.name = fmt::format("stability_map_{}", figures.size() + 1),
                     .title = fmt::format("Stability of {} over {}", scenario, key),
-                    .caption = fmt::format("What becomes of the energy over {} and the step, one panel for each method; blown up: or the method failed.",
+                    .caption = fmt::format("What becomes of the energy over {} (SI units) and the step, one panel for each "
+                                           "method; blown up: or the method failed.",
                                            key)};
       if (drawn.size() > maps_in_figure) {
         figure.caption += fmt::format(" Methods {} to {} of {}.", first + 1, last, drawn.size());
       }
       figure.shades = shades();
-      add_rows(figure, {drawn.begin() + static_cast<std::ptrdiff_t>(first), drawn.begin() + static_cast<std::ptrdiff_t>(last)},
+      add_rows(figure,
+               {drawn.begin() + static_cast<std::ptrdiff_t>(first), drawn.begin() + static_cast<std::ptrdiff_t>(last)},
                std::min<std::size_t>(3, drawn.size()));
       figures.push_back(std::move(figure));
     }

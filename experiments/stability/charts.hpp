@@ -15,7 +15,7 @@ std::vector<report::Figure> stability_charts(const report::Grouping& grouping,
                                              const std::vector<StabilityFinding>& found);
 
 /// One panel for each method, where one key of the scenario takes several numbers: `key` against the step.
-std::vector<report::Figure> stability_maps(const report::Grouping& grouping,
-                                           const std::vector<StabilityFinding>& found, const std::string& key);
+std::vector<report::Figure> stability_maps(const report::Grouping& grouping, const std::vector<StabilityFinding>& found,
+                                           const std::string& key);
 
 }  // namespace polhode::study

@@ -25,9 +25,7 @@ double asked_duration(const Ladder& ladder) {
 
 }  // namespace
 
-double whole_steps(double t_end, double dt) {
-  return std::max(least_steps, std::ceil(t_end / dt * (1 - 1e-12))) * dt;
-}
+double whole_steps(double t_end, double dt) { return std::max(least_steps, std::ceil(t_end / dt * (1 - 1e-12))) * dt; }
 
 std::optional<double> Ladder::rate() const { return characteristic_rate(steps.front().run->scenario->problem); }
 

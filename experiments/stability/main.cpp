@@ -7,11 +7,10 @@
 namespace {
 
 /// The second moment of inertia beside 0.6 and 1 kg m², as far as a rigid body can have it.
-const polhode::study::Grid map_over_inertia = {
-    {{"scenario", "hairer_vilmart"},
-     {"integrator", "explicit_euler,heun,rk4,simo_wong,lie_midpoint,dmv4"},
-     {"dt", "0.02:10:24:log"}},
-    {{"body.0.inertia.1", "0.42:1.58:16"}}};
+const polhode::study::Grid map_over_inertia = {{{"scenario", "hairer_vilmart"},
+                                                {"integrator", "explicit_euler,heun,rk4,simo_wong,lie_midpoint,dmv4"},
+                                                {"dt", "0.02:10:24:log"}},
+                                               {{"body.0.inertia.1", "0.42:1.58:16"}}};
 
 }  // namespace
 

@@ -11,8 +11,8 @@
 
 #include "experiments/stability/charts.hpp"
 #include "experiments/stability/findings.hpp"
-#include "experiments/study/csv.hpp"
 #include "experiments/study/axes.hpp"
+#include "experiments/study/csv.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/report/notation.hpp"
 #include "integrators/catalogue.hpp"
@@ -46,7 +46,8 @@ class Stability {
     all.method = method();
     for (const bool varied : {false, true}) {
       Table one = table(varied);
-      if (!one.rows.empty()) all.tables.push_back({varied ? "critical_steps_varied" : "critical_steps", std::move(one)});
+      if (!one.rows.empty())
+        all.tables.push_back({varied ? "critical_steps_varied" : "critical_steps", std::move(one)});
     }
     all.figures = stability_charts(grouping_, found_);
     if (study_.varied_keys.size() == 1) {
@@ -64,9 +65,11 @@ class Stability {
   static std::vector<std::string> method() {
     return {
         fmt::format(
-            "Critical step: the smallest step at which the energy of a run grows (gaining or blown up), looked for from "
+            "Critical step: the smallest step at which the energy of a run grows (gaining or blown up), looked for "
+            "from "
             "below among the steps of --dt and then by bisection until the bracket is {} % wide. A window of growth "
-            "narrower than the distance of two steps of that scan may be missed. Each run takes whole steps, and 500 at "
+            "narrower than the distance of two steps of that scan may be missed. Each run takes whole steps, and 500 "
+            "at "
             "least.",
             number(100 * bracket_width)),
         fmt::format(
@@ -76,7 +79,8 @@ class Stability {
             "away from the start; stable: neither, or a change below {} (or 64 ε √steps).",
             number(verdict::lost), number(verdict::trend), number(verdict::settled), number(verdict::counted)),
         "|ω|: the largest √(k/m) of the springs, |ω| of the bodies at the start, √(m g l/I) of a pinned body under "
-        "gravity and √(GM/r³) of a pair. Spectral radius: the largest modulus of the eigenvalues of the map of one step, "
+        "gravity and √(GM/r³) of a pair. Spectral radius: the largest modulus of the eigenvalues of the map of one "
+        "step, "
         "taken from the method itself, where the system is linear."};
   }
 
@@ -96,9 +100,12 @@ class Stability {
     const auto& steps = f.ladder.steps;
     const auto as = [&](double dt) { return seconds ? four(dt) : in_units(f, dt); };
     switch (c.kind) {
-      case Kind::found: return as(c.fails);
-      case Kind::none: return fmt::format("none to {}", as(steps.back().dt));
-      default: return c.holds_again ? fmt::format("below {}", as(c.fails)) : "every step";
+      case Kind::found:
+        return as(c.fails);
+      case Kind::none:
+        return fmt::format("none to {}", as(steps.back().dt));
+      default:
+        return c.holds_again ? fmt::format("below {}", as(c.fails)) : "every step";
     }
   }
 
@@ -133,20 +140,21 @@ class Stability {
   Table table(bool varied) const {
     using C = Column::Kind;
     const auto unit = symbol();
-    Table table{.caption = fmt::format("Critical steps{}; every step: the energy grows at the smallest step tried and at "
-                                         "all others",
-                                         varied ? " with varied keys" : ""),
-                .columns = {{"method", "", C::name},
-                            {"motion", "", C::text},
-                            {"formulation", "", C::text},
-                            {"critical " + unit},
-                            {"critical step", "s"},
-                            {"below", "", C::text},
-                            {"there", "", C::text},
-                            {"blows up from " + unit},
-                            {"linear theory"},
-                            {"spectral radius"}},
-                .rows = {}};
+    Table table{
+        .caption = fmt::format("Critical steps{}; every step: the energy grows at the smallest step tried and at "
+                               "all others",
+                               varied ? " with varied keys" : ""),
+        .columns = {{"method", "", C::name},
+                    {"motion", "", C::text},
+                    {"formulation", "", C::text},
+                    {"critical " + unit},
+                    {"critical step", "s"},
+                    {"below", "", C::text},
+                    {"there", "", C::text},
+                    {"blows up from " + unit},
+                    {"linear theory"},
+                    {"spectral radius"}},
+        .rows = {}};
     for (const auto& f : found_) {
       if (is_varied(f) != varied) continue;
       const Curve& curve = *f.ladder.curve;
@@ -278,8 +286,8 @@ class Stability {
     }
     if (n == 0) return "";
     std::string text =
-        fmt::format("{} is linear: the spectral radius of the step map gives the same limit to 1 % for {} of {}", scenario,
-                    same, count(n, "case"));
+        fmt::format("{} is linear: the spectral radius of the step map gives the same limit to 1 % for {} of {}",
+                    scenario, same, count(n, "case"));
     std::vector<std::string> others;
     for (const auto& f : found_) {
       if (motion(f) != scenario || !f.linear || agrees(f)) continue;
@@ -325,15 +333,16 @@ class Stability {
     for (const char* c :
          {"characteristic_rate_rad_per_s", "smallest_step_s", "largest_step_s", "growth", "largest_holding_step_s",
           "critical_step_s", "critical_h_omega", "holds_again", "blow_up", "largest_step_before_blow_up_s",
-          "blow_up_step_s", "blow_up_h_omega", "linear_theory", "linear_largest_holding_step_s", "linear_critical_step_s",
-          "linear_critical_h_omega", "spectral_radius_min", "spectral_radius_max"}) {
+          "blow_up_step_s", "blow_up_h_omega", "linear_theory", "linear_largest_holding_step_s",
+          "linear_critical_step_s", "linear_critical_h_omega", "spectral_radius_min", "spectral_radius_max"}) {
       header.emplace_back(c);
     }
     std::string text = csv_row(header);
     for (const auto& f : found_) {
       const auto& steps = f.ladder.steps;
       auto row = without_step(config_cells(steps.front().run->config));
-      for (auto& cell : {csv_cell(f.rate), study::exact(steps.front().dt), study::exact(steps.back().dt)}) row.push_back(cell);
+      for (auto& cell : {csv_cell(f.rate), study::exact(steps.front().dt), study::exact(steps.back().dt)})
+        row.push_back(cell);
       add_limit(row, f, f.growth);
       row.emplace_back(f.growth.holds_again ? "yes" : "no");
       add_limit(row, f, f.blow_up);

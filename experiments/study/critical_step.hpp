@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The critical step: the smallest step at which a run no longer holds, looked for from below on a scan, then by bisection.
+// The critical step: the smallest step at which a run no longer holds, looked for from below on a scan, then by
+// bisection.
 #pragma once
 
 #include <optional>

@@ -10,8 +10,8 @@
 
 namespace polhode::study {
 
-/// The largest modulus of the eigenvalues of the map (positions, velocities) → the same after one step of dt. Its columns
-/// are differences of steps from displaced states, which for a linear map is exact but for rounding.
+/// The largest modulus of the eigenvalues of the map (positions, velocities) → the same after one step of dt. Its
+/// columns are differences of steps from displaced states, which for a linear map is exact but for rounding.
 ///
 /// Absent where the mass centres do not obey a linear equation, a body turns, the method has a history or chooses its
 /// steps, or a step fails.

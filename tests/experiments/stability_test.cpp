@@ -85,7 +85,7 @@ std::pair<CriticalStep, int> search(const std::function<bool(double)>& stable, d
   for (;; ++further) {
     const auto found = critical_step(tried);
     const auto dt = next_step(found);
-    if (!dt) return {found, further};
+    if (!dt || further == 100) return {found, further};
     tried.push_back({*dt, stable(*dt)});
   }
 }

@@ -133,6 +133,16 @@ class Stability(unittest.TestCase):
         report = re.sub(r"<[^>]*>", "", (self.out / "report.html").read_text(encoding="utf-8"))
         self.assertIn("Left out, since they choose their own steps", report)
 
+    def test_by_itself_it_makes_limits_of_all_methods_and_a_map_of_some(self):
+        said = self.run_program("--dry-run", "--out", "never")
+        self.assertIn("further runs follow from the results of these", said)
+        values = re.search(r"body\.0\.inertia\.1 +(.*)", said)[1].split(", ")
+        self.assertEqual(len(values), 16)
+        plain = self.run_program("--scenario", "oscillator,hairer_vilmart", "--dry-run", "--out", "never")
+        self.assertNotIn("inertia", plain)
+        runs = [int(re.search(r"(\d+) runs", text)[1]) for text in (said, plain)]
+        self.assertEqual(runs[0] - runs[1], 6 * 16 * 24)
+
     def test_what_makes_no_sense_is_refused_in_one_line(self):
         for arguments, words in ((["--integrator", "cvode_bdf"], "chooses its own steps"),
                                  (["--t-end", "1,2"], "--t-end: stability takes one"),
