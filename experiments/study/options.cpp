@@ -136,6 +136,7 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   for (int i = 1; i < argc; ++i) options.command += " " + quoted(argv[i]);
   options.axes = experiment.defaults;
   if (study_file.empty() && !given.contains("scenario")) options.vary = experiment.vary;
+  options.plain = given.empty() && vary.empty() && study_file.empty();
   if (!study_file.empty()) read_study_file(study_file, options);
   for (const auto& [name, text] : given) {
     options.axes[name] = text;

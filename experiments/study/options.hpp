@@ -25,6 +25,7 @@ struct Options {
     const auto found = places.find(axis);
     return found == places.end() ? "--" + axis : found->second;
   }
+  bool plain = false;    ///< no axis is said: everything is as the experiment has it
   std::uint64_t seed = 1;
   std::string out;       ///< empty: results/<experiment>-<scenarios>-<hash>
   bool force = false;

@@ -81,16 +81,25 @@ struct Axes {
   std::vector<std::optional<std::int64_t>> samples;
 };
 
-std::vector<std::string> integrator_names(const Options& options) {
-  std::vector<std::string> known;
-  for (const IntegratorEntry& e : integrator_catalogue()) known.push_back(e.declaration.name);
-  if (options.axes.at("integrator") == "all") return known;
-  return names(options, "integrator", known);
+std::vector<std::string> integrator_names(const Experiment& experiment, const Options& options) {
+  std::vector<std::string> known, fitting;
+  for (const IntegratorEntry& e : integrator_catalogue()) {
+    known.push_back(e.declaration.name);
+    if (!e.declaration.adaptive || !experiment.fixed_steps_only) fitting.push_back(e.declaration.name);
+  }
+  if (options.axes.at("integrator") == "all") return fitting;
+  const auto chosen = names(options, "integrator", known);
+  for (const std::string& name : chosen) {
+    if (std::find(fitting.begin(), fitting.end(), name) != fitting.end()) continue;
+    throw InputError(fmt::format("{}: {} chooses its own steps, and {} is about steps; name methods that take --dt",
+                                 options.label("integrator"), name, experiment.name));
+  }
+  return chosen;
 }
 
-Axes read_axes(const Options& options) {
+Axes read_axes(const Experiment& experiment, const Options& options) {
   Axes axes;
-  axes.integrators = integrator_names(options);
+  axes.integrators = integrator_names(experiment, options);
   axes.orientations = choices<Orientation>(
       options, "orientation", {{"quaternion", Orientation::quaternion}, {"matrix", Orientation::matrix}},
       Orientation::quaternion);
@@ -116,11 +125,19 @@ Axes read_axes(const Options& options) {
     throw InputError(fmt::format("{}: {} is too large; it must be below 1", options.label("tolerance"), x));
   }
   axes.durations = positive(options, "t-end", " of seconds");
+  if (experiment.duration && axes.durations.size() > 1) {
+    throw InputError(fmt::format("{}: {} takes one, since its runs last as long as their steps have it",
+                                 options.label("t-end"), experiment.name));
+  }
   for (const double n : positive(options, "samples", "")) {
     if (n != std::floor(n) || n > 1e9) {
       throw InputError(fmt::format("{}: {} is not a whole number below 1e9", options.label("samples"), n));
     }
     axes.samples.emplace_back(static_cast<std::int64_t>(n));
+  }
+  if (experiment.duration && !axes.samples.empty()) {
+    throw InputError(fmt::format("{}: {} looks at every step; leave the option out", options.label("samples"),
+                                 experiment.name));
   }
   if (axes.samples.empty()) axes.samples.emplace_back(std::nullopt);
   for (const char* none : {"broad-phase", "narrow-phase", "response", "impact-timing"}) names(options, none, {});
@@ -169,52 +186,48 @@ double cost_of(const RunConfig& config) {
   return config.t_end / *config.dt * (stages + 1);
 }
 
+/// The run with its identity. Throws std::invalid_argument on an impossible step.
+PlannedRun planned(const RunConfig& config, const std::shared_ptr<const Scenario>& scenario) {
+  std::string text = fmt::format("{}\n{}\n", results_version, scenario->canonical);
+  RunConfig said = config;  // a key that this run leaves as it is, is none of its own; nor what was always so
+  std::erase_if(said.varied, [](const Override& o) { return o.value.empty(); });
+  said.summation.reset();
+  for (const std::string& cell : config_cells(said)) text += cell + "\n";
+  if (config.samples) text += std::to_string(*config.samples);
+  if (is_compensated(config)) text += "\ncompensated";
+  return {.id = hash(config.reference ? text + "\nreference" : text),
+          .motion = hash(text),
+          .config = config,
+          .scenario = scenario,
+          .refusal = refusal(config, *scenario),
+          .cost = cost_of(config)};
+}
+
+void sort_by_configuration(std::vector<PlannedRun>& runs) {
+  std::vector<std::pair<std::vector<std::string>, std::size_t>> keys;
+  for (std::size_t i = 0; i < runs.size(); ++i) keys.emplace_back(config_cells(runs[i].config), i);
+  std::sort(keys.begin(), keys.end(), [&](const auto& a, const auto& b) {
+    for (std::size_t k = 0; k < a.first.size(); ++k) {
+      if (a.first[k] != b.first[k]) return cell_less(a.first[k], b.first[k]);
+    }
+    return runs[a.second].id < runs[b.second].id;
+  });
+  std::vector<PlannedRun> sorted;
+  for (const auto& [cells, i] : keys) sorted.push_back(std::move(runs[i]));
+  runs = std::move(sorted);
+}
+
 class Planner {
  public:
-  Planner(const Experiment& experiment, const Options& options)
+  Planner(const Experiment& experiment, const Options& options, bool reference)
       : experiment_(experiment),
+        axes_(read_axes(experiment, options)),
         variants_(variants(options)),
-        dt_label_(options.label("dt")) {
+        dt_label_(options.label("dt")),
+        reference_(reference) {
     for (const auto& [key, text] : options.vary) plan_.varied_keys.push_back(key);
     std::sort(plan_.varied_keys.begin(), plan_.varied_keys.end());
-    add_product(options, options.reference || experiment.reference);
-    for (const FurtherAxes& more : experiment.more) {
-      Options other = options;
-      for (const auto& [axis, text] : more.defaults) {
-        const auto before = experiment.defaults.find(axis), now = options.axes.find(axis);
-        const bool given =
-            now != options.axes.end() && (before == experiment.defaults.end() || now->second != before->second);
-        if (!given) other.axes[axis] = text;
-      }
-      plan_.further_axes.push_back(other.axes);
-      add_product(other, options.reference || more.reference);
-    }
-  }
-
-  Plan finish() {
-    std::sort(plan_.invariants.begin(), plan_.invariants.end());
-    plan_.invariants.erase(std::unique(plan_.invariants.begin(), plan_.invariants.end()), plan_.invariants.end());
-    sort();
-    if (experiment_.one_run && plan_.runs.size() != 1) {
-      throw InputError(fmt::format("{} makes one run, and this is {}; give each axis one value, or use energy_drift",
-                                   experiment_.name, plan_.runs.size()));
-    }
     plan_.names_summation = axes_.summations.front().has_value();
-    const auto sense = [](const PlannedRun& r) { return r.refusal.empty(); };
-    if (std::none_of(plan_.runs.begin(), plan_.runs.end(), sense)) {
-      throw InputError(plan_.runs.front().config.integrator + " on " + plan_.runs.front().config.scenario + ": " +
-                       plan_.runs.front().refusal);
-    }
-    std::string all;
-    for (const PlannedRun& run : plan_.runs) all += run.id;
-    plan_.identity = hash(all);
-    return std::move(plan_);
-  }
-
- private:
-  void add_product(const Options& options, bool reference) {
-    axes_ = read_axes(options);
-    reference_ = reference;
     std::set<std::string> seen;
     for (const std::string& name : split_list(options.axes.at("scenario"), ',', options.label("scenario"))) {
       const ScenarioSource source = ScenarioSource::open(name, options.label("scenario"));
@@ -223,12 +236,16 @@ class Planner {
     }
   }
 
+  Plan finish() {
+    std::sort(plan_.invariants.begin(), plan_.invariants.end());
+    plan_.invariants.erase(std::unique(plan_.invariants.begin(), plan_.invariants.end()), plan_.invariants.end());
+    return std::move(plan_);
+  }
+
+ private:
   void add_scenario(const ScenarioSource& source) {
-    const auto same = [&](const Scenario& s) { return s.name == source.name(); };
-    if (std::none_of(plan_.scenarios.begin(), plan_.scenarios.end(), same)) {
-      plan_.scenarios.push_back(source.resolve());
-      for (const std::string& invariant : plan_.scenarios.back().invariants) plan_.invariants.push_back(invariant);
-    }
+    plan_.scenarios.push_back(source.resolve());
+    for (const std::string& invariant : plan_.scenarios.back().invariants) plan_.invariants.push_back(invariant);
     for (const auto& variant : variants_) {
       const auto scenario = std::make_shared<const Scenario>(source.resolve(variant));
       RunConfig config;
@@ -272,7 +289,7 @@ class Planner {
                 config.precision = precision;
                 config.summation = summation;
                 (adaptive ? config.tolerance : config.dt) = size;
-                config.t_end = t_end;
+                config.t_end = experiment_.duration ? experiment_.duration(t_end, size) : t_end;
                 config.samples = samples;
                 add_run(config, scenario);
               }
@@ -284,54 +301,105 @@ class Planner {
   }
 
   void add_run(const RunConfig& config, const std::shared_ptr<const Scenario>& scenario) {
-    std::string text = fmt::format("{}\n{}\n", results_version, scenario->canonical);
-    RunConfig plain = config;  // what was always so does not enter
-    plain.summation.reset();
-    for (const std::string& cell : config_cells(plain)) text += cell + "\n";
-    if (config.samples) text += std::to_string(*config.samples);
-    if (!texts_.insert(text).second) return;  // the same run by another way: counted once
-    if (config.reference) text += "\nreference";
-    if (is_compensated(config)) text += "\ncompensated";
-    PlannedRun run;
-    run.id = hash(text);
-    run.config = config;
-    run.scenario = scenario;
     try {
-      run.refusal = refusal(config, *scenario);
+      plan_.runs.push_back(planned(config, scenario));
     } catch (const std::invalid_argument& error) {
       throw InputError(dt_label_ + ": " + std::string(error.what()));
     }
-    run.cost = cost_of(config);
-    plan_.runs.push_back(std::move(run));
     if (plan_.runs.size() > most_runs) throw InputError("more than 10 million runs; make the axes shorter");
-  }
-
-  void sort() {
-    std::vector<std::pair<std::vector<std::string>, std::size_t>> keys;
-    for (std::size_t i = 0; i < plan_.runs.size(); ++i) keys.emplace_back(config_cells(plan_.runs[i].config), i);
-    std::sort(keys.begin(), keys.end(), [this](const auto& a, const auto& b) {
-      for (std::size_t k = 0; k < a.first.size(); ++k) {
-        if (a.first[k] != b.first[k]) return cell_less(a.first[k], b.first[k]);
-      }
-      return plan_.runs[a.second].id < plan_.runs[b.second].id;
-    });
-    std::vector<PlannedRun> sorted;
-    for (const auto& [cells, i] : keys) sorted.push_back(std::move(plan_.runs[i]));
-    plan_.runs = std::move(sorted);
   }
 
   const Experiment& experiment_;
   Axes axes_;
   std::vector<std::vector<Override>> variants_;
   std::string dt_label_;
-  bool reference_ = false;
-  std::set<std::string> texts_;
+  bool reference_;
   Plan plan_;
 };
 
+/// Adds another product of axes of the same experiment.
+void add_plan(Plan& plan, Plan&& other) {
+  for (Scenario& s : other.scenarios) {
+    const auto same = [&](const Scenario& known) { return known.name == s.name; };
+    if (std::none_of(plan.scenarios.begin(), plan.scenarios.end(), same)) plan.scenarios.push_back(std::move(s));
+  }
+  const auto unite = [](std::vector<std::string>& all, const std::vector<std::string>& more) {
+    std::set<std::string> united(all.begin(), all.end());
+    united.insert(more.begin(), more.end());
+    all.assign(united.begin(), united.end());
+  };
+  unite(plan.varied_keys, other.varied_keys);
+  unite(plan.invariants, other.invariants);
+  std::move(other.runs.begin(), other.runs.end(), std::back_inserter(plan.runs));
+}
+
+/// A run has an empty value for a key that its own product does not vary.
+void fill_varied(RunConfig& config, const std::vector<std::string>& keys) {
+  std::vector<Override> varied;
+  for (const std::string& key : keys) {
+    const auto own = std::find_if(config.varied.begin(), config.varied.end(), [&](const Override& o) { return o.key == key; });
+    varied.push_back(own == config.varied.end() ? Override{key, ""} : *own);
+  }
+  config.varied = std::move(varied);
+}
+
+/// The same experiment with a further product of axes in the place of the first.
+Options further(const Experiment& experiment, const Options& options, const FurtherAxes& more) {
+  Options other = options;
+  for (const auto& [axis, text] : more.defaults) {
+    const auto before = experiment.defaults.find(axis), now = options.axes.find(axis);
+    const bool given = now != options.axes.end() && (before == experiment.defaults.end() || now->second != before->second);
+    if (!given) other.axes[axis] = text;
+  }
+  if (!more.vary.empty()) other.vary = more.vary;
+  return other;
+}
+
 }  // namespace
 
-Plan make_plan(const Experiment& experiment, const Options& options) { return Planner(experiment, options).finish(); }
+Plan make_plan(const Experiment& experiment, const Options& options) {
+  Plan plan = Planner(experiment, options, options.reference || experiment.reference).finish();
+  for (const FurtherAxes& more : experiment.more) {
+    if (more.by_default_only && !options.plain) continue;
+    const Options other = further(experiment, options, more);
+    plan.further_axes.push_back(other.axes);
+    add_plan(plan, Planner(experiment, other, options.reference || more.reference).finish());
+  }
+  std::set<std::string> motions;  // the same run by another way: counted once
+  std::erase_if(plan.runs, [&](const PlannedRun& run) { return !motions.insert(run.motion).second; });
+  for (PlannedRun& run : plan.runs) fill_varied(run.config, plan.varied_keys);
+  if (experiment.one_run && plan.runs.size() != 1) {
+    throw InputError(fmt::format("{} makes one run, and this is {}; give each axis one value, or use energy_drift",
+                                 experiment.name, plan.runs.size()));
+  }
+  const auto sense = [](const PlannedRun& r) { return r.refusal.empty(); };
+  sort_by_configuration(plan.runs);
+  if (std::none_of(plan.runs.begin(), plan.runs.end(), sense)) {
+    throw InputError(plan.runs.front().config.integrator + " on " + plan.runs.front().config.scenario + ": " +
+                     plan.runs.front().refusal);
+  }
+  std::string all;
+  for (const PlannedRun& run : plan.runs) all += run.id;
+  plan.identity = hash(all);
+  return plan;
+}
+
+std::size_t widen(Plan& plan, const std::vector<RunConfig>& configs) {
+  std::set<std::string> ids;
+  for (const PlannedRun& run : plan.runs) ids.insert(run.id);
+  std::vector<PlannedRun> added;
+  for (const RunConfig& config : configs) {
+    const auto like = std::find_if(plan.runs.begin(), plan.runs.end(), [&](const PlannedRun& run) {
+      return run.config.scenario == config.scenario && run.config.varied == config.varied;
+    });
+    if (like == plan.runs.end()) throw std::logic_error("a further run of a scenario that the study does not have");
+    PlannedRun run = planned(config, like->scenario);
+    if (ids.insert(run.id).second) added.push_back(std::move(run));
+  }
+  for (PlannedRun& run : added) plan.runs.push_back(std::move(run));
+  if (!added.empty()) sort_by_configuration(plan.runs);
+  return added.size();
+}
 
 std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys, bool names_summation) {
   std::vector<std::string> columns = {"scenario",      "integrator",    "orientation",  "angular_state",

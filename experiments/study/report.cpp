@@ -282,7 +282,7 @@ std::string options_html(const StudyView& study) {
     std::set<std::string> values;
     for (const auto& run : study.runs) {
       for (const auto& varied : run.config.varied) {
-        if (varied.key == key) values.insert(varied.value);
+        if (varied.key == key && !varied.value.empty()) values.insert(varied.value);
       }
     }
     add(html(key).c_str(), values.size() <= 12 ? texts(values) : fmt::format("{} values", values.size()));

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,7 +25,8 @@ constexpr std::string_view name(Summation s) { return s == Summation::plain ? "p
 
 struct RunConfig {
   std::string scenario;             ///< name
-  std::vector<Override> varied;     ///< the varied keys of the scenario with this run's values, in the axes' order
+  /// The varied keys of the scenario with this run's values, in the axes' order; an empty value leaves the key as it is.
+  std::vector<Override> varied;
   std::string integrator;
   Formulation formulation;
   bool normalise = false;           ///< --normalize step
@@ -87,6 +89,7 @@ struct RunRecord {
   std::string id;  ///< 16 hexadecimal digits: hash of the resolved scenario, the options and the results version
   RunConfig config;
   RunResult result;
+  std::shared_ptr<const Scenario> scenario{};  ///< with the varied keys set; of the runs of a StudyView
 };
 
 }  // namespace polhode::study

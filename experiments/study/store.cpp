@@ -162,14 +162,14 @@ std::map<std::string, RunResult> Store::load() const {
     r.seconds = rows.real();
     r.series = rows.series<SeriesPoint>();
   }
-  Statement used(path_, db_.get(), "SELECT * FROM references_used");
+  Statement used(path_, db_.get(), "SELECT * FROM references_used WHERE id IN (SELECT id FROM runs)");
   while (used.step()) {
     RunResult& r = results[used.text()];
     r.position_reference = used.optional_real();
     r.attitude_reference = used.optional_real();
     r.angular_velocity_reference_rel = used.optional_real();
   }
-  Statement errors(path_, db_.get(), "SELECT * FROM attitude_errors");
+  Statement errors(path_, db_.get(), "SELECT * FROM attitude_errors WHERE id IN (SELECT id FROM runs)");
   while (errors.step()) {
     RunResult& r = results[errors.text()];
     r.attitude_errors = errors.series<AttitudeError>();

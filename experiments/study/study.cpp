@@ -60,6 +60,7 @@ std::string plan_text(const Experiment& experiment, const Plan& plan, const std:
   if (refused > 0) text += fmt::format("{} of them make no sense and will be refused\n", refused);
   const auto names = config_columns(plan.varied_keys, plan.names_summation);
   std::vector<std::vector<std::string>> cells;
+  if (experiment.refine) text += "further runs follow from the results of these\n";
   for (const PlannedRun& run : plan.runs) cells.push_back(config_cells(run.config));
   for (std::size_t k = 0; k < names.size(); ++k) {
     std::vector<std::string> values;
@@ -121,7 +122,8 @@ RunResult carry_out_alone(const Experiment& experiment, const PlannedRun& run, c
 
 /// Carries out what the store does not hold yet. Returns false when it was interrupted.
 bool carry_out_missing(const Experiment& experiment, const Options& options, const Plan& plan,
-                       const std::filesystem::path& folder, Store& store, std::map<std::string, RunResult>& results) {
+                       const std::filesystem::path& folder, Store& store, std::map<std::string, RunResult>& results,
+                       bool say_what_is_there) {
   std::vector<const PlannedRun*> missing;
   for (const PlannedRun& run : plan.runs) {
     const bool done = results.contains(run.id) && has_trajectory(trajectory_of(experiment, options, folder, run));
@@ -129,7 +131,9 @@ bool carry_out_missing(const Experiment& experiment, const Options& options, con
   }
   if (missing.empty()) return true;
   const std::size_t kept = plan.runs.size() - missing.size();
-  if (!results.empty()) fmt::print(stderr, "{}: {} of {} runs are there already\n", experiment.name, kept, plan.runs.size());
+  if (!results.empty() && say_what_is_there) {
+    fmt::print(stderr, "{}: {} of {} runs are there already\n", experiment.name, kept, plan.runs.size());
+  }
   References references;
   for (const PlannedRun* run : missing) references.expect(run->config, *run->scenario);
   const auto trajectory = [&](const PlannedRun& run) { return trajectory_of(experiment, options, folder, run); };
@@ -150,8 +154,10 @@ bool carry_out_missing(const Experiment& experiment, const Options& options, con
   return false;
 }
 
+/// Takes the results out of the map as they are, or copies them: `give` makes one from another.
+template <class Results, class Give>
 StudyView view_of(const Experiment& experiment, const Options& options, const Plan& plan,
-                  const std::filesystem::path& folder, std::map<std::string, RunResult>& results) {
+                  const std::filesystem::path& folder, Results& results, const Give& give) {
   StudyView view;
   view.experiment = experiment.name;
   view.question = experiment.question;
@@ -161,18 +167,45 @@ StudyView view_of(const Experiment& experiment, const Options& options, const Pl
   view.names_summation = plan.names_summation;
   view.invariants = plan.invariants;
   view.folder = folder;
+  view.durations_follow_steps = static_cast<bool>(experiment.duration);
   for (const PlannedRun& run : plan.runs) {
-    RunRecord record{run.id, run.config, {}};
+    RunRecord record{run.id, run.config, {}, run.scenario};
     if (!run.refusal.empty()) {
       record.result.status = "refused";
       record.result.message = run.refusal;
     } else {
-      record.result = std::move(results.at(run.id));
+      record.result = give(results.at(run.id));
     }
     view.runs.push_back(std::move(record));
   }
-  if (experiment.analysis) view.analysis = experiment.analysis(view);
   return view;
+}
+
+/// Adds the runs that the experiment wants next, knowing those of the plan. False: it wants no more.
+bool widened(const Experiment& experiment, const Options& options, Plan& plan, const std::filesystem::path& folder,
+             const std::map<std::string, RunResult>& results) {
+  if (!experiment.refine) return false;
+  const auto copy = [](const RunResult& result) { return result; };
+  return widen(plan, experiment.refine(view_of(experiment, options, plan, folder, results, copy))) > 0;
+}
+
+/// The runs of the study, with those that the results in its folder lead to. A study that was stopped, or is wider than
+/// it was, lacks some results: what follows from the others is its own all the same. Changes no file.
+std::set<std::string> ids_of(const Experiment& experiment, const Options& options, Plan plan,
+                             const std::filesystem::path& folder) {
+  std::map<std::string, RunResult> results;
+  try {
+    if (experiment.refine && !Store::ids_in(folder).empty()) results = Store(folder).load();
+  } catch (const std::runtime_error&) {  // ResultFolder says what is wrong with it
+  }
+  std::set<std::string> ids;
+  for (std::size_t known = 0;;) {
+    for (const PlannedRun& run : plan.runs) ids.insert(run.id);
+    if (ids.size() == known || !experiment.refine) return ids;
+    known = ids.size();
+    std::erase_if(plan.runs, [&](const PlannedRun& run) { return run.refusal.empty() && !results.contains(run.id); });
+    widened(experiment, options, plan, folder, results);
+  }
 }
 
 void write_everything(const StudyView& view, const Options& options, const Plan& plan) {
@@ -188,27 +221,33 @@ void write_everything(const StudyView& view, const Options& options, const Plan&
 }
 
 int run_study(const Experiment& experiment, const Options& options) {
-  const Plan plan = make_plan(experiment, options);
+  Plan plan = make_plan(experiment, options);
   const std::filesystem::path folder = folder_of(experiment, options, plan);
   if (options.dry_run) {
     fmt::print("{}", plan_text(experiment, plan, folder));
     return 0;
   }
-  std::set<std::string> ids;
-  for (const PlannedRun& run : plan.runs) ids.insert(run.id);
+  const std::set<std::string> ids = ids_of(experiment, options, plan, folder);
   const ResultFolder held(folder, ids, options.force);
   stop_on_signals();
   Store store(folder);
   auto results = store.load();
-  if (!carry_out_missing(experiment, options, plan, folder, store, results)) return interrupted;
-  const StudyView view = view_of(experiment, options, plan, folder, results);
+  bool first = true;
+  do {
+    if (!carry_out_missing(experiment, options, plan, folder, store, results, first)) return interrupted;
+    first = false;
+  } while (widened(experiment, options, plan, folder, results));
+  const auto take = [](RunResult& result) { return std::move(result); };
+  StudyView view = view_of(experiment, options, plan, folder, results, take);
+  if (experiment.analysis) view.analysis = experiment.analysis(view);
   write_everything(view, options, plan);
   fmt::print("{}\n{}\n", summary_table(view), (folder / "report.html").string());
   // Where the analysis is the result, a refusal is one of its answers.
   const bool answers_refusals = view.analysis && view.analysis->alone;
   const bool all = std::all_of(view.runs.begin(), view.runs.end(), [&](const RunRecord& r) {
     return r.result.status == "ok" || r.result.status == "diverged" ||
-           (answers_refusals && r.result.status == "refused");
+           (answers_refusals && r.result.status == "refused") ||
+           (experiment.failures_are_results && r.result.status == "failed");
   });
   return all ? 0 : not_carried_out;
 }

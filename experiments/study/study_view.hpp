@@ -22,6 +22,7 @@ struct StudyView {
   std::vector<std::string> invariants;  ///< names of further declared invariants, sorted: columns of runs.csv
   std::vector<RunRecord> runs;          ///< sorted by configuration, the order of runs.csv
   std::filesystem::path folder;         ///< --out
+  bool durations_follow_steps = false;  ///< runs of one curve last as long as their step has it
   std::optional<Analysis> analysis{};   ///< the experiment's own
 };
 

@@ -76,15 +76,21 @@ double Axis::value_at(double place) const {
   }
 }
 
-Axis time_axis(double high) {
-  Axis axis{.label = "time (s)", .low = 0, .high = high};
-  const double rough = high / 5;
+Axis time_axis(double high) { return linear_axis("time (s)", 0, high); }
+
+Axis linear_axis(std::string label, double low, double high) {
+  Axis axis{.label = std::move(label), .low = low, .high = high};
+  const double rough = (high - low) / 5;
   const double unit = decade(floor_decade(rough));
   const double step = rough / unit < 1.5   ? unit
                       : rough / unit < 3.5 ? 2 * unit
                       : rough / unit < 7.5 ? 5 * unit
                                            : 10 * unit;
-  for (int k = 0; k * step <= high * (1 + 1e-9); ++k) axis.ticks.push_back({k * step, number(k * step, 6)});
+  const double slack = 1e-9 * (high - low);
+  for (double k = std::ceil((low - slack) / step); k * step <= high + slack; ++k) {
+    const double at = k * step + 0.0;  // never −0
+    axis.ticks.push_back({at, number(at, 6)});
+  }
   return axis;
 }
 

@@ -14,6 +14,9 @@ Axis time_axis(double high);
 /// Of steps or tolerances, all positive.
 Axis step_axis(std::string label, const std::vector<double>& values);
 
+/// Of any numbers from `low` to `high`, with ticks at round ones.
+Axis linear_axis(std::string label, double low, double high);
+
 struct Needs {
   bool floor = false;  ///< room at the bottom, and a tick labelled 0, for values that are exactly zero
   bool edge = false;   ///< room at the top for crosses

@@ -64,9 +64,9 @@ class Options {
 /// apart by it.
 class Durations {
  public:
-  explicit Durations(const std::vector<RunRecord>& runs) {
-    for (const auto& run : runs) {
-      ends_[run.config.scenario].insert(run.config.t_end);
+  explicit Durations(const StudyView& study) {
+    for (const auto& run : study.runs) {
+      ends_[run.config.scenario].insert(study.durations_follow_steps ? 0 : run.config.t_end);
       samples_[run.config.scenario].insert(run.config.samples);
     }
   }
@@ -106,6 +106,7 @@ std::string shown_value(const std::string& text) {
 Case case_of(const RunConfig& config, const Durations& durations) {
   Case found{.scenario = config.scenario, .details = {}};
   for (const auto& varied : config.varied) {
+    if (varied.value.empty()) continue;
     found.details.push_back(fmt::format("{} = {}", varied.key, shown_value(varied.value)));
   }
   for (auto& text : durations.describe(config)) found.details.push_back(std::move(text));
@@ -188,7 +189,7 @@ Grouping group(const StudyView& study) {
   std::map<std::string, std::size_t> method_index, cases, variants;
   for (const auto& method : grouping.methods) method_index.emplace(method, method_index.size());
   std::map<std::tuple<std::size_t, std::size_t, std::size_t, bool>, std::size_t> curves;
-  const Durations durations(study.runs);
+  const Durations durations(study);
   const auto formulations = variant_options(study.runs);
 
   for (const auto& run : study.runs) {

@@ -27,6 +27,7 @@ struct Axis {
   double threshold = 1e-16;  ///< of symlog
   std::vector<Tick> ticks{};
   bool labelled = true;  ///< false: the panel to the left shows the same axis
+  bool named = false;    ///< the ticks' labels are names, not numbers
 
   /// Where a value stands on the axis, in decades where it is logarithmic.
   double place(double value) const;
@@ -72,6 +73,18 @@ struct Guide {
   double label_y = 0;  ///< at the second end, or a little above where another label stands there
 };
 
+/// A rectangle of a map, in the units of the axes.
+struct Cell {
+  double x_low = 0, x_high = 0, y_low = 0, y_high = 0;
+  std::size_t shade = 0;  ///< index in the figure's shades
+};
+
+/// What the cells of one colour have in common.
+struct Shade {
+  std::string label;
+  std::string colour;  ///< "0072B2"
+};
+
 struct Panel {
   std::size_t row = 0, column = 0;
   std::vector<std::string> title{};  ///< lines
@@ -80,6 +93,7 @@ struct Panel {
   std::vector<PlottedCurve> curves{};
   std::vector<Guide> guides{};
   std::vector<EnvelopeMark> envelope{};  ///< drawn as a broad pale line behind the curves
+  std::vector<Cell> cells{};             ///< drawn behind everything
 };
 
 struct Figure {
@@ -91,6 +105,8 @@ struct Figure {
   std::vector<std::string> methods{};  ///< of the whole study
   std::vector<std::size_t> used_methods{};
   std::vector<std::string> variants{};  ///< told apart by dashes; one entry where there is nothing to tell apart
+  std::vector<Shade> shades{};          ///< of the cells
+  double panel_height = 0;              ///< pixels; 0: by the number of panels in a row
   bool has_zero_marks = false, has_edge_marks = false, has_envelope = false, has_muted = false;
 };
 

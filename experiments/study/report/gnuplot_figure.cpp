@@ -38,7 +38,10 @@ class Layout {
 
   double width() const { return style::figure_width; }
   double height() const { return height_; }
-  double plot_height() const { return style::panel_height[std::min<std::size_t>(figure_.columns, 3) - 1]; }
+  double plot_height() const {
+    if (figure_.panel_height > 0) return figure_.panel_height;
+    return style::panel_height[std::min<std::size_t>(figure_.columns, 3) - 1];
+  }
 
   // Edges of a panel as gnuplot's screen coordinates, from the bottom left.
   double left(const Panel& panel) const { return x(panel.column) / width(); }
@@ -60,6 +63,7 @@ class Layout {
     std::vector<std::string> texts;
     for (const auto m : figure_.used_methods) texts.push_back(figure_.methods[m]);
     if (figure_.variants.size() > 1) texts.insert(texts.end(), figure_.variants.begin(), figure_.variants.end());
+    for (const auto& shade : figure_.shades) texts.push_back(shade.label);
     if (figure_.has_envelope) texts.emplace_back("lower envelope");
     if (figure_.has_muted) texts.emplace_back("other methods");
     if (figure_.has_zero_marks) texts.emplace_back("exactly zero");
@@ -70,9 +74,18 @@ class Layout {
  private:
   std::size_t legend_rows() const { return (legend_texts().size() + legend_columns() - 1) / legend_columns(); }
 
+  /// Names on the y axis take more room than numbers.
+  double left_margin() const {
+    std::size_t longest = 0;
+    for (const auto& panel : figure_.panels) {
+      for (const auto& tick : panel.y.ticks) longest = std::max(longest, panel.y.named ? length(tick.label) : 0);
+    }
+    return std::max(style::left_margin, 20 + style::character_width * static_cast<double>(longest));
+  }
+
   /// Columns without labels on their y axis stand close to the one on their left.
   double gap(std::size_t column) const {
-    if (column == 0) return style::left_margin;
+    if (column == 0) return left_margin();
     const bool labelled = std::any_of(figure_.panels.begin(), figure_.panels.end(),
                                       [&](const auto& p) { return p.column == column && p.y.labelled; });
     return labelled ? style::left_margin : style::inner_margin;
@@ -110,8 +123,8 @@ void write_axis(std::string& out, char name, const Axis& axis) {
          "  set nonlinear {0} via sgn({0})*asinh(abs({0})/{1})/log(10) inverse sgn({0})*{1}*sinh(abs({0})*log(10))",
          name, axis.threshold);
   }
-  line(out, "  set {}tics {}", name, ticks(axis, axis.labelled));
-  if (axis.labelled)
+  line(out, "  set {}tics {}{}", name, ticks(axis, axis.labelled), axis.named ? " noenhanced" : "");
+  if (axis.labelled && !axis.label.empty())
     line(out, "  set {}label {} noenhanced", name, gnuplot(axis.label));
   else
     line(out, "  unset {}label", name);
@@ -152,10 +165,23 @@ bool has(const PlottedCurve& curve, Mark mark) {
   return std::any_of(curve.points.begin(), curve.points.end(), [&](const auto& point) { return point.mark == mark; });
 }
 
+std::vector<Cell> cells_of(const Panel& panel, std::size_t shade) {
+  std::vector<Cell> some;
+  std::copy_if(panel.cells.begin(), panel.cells.end(), std::back_inserter(some),
+               [&](const auto& cell) { return cell.shade == shade; });
+  return some;
+}
+
 /// The plot command of a panel; `block` counts the blocks of the data file.
-void write_plot(std::string& out, const Panel& panel, int& block) {
+void write_plot(std::string& out, const Panel& panel, const std::vector<Shade>& shades, int& block) {
   const bool over_time = panel.x.scale == Scale::linear;
   std::vector<std::string> items;
+  for (std::size_t s = 0; s < shades.size(); ++s) {
+    if (cells_of(panel, s).empty()) continue;
+    items.push_back(fmt::format(
+        "data index {} using 1:3:1:2:3:4 with boxxyerror fillstyle solid 1 noborder linecolor rgb '#{}' notitle",
+        block++, shades[s].colour));
+  }
   for (const auto& curve : panel.curves) {
     const auto item = [&](Mark mark, const std::string& with) {
       if (!has(curve, mark)) return;
@@ -173,7 +199,8 @@ void write_plot(std::string& out, const Panel& panel, int& block) {
   line(out, "  plot {}", fmt::join(items, ", \\\n       "));
 }
 
-void write_panel(std::string& out, const Panel& panel, const Layout& layout, int& block) {
+void write_panel(std::string& out, const Panel& panel, const std::vector<Shade>& shades, const Layout& layout,
+                 int& block) {
   line(out, "\n  # panel {},{}", panel.row + 1, panel.column + 1);
   line(out, "  unset logscale\n  unset nonlinear y");
   line(out, "  set lmargin at screen {:.5f}; set rmargin at screen {:.5f}", layout.left(panel), layout.right(panel));
@@ -183,7 +210,7 @@ void write_panel(std::string& out, const Panel& panel, const Layout& layout, int
   write_axis(out, 'y', panel.y);
   write_guides(out, panel);
   write_envelope(out, panel);
-  write_plot(out, panel, block);
+  write_plot(out, panel, shades, block);
 }
 
 /// The legend is a plot of its own with nothing but its key, so that it covers no data.
@@ -195,6 +222,10 @@ void write_legend(std::string& out, const Figure& figure, const Layout& layout) 
   }
   for (std::size_t v = 0; v < figure.variants.size() && figure.variants.size() > 1; ++v) {
     entries.push_back(fmt::format("keyentry with lines linestyle {} title {}", 9010 + v, gnuplot(figure.variants[v])));
+  }
+  for (const auto& shade : figure.shades) {
+    entries.push_back(fmt::format("keyentry with boxes fillcolor rgb '#{}' fillstyle solid 1 noborder title {}",
+                                  shade.colour, gnuplot(shade.label)));
   }
   if (figure.has_envelope) entries.emplace_back("keyentry with lines linestyle 9002 title 'lower envelope'");
   if (figure.has_muted) entries.emplace_back("keyentry with lines linestyle 9003 title 'other methods'");
@@ -283,7 +314,7 @@ std::string gnuplot_script(const Figure& figure) {
   line(out, "  set multiplot");
   line(out, "  unset key");
   int block = 0;
-  for (const auto& panel : figure.panels) write_panel(out, panel, layout, block);
+  for (const auto& panel : figure.panels) write_panel(out, panel, figure.shades, layout, block);
   write_legend(out, figure, layout);
   line(out, "\n  unset multiplot\n  unset output\n}}");
   return out;
@@ -300,11 +331,22 @@ std::string gnuplot_data(const Figure& figure) {
        "0);");
   line(out, "# edge (diverged, failed or off the scale, drawn at the edge; '-' where nothing was measured).");
   bool first = true;
+  const auto begin_block = [&] {
+    if (!first) out += "\n\n";
+    first = false;
+  };
   for (const auto& panel : figure.panels) {
+    const auto title = panel.title.empty() ? "" : fmt::format("{}: ", fmt::join(panel.title, ", "));
+    for (std::size_t s = 0; s < figure.shades.size(); ++s) {
+      const auto cells = cells_of(panel, s);
+      if (cells.empty()) continue;
+      begin_block();
+      line(out, "# {}{}", one_line(title), one_line(figure.shades[s].label));
+      line(out, "# from_{0} to_{0} from_{1} to_{1}", panel.x_column, panel.y_column);
+      for (const auto& c : cells) line(out, "{} {} {} {}", c.x_low, c.x_high, c.y_low, c.y_high);
+    }
     for (const auto& curve : panel.curves) {
-      if (!first) out += "\n\n";
-      first = false;
-      const auto title = panel.title.empty() ? "" : fmt::format("{}: ", fmt::join(panel.title, ", "));
+      begin_block();
       line(out, "# {}{}", one_line(title), one_line(curve.label));
       line(out, "# {} {} drawn_at mark", panel.x_column, panel.y_column);
       for (const auto& point : curve.points) {

@@ -40,11 +40,20 @@ void write_axis(std::string& out, char name, const Axis& axis) {
   std::vector<std::string> at, labels;
   for (const auto& tick : axis.ticks) {
     at.push_back(fmt::format("{:.6g}", axis.place(tick.at)));
-    labels.push_back(axis.labelled ? tick_label(tick.label) : "");
+    labels.push_back(!axis.labelled ? "" : axis.named ? tex(tick.label) : tick_label(tick.label));
   }
   line(out, "  {0}min={1:.6g}, {0}max={2:.6g},", name, axis.place(axis.low), axis.place(axis.high));
   line(out, "  {0}tick={{{1}}}, {0}ticklabels={{{2}}},", name, fmt::join(at, ","), fmt::join(labels, ","));
-  if (axis.labelled) line(out, "  {}label={{{}}},", name, tex(axis.label));
+  if (axis.labelled && !axis.label.empty()) line(out, "  {}label={{{}}},", name, tex(axis.label));
+}
+
+std::string shade_name(std::size_t shade) { return fmt::format("polhodeshade{}", static_cast<char>('a' + shade)); }
+
+void write_cells(std::string& out, const Panel& panel) {
+  for (const auto& c : panel.cells) {
+    line(out, "\\fill[{}] (axis cs:{:.5g},{:.5g}) rectangle (axis cs:{:.5g},{:.5g});", shade_name(c.shade),
+         panel.x.place(c.x_low), panel.y.place(c.y_low), panel.x.place(c.x_high), panel.y.place(c.y_high));
+  }
 }
 
 void write_guides(std::string& out, const Panel& panel) {
@@ -111,6 +120,9 @@ void write_legend(std::string& out, const Figure& figure) {
   for (std::size_t v = 0; v < figure.variants.size() && figure.variants.size() > 1; ++v) {
     entry(fmt::format("gray, {}, no marks", style::dash(v).pgf), figure.variants[v]);
   }
+  for (std::size_t s = 0; s < figure.shades.size(); ++s) {
+    entry(fmt::format("area legend, draw=gray, fill={}", shade_name(s)), figure.shades[s].label);
+  }
   if (figure.has_envelope) entry("yellow!80!orange!60, line width=4pt, no marks", "lower envelope");
   if (figure.has_muted) entry("gray!50, thin, no marks", "other methods");
   if (figure.has_zero_marks) entry("gray, only marks, mark=triangle, mark options={rotate=180}", "exactly zero");
@@ -126,6 +138,7 @@ std::size_t legend_columns(const Figure& figure) {
   std::size_t longest = figure.has_edge_marks ? 21 : 12;
   for (const auto m : figure.used_methods) longest = std::max(longest, length(figure.methods[m]));
   for (const auto& variant : figure.variants) longest = std::max(longest, length(variant));
+  for (const auto& shade : figure.shades) longest = std::max(longest, length(shade.label));
   return std::max<std::size_t>(1, 90 / (longest + 6));
 }
 
@@ -145,10 +158,22 @@ void write_panel(std::string& out, const Figure& figure, const Panel& panel) {
          legend_columns(figure));
   }
   line(out, "]");
+  write_cells(out, panel);
   write_guides(out, panel);
   write_envelope(out, panel);
   for (const auto& curve : panel.curves) write_curve(out, panel, curve);
   if (carries_legend(figure, panel)) write_legend(out, figure);
+}
+
+/// The room on the left: names take more than numbers.
+double labels_width_cm(const Figure& figure) {
+  double width = 1.9;
+  for (const auto& panel : figure.panels) {
+    for (const auto& tick : panel.y.ticks) {
+      if (panel.y.named) width = std::max(width, 0.14 * static_cast<double>(length(tick.label)));
+    }
+  }
+  return width;
 }
 
 const Panel* panel_at(const Figure& figure, std::size_t row, std::size_t column) {
@@ -174,6 +199,9 @@ std::string pgfplots(const Figure& figure) {
   for (std::size_t c = 0; c < style::colours.size(); ++c) {
     line(out, "\\definecolor{{{}}}{{HTML}}{{{}}}", colour_name(c), style::colours[c]);
   }
+  for (std::size_t s = 0; s < figure.shades.size(); ++s) {
+    line(out, "\\definecolor{{{}}}{{HTML}}{{{}}}", shade_name(s), figure.shades[s].colour);
+  }
   const auto columns = static_cast<double>(figure.columns);
   const bool close = std::none_of(figure.panels.begin(), figure.panels.end(),
                                   [](const auto& p) { return p.column > 0 && p.y.labelled; });
@@ -183,8 +211,10 @@ std::string pgfplots(const Figure& figure) {
   line(out, "\\begin{{groupplot}}[");
   line(out, "  group style={{group size={} by {}, horizontal sep={}cm, vertical sep={}cm}},", figure.columns,
        figure.rows, gap, 1.7 + 0.4 * static_cast<double>(title_lines));
-  line(out, "  scale only axis, width={:.2f}cm, height={}cm,", (text_width_cm - 1.9 - (columns - 1) * gap) / columns,
-       panel_height_cm[std::min<std::size_t>(figure.columns, 3) - 1] - 1.5);
+  const double height = figure.panel_height > 0 ? figure.panel_height * text_width_cm / style::figure_width
+                                                : panel_height_cm[std::min<std::size_t>(figure.columns, 3) - 1] - 1.5;
+  line(out, "  scale only axis, width={:.2f}cm, height={:.4g}cm,",
+       (text_width_cm - labels_width_cm(figure) - (columns - 1) * gap) / columns, height);
   line(out, "  axis lines=left, grid=major, grid style={{gray!25}}, clip marker paths=false, clip mode=individual,");
   line(out,
        "  title style={{align=center, font=\\footnotesize}}, label style={{font=\\footnotesize}}, tick label "

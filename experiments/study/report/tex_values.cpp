@@ -100,7 +100,9 @@ std::string options_of(const RunConfig& c, double t_end) {
 
 std::string name_of(const RunConfig& c, double t_end) {
   std::string out = "polhode" + spelt_name(c.scenario) + spelt_name(c.integrator);
-  for (const auto& varied : c.varied) out += spelt_name(varied.key) + spelt_value(varied.value);
+  for (const auto& varied : c.varied) {
+    if (!varied.value.empty()) out += spelt_name(varied.key) + spelt_value(varied.value);
+  }
   out += options_of(c, t_end);
   if (c.dt) out += "Dt" + spelt_number(*c.dt);
   if (c.tolerance) out += "Tolerance" + spelt_number(*c.tolerance);

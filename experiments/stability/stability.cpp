@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/stability/stability.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "experiments/stability/charts.hpp"
+#include "experiments/stability/findings.hpp"
+#include "experiments/study/axes.hpp"
+#include "experiments/study/csv.hpp"
+#include "experiments/study/plan.hpp"
+#include "experiments/study/report/notation.hpp"
+#include "integrators/catalogue.hpp"
+
+namespace polhode::study {
+namespace {
+
+using namespace report;
+using Kind = CriticalStep::Kind;
+
+constexpr std::size_t most_items = 16;  // of a sentence
+
+std::string four(double x) { return fmt::format("{:.4g}", x); }
+
+/// A radius so that its distance from 1 is seen.
+std::string radius_text(double r) {
+  const double off = r - 1;
+  if (std::abs(off) <= radius_tolerance) return "1";
+  if (std::abs(off) < 1e-3) return fmt::format("1 {} {}", off < 0 ? "−" : "+", number(std::abs(off), 2));
+  return number(r, 4);
+}
+
+class Stability {
+ public:
+  explicit Stability(const StudyView& study)
+      : study_(study), grouping_(group(study)), found_(stability_findings(grouping_)) {}
+
+  Analysis analysis() const {
+    Analysis all{.heading = "Stability"};
+    all.sentences = sentences();
+    all.method = method();
+    for (const bool varied : {false, true}) {
+      Table one = table(varied);
+      if (!one.rows.empty())
+        all.tables.push_back({varied ? "critical_steps_varied" : "critical_steps", std::move(one)});
+    }
+    all.figures = stability_charts(grouping_, found_);
+    if (study_.varied_keys.size() == 1) {
+      for (auto& figure : stability_maps(grouping_, found_, study_.varied_keys.front())) {
+        all.figures.push_back(std::move(figure));
+      }
+    }
+    for (auto& figure : all.figures) figure.methods = grouping_.methods;
+    all.files.push_back({"critical_steps.csv", critical_csv()});
+    all.files.push_back({"stability.csv", runs_csv()});
+    return all;
+  }
+
+ private:
+  static std::vector<std::string> method() {
+    return {
+        fmt::format(
+            "Critical step: the smallest step at which the energy of a run grows (gaining or blown up), looked for "
+            "from "
+            "below among the steps of --dt and then by bisection until the bracket is {} % wide. A window of growth "
+            "narrower than the distance of two steps of that scan may be missed. Each run takes whole steps, and 500 "
+            "at "
+            "least.",
+            number(100 * bracket_width)),
+        fmt::format(
+            "Verdicts, from the signed energy drift in the four quarters of a run: blown up: diverged, failed or a "
+            "relative drift above {}; gaining or damped: the middle of the range moves the same way from quarter to "
+            "quarter, by more than {} of the widest range, or that of the last quarter is more than {} of its ranges "
+            "away from the start; stable: neither, or a change below {} (or 64 ε √steps).",
+            number(verdict::lost), number(verdict::trend), number(verdict::settled), number(verdict::counted)),
+        "|ω|: the largest √(k/m) of the springs, |ω| of the bodies at the start, √(m g l/I) of a pinned body under "
+        "gravity and √(GM/r³) of a pair. Spectral radius: the largest modulus of the eigenvalues of the map of one "
+        "step, "
+        "taken from the method itself, where the system is linear."};
+  }
+
+  std::string label(const StabilityFinding& f) const { return grouping_.label(*f.ladder.curve); }
+  const std::string& motion(const StabilityFinding& f) const { return f.ladder.steps.front().run->config.scenario; }
+
+  /// A step as h|ω| where there is a rate, in s otherwise.
+  static std::string in_units(const StabilityFinding& f, double dt) {
+    return f.rate ? four(dt * *f.rate) : four(dt) + " s";
+  }
+  std::string symbol() const {
+    const bool all = std::all_of(found_.begin(), found_.end(), [](const auto& f) { return f.rate.has_value(); });
+    return all ? "h|ω|" : "h";
+  }
+
+  static std::string step_text(const StabilityFinding& f, const CriticalStep& c, bool seconds) {
+    const auto& steps = f.ladder.steps;
+    const auto as = [&](double dt) { return seconds ? four(dt) : in_units(f, dt); };
+    switch (c.kind) {
+      case Kind::found:
+        return as(c.fails);
+      case Kind::none:
+        return fmt::format("none to {}", as(steps.back().dt));
+      default:
+        return c.holds_again ? fmt::format("below {}", as(c.fails)) : "every step";
+    }
+  }
+
+  /// What the energy does at the steps below the critical one: what most of them do.
+  static std::string below(const StabilityFinding& f) {
+    std::size_t damped = 0, all = 0;
+    for (const auto& step : f.ladder.steps) {
+      if (f.growth.kind != Kind::none && step.dt >= f.growth.fails) break;
+      ++all;
+      damped += step.verdict == Verdict::damped ? 1 : 0;
+    }
+    return all == 0 ? "" : 2 * damped > all ? "damped" : "stable";
+  }
+
+  static std::string at_critical(const StabilityFinding& f) {
+    for (const auto& step : f.ladder.steps) {
+      if (f.growth.kind != Kind::none && step.dt == f.growth.fails) return std::string(name(step.verdict));
+    }
+    return "";
+  }
+
+  static std::string radius_range(const StabilityFinding& f) {
+    if (!f.linear) return "";
+    const std::string low = radius_text(f.linear->smallest), high = radius_text(f.linear->largest);
+    return low == high ? low : fmt::format("{} … {}", low, high);
+  }
+
+  bool is_varied(const StabilityFinding& f) const {
+    return !grouping_.cases[f.ladder.curve->case_index].details.empty();
+  }
+
+  Table table(bool varied) const {
+    using C = Column::Kind;
+    const auto unit = symbol();
+    Table table{
+        .caption = fmt::format("Critical steps{}; every step: the energy grows at the smallest step tried and at "
+                               "all others",
+                               varied ? " with varied keys" : ""),
+        .columns = {{"method", "", C::name},
+                    {"motion", "", C::text},
+                    {"formulation", "", C::text},
+                    {"critical " + unit},
+                    {"critical step", "s"},
+                    {"below", "", C::text},
+                    {"there", "", C::text},
+                    {"blows up from " + unit},
+                    {"linear theory"},
+                    {"spectral radius"}},
+        .rows = {}};
+    for (const auto& f : found_) {
+      if (is_varied(f) != varied) continue;
+      const Curve& curve = *f.ladder.curve;
+      table.rows.push_back({grouping_.methods[curve.method_index],
+                            grouping_.cases.size() > 1 ? grouping_.cases[curve.case_index].label() : "",
+                            grouping_.variants[curve.variant_index], step_text(f, f.growth, false),
+                            f.rate ? step_text(f, f.growth, true) : "", below(f), at_critical(f),
+                            step_text(f, f.blow_up, false), f.linear ? step_text(f, f.linear->critical, false) : "",
+                            radius_range(f)});
+    }
+    return without_empty_columns(std::move(table));
+  }
+
+  // In words.
+
+  static std::string listed(std::vector<std::string> items) {
+    if (items.size() > most_items) {
+      const auto rest = items.size() - most_items;
+      items.resize(most_items);
+      items.push_back(fmt::format("{} more", rest));
+    }
+    return words(items);
+  }
+
+  /// The findings of one method in one variant on one scenario: several where keys of the scenario are varied.
+  struct Group {
+    std::string label;
+    std::vector<const StabilityFinding*> members{};
+  };
+
+  std::vector<Group> groups(const std::string& scenario) const {
+    std::vector<Group> all;
+    for (const auto& f : found_) {
+      if (motion(f) != scenario) continue;
+      std::string name = label(f);
+      if (is_varied(f)) name += " with varied keys";
+      const auto known = std::find_if(all.begin(), all.end(), [&](const auto& g) { return g.label == name; });
+      Group& group = known == all.end() ? all.emplace_back(Group{name}) : *known;
+      group.members.push_back(&f);
+    }
+    return all;
+  }
+
+  /// Those of a group that pass a test: how they are named, and from where to where their limits go.
+  struct Passed {
+    std::string label;
+    double low = 0;
+    std::string limits;  ///< "2.83", "1.2 … 2.5"
+  };
+  template <class Test>
+  static std::optional<Passed> passed(const Group& group, const Test& test, CriticalStep StabilityFinding::*limit) {
+    std::vector<std::pair<double, std::string>> at;
+    for (const auto* f : group.members) {
+      const double dt = (f->*limit).fails;
+      if (test(*f)) at.emplace_back(dt * f->rate.value_or(1), in_units(*f, dt));
+    }
+    if (at.empty()) return std::nullopt;
+    std::sort(at.begin(), at.end());
+    const std::string &from = at.front().second, &to = at.back().second;
+    Passed found{group.label, at.front().first, from == to ? from : fmt::format("{} … {}", from, to)};
+    if (at.size() < group.members.size()) found.label += fmt::format(" ({} of {})", at.size(), group.members.size());
+    return found;
+  }
+
+  template <class Test>
+  std::vector<Passed> all_passed(const std::string& scenario, const Test& test,
+                                 CriticalStep StabilityFinding::*limit = &StabilityFinding::growth) const {
+    std::vector<Passed> all;
+    for (const auto& group : groups(scenario)) {
+      if (auto found = passed(group, test, limit)) all.push_back(std::move(*found));
+    }
+    return all;
+  }
+
+  static std::string names_of(const std::vector<Passed>& all) {
+    std::vector<std::string> names;
+    for (const auto& p : all) names.push_back(p.label);
+    return listed(std::move(names));
+  }
+
+  /// "2 (dmv and velocity_verlet), 2.83 (rk4)", from the least limit on.
+  static std::string limits_of(std::vector<Passed> all) {
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.low < b.low; });
+    std::vector<std::pair<std::string, std::vector<std::string>>> by_limit;
+    for (auto& p : all) {
+      if (by_limit.empty() || by_limit.back().first != p.limits) by_limit.push_back({p.limits, {}});
+      by_limit.back().second.push_back(std::move(p.label));
+    }
+    std::vector<std::string> items;
+    for (const auto& [limit, names] : by_limit) items.push_back(fmt::format("{} ({})", limit, words(names)));
+    return fmt::format("{}", fmt::join(items, ", "));
+  }
+
+  std::vector<std::string> sentences() const {
+    std::vector<std::string> all;
+    const auto grows = [](Kind k) { return [k](const StabilityFinding& f) { return f.growth.kind == k; }; };
+    const auto breaks = [](const StabilityFinding& f) {
+      return f.blow_up.kind == Kind::found && f.growth.fails < f.blow_up.fails;
+    };
+    for (const auto& scenario : study_.scenarios) {
+      const std::string& where = scenario.name;
+      const auto say = [&](const std::string& start, const std::string& items) {
+        if (!items.empty()) all.push_back(fmt::format("{}, {}: {}.", where, start, items));
+      };
+      say(fmt::format("critical {}", symbol()), limits_of(all_passed(where, grows(Kind::found))));
+      say("no critical step up to the largest tried", names_of(all_passed(where, grows(Kind::none))));
+      say("the energy grows at the smallest step tried already", names_of(all_passed(where, grows(Kind::from_start))));
+      say(fmt::format("the energy grows before the run breaks down, which it does from {}", symbol()),
+          limits_of(all_passed(where, breaks, &StabilityFinding::blow_up)));
+      say("the energy stays bounded again at some larger step",
+          names_of(all_passed(where, [](const auto& f) { return f.growth.holds_again; })));
+      if (auto text = linear_sentence(where); !text.empty()) all.push_back(std::move(text));
+    }
+    if (auto text = left_out(); !text.empty()) all.push_back(std::move(text));
+    return all;
+  }
+
+  static bool agrees(const StabilityFinding& f) {
+    const CriticalStep &a = f.growth, &b = f.linear->critical;
+    return a.kind == b.kind && (a.kind != Kind::found || std::abs(a.fails - b.fails) <= 0.01 * b.fails);
+  }
+
+  std::string linear_sentence(const std::string& scenario) const {
+    std::size_t n = 0, same = 0;
+    for (const auto& f : found_) {
+      if (motion(f) != scenario || !f.linear) continue;
+      ++n;
+      same += agrees(f) ? 1 : 0;
+    }
+    if (n == 0) return "";
+    std::string text =
+        fmt::format("{} is linear: the spectral radius of the step map gives the same limit to 1 % for {} of {}",
+                    scenario, same, count(n, "case"));
+    std::vector<std::string> others;
+    for (const auto& f : found_) {
+      if (motion(f) != scenario || !f.linear || agrees(f)) continue;
+      others.push_back(fmt::format("{} (measured {}, by linear theory {})", label(f), step_text(f, f.growth, false),
+                                   step_text(f, f.linear->critical, false)));
+    }
+    return text + (others.empty() ? "." : "; not for " + listed(std::move(others)) + ".");
+  }
+
+  static std::string left_out() {
+    std::vector<std::string> names;
+    for (const auto& entry : integrator_catalogue()) {
+      if (entry.declaration.adaptive) names.push_back(entry.declaration.name);
+    }
+    return names.empty() ? "" : fmt::format("Left out, since they choose their own steps: {}.", words(names));
+  }
+
+  // Files.
+
+  static std::string kind_text(const CriticalStep& c) {
+    return c.kind == Kind::found ? "found" : c.kind == Kind::none ? "none" : "from the smallest";
+  }
+
+  static void add_limit(std::vector<std::string>& row, const StabilityFinding& f, const CriticalStep& c) {
+    const auto cell = [](bool there, double x) { return there ? study::exact(x) : std::string(); };
+    row.push_back(kind_text(c));
+    row.push_back(cell(c.kind != Kind::from_start, c.holds));
+    row.push_back(cell(c.kind != Kind::none, c.fails));
+    row.push_back(cell(c.kind != Kind::none && f.rate, c.fails * f.rate.value_or(0)));
+  }
+
+  std::vector<std::string> without_step(const std::vector<std::string>& cells) const {
+    const auto names = config_columns(study_.varied_keys, study_.names_summation);
+    std::vector<std::string> some;
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      if (names[k] != "dt_s" && names[k] != "tolerance" && names[k] != "t_end_s") some.push_back(cells[k]);
+    }
+    return some;
+  }
+
+  std::string critical_csv() const {
+    auto header = without_step(config_columns(study_.varied_keys, study_.names_summation));
+    for (const char* c :
+         {"characteristic_rate_rad_per_s", "smallest_step_s", "largest_step_s", "growth", "largest_holding_step_s",
+          "critical_step_s", "critical_h_omega", "holds_again", "blow_up", "largest_step_before_blow_up_s",
+          "blow_up_step_s", "blow_up_h_omega", "linear_theory", "linear_largest_holding_step_s",
+          "linear_critical_step_s", "linear_critical_h_omega", "spectral_radius_min", "spectral_radius_max"}) {
+      header.emplace_back(c);
+    }
+    std::string text = csv_row(header);
+    for (const auto& f : found_) {
+      const auto& steps = f.ladder.steps;
+      auto row = without_step(config_cells(steps.front().run->config));
+      for (auto& cell : {csv_cell(f.rate), study::exact(steps.front().dt), study::exact(steps.back().dt)})
+        row.push_back(cell);
+      add_limit(row, f, f.growth);
+      row.emplace_back(f.growth.holds_again ? "yes" : "no");
+      add_limit(row, f, f.blow_up);
+      if (f.linear) {
+        add_limit(row, f, f.linear->critical);
+        row.push_back(study::exact(f.linear->smallest));
+        row.push_back(study::exact(f.linear->largest));
+      }
+      row.resize(header.size());
+      text += csv_row(row);
+    }
+    return text;
+  }
+
+  std::string runs_csv() const {
+    std::vector<std::string> header = {"run"};
+    for (auto& c : config_columns(study_.varied_keys, study_.names_summation)) header.push_back(std::move(c));
+    for (const char* c : {"steps", "h_omega", "verdict", "spectral_radius"}) header.emplace_back(c);
+    std::string text = csv_row(header);
+    for (const auto& f : found_) {
+      for (std::size_t i = 0; i < f.ladder.steps.size(); ++i) {
+        const auto& step = f.ladder.steps[i];
+        std::vector<std::string> row = {step.run->id};
+        for (auto& cell : config_cells(step.run->config)) row.push_back(std::move(cell));
+        row.push_back(std::to_string(step.run->result.steps));
+        row.push_back(f.rate ? study::exact(step.dt * *f.rate) : "");
+        row.emplace_back(name(step.verdict));
+        row.push_back(f.linear ? csv_cell(f.linear->radius[i]) : "");
+        text += csv_row(row);
+      }
+    }
+    return text;
+  }
+
+  const StudyView& study_;
+  Grouping grouping_;
+  std::vector<StabilityFinding> found_;
+};
+
+}  // namespace
+
+Analysis stability(const StudyView& study) { return Stability(study).analysis(); }
+
+}  // namespace polhode::study

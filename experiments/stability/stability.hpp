@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the experiment `stability` makes of its runs: critical steps, linear theory beside them, and maps.
+#pragma once
+
+#include "experiments/study/study_view.hpp"
+
+namespace polhode::study {
+
+Analysis stability(const StudyView& study);
+
+}  // namespace polhode::study

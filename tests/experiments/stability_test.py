@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The experiment `stability` as a user meets it: the limits that linear theory knows, measured on the runs, and resuming.
+
+POLHODE_BIN_DIR is the folder of the program.
+"""
+import csv
+import math
+import os
+import pathlib
+import re
+import sqlite3
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = pathlib.Path(os.environ.get("POLHODE_BIN_DIR", ".")) / "stability"
+
+METHODS = "explicit_euler,semi_implicit_euler,velocity_verlet,rk4,implicit_midpoint,odeint_adams_bashforth_moulton"
+SMALL = ["--scenario", "oscillator", "--integrator", METHODS, "--dt", "0.002,0.05:100:20:log"]
+LIMITS = {"semi_implicit_euler": 2, "velocity_verlet": 2, "rk4": 2 * math.sqrt(2)}
+
+
+def read(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+class Stability(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        holder = tempfile.TemporaryDirectory(prefix="polhode_stability_")
+        cls.addClassCleanup(holder.cleanup)
+        cls.folder = pathlib.Path(holder.name)
+        cls.out = cls.folder / "out"
+        cls.printed = cls.run_program(*SMALL, "--out", cls.out)
+        cls.runs = read(cls.out / "runs.csv")
+        cls.steps = read(cls.out / "stability.csv")
+        cls.critical = {r["integrator"]: r for r in read(cls.out / "critical_steps.csv")}
+
+    @classmethod
+    def run_program(cls, *arguments, status=0):
+        done = subprocess.run([str(PROGRAM), *map(str, arguments)], cwd=cls.folder, capture_output=True, text=True,
+                              timeout=120, stdin=subprocess.DEVNULL)
+        if done.returncode != status:
+            raise AssertionError(f"exit status {done.returncode}, not {status}: {done.stderr[-1500:]}")
+        return done.stderr if status else done.stdout
+
+    def steps_of(self, method):
+        return sorted((r for r in self.steps if r["integrator"] == method), key=lambda r: float(r["dt_s"]))
+
+    def test_limits_on_the_oscillator_are_those_of_linear_theory(self):
+        for method, limit in LIMITS.items():
+            row = self.critical[method]
+            self.assertEqual((row["growth"], row["linear_theory"]), ("found", "found"), method)
+            self.assertAlmostEqual(float(row["critical_h_omega"]), limit, delta=0.01 * limit, msg=method)
+            self.assertAlmostEqual(float(row["linear_critical_h_omega"]), limit, delta=1e-4 * limit, msg=method)
+            low, high = float(row["largest_holding_step_s"]), float(row["critical_step_s"])
+            self.assertLessEqual(high - low, 0.003 * high, method)
+
+    def test_explicit_euler_has_no_stable_step(self):
+        row = self.critical["explicit_euler"]
+        self.assertEqual((row["growth"], row["linear_theory"]), ("from the smallest", "from the smallest"))
+        self.assertEqual(row["holds_again"], "no")
+        for step in self.steps_of("explicit_euler"):
+            self.assertIn(step["verdict"], ("gaining", "blown up"), step["dt_s"])
+            h = float(step["h_omega"])
+            self.assertAlmostEqual(float(step["spectral_radius"]), math.sqrt(1 + h * h), delta=1e-12 * (1 + h))
+
+    def test_implicit_midpoint_has_no_critical_step_up_to_100(self):
+        row = self.critical["implicit_midpoint"]
+        self.assertEqual((row["growth"], row["blow_up"], row["linear_theory"]), ("none", "none", "none"))
+        self.assertEqual(float(row["largest_step_s"]), 100)
+        for step in self.steps_of("implicit_midpoint"):
+            self.assertEqual(step["verdict"], "stable", step["dt_s"])
+            self.assertAlmostEqual(float(step["spectral_radius"]), 1, delta=1e-9)
+
+    def test_what_loses_energy_is_told_from_what_keeps_it(self):
+        def verdicts(method):
+            return {s["verdict"] for s in self.steps_of(method) if 0.05 <= float(s["h_omega"]) < 1.99}
+        self.assertEqual(verdicts("rk4"), {"damped"})
+        self.assertEqual(verdicts("velocity_verlet"), {"stable"})
+
+    def test_every_step_tried_is_a_run_of_whole_steps(self):
+        self.assertEqual({r["run"] for r in self.runs}, {s["run"] for s in self.steps})
+        self.assertGreater(len(self.runs), 6 * 21)
+        for run in self.runs:
+            ratio = float(run["t_end_s"]) / float(run["dt_s"])
+            self.assertAlmostEqual(ratio, round(ratio), delta=1e-6)
+            self.assertGreaterEqual(round(ratio), 500)
+
+    def test_a_multi_step_method_has_limits_and_no_map_of_one_step(self):
+        self.assertEqual(self.critical["odeint_adams_bashforth_moulton"]["linear_theory"], "")
+        self.assertEqual({s["spectral_radius"] for s in self.steps_of("odeint_adams_bashforth_moulton")}, {""})
+
+    def test_what_is_left_half_done_is_taken_up_again(self):
+        again = self.folder / "again"
+        self.run_program(*SMALL, "--jobs", "1", "--no-figures", "--out", again)
+        with sqlite3.connect(again / "results.sqlite") as store:  # as after a crash within the bisection
+            later = [r[0] for r in store.execute("SELECT id FROM runs ORDER BY rowid DESC LIMIT 7")]
+            store.executemany("DELETE FROM runs WHERE id = ?", [(i,) for i in later])
+        store.close()
+        self.run_program(*SMALL, "--no-figures", "--out", again)
+        for name in ("runs.csv", "stability.csv", "critical_steps.csv", "tables/critical_steps.tex"):
+            self.assertEqual((again / name).read_bytes(), (self.out / name).read_bytes(), name)
+        wider = [a.replace(METHODS, METHODS + ",heun") for a in SMALL]
+        self.run_program(*wider, "--no-figures", "--out", again)
+        self.assertIn("heun", (again / "critical_steps.csv").read_text(encoding="utf-8"))
+        other = ["--scenario", "oscillator", "--integrator", "rk4", "--dt", "0.1,1"]
+        self.assertIn("different study", self.run_program(*other, "--out", again, status=2))
+
+    def test_the_limit_moves_with_the_stiffness_and_the_map_shows_it(self):
+        out = self.folder / "map"
+        self.run_program("--scenario", "oscillator", "--integrator", "velocity_verlet,rk4", "--dt", "0.05:10:8:log",
+                         "--vary", "force.0.stiffness=0.25,1,4", "--out", out)
+        for row in read(out / "critical_steps.csv"):
+            limit = LIMITS[row["integrator"]]
+            self.assertAlmostEqual(float(row["critical_h_omega"]), limit, delta=0.01 * limit)
+            self.assertAlmostEqual(float(row["critical_step_s"]), limit / math.sqrt(float(row["force.0.stiffness"])),
+                                   delta=0.02 * limit)
+        for kind in ("svg", "pdf", "tex"):
+            self.assertGreater((out / f"figures/stability_map_1.{kind}").stat().st_size, 1000)
+        data = (out / "figures/stability_map_1.dat").read_text(encoding="utf-8")
+        edges = [float(line.split()[2]) for line in data.split(": blown up")[1].split("\n\n")[0].splitlines()[2:]]
+        self.assertEqual(len(edges), 3)
+        for edge in edges:  # of the first panel, velocity_verlet: the cells that blow up begin at the limit
+            self.assertAlmostEqual(edge, 2, delta=0.02)
+
+    def test_words_say_what_the_table_says(self):
+        self.assertIn("oscillator, no critical step up to the largest tried: implicit_midpoint.", self.printed)
+        self.assertRegex(self.printed, r"already: explicit_euler\.")
+        self.assertRegex(self.printed, r"same limit to 1 % for 5 of 5 cases\.")
+        self.assertIn("Left out, since they choose their own steps: cvode_adams", self.printed)
+        report = re.sub(r"<[^>]*>", "", (self.out / "report.html").read_text(encoding="utf-8"))
+        self.assertIn("Left out, since they choose their own steps", report)
+
+    def test_by_itself_it_makes_limits_of_all_methods_and_a_map_of_some(self):
+        said = self.run_program("--dry-run", "--out", "never")
+        self.assertIn("further runs follow from the results of these", said)
+        values = re.search(r"body\.0\.inertia\.1 +(.*)", said)[1].split(", ")
+        self.assertEqual(len(values), 16)
+        plain = self.run_program("--scenario", "oscillator,hairer_vilmart", "--dry-run", "--out", "never")
+        self.assertNotIn("inertia", plain)
+        runs = [int(re.search(r"(\d+) runs", text)[1]) for text in (said, plain)]
+        self.assertEqual(runs[0] - runs[1], 6 * 16 * 24)
+
+    def test_what_makes_no_sense_is_refused_in_one_line(self):
+        for arguments, words in ((["--integrator", "cvode_bdf"], "chooses its own steps"),
+                                 (["--t-end", "1,2"], "--t-end: stability takes one"),
+                                 (["--samples", "10"], "--samples: stability looks at every step")):
+            said = self.run_program(*arguments, "--out", "never", status=2)
+            self.assertIn(words, said)
+            self.assertEqual(len(said.splitlines()), 1)
+        self.assertFalse((self.folder / "never").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
