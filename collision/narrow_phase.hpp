@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The port of narrow phases: how far apart two shapes are, and where they touch. One catalogue, interchangeable by name.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "collision/contact.hpp"
+#include "collision/shape.hpp"
+
+namespace polhode {
+
+/// What a pair remembers from one question to the next, to start warm; empty at first, and never needed for the answer to
+/// be right.
+struct PairMemory {
+  std::uint32_t count = 0;
+  std::array<Vector3<double>, 4> directions{};  ///< of the last simplex, in A's axes
+  std::uint32_t axis = 0;                       ///< the axis or feature that told last
+};
+
+class NarrowPhase {
+ public:
+  virtual ~NarrowPhase() = default;
+
+  virtual bool overlap(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory = nullptr) const = 0;
+  virtual Distance distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b,
+                            PairMemory* memory = nullptr) const = 0;
+  /// Points where the surfaces are no further apart than `margin` (m).
+  virtual Manifold manifold(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, double margin = 0,
+                            PairMemory* memory = nullptr) const = 0;
+};
+
+struct NarrowPhaseEntry {
+  std::string name;     ///< as in the catalogue: "sat"
+  std::string summary;  ///< one line of mathematics
+  std::unique_ptr<NarrowPhase> (*make)();
+};
+
+/// Those of the catalogue, one line each.
+const std::vector<NarrowPhaseEntry>& narrow_phase_catalogue();
+const NarrowPhaseEntry* find_narrow_phase(std::string_view name);
+
+}  // namespace polhode

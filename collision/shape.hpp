@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The port of shapes: what broad and narrow phases ask of a solid, in its own axes. A new shape is one file and one line
+// in the catalogue.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <string_view>
+
+#include "collision/pose.hpp"
+
+namespace polhode {
+
+using Bounds = Eigen::AlignedBox3d;  ///< m, closed, axis-aligned in the world
+
+/// Volume (m³), centroid (m) and inertia about the centroid (m⁵, for a density of 1 kg/m³), in the shape's axes.
+struct MassProperties {
+  double volume = 0;
+  Vector3<double> centroid = Vector3<double>::Zero();
+  Matrix3<double> inertia = Matrix3<double>::Zero();
+};
+
+/// A closed convex solid, or a compound of such. Built once and never changed; a size that is zero, negative or not
+/// finite is refused when it is built, by std::invalid_argument with the reason.
+class Shape {
+ public:
+  Shape(const Shape&) = delete;
+  Shape& operator=(const Shape&) = delete;
+  virtual ~Shape() = default;
+
+  virtual std::string_view kind() const = 0;  ///< as in the catalogue: "box"
+
+  /// A point of the shape that is furthest along the direction d, which is not zero and need not be of unit length.
+  virtual Vector3<double> support(const Vector3<double>& d) const = 0;
+
+  /// The smallest axis-aligned box around the shape at a pose.
+  virtual Bounds bounds(const Pose& pose) const = 0;
+
+  /// False for a half-space only, which has no volume and never moves.
+  virtual bool finite() const { return true; }
+  virtual MassProperties mass_properties() const = 0;
+
+ protected:
+  Shape() = default;
+};
+
+using ShapePointer = std::shared_ptr<const Shape>;
+
+}  // namespace polhode
