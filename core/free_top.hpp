@@ -5,6 +5,7 @@
 // Jacobi, J. reine angew. Math. 39 (1850) 293–350, for the attitude by theta functions.
 #pragma once
 
+#include <cmath>
 #include <string_view>
 
 #include "core/elliptic.hpp"
@@ -43,6 +44,10 @@ class FreeTop {
   /// "at rest", "sphere", "pure spin" (ω is constant), "symmetric" (two moments equal to round-off), "separatrix", or
   /// "about the smallest axis", "about the largest axis": where the momentum goes round in the body.
   std::string_view regime() const { return regime_; }
+
+  /// s, after which the angular velocity in the body is the same again: 0 where it is constant, infinite on the
+  /// separatrix.
+  double period() const { return steady_ ? 0 : 4 * jacobi_.quarter_period() / std::abs(phase_rate_); }
 
  private:
   Vector3<double> momentum_direction(double u) const;  // y/G in A, B, C
