@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 namespace polhode::study {
 namespace {
@@ -28,13 +29,13 @@ constexpr double significance = 0.005;  // of the test for a secular drift
 /// Noise with a larger exponent, where nothing goes one way, is an oscillation of which the run holds a few periods only:
 /// nothing can be said of longer times.
 constexpr double steepest_walk = 0.75;
-/// What is left of a drift without its oscillations counts, where it does not go one way, from this share of the drift.
+/// Walks and secular drifts count from this share of the largest drift: below it the run is bounded as it stands.
 constexpr double visible = 1e-3;
 
 /// What depends on the number n of blocks alone.
 class Cosines {
  public:
-  explicit Cosines(Index n) : blocks(n), size(std::min(n - 1, most_cosines)), rows_(size, n) {
+  explicit Cosines(Index n) : blocks(n), size(n - 1), rows_(size, n) {
     const double pi = std::numbers::pi, blocks_ = static_cast<double>(n);
     Vector table(4 * n);
     for (Index j = 0; j < 4 * n; ++j) {
@@ -60,8 +61,11 @@ class Cosines {
     }
   }
 
-  /// c_k, k = 1 … size, of a series of n numbers.
-  Spectrum transform(const Vector& series) const { return rows_ * (series.array() - series.mean()).matrix(); }
+  /// c_k, k = 1 … count, of a series of n numbers.
+  Spectrum transform(const Vector& series, Index count) const {
+    return rows_.topRows(count) * (series.array() - series.mean()).matrix();
+  }
+  Spectrum transform(const Vector& series) const { return transform(series, size); }
 
   /// Of pulses at the first and the last block, and where there are cosines enough at their neighbours: what an
   /// oscillation that begins and ends anywhere leaves far below its line.
@@ -171,17 +175,24 @@ Matrix oscillation(double omega, Index n) {
   return x;
 }
 
-/// The least-squares fit by the oscillation of the best frequency near the k-th cosine.
-Vector fitted_oscillation(const Vector& series, Index k) {
+/// The oscillation of the best frequency near the k-th cosine, of a least-squares fit by it and by the columns of
+/// `trend`, which are orthonormal.
+Vector fitted_oscillation(const Vector& series, const Matrix& trend, Index k) {
   const Index n = series.size();
   const double unit = std::numbers::pi / static_cast<double>(n), near = static_cast<double>(k);
-  const auto fitted = [&](double place) -> Vector {
-    const Matrix x = oscillation(place * unit, n);
-    return x * (x.transpose() * x).ldlt().solve(x.transpose() * series);
+  const Vector rest = series - trend * (trend.transpose() * series);
+  const auto fit_at = [&](double place, Vector& oscillating) {
+    const Matrix x = oscillation(place * unit, n), free = x - trend * (trend.transpose() * x);
+    const Eigen::Vector2d amplitudes = (free.transpose() * free).ldlt().solve(free.transpose() * rest);
+    oscillating = x * amplitudes;
+    return (rest - free * amplitudes).squaredNorm();
   };
-  const auto squares = [&](double place) { return (series - fitted(place)).squaredNorm(); };
+  Vector oscillating;
+  const auto squares = [&](double place) { return fit_at(place, oscillating); };
   constexpr int bits = 24;
-  return fitted(boost::math::tools::brent_find_minima(squares, near - 1.2, near + 1.2, bits).first);
+  constexpr double reach = 1.2;
+  fit_at(boost::math::tools::brent_find_minima(squares, near - reach, near + reach, bits).first, oscillating);
+  return oscillating;
 }
 
 /// How many of the first cosines lie well below every line.
@@ -207,7 +218,7 @@ class Estimator {
     polynomial_.resize(cosines_.size, 2);
     polynomial_ << cosines_.transform(t), cosines_.transform(t.cwiseAbs2());
     const Spectrum c = cosines_.transform(drift);
-    with_lines_ = c.head(below_lines(cosines_, without_polynomial(c)));
+    with_lines_ = c.head(std::min(most_cosines, below_lines(cosines_, without_polynomial(c))));
     without_lines(drift);
     trend_ = polynomial_.topRows(c_.size());
     edges_ = cosines_.edges(c_.size());
@@ -219,6 +230,12 @@ class Estimator {
     const double f = (without.squares - with.squares) / 2 / with.scale2();
     const boost::math::fisher_f distribution(2, with.degrees);
     return f > boost::math::quantile(boost::math::complement(distribution, significance));
+  }
+
+  /// What t and t² add up to over the run.
+  double secular_change() const {
+    const Fit f = fit(c_, with_edges(trend_), v_);
+    return std::abs(f.coefficients[0] + f.coefficients[1]);
   }
 
   /// Of the slope by ordinary least squares, which feels the oscillations too.
@@ -276,17 +293,17 @@ class Estimator {
     constexpr int most_oscillations = 8;
     Matrix polynomial(t_.size(), 3);
     polynomial << Vector::Ones(t_.size()), t_, t_.cwiseAbs2();
-    const auto solver = polynomial.colPivHouseholderQr();
+    const Matrix trend = polynomial.householderQr().householderQ() * Matrix::Identity(t_.size(), polynomial.cols());
     Vector smooth = drift;
     Spectrum c = cosines_.transform(smooth), rest = without_polynomial(c);
     for (int i = 0; i < most_oscillations; ++i) {
       const auto line = line_in(cosines_, rest);
       if (!line) break;
-      smooth -= fitted_oscillation(smooth - polynomial * solver.solve(smooth), *line);
+      smooth -= fitted_oscillation(smooth, trend, *line);
       c = cosines_.transform(smooth);
       rest = without_polynomial(c);
     }
-    c_ = c.head(below_lines(cosines_, rest));
+    c_ = c.head(std::min(most_cosines, below_lines(cosines_, rest)));
     largest_rest_ = (smooth.array() - smooth.mean()).abs().maxCoeff();
   }
 
@@ -299,15 +316,15 @@ class Estimator {
   Regressors power_regressors(double p) const {
     const Vector power = t_.array().pow(p);
     Regressors x(c_.size(), 2);
-    x << cosines_.transform(power).head(c_.size()),
-        cosines_.transform(power.cwiseProduct(t_.array().log().matrix())).head(c_.size());
+    x << cosines_.transform(power, c_.size()),
+        cosines_.transform(power.cwiseProduct(t_.array().log().matrix()), c_.size());
     return with_edges(x);
   }
 
   double start() const {
     double best = 1, least = std::numeric_limits<double>::infinity();
     for (const double p : {0.5, 1.0, 2.0, 4.0}) {
-      const Regressors x = cosines_.transform(t_.array().pow(p)).head(c_.size());
+      const Regressors x = cosines_.transform(t_.array().pow(p), c_.size());
       const double squares = fit(c_, with_edges(x), v_).squares;
       if (squares < least) {
         least = squares;
@@ -379,10 +396,12 @@ std::optional<DriftGrowth> growth_of(const std::vector<BlockMean>& blocks, doubl
   DriftGrowth growth;
   growth.slope_half_width_95 = estimate.slope_half_width() * size / end;
   growth.secular = estimate.secular();
-  if (!growth.secular && estimate.largest_rest() * size < visible * largest) return growth;
+  const double counted = growth.secular ? estimate.secular_change() : estimate.largest_rest();
+  const bool hidden = counted * size < visible * largest;
+  if (hidden && !growth.secular) return growth;
   const Exponent p = growth.secular ? estimate.power_law() : estimate.noise_exponent();
-  if (!growth.secular && p.value - p.half_width > steepest_walk) {
-    growth.high = 1;
+  if (hidden || (!growth.secular && p.value - p.half_width > steepest_walk)) {
+    growth.high = hidden ? std::max(p.value + p.half_width, 0.0) : 1;
     return growth;
   }
   growth.exponent = std::max(p.value, 0.0);
