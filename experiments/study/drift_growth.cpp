@@ -410,9 +410,9 @@ std::optional<DriftGrowth> growth_of(const std::vector<BlockMean>& blocks, doubl
   return growth;
 }
 
-std::string growth_class(double exponent) {
+std::string growth_class(double exponent, bool secular) {
   if (exponent < 0.25) return "bounded";
-  if (exponent < 0.75) return "random walk";
+  if (exponent < 0.75) return secular ? "sublinear" : "random walk";
   if (exponent < 1.5) return "linear";
   if (exponent < 2.5) return "quadratic";
   return "faster";

@@ -61,7 +61,8 @@ struct DriftGrowth {
 /// throughout, or numbers that are not finite. Costs some 0.2 ms.
 std::optional<DriftGrowth> growth_of(const std::vector<BlockMean>& blocks, double largest);
 
-/// "bounded" (p < 0.25), "random walk" (p < 0.75), "linear" (p < 1.5), "quadratic" (p < 2.5), "faster".
-std::string growth_class(double exponent);
+/// "bounded" (p < 0.25), "random walk" (p < 0.75; "sublinear" where the drift goes one way), "linear" (p < 1.5),
+/// "quadratic" (p < 2.5), "faster".
+std::string growth_class(double exponent, bool secular);
 
 }  // namespace polhode::study

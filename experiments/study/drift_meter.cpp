@@ -153,7 +153,9 @@ void DriftMeter::look(const State<double>& state, const Sample& sample) {
   if (!has_exact_ || (!exact_at_samples_ && state.t < next_exact_)) return;
   measure_errors(state);
   while (next_exact_ <= state.t) {
-    next_exact_ = exact_count_ < exact_instants ? static_cast<double>(++exact_count_) * t_end_ / exact_instants
+    // A little early, so that a sample at the very instant counts, however its time was rounded.
+    constexpr double early = 1 - 1e-12;
+    next_exact_ = exact_count_ < exact_instants ? early * static_cast<double>(++exact_count_) * t_end_ / exact_instants
                                                 : std::numeric_limits<double>::infinity();
   }
 }
@@ -241,7 +243,7 @@ void DriftMeter::classify(RunResult& result) const {
   if (worst_energy_ <= round_off * energy_scale_) {
     result.drift_class = samples_ < fewest_samples ? "" : "round-off";
   } else if (growth) {
-    result.drift_class = growth_class(growth->exponent);
+    result.drift_class = growth_class(growth->exponent, growth->secular);
   }
 }
 

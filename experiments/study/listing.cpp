@@ -84,7 +84,7 @@ std::string metrics() {
          line("polhode_off_error_*", "and its distance from that polhode, over |L|") +
          line("energy_drift_rate_*", "least-squares slope of the drift, and half its 95 % confidence interval") +
          line("drift_exponent*", "p of |drift| ~ t^p, oscillations set aside, and its 95 % confidence interval") +
-         line("drift_class", "by that exponent: round-off, bounded, random walk, linear, quadratic, faster");
+         line("drift_class", "by that exponent: round-off, bounded, random walk or sublinear, linear, quadratic, faster");
 }
 
 struct Section {

@@ -66,7 +66,7 @@ void run(const Law& law, int seed, Counts& counts) {
   ASSERT_TRUE(growth);
   EXPECT_LE(growth->low, growth->exponent);
   EXPECT_LE(growth->exponent, growth->high);
-  counts.right += growth_class(growth->exponent) == law.expected;
+  counts.right += growth_class(growth->exponent, growth->secular) == law.expected;
   counts.exponent_covered += growth->low <= law.exponent && law.exponent <= growth->high;
   counts.slope_covered += std::abs(slope - law.slope / t_end) <= growth->slope_half_width_95;
   counts.width += (growth->high - growth->low) / 2 / seeds;
@@ -134,7 +134,7 @@ TEST(Drift, OfOneSizeOverTheBlocksIsTheSameInAnyUnit) {
   const auto a = growth_of(small.finish(), 1e-197), b = growth_of(large.finish(), 1e203);
   ASSERT_TRUE(a && b);
   EXPECT_NEAR(a->exponent, b->exponent, 1e-9);
-  EXPECT_EQ(growth_class(a->exponent), "linear");
+  EXPECT_EQ(growth_class(a->exponent, a->secular), "linear");
 }
 
 RunResult result_of(const std::string& method, double dt, double t_end_s, AngularState state) {
