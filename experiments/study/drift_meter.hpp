@@ -50,6 +50,9 @@ class DriftMeter final : public Observer {
   void look(const State<double>& state, const Sample& sample) override;
   double next_look() const override;
 
+  /// J, against which energy drifts are taken; after the first sample.
+  double energy_scale() const { return energy_scale_; }
+
   /// Fills the measured part of the result.
   void report(RunResult& result);
 

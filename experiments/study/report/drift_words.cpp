@@ -15,7 +15,7 @@
 namespace polhode::study::report {
 namespace {
 
-std::string exponent(double p) { return fmt::format("{:.3g}", p); }
+std::string exponent(double p) { return fmt::format("{:.3f}", p); }
 
 /// The classes at the ends of the interval, where they are not the one of the estimate.
 std::vector<std::string> other_classes(const RunResult& r) {

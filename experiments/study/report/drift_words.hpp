@@ -9,7 +9,7 @@
 
 namespace polhode::study::report {
 
-/// "0.998 … 1.004"; empty where there is none.
+/// "0.998 … 1.004", empty where there is none.
 std::string exponent_interval(const RunResult& result);
 
 /// "linear: p = 1.001, 95 % between 0.998 and 1.004", and how it stands between two classes; empty without a class.
