@@ -185,6 +185,7 @@ TrajectoryScore score(const Trajectory& trajectory, const Scenario& scenario, Ru
   double work = 0, power = 0, worst_difference = 0;
   RunResult& r = result.record.result;
   r.status = "ok";
+  r.steps = static_cast<std::int64_t>(n) - 1;
   for (std::size_t k = 0; k < n; ++k) {
     State<double> state = states.at(k, work);
     if (working) {  // the trapezoidal rule over the rows

@@ -22,7 +22,7 @@ struct ErrorPoint {
 };
 
 struct TrajectoryScore {
-  RunRecord record;                  ///< its method is the file's label, its dt the largest spacing of the rows
+  RunRecord record;                  ///< its method is the file's label, its dt the largest spacing of the rows, its steps their number
   std::size_t instants = 0;
   double t_first = 0;                ///< s
   std::vector<ErrorPoint> errors;    ///< at most 257, evenly over the instants, the last one among them
