@@ -56,7 +56,7 @@ class Cosines {
     for (auto& shape : shapes) {
       shape.variance = &shape == &shapes.front()  ? Spectrum(Spectrum::Ones(size))
                        : &shape == &shapes.back() ? walk
-                                                  : Spectrum(1 + (ratio *= 3) * walk.array());
+                                                  : Spectrum(1 + (ratio *= 8) * walk.array());
       shape.logarithm = shape.variance.array().log();
     }
   }
@@ -84,7 +84,7 @@ class Cosines {
     Spectrum variance, logarithm;
   };
   /// Of noise: a + b g_k from b = 0 to a = 0.
-  std::array<Shape, 16> shapes;
+  std::array<Shape, 9> shapes;
 
  private:
   Matrix rows_;
@@ -104,15 +104,16 @@ Fit fit(const Spectrum& c, const Regressors& x, const Spectrum& v, double sum_of
   Fit f;
   const Spectrum weight = v.cwiseInverse();
   const Regressors weighted = weight.asDiagonal() * x;
-  const Normal normal = x.transpose() * weighted;
-  f.covariance = normal.inverse();
-  f.coefficients = f.covariance * (weighted.transpose() * c);
+  const Normal normal = x.transpose().lazyProduct(weighted);
+  const Eigen::LDLT<Normal> factors(normal);
+  f.covariance = factors.solve(Normal::Identity(x.cols(), x.cols()));
+  f.coefficients = f.covariance * weighted.transpose().lazyProduct(c);
   const Spectrum rest = c - x * f.coefficients;
   // The data are of size one: below this there is nothing but the rounding of this arithmetic.
   constexpr double rounding2 = 1e-30;
   f.squares = std::max(rest.cwiseAbs2().dot(weight), rounding2);
   f.degrees = static_cast<double>(c.size() - x.cols());
-  f.restricted = -0.5 * (sum_of_log_v + f.degrees * std::log(f.squares) + std::log(normal.determinant()));
+  f.restricted = -0.5 * (sum_of_log_v + f.degrees * std::log(f.squares) + factors.vectorD().array().log().sum());
   return f;
 }
 Fit fit(const Spectrum& c, const Regressors& x, const Spectrum& v) { return fit(c, x, v, 0); }
@@ -258,7 +259,7 @@ class Estimator {
         p = std::clamp(p + step, least, most);
         if (!(std::abs(step) > close)) break;
       }
-      v_ = noise_shape(cosines_, c_, power_regressors(p));
+      if (pass + 1 < passes) v_ = noise_shape(cosines_, c_, power_regressors(p));
     }
     const Fit f = fit(c_, power_regressors(p), v_);
     const double error = std::sqrt(f.scale2() * f.covariance(1, 1)) / std::abs(f.coefficients[0]);

@@ -41,7 +41,7 @@ const std::vector<Problem>& tops() {
 TEST(PolhodeError, GivesAShiftBack) {
   for (const Problem& problem : tops()) {
     const auto system = make_system<double>(problem, {});
-    for (const double rate : {1e-9, -1e-4, 0.03}) {
+    for (const double rate : {1e-9, -1e-4, 0.3}) {
       auto error = PolhodeError::of(*system);
       ASSERT_TRUE(error);
       for (double t = 0; t <= 200; t += 0.5) {
