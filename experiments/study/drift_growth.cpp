@@ -9,6 +9,7 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 
@@ -42,7 +43,12 @@ class Cosines {
       table[j] = std::sqrt(2 / blocks_) * std::cos(pi * static_cast<double>(j) / (2 * blocks_));
     }
     for (Index i = 0; i < n; ++i) {
-      for (Index k = 1; k <= size; ++k) rows_(k - 1, i) = table[(k * (2 * i + 1)) % (4 * n)];
+      Index place = 0;  // k (2i + 1) modulo 4n
+      for (Index k = 1; k <= size; ++k) {
+        place += 2 * i + 1;
+        if (place >= 4 * n) place -= 4 * n;
+        rows_(k - 1, i) = table[place];
+      }
     }
     log_frequency.resize(size);
     log_averaging.resize(size);
@@ -183,8 +189,10 @@ Vector fitted_oscillation(const Vector& series, const Matrix& trend, Index k) {
   const double unit = std::numbers::pi / static_cast<double>(n), near = static_cast<double>(k);
   const Vector rest = series - trend * (trend.transpose() * series);
   const auto fit_at = [&](double place, Vector& oscillating) {
-    const Matrix x = oscillation(place * unit, n), free = x - trend * (trend.transpose() * x);
-    const Eigen::Vector2d amplitudes = (free.transpose() * free).ldlt().solve(free.transpose() * rest);
+    const Matrix x = oscillation(place * unit, n);
+    const Matrix free = x - trend.lazyProduct(trend.transpose().lazyProduct(x).eval());
+    const Eigen::Matrix2d normal = free.transpose().lazyProduct(free);
+    const Eigen::Vector2d amplitudes = normal.ldlt().solve(free.transpose().lazyProduct(rest));
     oscillating = x * amplitudes;
     return (rest - free * amplitudes).squaredNorm();
   };
@@ -344,11 +352,12 @@ class Estimator {
   double largest_rest_ = 0;
 };
 
-/// Those of the last call, since many runs of a study have as many blocks.
+/// Kept for later calls, since many runs of a study have as many blocks: at most half a megabyte each.
 const Cosines& cosines_of(Index n) {
-  thread_local std::optional<Cosines> kept;
-  if (!kept || kept->blocks != n) kept.emplace(n);
-  return *kept;
+  constexpr std::size_t most = 16;
+  thread_local std::map<Index, Cosines> kept;
+  if (kept.size() >= most && !kept.contains(n)) kept.clear();
+  return kept.try_emplace(n, n).first->second;
 }
 
 }  // namespace

@@ -57,19 +57,20 @@ PolhodeError::At PolhodeError::at(double t, const BodySnapshot<double>& body) {
   const Vector3<double> y = inertia_ * (body.rotation.transpose() * body.angular_velocity);
   if (!y.allFinite()) return {t, t, std::numeric_limits<double>::infinity()};
   const double expected = phase_ + phase_rate_ * (t - t_);
-  double start = expected, least = (y - exact(t + expected).value).squaredNorm();
-  // Where the expected phase is as good as round-off, there is nothing to search for.
-  constexpr double good = 1e-24;
-  if (least > good * size_ * size_) {
-    for (double phase = expected - window_; phase < expected + window_; phase += search_step_) {
-      const double distance = (y - exact(t + phase).value).squaredNorm();
+  double phase = refined(t, y, expected), least = (y - exact(t + phase).value).squaredNorm();
+  // Close to the curve, the point that is nearest to the expected one is the nearest.
+  constexpr double close = 0.02;
+  if (!(least <= close * close * size_ * size_)) {
+    double start = phase;
+    for (double other = expected - window_; other < expected + window_; other += search_step_) {
+      const double distance = (y - exact(t + other).value).squaredNorm();
       if (distance < least) {
         least = distance;
-        start = phase;
+        start = other;
       }
     }
+    phase = refined(t, y, start);
   }
-  const double phase = refined(t, y, start);
   if (t > t_) phase_rate_ = (phase - phase_) / (t - t_);
   t_ = t;
   phase_ = phase;
