@@ -36,18 +36,18 @@ constexpr double visible = 1e-3;
 /// What depends on the number n of blocks alone.
 class Cosines {
  public:
-  explicit Cosines(Index n) : blocks(n), size(n - 1), rows_(size, n) {
+  explicit Cosines(Index n) : blocks(n), size(n - 1), even_(size / 2, (n + 1) / 2), odd_(size - size / 2, (n + 1) / 2) {
     const double pi = std::numbers::pi, blocks_ = static_cast<double>(n);
     Vector table(4 * n);
     for (Index j = 0; j < 4 * n; ++j) {
       table[j] = std::sqrt(2 / blocks_) * std::cos(pi * static_cast<double>(j) / (2 * blocks_));
     }
-    for (Index i = 0; i < n; ++i) {
+    for (Index i = 0; i < (n + 1) / 2; ++i) {
       Index place = 0;  // k (2i + 1) modulo 4n
       for (Index k = 1; k <= size; ++k) {
         place += 2 * i + 1;
         if (place >= 4 * n) place -= 4 * n;
-        rows_(k - 1, i) = table[place];
+        (k % 2 == 0 ? even_(k / 2 - 1, i) : odd_(k / 2, i)) = table[place];
       }
     }
     log_frequency.resize(size);
@@ -69,7 +69,18 @@ class Cosines {
 
   /// c_k, k = 1 … count, of a series of n numbers.
   Spectrum transform(const Vector& series, Index count) const {
-    return rows_.topRows(count) * (series.array() - series.mean()).matrix();
+    // Even cosines see the even part of the series about its middle, odd ones the odd part.
+    const Index half = (blocks + 1) / 2, middle = blocks % 2;
+    const Vector first = series.head(half).array() - series.mean();
+    Vector last = series.tail(half).reverse().array() - series.mean();
+    if (middle) last[half - 1] = 0;
+    Vector symmetric = first + last, antisymmetric = first - last;
+    if (middle) antisymmetric[half - 1] = 0;
+    Spectrum c(count);
+    for (Index k = 1; k <= count; ++k) {
+      c[k - 1] = k % 2 == 0 ? even_.row(k / 2 - 1).dot(symmetric) : odd_.row(k / 2).dot(antisymmetric);
+    }
+    return c;
   }
   Spectrum transform(const Vector& series) const { return transform(series, size); }
 
@@ -79,7 +90,12 @@ class Cosines {
     constexpr Index enough = 24;
     const Index each = count < enough ? 1 : 2;
     Regressors x(count, 2 * each);
-    x << rows_.leftCols(each).topRows(count), rows_.rightCols(each).topRows(count);
+    for (Index k = 1; k <= count; ++k) {
+      for (Index i = 0; i < each; ++i) {
+        x(k - 1, i) = k % 2 == 0 ? even_(k / 2 - 1, i) : odd_(k / 2, i);
+        x(k - 1, each + i) = k % 2 == 0 ? x(k - 1, i) : -x(k - 1, i);
+      }
+    }
     return x;
   }
 
@@ -93,7 +109,8 @@ class Cosines {
   std::array<Shape, 9> shapes;
 
  private:
-  Matrix rows_;
+  /// √(2/n) cos(πk (2i + 1)/2n) over the first half of the blocks, for k = 2, 4, … and 1, 3, …
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> even_, odd_;
 };
 
 /// Generalised least squares of c on the columns of x with variances s² v_k.
@@ -198,7 +215,7 @@ Vector fitted_oscillation(const Vector& series, const Matrix& trend, Index k) {
   };
   Vector oscillating;
   const auto squares = [&](double place) { return fit_at(place, oscillating); };
-  constexpr int bits = 24;
+  constexpr int bits = 16;
   constexpr double reach = 1.2;
   fit_at(boost::math::tools::brent_find_minima(squares, near - reach, near + reach, bits).first, oscillating);
   return oscillating;

@@ -30,7 +30,7 @@ PolhodeError::PolhodeError(const Matrix3<double>& inertia, const Vector3<double>
 }
 
 PolhodeError::Momentum PolhodeError::exact(double t) const {
-  const Vector3<double> omega = top_.at(t).angular_velocity_body, y = inertia_ * omega;
+  const Vector3<double> omega = top_.angular_velocity_body(t), y = inertia_ * omega;
   return {y, y.cross(omega)};
 }
 
