@@ -5,6 +5,7 @@
 // Jacobi, J. reine angew. Math. 39 (1850) 293–350, for the attitude by theta functions.
 #pragma once
 
+#include <cmath>
 #include <string_view>
 
 #include "core/elliptic.hpp"
@@ -40,9 +41,19 @@ class FreeTop {
   /// The motion at t (s, of either sign), to a few units of round-off times 1 + (|ω| + |λ|) |t|. Costs about 0.15 µs.
   Motion at(double t) const;
 
+  /// Its angular velocity alone, for less than half of that.
+  Vector3<double> angular_velocity_body(double t) const {
+    if (steady_) return angular_velocity_;
+    return axes_ * momentum_direction(phase_ + phase_rate_ * t).cwiseProduct(rate_per_momentum_);
+  }
+
   /// "at rest", "sphere", "pure spin" (ω is constant), "symmetric" (two moments equal to round-off), "separatrix", or
   /// "about the smallest axis", "about the largest axis": where the momentum goes round in the body.
   std::string_view regime() const { return regime_; }
+
+  /// s, after which the angular velocity in the body is the same again: 0 where it is constant, infinite on the
+  /// separatrix.
+  double period() const { return steady_ ? 0 : 4 * jacobi_.quarter_period() / std::abs(phase_rate_); }
 
  private:
   Vector3<double> momentum_direction(double u) const;  // y/G in A, B, C

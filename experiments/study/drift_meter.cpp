@@ -10,6 +10,7 @@ namespace {
 
 constexpr int exact_instants = 50;
 constexpr int most_attitude_errors = 64;
+constexpr std::int64_t fewest_samples = 32;  ///< that a drift can be classified by
 constexpr double hopeless = 1e6;  ///< relative energy drift beyond which a run is called off as diverged
 
 /// max(a, |x|) that a NaN does not get lost in.
@@ -77,7 +78,8 @@ DriftMeter::DriftMeter(const System<double>& system, const std::vector<std::stri
       conserved_(conserved_momenta(system)),
       exact_(system),
       reference_(std::move(reference)),
-      has_exact_(exact_.has_anything() || reference_) {
+      has_exact_(exact_.has_anything() || reference_),
+      polhode_(PolhodeError::of(system)) {
   if (reference_) follower_.emplace(reference_);
   for (const std::string& name : invariants) invariants_.push_back({find_invariant(name)});
 }
@@ -129,6 +131,7 @@ std::size_t DriftMeter::observe(std::span<const Sample> samples) {
     raise(worst_defect_, m.orientation_defect);
     last_energy_ = energy;
     series_.add(sample.t, energy, linear2, angular2, m.orientation_defect);
+    blocks_.add(sample.t, energy);
     const double s = sample.t * per_t_end;
     sum_t_ += s;
     sum_tt_ += s * s;
@@ -151,7 +154,9 @@ void DriftMeter::look(const State<double>& state, const Sample& sample) {
   if (!has_exact_ || (!exact_at_samples_ && state.t < next_exact_)) return;
   measure_errors(state);
   while (next_exact_ <= state.t) {
-    next_exact_ = exact_count_ < exact_instants ? static_cast<double>(++exact_count_) * t_end_ / exact_instants
+    // A little early, so that a sample at the very instant counts, however its time was rounded.
+    constexpr double early = 1 - 1e-12;
+    next_exact_ = exact_count_ < exact_instants ? early * static_cast<double>(++exact_count_) * t_end_ / exact_instants
                                                 : std::numeric_limits<double>::infinity();
   }
 }
@@ -177,6 +182,11 @@ void DriftMeter::measure_errors(const State<double>& state) {
   keep(worst_error_.position, e.position);
   keep(worst_error_.attitude, e.attitude);
   keep(worst_error_.angular_velocity, e.angular_velocity);
+  if (!polhode_) return;
+  const PolhodeError::At at = polhode_->at(state.t, system_.snapshot(state.y, 0));
+  raise(worst_polhode_.phase, at.phase);
+  raise(worst_polhode_.phase_rad, at.phase_rad);
+  raise(worst_polhode_.off, at.off);
 }
 
 void DriftMeter::report(RunResult& result) {
@@ -198,10 +208,15 @@ void DriftMeter::report(RunResult& result) {
   result.position_error_max = only_finite(worst_error_.position);
   result.attitude_error_max = only_finite(worst_error_.attitude);
   result.angular_velocity_error_max_rel = only_finite(worst_error_.angular_velocity);
+  if (polhode_) {
+    result.polhode_phase_error_max = finite(worst_polhode_.phase);
+    result.polhode_phase_error_max_rad = finite(worst_polhode_.phase_rad);
+    result.polhode_off_error_max_rel = finite(worst_polhode_.off);
+  }
   if (reference_) judge_by_reference(result);
   result.attitude_errors = attitude_errors_;
   result.series = series_.finish(energy_scale_, linear_scale_, angular_scale_);
-  result.drift_class = result.status == "ok" ? classify_drift(result.series) : "";
+  if (result.status == "ok") classify(result);
 }
 
 void DriftMeter::judge_by_reference(RunResult& result) const {
@@ -220,23 +235,20 @@ void DriftMeter::judge_by_reference(RunResult& result) const {
         result.angular_velocity_reference_rel);
 }
 
-std::string classify_drift(const std::vector<SeriesPoint>& series) {
-  if (series.size() < 32) return {};
-  const double end = series.back().t;
-  double early = 0, largest = 0;
-  for (const SeriesPoint& p : series) {
-    raise(largest, p.energy_drift_rel);
-    if (p.t <= end / 16) early = largest;
+void DriftMeter::classify(RunResult& result) const {
+  constexpr double round_off = 1e-13;
+  const auto growth = growth_of(blocks_.finish(), worst_energy_);
+  if (growth) {
+    result.energy_drift_rate_ci = growth->slope_half_width_95;
+    result.drift_exponent = growth->exponent;
+    result.drift_exponent_low = growth->low;
+    result.drift_exponent_high = growth->high;
   }
-  if (!std::isfinite(largest)) return {};
-  if (largest <= 1e-13) return "round-off";
-  if (early == 0) return {};
-  const double exponent = std::log2(largest / early) / 4;
-  if (exponent < 0.25) return "bounded";
-  if (exponent < 0.75) return "random walk";
-  if (exponent < 1.5) return "linear";
-  if (exponent < 2.5) return "quadratic";
-  return "faster";
+  if (worst_energy_ <= round_off * energy_scale_) {
+    result.drift_class = samples_ < fewest_samples ? "" : "round-off";
+  } else if (growth) {
+    result.drift_class = growth_class(growth->exponent, growth->secular);
+  }
 }
 
 }  // namespace polhode::study

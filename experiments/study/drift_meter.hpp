@@ -13,6 +13,8 @@
 #include "core/invariants.hpp"
 #include "core/reference_motion.hpp"
 #include "core/simulate.hpp"
+#include "experiments/study/drift_growth.hpp"
+#include "experiments/study/polhode_error.hpp"
 #include "experiments/study/run_record.hpp"
 
 namespace polhode::study {
@@ -48,6 +50,9 @@ class DriftMeter final : public Observer {
   void look(const State<double>& state, const Sample& sample) override;
   double next_look() const override;
 
+  /// J, against which energy drifts are taken; after the first sample.
+  double energy_scale() const { return energy_scale_; }
+
   /// Fills the measured part of the result.
   void report(RunResult& result);
 
@@ -56,6 +61,7 @@ class DriftMeter final : public Observer {
   void measure_further(const State<double>& state);
   void measure_errors(const State<double>& state);
   void judge_by_reference(RunResult& result) const;
+  void classify(RunResult& result) const;
 
   struct Watched {
     const InvariantKind* kind;
@@ -83,14 +89,12 @@ class DriftMeter final : public Observer {
   std::int64_t exact_count_ = 0;
   ExactMotion::Error worst_error_;
   std::vector<AttitudeError> attitude_errors_;
+  std::optional<PolhodeError> polhode_;
+  PolhodeError::At worst_polhode_;
   /// Sums for the least-squares slope of the drift, over t/t_end.
   double sum_t_ = 0, sum_tt_ = 0, sum_d_ = 0, sum_td_ = 0;
   ThinnedSeries series_;
+  BlockMeans blocks_;
 };
-
-/// How a drift grows, from its thinned history: "round-off" (never above 1e-13), or by the exponent p with which its
-/// largest value so far grows over the last 15/16 of the run, |drift| ~ t^p: "bounded" (p < 0.25), "random walk"
-/// (p < 0.75), "linear" (p < 1.5), "quadratic" (p < 2.5), "faster". Empty: fewer than 32 points.
-std::string classify_drift(const std::vector<SeriesPoint>& series);
 
 }  // namespace polhode::study

@@ -80,7 +80,11 @@ std::string metrics() {
          line("position_error_max_m", "distance from the exact mass centre, or with --reference from a proven reference") +
          line("attitude_error_max_rad", "angle between the attitude and the exact one") +
          line("angular_velocity_error_*", "|w - w exact| over |w0|") +
-         line("drift_class", "exponent of the drift's growth: round-off, bounded, random walk, linear, quadratic, faster");
+         line("polhode_phase_error_*", "of one free body: how far its momentum is ahead along the exact polhode, s and rad") +
+         line("polhode_off_error_*", "and its distance from that polhode, over |L|") +
+         line("energy_drift_rate_*", "least-squares slope of the drift, and half its 95 % confidence interval") +
+         line("drift_exponent*", "p of |drift| ~ t^p, oscillations set aside, and its 95 % confidence interval") +
+         line("drift_class", "by that exponent: round-off, bounded, random walk or sublinear, linear, quadratic, faster");
 }
 
 struct Section {

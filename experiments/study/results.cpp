@@ -64,11 +64,13 @@ void write_runs_csv(const StudyView& study) {
   };
   add(header, config_columns(study.varied_keys, study.names_summation));
   add(header, {"status", "message", "steps", "rhs_evaluations", "energy_initial_J", "energy_drift_max_rel",
-               "energy_drift_final_rel", "energy_drift_rate_W", "drift_class", "linear_momentum_drift_max_rel",
+               "energy_drift_final_rel", "energy_drift_rate_W", "drift_class", "energy_drift_rate_ci_W", "drift_exponent",
+               "drift_exponent_low", "drift_exponent_high", "linear_momentum_drift_max_rel",
                "angular_momentum_drift_max_rel"});
   for (const std::string& invariant : study.invariants) header.push_back(invariant + "_drift_max_rel");
   add(header, {"orientation_defect_max", "position_error_max_m", "attitude_error_max_rad",
-               "angular_velocity_error_max_rel"});
+               "angular_velocity_error_max_rel", "polhode_phase_error_max_s", "polhode_phase_error_max_rad",
+               "polhode_off_error_max_rel"});
   const bool references = has_references(study);
   if (references) add(header, {"position_reference_m", "attitude_reference_rad", "angular_velocity_reference_rel"});
   std::string text = csv_row(header);
@@ -78,13 +80,15 @@ void write_runs_csv(const StudyView& study) {
     add(row, config_cells(run.config));
     add(row, {r.status, r.message, std::to_string(r.steps), std::to_string(r.evaluations), csv_cell(r.energy_initial),
               csv_cell(r.energy_drift_max_rel), csv_cell(r.energy_drift_final_rel), csv_cell(r.energy_drift_rate),
-              r.drift_class, csv_cell(r.linear_momentum_drift_max_rel), csv_cell(r.angular_momentum_drift_max_rel)});
+              r.drift_class, csv_cell(r.energy_drift_rate_ci), csv_cell(r.drift_exponent),
+              csv_cell(r.drift_exponent_low), csv_cell(r.drift_exponent_high), csv_cell(r.linear_momentum_drift_max_rel), csv_cell(r.angular_momentum_drift_max_rel)});
     for (const std::string& invariant : study.invariants) {
       const auto found = r.invariant_drift_max_rel.find(invariant);
       row.push_back(found == r.invariant_drift_max_rel.end() ? "" : exact(found->second));
     }
     add(row, {csv_cell(r.orientation_defect_max), csv_cell(r.position_error_max), csv_cell(r.attitude_error_max),
-              csv_cell(r.angular_velocity_error_max_rel)});
+              csv_cell(r.angular_velocity_error_max_rel), csv_cell(r.polhode_phase_error_max),
+              csv_cell(r.polhode_phase_error_max_rad), csv_cell(r.polhode_off_error_max_rel)});
     if (references) {
       add(row, {csv_cell(r.position_reference), csv_cell(r.attitude_reference),
                 csv_cell(r.angular_velocity_reference_rel)});

@@ -67,7 +67,10 @@ struct RunResult {
   std::optional<double> energy_drift_max_rel;   ///< max |E − E0| over the declared scale, E from the ledger
   std::optional<double> energy_drift_final_rel; ///< signed
   std::optional<double> energy_drift_rate;      ///< W, least-squares slope of the drift
-  std::string drift_class;                      ///< "round-off", "bounded", "linear", "quadratic", … or empty
+  std::optional<double> energy_drift_rate_ci;   ///< W, half its 95 % confidence interval
+  std::string drift_class;                      ///< "round-off", or growth_class() of drift_growth.hpp; or empty
+  std::optional<double> drift_exponent;         ///< p of |drift| ~ t^p, and its 95 % confidence interval
+  std::optional<double> drift_exponent_low, drift_exponent_high;
   std::optional<double> linear_momentum_drift_max_rel;   ///< absent: the forces do not conserve it
   std::optional<double> angular_momentum_drift_max_rel;
   std::map<std::string, double> invariant_drift_max_rel; ///< by name, of the scenario's declared invariants
@@ -75,6 +78,10 @@ struct RunResult {
   std::optional<double> position_error_max;     ///< m, absent without an exact solution or a proven reference
   std::optional<double> attitude_error_max;     ///< rad
   std::optional<double> angular_velocity_error_max_rel;
+  /// Of the momentum in the body of a single free one (polhode_error.hpp): along its polhode and off it.
+  std::optional<double> polhode_phase_error_max;      ///< s
+  std::optional<double> polhode_phase_error_max_rad;  ///< |ω(0)| times that
+  std::optional<double> polhode_off_error_max_rel;
   /// How uncertain the reference is that stood for an unknown exact solution; absent where none was used. An error
   /// that is not a hundred times larger is left out.
   std::optional<double> position_reference;     ///< m

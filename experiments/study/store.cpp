@@ -100,6 +100,15 @@ std::map<std::string, double> unpack(const std::string& text) {
   return values;
 }
 
+/// The columns of the table `drifts`, in their order.
+constexpr std::optional<double> RunResult::*drift_members[] = {&RunResult::energy_drift_rate_ci,
+                                                               &RunResult::drift_exponent,
+                                                               &RunResult::drift_exponent_low,
+                                                               &RunResult::drift_exponent_high,
+                                                               &RunResult::polhode_phase_error_max,
+                                                               &RunResult::polhode_phase_error_max_rad,
+                                                               &RunResult::polhode_off_error_max_rel};
+
 /// How long another program that looks into the store may hold it.
 constexpr int patience_ms = 5000;
 
@@ -123,6 +132,11 @@ Store::Store(const std::filesystem::path& folder) : path_(folder / file_name) {
       " angular_momentum_drift_max_rel REAL, invariant_drifts_max_rel TEXT, orientation_defect_max REAL,"
       " position_error_max_m REAL, attitude_error_max_rad REAL, angular_velocity_error_max_rel REAL, wall_s REAL,"
       " series BLOB)");
+  // How the energy drift grows, and the error along the polhode and off it.
+  execute(
+      "CREATE TABLE IF NOT EXISTS drifts (id TEXT PRIMARY KEY, energy_drift_rate_ci_W REAL, drift_exponent REAL,"
+      " drift_exponent_low REAL, drift_exponent_high REAL, polhode_phase_error_max_s REAL,"
+      " polhode_phase_error_max_rad REAL, polhode_off_error_max_rel REAL)");
   // Of the runs that were judged by a reference, how uncertain it is.
   execute(
       "CREATE TABLE IF NOT EXISTS references_used (id TEXT PRIMARY KEY, position_m REAL, attitude_rad REAL,"
@@ -162,6 +176,11 @@ std::map<std::string, RunResult> Store::load() const {
     r.seconds = rows.real();
     r.series = rows.series<SeriesPoint>();
   }
+  Statement drifts(path_, db_.get(), "SELECT * FROM drifts WHERE id IN (SELECT id FROM runs)");
+  while (drifts.step()) {
+    RunResult& r = results[drifts.text()];
+    for (const auto member : drift_members) r.*member = drifts.optional_real();
+  }
   Statement used(path_, db_.get(), "SELECT * FROM references_used WHERE id IN (SELECT id FROM runs)");
   while (used.step()) {
     RunResult& r = results[used.text()];
@@ -182,6 +201,7 @@ void Store::keep(std::span<const RunRecord> records) {
   try {
     Statement insert(path_, db_.get(),
                      "INSERT OR REPLACE INTO runs VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+    Statement drifts(path_, db_.get(), "INSERT OR REPLACE INTO drifts VALUES (?,?,?,?,?,?,?,?)");
     Statement used(path_, db_.get(), "INSERT OR REPLACE INTO references_used VALUES (?,?,?,?)");
     Statement errors(path_, db_.get(), "INSERT OR REPLACE INTO attitude_errors VALUES (?,?)");
     for (const RunRecord& record : records) {
@@ -214,6 +234,10 @@ void Store::keep(std::span<const RunRecord> records) {
       insert.bind(r.series);
       insert.step();
       insert.reset();
+      drifts.bind(record.id);
+      for (const auto member : drift_members) drifts.bind(r.*member);
+      drifts.step();
+      drifts.reset();
       if (!r.position_reference && !r.attitude_reference && !r.angular_velocity_reference_rel) continue;
       used.bind(record.id);
       used.bind(r.position_reference);

@@ -98,21 +98,22 @@ std::string summary_table(const StudyView& study) {
   const auto columns = shown_columns(cells, names);
   std::vector<std::vector<std::string>> table(1);
   for (const std::size_t k : columns) table[0].push_back(names[k]);
-  for (const char* h : {"status", "energy drift", "ang. momentum", "defect", "attitude rad"}) table[0].emplace_back(h);
+  for (const char* h : {"status", "energy drift", "grows", "ang. momentum", "defect", "attitude rad"}) table[0].emplace_back(h);
   const auto rows = shown_rows(study.runs.size());
   for (const std::size_t i : rows) {
     const RunResult& r = study.runs[i].result;
     auto& row = table.emplace_back();
     for (const std::size_t k : columns) row.push_back(cells[i][k]);
     row.push_back(r.status);
-    for (const auto& x : {r.energy_drift_max_rel, r.angular_momentum_drift_max_rel, r.orientation_defect_max,
-                          r.attitude_error_max}) {
+    row.push_back(number(r.energy_drift_max_rel));
+    row.push_back(r.drift_class.empty() ? "-" : r.drift_class);
+    for (const auto& x : {r.angular_momentum_drift_max_rel, r.orientation_defect_max, r.attitude_error_max}) {
       row.push_back(number(x));
     }
   }
   std::vector<bool> left;
   for (std::size_t k = 0; k < table[0].size(); ++k) {
-    left.push_back(k == columns.size() ||
+    left.push_back(k == columns.size() || k == columns.size() + 2 ||
                    (k < columns.size() && names[columns[k]] != "dt_s" && names[columns[k]] != "tolerance"));
   }
   std::string text = aligned(table, left);

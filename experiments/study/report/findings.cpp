@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "experiments/study/report/drift_words.hpp"
 #include "experiments/study/report/extremes.hpp"
 #include "experiments/study/report/gyroscopic.hpp"
 #include "experiments/study/report/method_table.hpp"
@@ -54,7 +55,7 @@ std::string drift_phrase(const RunRecord& run) {
   if (trend == "comes back") text += "; at the end the drift is back below a tenth of that";
   if (trend == "round-off") text += ", which is round-off";
   if (!run.result.drift_class.empty() && trend != "round-off")
-    text += fmt::format(", and the drift's growth is {}", run.result.drift_class);
+    text += fmt::format(", and the drift's growth is {}", growth_words(run.result));
   return text;
 }
 
@@ -174,6 +175,7 @@ Topic energy(const StudyView& study, const Grouping& grouping) {
   if (study.runs.size() > 1) {
     add_extremes(topic, grouping, quantity::energy_drift());
     append(topic.sentences, trends(grouping));
+    append(topic.sentences, growth_sentences(study));
     append(topic.sentences, slope_sentences(grouping, quantity::energy_drift()));
   }
   return topic;
@@ -236,6 +238,7 @@ Topic errors(const StudyView& study, const Grouping& grouping) {
     if (study.runs.size() > 1) add_extremes(topic, grouping, quantity);
     append(topic.sentences, slope_sentences(grouping, quantity));
   }
+  append(topic.sentences, polhode_sentences(study));
   append(topic.sentences, reference_sentences(study));
   std::vector<std::string> without;
   const auto by_reference = [&](const std::string& name) {

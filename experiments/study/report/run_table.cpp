@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/study/report/drift_words.hpp"
 #include "experiments/study/report/notation.hpp"
 
 namespace polhode::study::report {
@@ -86,7 +87,13 @@ std::vector<Field> results(const StudyView& study) {
   add("largest energy drift", "relative", &RunResult::energy_drift_max_rel);
   add("final energy drift", "relative", &RunResult::energy_drift_final_rel, false);
   add("energy drift rate", "W", &RunResult::energy_drift_rate, false);
+  add("±", "W", &RunResult::energy_drift_rate_ci, false);
   fields.push_back({{"drift grows", "", Kind::text}, [](const RunRecord& r) { return r.result.drift_class; }});
+  add("exponent of its growth", "", &RunResult::drift_exponent, false);
+  fields.push_back({{"95 % interval", "", Kind::text},
+                    [](const RunRecord& r) { return exponent_interval(r.result); },
+                    false,
+                    false});
   add("linear momentum drift", "relative", &RunResult::linear_momentum_drift_max_rel);
   add("angular momentum drift", "relative", &RunResult::angular_momentum_drift_max_rel);
   for (const auto& name : study.invariants) {
@@ -99,6 +106,8 @@ std::vector<Field> results(const StudyView& study) {
   add("position error", "m", &RunResult::position_error_max);
   add("attitude error", "rad", &RunResult::attitude_error_max);
   add("angular velocity error", "relative", &RunResult::angular_velocity_error_max_rel, false);
+  add("along the polhode", "s", &RunResult::polhode_phase_error_max, false);
+  add("off the polhode", "relative", &RunResult::polhode_off_error_max_rel, false);
   add_count("steps", &RunResult::steps);
   add_count("evaluations", &RunResult::evaluations);
   return fields;

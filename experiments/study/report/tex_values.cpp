@@ -132,6 +132,10 @@ void define_run(std::string& out, const std::string& run, const RunResult& r) {
   define(out, run + "EnergyDriftMax", r.energy_drift_max_rel);
   define(out, run + "EnergyDriftFinal", r.energy_drift_final_rel);
   define(out, run + "EnergyDriftRate", r.energy_drift_rate);
+  define(out, run + "EnergyDriftRateInterval", r.energy_drift_rate_ci);
+  define(out, run + "DriftExponent", r.drift_exponent);
+  define(out, run + "DriftExponentLow", r.drift_exponent_low);
+  define(out, run + "DriftExponentHigh", r.drift_exponent_high);
   define(out, run + "LinearMomentumDriftMax", r.linear_momentum_drift_max_rel);
   define(out, run + "AngularMomentumDriftMax", r.angular_momentum_drift_max_rel);
   for (const auto& [invariant, drift] : r.invariant_drift_max_rel)
@@ -140,6 +144,8 @@ void define_run(std::string& out, const std::string& run, const RunResult& r) {
   define(out, run + "PositionErrorMax", r.position_error_max);
   define(out, run + "AttitudeErrorMax", r.attitude_error_max);
   define(out, run + "AngularVelocityErrorMax", r.angular_velocity_error_max_rel);
+  define(out, run + "PolhodePhaseErrorMax", r.polhode_phase_error_max);
+  define(out, run + "PolhodeOffErrorMax", r.polhode_off_error_max_rel);
   define(out, run + "EnergyInitial", r.energy_initial);
   define_count(out, run + "Steps", r.steps);
   define_count(out, run + "Evaluations", r.evaluations);

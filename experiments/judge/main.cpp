@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How far is a trajectory, from whatever program, from the exact motion, and how does its energy drift?
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "experiments/judge/judgement.hpp"
+#include "experiments/judge/options.hpp"
+#include "experiments/study/csv.hpp"
+#include "experiments/study/input_error.hpp"
+#include "experiments/study/plan.hpp"
+#include "experiments/study/result_folder.hpp"
+#include "experiments/study/results.hpp"
+#include "experiments/study/store.hpp"
+#include "experiments/study/summary.hpp"
+
+namespace polhode::study {
+namespace {
+
+/// The stem of each file, or its path where two have the same; the folder where all are called trajectory.csv.
+std::vector<std::string> labels_of(const std::vector<std::string>& files) {
+  std::vector<std::string> labels;
+  for (const std::string& file : files) {
+    const std::filesystem::path path = std::filesystem::path(file).lexically_normal();
+    const std::string folder = path.parent_path().filename().string();
+    labels.push_back(path.filename() == "trajectory.csv" && !folder.empty() ? folder : path.stem().string());
+  }
+  const auto once = labels;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (std::count(once.begin(), once.end(), once[i]) > 1) labels[i] = files[i];
+  }
+  return labels;
+}
+
+std::vector<TrajectoryScore> scores_of(const JudgeOptions& options, const Scenario& scenario) {
+  std::vector<Trajectory> trajectories;  // all are read before anything is made of one
+  for (const std::string& file : options.files) trajectories.push_back(read_trajectory(file, scenario.problem));
+  const auto labels = labels_of(options.files);
+  std::vector<TrajectoryScore> scores;
+  for (std::size_t i = 0; i < trajectories.size(); ++i) {
+    RunConfig config;
+    config.scenario = scenario.name;
+    config.integrator = labels[i];
+    config.formulation.rotation_from = options.rotation_from;
+    config.reference = options.reference;
+    scores.push_back(score(trajectories[i], scenario, config));
+  }
+  return scores;
+}
+
+int judge(const JudgeOptions& options) {
+  StudyView view;
+  view.experiment = "judge";
+  view.question = judge_question;
+  view.command = options.command;
+  view.scenarios = {ScenarioSource::open(options.scenario).resolve()};
+  const Scenario& scenario = view.scenarios.front();
+  view.invariants = scenario.invariants;
+  std::sort(view.invariants.begin(), view.invariants.end());
+  const auto scores = scores_of(options, scenario);
+  Plan plan;
+  std::set<std::string> ids;
+  for (const TrajectoryScore& s : scores) {
+    view.runs.push_back(s.record);
+    // The score itself says which run it is: another trajectory has another one.
+    std::string text = scenario.canonical + s.record.config.integrator + std::to_string(s.instants);
+    for (const ErrorPoint& p : s.errors) text += exact(p.t) + csv_cell(p.attitude) + csv_cell(p.position);
+    for (const SeriesPoint& p : s.record.result.series) text += exact(p.t) + exact(p.energy_drift_rel);
+    view.runs.back().id = identity_of(text);
+    ids.insert(view.runs.back().id);
+    plan.identity += view.runs.back().id;
+  }
+  plan.identity = identity_of(plan.identity);
+  view.folder = options.out.empty() ? std::filesystem::path("results") /
+                                          ("judge-" + scenario.name + "-" + plan.identity.substr(0, 8))
+                                    : std::filesystem::path(options.out);
+  const ResultFolder held(view.folder, ids, options.force);
+  Store(view.folder).keep(view.runs);
+  view.analysis = judgement(view, scores);
+  write_runs_csv(view);
+  write_timings_csv(view);
+  Options written;
+  written.axes = {{"scenario", options.scenario}};
+  write_manifest(view, written, plan);
+  write_tables(view);
+  if (options.figures) {
+    if (const std::string skipped = write_figures(view); !skipped.empty()) fmt::print(stderr, "judge: {}\n", skipped);
+  }
+  write_report(view);
+  fmt::print("{}\n{}\n", summary_table(view), (view.folder / "report.html").string());
+  return 0;
+}
+
+}  // namespace
+}  // namespace polhode::study
+
+int main(int argc, char** argv) {
+  using namespace polhode::study;
+  constexpr int bad_input = 2, not_carried_out = 3;
+  try {
+    const JudgeOptions options = parse_judge_options(argc, argv);
+    return options.exit_status ? *options.exit_status : judge(options);
+  } catch (const InputError& error) {
+    std::string line = error.what();
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    fmt::print(stderr, "judge: {}\n", line);
+    return bad_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "judge: {}\n", error.what());
+    return not_carried_out;
+  }
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/judge/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "experiments/study/axes.hpp"
+#include "experiments/study/input_error.hpp"
+
+namespace polhode::study {
+namespace {
+
+std::string quoted(const std::string& word) {
+  if (!word.empty() && word.find_first_of(" \t\n'\"\\$`&|;<>()*?[]#~!{}") == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+}  // namespace
+
+JudgeOptions parse_judge_options(int argc, const char* const* argv) {
+  JudgeOptions options;
+  CLI::App app{std::string(judge_question) +
+                   "\n\nTrajectories are CSV files with the columns of trajectory.csv (experiments/judge/README.md), by "
+                   "name and in any order.",
+               "judge"};
+  app.get_formatter()->column_width(40);
+  std::vector<std::string> lists;
+  app.add_option("--scenario", options.scenario, "what the trajectories are of: a built-in scenario or a TOML file")
+      ->type_name("NAME|FILE");
+  app.add_option("--trajectory-file", lists, "trajectories, with commas between them")->type_name("FILE,…");
+  app.add_option("files", options.files, "the same, one by one")->type_name("FILE");
+  app.add_flag("--reference", options.reference,
+               "where no exact solution is known, measure errors against a motion in extended precision that proves its "
+               "digits by halving its step");
+  std::string rotation = "normalised";
+  app.add_option("--rotation-from", rotation, "what a quaternion off the unit sphere stands for (default: normalised)")
+      ->type_name("normalised|stored")
+      ->check(CLI::IsMember({"normalised", "stored"}).description(""));
+  app.add_option("--out", options.out, "folder of the results (default: results/judge-<scenario>-<hash>)")
+      ->type_name("FOLDER");
+  app.add_flag("--force", options.force, "overwrite other results in that folder");
+  app.add_flag("!--no-figures", options.figures, "no figures");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    options.exit_status = app.exit(help);
+    return options;
+  } catch (const CLI::ParseError& error) {
+    const std::string text = error.what();
+    throw InputError(text.substr(0, text.find('\n')) + "; see --help");
+  }
+  options.rotation_from = rotation == "stored" ? RotationFrom::stored : RotationFrom::normalised;
+  for (const std::string& list : lists) {
+    for (const std::string& file : split_list(list, ',', "--trajectory-file")) options.files.push_back(file);
+  }
+  if (options.scenario.empty()) throw InputError("--scenario is missing: it says what the trajectories are of");
+  if (options.files.empty()) throw InputError("no trajectory is named; give one or more CSV files");
+  for (std::size_t i = 0; i < options.files.size(); ++i) {
+    if (std::find(options.files.begin(), options.files.begin() + static_cast<std::ptrdiff_t>(i), options.files[i]) !=
+        options.files.begin() + static_cast<std::ptrdiff_t>(i)) {
+      throw InputError(options.files[i] + " is named twice; leave one out");
+    }
+  }
+  options.command = "judge";
+  for (int i = 1; i < argc; ++i) options.command += " " + quoted(argv[i]);
+  return options;
+}
+
+}  // namespace polhode::study

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line of judge.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/formulation.hpp"
+
+namespace polhode::study {
+
+struct JudgeOptions {
+  std::string scenario;            ///< a built-in name or a file
+  std::vector<std::string> files;  ///< trajectories, none twice
+  bool reference = false;
+  RotationFrom rotation_from = RotationFrom::normalised;
+  std::string out;                 ///< empty: results/judge-<scenario>-<hash>
+  bool force = false, figures = true;
+  std::string command;             ///< the command line, quoted for a shell
+  std::optional<int> exit_status;  ///< where the command line said it all
+};
+
+/// Throws InputError.
+JudgeOptions parse_judge_options(int argc, const char* const* argv);
+
+inline constexpr const char* judge_question =
+    "How far is a trajectory, from whatever program, from the exact motion, and how does its energy drift?";
+
+}  // namespace polhode::study

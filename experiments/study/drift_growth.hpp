@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a drift grows: the exponent p of |drift| ~ t^p and the slope of the drift, each with a 95 % confidence interval
+// that knows of the drift's oscillations.
+//
+// The run is kept as at most 256 means over stretches of equal length (blocks), which flattens what oscillates within
+// one. Their cosine transform c_k, k = 1, 2, … half periods in the run, tells the rest apart:
+//   an oscillation that the blocks resolve is a line: up to eight are fitted and taken out, and only the k well below
+//     any that is left are used, without what pulses at the ends of the run would explain;
+//   noise: of variance v_k = a + b g_k, a that of bounded errors, g_k that of a random walk (1/4 sin²(πk/2n), averaged
+//     over blocks), by restricted maximum likelihood;
+//   a secular drift: by an F test of t and t² against that noise, at 0.5 %. Where there is one, p is that of
+//     constant + t^p by generalised least squares; where there is none, p is the exponent H of v_k ~ k^−(1+2H) by
+//     Whittle's likelihood, which is ½ for a random walk and below 0, here told as 0, for what stays bounded;
+//   what comes to less than a thousandth of the largest drift over the run is hidden in it: the run is bounded.
+// The slope is that of ordinary least squares over all samples; its interval counts the oscillations as noise.
+// Sources: Harvey, Forecasting, Structural Time Series Models and the Kalman Filter (1989), ch. 2 and 4 (local level);
+// Müller & Watson, Econometrica 76 (2008) 979–1016 (low-frequency cosines); Beran, Statistics for Long-Memory Processes
+// (1994), ch. 5 and 6 (Whittle); Brouwer, Astronomical Journal 46 (1937) 149–153 (rounding as a random walk).
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace polhode::study {
+
+struct BlockMean {
+  double t = 0;      ///< s
+  double value = 0;  ///< of the drift, in any unit
+};
+
+/// The means of a series over blocks of as many samples each; when all are in use, neighbours merge.
+class BlockMeans {
+ public:
+  void add(double t, double value) {
+    open_.t += t;
+    open_.value += value;
+    if (++in_open_ == per_block_) close();
+  }
+  /// The last block counts if it is half full.
+  std::vector<BlockMean> finish() const;
+
+ private:
+  static constexpr std::size_t capacity = 256;
+  void close();
+
+  std::vector<BlockMean> sums_;
+  BlockMean open_;
+  std::size_t in_open_ = 0, per_block_ = 1;
+};
+
+struct DriftGrowth {
+  double exponent = 0;             ///< p of |drift| ~ t^p; 0: bounded
+  double low = 0, high = 0;        ///< its 95 % confidence interval
+  bool secular = false;            ///< the drift goes one way: told from noise with 99.5 % confidence
+  double slope_half_width_95 = 0;  ///< of the least-squares slope, unit of the drift per s
+};
+
+/// `largest`: the largest |drift|, which the means do not show. Absent: fewer than 32 blocks, a drift that is zero
+/// throughout, or numbers that are not finite. Costs some 0.3 ms.
+std::optional<DriftGrowth> growth_of(const std::vector<BlockMean>& blocks, double largest);
+
+/// "bounded" (p < 0.25), "random walk" (p < 0.75; "sublinear" where the drift goes one way), "linear" (p < 1.5),
+/// "quadratic" (p < 2.5), "faster".
+std::string growth_class(double exponent, bool secular);
+
+}  // namespace polhode::study
