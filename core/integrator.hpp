@@ -75,7 +75,8 @@ struct Stretch {
   std::int64_t first = 0;
   bool project = false;      ///< back to the manifold after each step, and forget the history
   Sample* samples = nullptr; ///< one for each step to fill in, or null
-  std::int64_t lane_stride = 0;  ///< of an ensemble: the samples of lane i start at samples + i · lane_stride
+  int lanes = 0;             ///< of an ensemble: the first so many lanes have samples
+  std::int64_t lane_stride = 0;  ///< the samples of lane i start at samples + i · lane_stride
 
   double time(std::int64_t k) const { return t0 + static_cast<double>(first + k) * h; }
 };

@@ -69,6 +69,7 @@ class EnsembleLoop {
         stretch = {plan.last, 1, static_cast<double>(k) * schedule_.dt, 0, schedule_.normalise};
       }
       stretch.samples = samples_.data();
+      stretch.lanes = static_cast<int>(runs_.size());
       stretch.lane_stride = longest_stretch;
       integrator_.advance(state_, stretch);
       taken_ += stretch.count;

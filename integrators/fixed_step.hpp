@@ -105,7 +105,7 @@ class FixedStep final : public Integrator<typename System::Scalar> {
     const Measurement<S> m = system_.measure_flat(y.data());
     if constexpr (is_lanes<S>) {
       const S work = y[y.size() - 1];
-      for (int i = 0; i < lane_count; ++i) {
+      for (int i = 0; i < stretch.lanes; ++i) {
         Sample& to = stretch.samples[i * stretch.lane_stride + k - 1];
         to.t = stretch.time(k);
         to.seen.kinetic = m.kinetic[i];

@@ -21,7 +21,7 @@ using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
 constexpr std::size_t fewest_blocks = 32;
-constexpr Index most_cosines = 96, fewest_cosines = 9, most_regressors = 6;
+constexpr Index most_cosines = 64, fewest_cosines = 9, most_regressors = 6;
 using Spectrum = Vector;    ///< over the cosines
 using Regressors = Matrix;  ///< a column each, over the cosines
 using Normal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_regressors, most_regressors>;
@@ -76,10 +76,13 @@ class Cosines {
     if (middle) last[half - 1] = 0;
     Vector symmetric = first + last, antisymmetric = first - last;
     if (middle) antisymmetric[half - 1] = 0;
-    Spectrum c(count);
-    for (Index k = 1; k <= count; ++k) {
-      c[k - 1] = k % 2 == 0 ? even_.row(k / 2 - 1).dot(symmetric) : odd_.row(k / 2).dot(antisymmetric);
+    // Block after block, not cosine after cosine: sums of many at once, and none waits for the one before it.
+    Spectrum even = Spectrum::Zero(count / 2), odd = Spectrum::Zero(count - count / 2), c(count);
+    for (Index i = 0; i < half; ++i) {
+      even += symmetric[i] * even_.col(i).head(even.size());
+      odd += antisymmetric[i] * odd_.col(i).head(odd.size());
     }
+    for (Index k = 1; k <= count; ++k) c[k - 1] = k % 2 == 0 ? even[k / 2 - 1] : odd[k / 2];
     return c;
   }
   Spectrum transform(const Vector& series) const { return transform(series, size); }
@@ -110,7 +113,7 @@ class Cosines {
 
  private:
   /// √(2/n) cos(πk (2i + 1)/2n) over the first half of the blocks, for k = 2, 4, … and 1, 3, …
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> even_, odd_;
+  Matrix even_, odd_;
 };
 
 /// Generalised least squares of c on the columns of x with variances s² v_k.
@@ -123,18 +126,39 @@ struct Fit {
   double scale2() const { return squares / degrees; }
 };
 
+/// In four sums, none of which waits for another.
+template <class A, class B>
+double dot(const A& a, const B& b) {
+  const Index n = a.size();
+  double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+  Index i = 0;
+  for (; i + 4 <= n; i += 4) {
+    s0 += a[i] * b[i];
+    s1 += a[i + 1] * b[i + 1];
+    s2 += a[i + 2] * b[i + 2];
+    s3 += a[i + 3] * b[i + 3];
+  }
+  for (; i < n; ++i) s0 += a[i] * b[i];
+  return (s0 + s1) + (s2 + s3);
+}
+
 Fit fit(const Spectrum& c, const Regressors& x, const Spectrum& v, double sum_of_log_v) {
   Fit f;
   const Spectrum weight = v.cwiseInverse();
   const Regressors weighted = weight.asDiagonal() * x;
-  const Normal normal = x.transpose().lazyProduct(weighted);
+  Normal normal(x.cols(), x.cols());
+  Coefficients right(x.cols());
+  for (Index j = 0; j < x.cols(); ++j) {
+    for (Index i = 0; i <= j; ++i) normal(i, j) = normal(j, i) = dot(x.col(i), weighted.col(j));
+    right[j] = dot(weighted.col(j), c);
+  }
   const Eigen::LDLT<Normal> factors(normal);
   f.covariance = factors.solve(Normal::Identity(x.cols(), x.cols()));
-  f.coefficients = f.covariance * weighted.transpose().lazyProduct(c);
+  f.coefficients = f.covariance * right;
   const Spectrum rest = c - x * f.coefficients;
   // The data are of size one: below this there is nothing but the rounding of this arithmetic.
   constexpr double rounding2 = 1e-30;
-  f.squares = std::max(rest.cwiseAbs2().dot(weight), rounding2);
+  f.squares = std::max(dot(rest.cwiseAbs2().eval(), weight), rounding2);
   f.degrees = static_cast<double>(c.size() - x.cols());
   f.restricted = -0.5 * (sum_of_log_v + f.degrees * std::log(f.squares) + factors.vectorD().array().log().sum());
   return f;
@@ -240,7 +264,7 @@ struct Exponent {
 
 class Estimator {
  public:
-  Estimator(const Cosines& cosines, const Vector& t, const Vector& drift) : cosines_(cosines), t_(t) {
+  Estimator(const Cosines& cosines, const Vector& t, const Vector& drift) : cosines_(cosines), t_(t), log_t_(t.array().log()) {
     polynomial_.resize(cosines_.size, 2);
     polynomial_ << cosines_.transform(t), cosines_.transform(t.cwiseAbs2());
     const Spectrum c = cosines_.transform(drift);
@@ -274,7 +298,7 @@ class Estimator {
 
   /// constant + a t^p, by Gauss and Newton: the regressors are t^p and its derivative with respect to p.
   Exponent power_law() {
-    constexpr double least = 0.05, most = 20, longest_step = 0.5, close = 1e-6;
+    constexpr double least = 0.05, most = 20, longest_step = 0.5, close = 1e-5;
     constexpr int passes = 2, most_steps = 20;
     double p = start();
     for (int pass = 0; pass < passes; ++pass) {
@@ -340,17 +364,17 @@ class Estimator {
   }
 
   Regressors power_regressors(double p) const {
-    const Vector power = t_.array().pow(p);
+    const Vector power = (p * log_t_).array().exp();
     Regressors x(c_.size(), 2);
     x << cosines_.transform(power, c_.size()),
-        cosines_.transform(power.cwiseProduct(t_.array().log().matrix()), c_.size());
+        cosines_.transform(power.cwiseProduct(log_t_), c_.size());
     return with_edges(x);
   }
 
   double start() const {
     double best = 1, least = std::numeric_limits<double>::infinity();
     for (const double p : {0.5, 1.0, 2.0, 4.0}) {
-      const Regressors x = cosines_.transform(t_.array().pow(p), c_.size());
+      const Regressors x = cosines_.transform((p * log_t_).array().exp(), c_.size());
       const double squares = fit(c_, with_edges(x), v_).squares;
       if (squares < least) {
         least = squares;
@@ -361,7 +385,7 @@ class Estimator {
   }
 
   const Cosines& cosines_;
-  Vector t_;
+  Vector t_, log_t_;
   Regressors polynomial_;  ///< t and t², all cosines
   Spectrum with_lines_;    ///< the drift's cosines below its lowest line
   Spectrum c_, v_;         ///< the drift's cosines without its lines, and the shape of their variance

@@ -2,7 +2,7 @@
 // How a drift grows: the exponent p of |drift| ~ t^p and the slope of the drift, each with a 95 % confidence interval
 // that knows of the drift's oscillations.
 //
-// The run is kept as at most 256 means over stretches of equal length (blocks), which flattens what oscillates within
+// The run is kept as at most 128 means over stretches of equal length (blocks), which flattens what oscillates within
 // one. Their cosine transform c_k, k = 1, 2, … half periods in the run, tells the rest apart:
 //   an oscillation that the blocks resolve is a line: up to eight are fitted and taken out, and only the k well below
 //     any that is left are used, without what pulses at the ends of the run would explain;
@@ -42,7 +42,7 @@ class BlockMeans {
   std::vector<BlockMean> finish() const;
 
  private:
-  static constexpr std::size_t capacity = 256;
+  static constexpr std::size_t capacity = 128;
   void close();
 
   std::vector<BlockMean> sums_;

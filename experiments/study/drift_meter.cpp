@@ -118,29 +118,33 @@ void DriftMeter::start(const State<double>& state, const Sample& sample) {
 }
 
 std::size_t DriftMeter::observe(std::span<const Sample> samples) {
-  const double bound = hopeless * energy_scale_, per_t_end = 1 / t_end_;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const Sample& sample = samples[i];
+  const double bound = hopeless * energy_scale_, per_t_end = 1 / t_end_, energy_start = energy_start_;
+  const ConservedMomenta conserved = conserved_;
+  Sums sums = sums_;  // a copy, which the compiler can keep in registers
+  std::size_t taken = 0;
+  for (; taken < samples.size(); ++taken) {
+    const Sample& sample = samples[taken];
     const Measurement<double>& m = sample.seen;
-    const double energy = (m.energy() - sample.work - sample.projection) - energy_start_;
-    const double linear2 = conserved_.linear ? (m.linear_momentum - linear_start_).squaredNorm() : 0.0;
-    const double angular2 = conserved_.angular ? (m.angular_momentum - angular_start_).squaredNorm() : 0.0;
-    raise(worst_energy_, energy);
-    raise(worst_linear2_, linear2);
-    raise(worst_angular2_, angular2);
-    raise(worst_defect_, m.orientation_defect);
-    last_energy_ = energy;
+    const double energy = (m.energy() - sample.work - sample.projection) - energy_start;
+    const double linear2 = conserved.linear ? (m.linear_momentum - linear_start_).squaredNorm() : 0.0;
+    const double angular2 = conserved.angular ? (m.angular_momentum - angular_start_).squaredNorm() : 0.0;
+    raise(sums.worst_energy, energy);
+    raise(sums.worst_linear2, linear2);
+    raise(sums.worst_angular2, angular2);
+    raise(sums.worst_defect, m.orientation_defect);
+    sums.last_energy = energy;
     series_.add(sample.t, energy, linear2, angular2, m.orientation_defect);
     blocks_.add(sample.t, energy);
     const double s = sample.t * per_t_end;
-    sum_t_ += s;
-    sum_tt_ += s * s;
-    sum_d_ += energy;
-    sum_td_ += s * energy;
-    ++samples_;
-    if (!(std::abs(energy) <= bound)) return i;
+    sums.t += s;
+    sums.tt += s * s;
+    sums.d += energy;
+    sums.td += s * energy;
+    ++sums.samples;
+    if (!(std::abs(energy) <= bound)) break;
   }
-  return samples.size();
+  sums_ = sums;
+  return taken;
 }
 
 double DriftMeter::next_look() const {
@@ -191,19 +195,19 @@ void DriftMeter::measure_errors(const State<double>& state) {
 
 void DriftMeter::report(RunResult& result) {
   result.energy_initial = finite(energy_start_);
-  result.energy_drift_max_rel = finite(worst_energy_ / energy_scale_);
-  result.energy_drift_final_rel = finite(last_energy_ / energy_scale_);
-  const double n = static_cast<double>(samples_);
-  const double spread = n * sum_tt_ - sum_t_ * sum_t_;
-  if (samples_ > 2 && spread > 0) {
-    result.energy_drift_rate = finite((n * sum_td_ - sum_t_ * sum_d_) / spread / t_end_);
+  result.energy_drift_max_rel = finite(sums_.worst_energy / energy_scale_);
+  result.energy_drift_final_rel = finite(sums_.last_energy / energy_scale_);
+  const double n = static_cast<double>(sums_.samples);
+  const double spread = n * sums_.tt - sums_.t * sums_.t;
+  if (sums_.samples > 2 && spread > 0) {
+    result.energy_drift_rate = finite((n * sums_.td - sums_.t * sums_.d) / spread / t_end_);
   }
-  if (conserved_.linear) result.linear_momentum_drift_max_rel = finite(std::sqrt(worst_linear2_) / linear_scale_);
-  if (conserved_.angular) result.angular_momentum_drift_max_rel = finite(std::sqrt(worst_angular2_) / angular_scale_);
+  if (conserved_.linear) result.linear_momentum_drift_max_rel = finite(std::sqrt(sums_.worst_linear2) / linear_scale_);
+  if (conserved_.angular) result.angular_momentum_drift_max_rel = finite(std::sqrt(sums_.worst_angular2) / angular_scale_);
   for (const Watched& w : invariants_) {
     if (std::isfinite(w.worst)) result.invariant_drift_max_rel[w.kind->name] = w.worst;
   }
-  result.orientation_defect_max = finite(worst_defect_);
+  result.orientation_defect_max = finite(sums_.worst_defect);
   const auto only_finite = [](const std::optional<double>& x) { return x ? finite(*x) : std::nullopt; };
   result.position_error_max = only_finite(worst_error_.position);
   result.attitude_error_max = only_finite(worst_error_.attitude);
@@ -237,15 +241,15 @@ void DriftMeter::judge_by_reference(RunResult& result) const {
 
 void DriftMeter::classify(RunResult& result) const {
   constexpr double round_off = 1e-13;
-  const auto growth = growth_of(blocks_.finish(), worst_energy_);
+  const auto growth = growth_of(blocks_.finish(), sums_.worst_energy);
   if (growth) {
     result.energy_drift_rate_ci = growth->slope_half_width_95;
     result.drift_exponent = growth->exponent;
     result.drift_exponent_low = growth->low;
     result.drift_exponent_high = growth->high;
   }
-  if (worst_energy_ <= round_off * energy_scale_) {
-    result.drift_class = samples_ < fewest_samples ? "" : "round-off";
+  if (sums_.worst_energy <= round_off * energy_scale_) {
+    result.drift_class = sums_.samples < fewest_samples ? "" : "round-off";
   } else if (growth) {
     result.drift_class = growth_class(growth->exponent, growth->secular);
   }

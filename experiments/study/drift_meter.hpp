@@ -79,20 +79,22 @@ class DriftMeter final : public Observer {
   bool has_exact_;  ///< or a reference
   bool started_ = false;
 
-  std::int64_t samples_ = 0;
   double energy_start_ = 0, energy_scale_ = 1;
   Vector3<double> linear_start_, angular_start_;
   double linear_scale_ = 1, angular_scale_ = 1;
-  // In J, and the squares of kg m/s and kg m²/s: divided by their scales in the end.
-  double worst_energy_ = 0, last_energy_ = 0, worst_linear2_ = 0, worst_angular2_ = 0, worst_defect_ = 0;
   double next_exact_ = 0;
   std::int64_t exact_count_ = 0;
   ExactMotion::Error worst_error_;
   std::vector<AttitudeError> attitude_errors_;
   std::optional<PolhodeError> polhode_;
   PolhodeError::At worst_polhode_;
-  /// Sums for the least-squares slope of the drift, over t/t_end.
-  double sum_t_ = 0, sum_tt_ = 0, sum_d_ = 0, sum_td_ = 0;
+  struct Sums {
+    std::int64_t samples = 0;
+    // In J, and the squares of kg m/s and kg m²/s: divided by their scales in the end.
+    double worst_energy = 0, last_energy = 0, worst_linear2 = 0, worst_angular2 = 0, worst_defect = 0;
+    double t = 0, tt = 0, d = 0, td = 0;  ///< for the least-squares slope of the drift, over t/t_end
+  };
+  Sums sums_;
   ThinnedSeries series_;
   BlockMeans blocks_;
 };

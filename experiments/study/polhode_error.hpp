@@ -9,6 +9,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/free_top.hpp"
 #include "core/system.hpp"
@@ -33,15 +34,17 @@ class PolhodeError {
  private:
   PolhodeError(const Matrix3<double>& inertia, const Vector3<double>& omega_body);
   struct Momentum {
-    Vector3<double> value, rate;  ///< kg m²/s, its time derivative in the body
+    Vector3<double> value, rate, second;  ///< kg m²/s and its time derivatives in the body
   };
   Momentum exact(double t) const;
   double refined(double t, const Vector3<double>& y, double phase) const;
+  double nearest_of_ring(double t, const Vector3<double>& y, double expected) const;
 
-  Matrix3<double> inertia_;
+  Matrix3<double> inertia_, inverse_inertia_;
   FreeTop top_;
   double speed_, size_;         ///< |ω(0)|, |y(0)|
-  double window_, search_step_; ///< s, of the search for the nearest point
+  double search_step_;          ///< s, between the points of the ring
+  std::vector<Vector3<double>> ring_;  ///< exact y over a period, for the search of the nearest point
   double t_ = 0, phase_ = 0, phase_rate_ = 0;
 };
 

@@ -112,7 +112,7 @@ Area drawing_area(const Panel& panel) {
 
 /// Places along the curves, close enough together that no line slips through between two of them.
 std::vector<std::pair<double, double>> places_along(const Panel& panel) {
-  constexpr int between = 24;
+  constexpr int between = 12;
   std::vector<std::pair<double, double>> places;
   for (const auto& curve : panel.curves) {
     for (std::size_t i = 0; i < curve.points.size(); ++i) {
@@ -131,7 +131,7 @@ std::vector<std::pair<double, double>> places_along(const Panel& panel) {
 /// The lower left corner of the emptiest rectangle of that size; of several the one nearest the lower right corner of
 /// the panel, which the curves of most methods leave free.
 std::pair<double, double> emptiest_corner(const Panel& panel, double width, double height) {
-  constexpr int trials = 16;
+  constexpr int trials = 10;
   const auto area = drawing_area(panel);
   const auto places = places_along(panel);
   std::pair<double, double> best{};
