@@ -4,7 +4,9 @@
 // Method<System> has a constructor Method(const System&) and step(system, t, h, y), which advances the flat state y by
 // h. The step sees the concrete system, so it inlines; the state of one body stays in registers and on the stack while
 // a run advances, through projection and measurement too. A step that can fail returns a const char*: null, or why; it
-// may leave y as it likes. A method whose evaluations differ from step to step counts them: evaluations().
+// may leave y as it likes. A method whose evaluations differ from step to step counts them: evaluations(). One whose
+// members are scratch, with no memory of the steps before, may say `static constexpr bool remembers_nothing = true;`:
+// then the stages of one body need not outlive a step, and stay in registers.
 #pragma once
 
 #include <type_traits>
@@ -52,7 +54,7 @@ class FixedStep final : public Integrator<typename System::Scalar> {
     } else if constexpr (measures) {
       take_inlined(state, stretch);
     } else {
-      take(method_, stretch, state.y);
+      take([this]() -> Method<System>& { return method_; }, stretch, state.y);
     }
     state.t = stretch.time(stretch.count);
     steps_ += stretch.count;
@@ -74,18 +76,23 @@ class FixedStep final : public Integrator<typename System::Scalar> {
     if constexpr (System::is_one) {
       // Local copies, which the compiler can keep in registers.
       Flat y = Eigen::Map<const Flat>(state.y.data());
-      Method<System> method = method_;
-      take(method, stretch, y);
-      method_ = method;
+      if constexpr (requires { Method<System>::remembers_nothing; }) {
+        take([this] { return Method<System>(system_); }, stretch, y);
+      } else {
+        Method<System> method = method_;
+        take([&method]() -> Method<System>& { return method; }, stretch, y);
+        method_ = method;
+      }
       Eigen::Map<Flat>{state.y.data()} = y;
     } else {
-      take(method_, stretch, state.y);
+      take([this]() -> Method<System>& { return method_; }, stretch, state.y);
     }
   }
 
-  void take(Method<System>& method, const Stretch& stretch, Flat& y) const {
+  template <class MethodOfStep>
+  void take(const MethodOfStep& method, const Stretch& stretch, Flat& y) const {
     for (std::int64_t k = 1; k <= stretch.count; ++k) {
-      method.step(system_, S(stretch.time(k - 1)), S(stretch.h), y);
+      method().step(system_, S(stretch.time(k - 1)), S(stretch.h), y);
       if constexpr (measures) finish_step(stretch, k, y);
     }
   }

@@ -10,6 +10,7 @@ class ExplicitEuler {
  public:
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
+  static constexpr bool remembers_nothing = true;
 
   explicit ExplicitEuler(const System& system) : rate_(system.zero()) {}
 

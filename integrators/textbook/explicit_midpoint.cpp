@@ -10,6 +10,7 @@ class ExplicitMidpoint {
  public:
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
+  static constexpr bool remembers_nothing = true;
 
   explicit ExplicitMidpoint(const System& system) : rate_(system.zero()), middle_(system.zero()) {}
 

@@ -10,6 +10,7 @@ class Heun {
  public:
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
+  static constexpr bool remembers_nothing = true;
 
   explicit Heun(const System& system) : k1_(system.zero()), k2_(system.zero()), stage_(system.zero()) {}
 

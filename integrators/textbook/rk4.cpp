@@ -10,6 +10,7 @@ class Rk4 {
  public:
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
+  static constexpr bool remembers_nothing = true;
 
   explicit Rk4(const System& system)
       : k1_(system.zero()), k2_(system.zero()), k3_(system.zero()), k4_(system.zero()), stage_(system.zero()) {}

@@ -11,6 +11,7 @@ class SemiImplicitEuler {
  public:
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
+  static constexpr bool remembers_nothing = true;
 
   explicit SemiImplicitEuler(const System& system) : rate_(system.zero()) {}
 

@@ -11,6 +11,7 @@ class SemiImplicitEulerExp {
  public:
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
+  static constexpr bool remembers_nothing = true;
 
   explicit SemiImplicitEulerExp(const System& system) : rate_(system.zero()), step_(system.zero_tangent()) {}
 

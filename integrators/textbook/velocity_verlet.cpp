@@ -19,6 +19,7 @@ class VelocityVerlet {
  public:
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
+  static constexpr bool remembers_nothing = true;
 
   explicit VelocityVerlet(const System& system)
       : first_(system.zero()), second_(system.zero()), middle_(system.zero()), step_(system.zero_tangent()) {}
