@@ -26,6 +26,7 @@ struct Declaration {
   std::string summary;    ///< one line of mathematics
   int order = 0;          ///< of the global error under forces; 0: variable
   int free_order = 0;     ///< of bodies without forces where it is another one: exact_order means exact; 0: the same
+  int lowest_order = 0, highest_order = 0;  ///< where IntegratorSettings::order chooses among several; 0: it does not
   bool adaptive = false;  ///< takes a tolerance and chooses its steps; otherwise it takes a step h
   bool implicit = false;
   int evaluations_per_step = 0;  ///< right-hand sides; 0: not constant, the method counts them

@@ -255,7 +255,7 @@ class Report {
   std::vector<std::string> kept_cells(const std::vector<std::string>& cells) const {
     static const std::set<std::string> kept = {"integrator", "orientation",   "angular_state", "gyroscopic",
                                                "normalize",  "rotation_from", "precision"};
-    const auto names = config_columns({}, false);
+    const auto names = config_columns({}, {});
     std::vector<std::string> some;
     for (std::size_t k = 0; k < names.size(); ++k) {
       if (kept.contains(names[k])) some.push_back(cells[k]);
@@ -264,7 +264,7 @@ class Report {
   }
 
   std::string csv() const {
-    auto header = kept_cells(config_columns({}, false));
+    auto header = kept_cells(config_columns({}, {}));
     for (const char* c : {"trait", "declared", "measured", "unit", "limit", "verdict", "scenario", "note"}) {
       header.emplace_back(c);
     }
@@ -284,7 +284,7 @@ class Report {
 
   /// One after another, so that no step waits for another's.
   std::string cost(std::vector<std::string>& sentences) const {
-    auto header = kept_cells(config_columns({}, false));
+    auto header = kept_cells(config_columns({}, {}));
     for (const char* c : {"step_ns", "rhs_per_step", "rhs_ns"}) header.emplace_back(c);
     std::string text = csv_row(header);
     std::map<double, std::string> by_time;

@@ -275,7 +275,7 @@ class Orders {
   }
 
   std::string csv() const {
-    const auto names = config_columns(study_.varied_keys, study_.names_summation);
+    const auto names = config_columns(study_.varied_keys, study_.named);
     const auto kept = [&](const std::vector<std::string>& cells) {
       std::vector<std::string> some;
       for (std::size_t k = 0; k < cells.size(); ++k) {

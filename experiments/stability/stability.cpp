@@ -320,7 +320,7 @@ class Stability {
   }
 
   std::vector<std::string> without_step(const std::vector<std::string>& cells) const {
-    const auto names = config_columns(study_.varied_keys, study_.names_summation);
+    const auto names = config_columns(study_.varied_keys, study_.named);
     std::vector<std::string> some;
     for (std::size_t k = 0; k < cells.size(); ++k) {
       if (names[k] != "dt_s" && names[k] != "tolerance" && names[k] != "t_end_s") some.push_back(cells[k]);
@@ -329,7 +329,7 @@ class Stability {
   }
 
   std::string critical_csv() const {
-    auto header = without_step(config_columns(study_.varied_keys, study_.names_summation));
+    auto header = without_step(config_columns(study_.varied_keys, study_.named));
     for (const char* c :
          {"characteristic_rate_rad_per_s", "smallest_step_s", "largest_step_s", "growth", "largest_holding_step_s",
           "critical_step_s", "critical_h_omega", "holds_again", "blow_up", "largest_step_before_blow_up_s",
@@ -359,7 +359,7 @@ class Stability {
 
   std::string runs_csv() const {
     std::vector<std::string> header = {"run"};
-    for (auto& c : config_columns(study_.varied_keys, study_.names_summation)) header.push_back(std::move(c));
+    for (auto& c : config_columns(study_.varied_keys, study_.named)) header.push_back(std::move(c));
     for (const char* c : {"steps", "h_omega", "verdict", "spectral_radius"}) header.emplace_back(c);
     std::string text = csv_row(header);
     for (const auto& f : found_) {

@@ -34,6 +34,7 @@ constexpr AxisHelp axis_help[] = {
     {"rotation-from", "normalised|stored", "what a quaternion off the unit sphere stands for (default: normalised)"},
     {"precision", "float|double|long_double", "arithmetic; other than double for our own methods and Odeint's (default: double)"},
     {"summation", "plain|compensated", "how increments are added to the state; compensated: what rounding loses is kept and added to the next one (default: plain)"},
+    {"order", "N", "of methods that offer several, as --list integrators says"},
     {"dt", "S", "step of fixed-step methods, in s"},
     {"tolerance", "X", "relative and absolute tolerance of adaptive methods"},
     {"t-end", "S", "duration in s (default: the scenario's)"},

@@ -76,6 +76,7 @@ struct Axes {
   std::vector<bool> gyroscopic, normalise;
   std::vector<RotationFrom> rotation_from;
   std::vector<Precision> precisions;
+  std::vector<int> orders;
   std::vector<std::optional<Summation>> summations;
   std::vector<double> steps, tolerances, durations;
   std::vector<std::optional<std::int64_t>> samples;
@@ -118,6 +119,10 @@ Axes read_axes(const Experiment& experiment, const Options& options) {
       {{"float", Precision::single}, {"double", Precision::dual}, {"long_double", Precision::extended}}, Precision::dual);
   axes.summations = choices<std::optional<Summation>>(
       options, "summation", {{"plain", Summation::plain}, {"compensated", Summation::compensated}}, std::nullopt);
+  for (const double n : positive(options, "order", "")) {
+    if (n != std::floor(n) || n > 100) throw InputError(fmt::format("{}: {} is not an order", options.label("order"), n));
+    axes.orders.push_back(static_cast<int>(n));
+  }
   axes.steps = positive(options, "dt", " of seconds");
   axes.tolerances = positive(options, "tolerance", "");
   for (const double x : axes.tolerances) {
@@ -191,9 +196,11 @@ PlannedRun planned(const RunConfig& config, const std::shared_ptr<const Scenario
   std::string text = fmt::format("{}\n{}\n", results_version, scenario->canonical);
   RunConfig said = config;  // a key that this run leaves as it is, is none of its own; nor what was always so
   std::erase_if(said.varied, [](const Override& o) { return o.value.empty(); });
+  said.order.reset();
   said.summation.reset();
   for (const std::string& cell : config_cells(said)) text += cell + "\n";
   if (config.samples) text += std::to_string(*config.samples);
+  if (config.order.value_or(0) > 0) text += fmt::format("\norder {}", *config.order);
   if (is_compensated(config)) text += "\ncompensated";
   return {.id = hash(config.reference ? text + "\nreference" : text),
           .motion = hash(text),
@@ -227,7 +234,7 @@ class Planner {
         reference_(reference) {
     for (const auto& [key, text] : options.vary) plan_.varied_keys.push_back(key);
     std::sort(plan_.varied_keys.begin(), plan_.varied_keys.end());
-    plan_.names_summation = axes_.summations.front().has_value();
+    plan_.named = {.order = !axes_.orders.empty(), .summation = axes_.summations.front().has_value()};
     std::set<std::string> seen;
     for (const std::string& name : split_list(options.axes.at("scenario"), ',', options.label("scenario"))) {
       const ScenarioSource source = ScenarioSource::open(name, options.label("scenario"));
@@ -274,7 +281,11 @@ class Planner {
   }
 
   void add_settings(RunConfig config, const std::shared_ptr<const Scenario>& scenario) {
-    const bool adaptive = find_integrator(config.integrator)->declaration.adaptive;
+    const Declaration& declared = find_integrator(config.integrator)->declaration;
+    const bool adaptive = declared.adaptive;
+    std::vector<std::optional<int>> orders(axes_.orders.begin(), axes_.orders.end());
+    if (orders.empty()) orders = {std::nullopt};
+    else if (declared.highest_order == 0) orders = {0};
     const std::vector<double>& sizes = adaptive ? axes_.tolerances : axes_.steps;
     if (sizes.empty()) throw InputError(config.integrator + " needs " + (adaptive ? "--tolerance" : "--dt"));
     const std::vector<double> durations =
@@ -282,16 +293,19 @@ class Planner {
     for (const bool normalise : axes_.normalise) {
       for (const Precision precision : axes_.precisions) {
         for (const auto& summation : axes_.summations) {
-          for (const double size : sizes) {
-            for (const double t_end : durations) {
-              for (const auto& samples : axes_.samples) {
-                config.normalise = normalise;
-                config.precision = precision;
-                config.summation = summation;
-                (adaptive ? config.tolerance : config.dt) = size;
-                config.t_end = experiment_.duration ? experiment_.duration(t_end, size) : t_end;
-                config.samples = samples;
-                add_run(config, scenario);
+          config.normalise = normalise;
+          config.precision = precision;
+          config.summation = summation;
+          for (const auto& order : orders) {
+            config.order = order;
+            for (const double size : sizes) {
+              for (const double t_end : durations) {
+                for (const auto& samples : axes_.samples) {
+                  (adaptive ? config.tolerance : config.dt) = size;
+                  config.t_end = experiment_.duration ? experiment_.duration(t_end, size) : t_end;
+                  config.samples = samples;
+                  add_run(config, scenario);
+                }
               }
             }
           }
@@ -401,12 +415,13 @@ std::size_t widen(Plan& plan, const std::vector<RunConfig>& configs) {
   return added.size();
 }
 
-std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys, bool names_summation) {
+std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys, const NamedOptions& named) {
   std::vector<std::string> columns = {"scenario",      "integrator",    "orientation",  "angular_state",
                                       "gyroscopic",    "normalize",     "rotation_from", "precision",
                                       "dt_s",          "tolerance",     "t_end_s",      "broad_phase",
                                       "narrow_phase",  "response",      "impact_timing"};
-  if (names_summation) columns.emplace_back("summation");
+  if (named.order) columns.emplace_back("order");
+  if (named.summation) columns.emplace_back("summation");
   columns.insert(columns.end(), varied_keys.begin(), varied_keys.end());
   return columns;
 }
@@ -428,6 +443,7 @@ std::vector<std::string> config_cells(const RunConfig& config) {
                                     "",
                                     "",
                                     ""};
+  if (config.order) cells.push_back(*config.order == 0 ? "" : std::to_string(*config.order));
   if (config.summation) cells.emplace_back(name(*config.summation));
   for (const Override& o : config.varied) cells.push_back(o.value);
   return cells;

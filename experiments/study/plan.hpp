@@ -24,7 +24,7 @@ struct PlannedRun {
 struct Plan {
   std::vector<Scenario> scenarios;       ///< each one of the study once, without overrides
   std::vector<std::string> varied_keys;  ///< sorted
-  bool names_summation = false;          ///< --summation was given: its runs have that column
+  NamedOptions named{};
   std::vector<std::string> invariants;   ///< further declared invariants of all scenarios, sorted
   std::vector<PlannedRun> runs;          ///< sorted by configuration, none twice
   /// Of the further products, where the experiment has some: their axes as the command line would write them.
@@ -40,7 +40,7 @@ Plan make_plan(const Experiment& experiment, const Options& options);
 std::size_t widen(Plan& plan, const std::vector<RunConfig>& configs);
 
 /// The configuration of a run as the cells of runs.csv, in the order of config_columns().
-std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys, bool names_summation);
+std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys, const NamedOptions& named);
 std::vector<std::string> config_cells(const RunConfig& config);
 
 }  // namespace polhode::study

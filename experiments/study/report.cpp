@@ -255,7 +255,7 @@ std::string value_list(const std::set<double, std::greater<>>& values) {
 
 std::string options_html(const StudyView& study) {
   std::set<double, std::greater<>> steps, tolerances, ends;
-  std::set<std::string> orientations, states, gyroscopic, normalise, rotation, precision, summation, samples;
+  std::set<std::string> orientations, states, gyroscopic, normalise, rotation, precision, orders, summation, samples;
   for (const auto& run : study.runs) {
     const auto& c = run.config;
     if (c.dt) steps.insert(*c.dt);
@@ -267,6 +267,7 @@ std::string options_html(const StudyView& study) {
     normalise.emplace(c.normalise ? "step" : "never");
     if (c.formulation.orientation == Orientation::quaternion) rotation.emplace(name(c.formulation.rotation_from));
     precision.emplace(name(c.precision));
+    if (c.order.value_or(0) > 0) orders.insert(std::to_string(*c.order));
     if (c.summation) summation.emplace(name(*c.summation));
     samples.insert(c.samples ? std::to_string(*c.samples) : "every step");
   }
@@ -293,6 +294,7 @@ std::string options_html(const StudyView& study) {
   add("normalize", texts(normalise));
   add("rotation from (quaternions)", texts(rotation));
   add("precision", texts(precision));
+  add("order, of methods that offer several", texts(orders));
   add("summation of the state", texts(summation));
   add("observed at (samples)", texts(samples));
   return out + "</dl>\n";

@@ -62,7 +62,7 @@ void write_runs_csv(const StudyView& study) {
   const auto add = [](std::vector<std::string>& row, const std::vector<std::string>& cells) {
     row.insert(row.end(), cells.begin(), cells.end());
   };
-  add(header, config_columns(study.varied_keys, study.names_summation));
+  add(header, config_columns(study.varied_keys, study.named));
   add(header, {"status", "message", "steps", "rhs_evaluations", "energy_initial_J", "energy_drift_max_rel",
                "energy_drift_final_rel", "energy_drift_rate_W", "drift_class", "energy_drift_rate_ci_W", "drift_exponent",
                "drift_exponent_low", "drift_exponent_high", "linear_momentum_drift_max_rel",

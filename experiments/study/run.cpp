@@ -38,7 +38,8 @@ IntegratorSettings settings_of(const RunConfig& config) {
   return {.dt = config.dt.value_or(0),
           .tolerance = config.tolerance.value_or(0),
           .t_end = config.t_end,
-          .project = config.normalise};
+          .project = config.normalise,
+          .order = config.order.value_or(0)};
 }
 
 using Clock = std::chrono::steady_clock;
@@ -104,6 +105,11 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
   if (config.tolerance && *config.tolerance < report::epsilon(config.precision)) {
     return fmt::format("{}: a tolerance of {:g} is below the {:.2g} to which numbers are kept in {}", config.integrator,
                        *config.tolerance, report::epsilon(config.precision), name(config.precision));
+  }
+  const Declaration& declared = entry->declaration;
+  if (const int order = config.order.value_or(0); order > 0 && (order < declared.lowest_order || order > declared.highest_order)) {
+    return fmt::format("{} has the orders {} to {}, not {}", config.integrator, declared.lowest_order,
+                       declared.highest_order, order);
   }
   if (is_compensated(config) && !entry->declaration.additive) {
     return config.integrator + (entry->declaration.adaptive

@@ -23,6 +23,11 @@ constexpr std::string_view name(Precision p) {
 enum class Summation { plain, compensated };
 constexpr std::string_view name(Summation s) { return s == Summation::plain ? "plain" : "compensated"; }
 
+/// Options that have a column in runs.csv only in a study that gives them.
+struct NamedOptions {
+  bool order = false, summation = false;
+};
+
 struct RunConfig {
   std::string scenario;             ///< name
   /// The varied keys of the scenario with this run's values, in the axes' order; an empty value leaves the key as it is.
@@ -31,6 +36,7 @@ struct RunConfig {
   Formulation formulation;
   bool normalise = false;           ///< --normalize step
   Precision precision = Precision::dual;
+  std::optional<int> order;            ///< absent: the study does not speak of it; 0: means nothing to this method
   std::optional<Summation> summation;  ///< absent: plain, and the study does not speak of it
   std::optional<double> dt;         ///< s; fixed-step methods only
   std::optional<double> tolerance;  ///< adaptive methods only

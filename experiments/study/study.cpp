@@ -58,7 +58,7 @@ std::string plan_text(const Experiment& experiment, const Plan& plan, const std:
   std::string text = fmt::format("{}: {} runs, about {:.2g} right-hand sides, into {}\n", experiment.name,
                                  plan.runs.size(), cost, folder.string());
   if (refused > 0) text += fmt::format("{} of them make no sense and will be refused\n", refused);
-  const auto names = config_columns(plan.varied_keys, plan.names_summation);
+  const auto names = config_columns(plan.varied_keys, plan.named);
   std::vector<std::vector<std::string>> cells;
   if (experiment.refine) text += "further runs follow from the results of these\n";
   for (const PlannedRun& run : plan.runs) cells.push_back(config_cells(run.config));
@@ -164,7 +164,7 @@ StudyView view_of(const Experiment& experiment, const Options& options, const Pl
   view.command = options.command;
   view.scenarios = plan.scenarios;
   view.varied_keys = plan.varied_keys;
-  view.names_summation = plan.names_summation;
+  view.named = plan.named;
   view.invariants = plan.invariants;
   view.folder = folder;
   view.durations_follow_steps = static_cast<bool>(experiment.duration);

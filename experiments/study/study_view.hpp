@@ -18,7 +18,7 @@ struct StudyView {
   std::string command;                  ///< the command line that makes this study again
   std::vector<Scenario> scenarios;      ///< each scenario of the study once, without overrides
   std::vector<std::string> varied_keys; ///< scenario keys that are axes
-  bool names_summation = false;         ///< --summation was given
+  NamedOptions named{};
   std::vector<std::string> invariants;  ///< names of further declared invariants, sorted: columns of runs.csv
   std::vector<RunRecord> runs;          ///< sorted by configuration, the order of runs.csv
   std::filesystem::path folder;         ///< --out

@@ -92,7 +92,7 @@ std::string analysis_summary(const Analysis& analysis) {
 
 std::string summary_table(const StudyView& study) {
   if (study.analysis) return analysis_summary(*study.analysis);
-  const std::vector<std::string> names = config_columns(study.varied_keys, study.names_summation);
+  const std::vector<std::string> names = config_columns(study.varied_keys, study.named);
   std::vector<std::vector<std::string>> cells;
   for (const RunRecord& run : study.runs) cells.push_back(config_cells(run.config));
   const auto columns = shown_columns(cells, names);

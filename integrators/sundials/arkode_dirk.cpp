@@ -76,8 +76,10 @@ class ArkodeDirk final : public SundialsIntegrator {
 IntegratorEntry arkode_dirk() {
   return {{.name = "arkode_dirk",
            .family = "SUNDIALS",
-           .summary = "ARKODE, embedded diagonally implicit Runge-Kutta of order 4 unless another is asked for",
+           .summary = "ARKODE, embedded diagonally implicit Runge-Kutta of order 4, or --order 2 to 5",
            .order = 4,
+           .lowest_order = 2,
+           .highest_order = 5,
            .adaptive = true,
            .implicit = true},
           [](const System<double>& system, const IntegratorSettings& settings) {

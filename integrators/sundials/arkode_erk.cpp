@@ -67,8 +67,10 @@ class ArkodeErk final : public SundialsIntegrator {
 IntegratorEntry arkode_erk() {
   return {{.name = "arkode_erk",
            .family = "SUNDIALS",
-           .summary = "ARKODE, embedded explicit Runge-Kutta of order 4 (Zonneveld) unless another is asked for",
+           .summary = "ARKODE, embedded explicit Runge-Kutta of order 4 (Zonneveld), or --order 2 to 8",
            .order = 4,
+           .lowest_order = 2,
+           .highest_order = 8,
            .adaptive = true},
           [](const System<double>& system, const IntegratorSettings& settings) {
             return std::make_unique<ArkodeErk>(system, settings);

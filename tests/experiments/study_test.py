@@ -308,6 +308,19 @@ class SameBytes(StudyTest):
         self.assertEqual(sum(r["integrator"] == "odeint_dopri5" and r["dt_s"] == "" for r in rows), 3)
         self.assertEqual(len(rows), 5)
 
+    def test_order_chooses_the_table_of_methods_that_offer_several(self):
+        runs = self.rows("--scenario", "detest_b5", "--integrator", "arkode_erk,arkode_dirk,rk4", "--order", "3,5",
+                         "--tolerance", "1e-8", "--dt", "0.1", "--t-end", "10")
+        self.assertEqual([(r["integrator"], r["order"]) for r in runs],
+                         [("arkode_dirk", "3"), ("arkode_dirk", "5"), ("arkode_erk", "3"), ("arkode_erk", "5"), ("rk4", "")])
+        steps = {(r["integrator"], r["order"]): int(r["steps"]) for r in runs}
+        for method in ("arkode_dirk", "arkode_erk"):
+            self.assertGreater(steps[method, "3"], 2 * steps[method, "5"], "a higher order takes longer steps")
+        refused = self.rows("--scenario", "detest_b5", "--integrator", "arkode_erk,arkode_dirk", "--order", "7",
+                            "--tolerance", "1e-8", "--t-end", "1", status=3)
+        self.assertEqual([(r["integrator"], r["status"]) for r in refused], [("arkode_dirk", "refused"), ("arkode_erk", "ok")])
+        self.assertIn("has the orders 2 to 5, not 7", refused[0]["message"])
+
     def test_a_study_file_says_the_same_as_the_command_line(self):
         file = self.write("study.toml", """
 scenario = ["peters_hsu"]

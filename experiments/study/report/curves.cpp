@@ -93,6 +93,7 @@ Options variant_options(const std::vector<RunRecord>& runs) {
            [](const RunConfig& c) { return fmt::format("normalize {}", c.normalise ? "step" : "never"); },
            [](const RunConfig& c) { return fmt::format("rotation {}", name(c.formulation.rotation_from)); },
            [](const RunConfig& c) { return std::string(name(c.precision)); },
+           [](const RunConfig& c) { return c.order.value_or(0) > 0 ? fmt::format("order {}", *c.order) : std::string(); },
            [](const RunConfig& c) { return c.summation ? std::string(name(*c.summation)) : std::string(); }}};
 }
 

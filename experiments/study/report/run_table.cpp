@@ -58,6 +58,8 @@ std::vector<Field> configuration(const StudyView& study) {
   option("rotation from", "", Kind::text,
          [](const RunConfig& c) { return std::string(name(c.formulation.rotation_from)); });
   option("precision", "", Kind::text, [](const RunConfig& c) { return std::string(name(c.precision)); });
+  option("order", "", Kind::number,
+         [](const RunConfig& c) { return c.order.value_or(0) > 0 ? std::to_string(*c.order) : std::string(); });
   option("summation", "", Kind::text,
          [](const RunConfig& c) { return c.summation ? std::string(name(*c.summation)) : std::string(); });
   option("t_end", "s", Kind::number, [](const RunConfig& c) { return number(c.t_end, 6); });
