@@ -6,7 +6,8 @@
 // One line lists a broad phase: the function of its name, in the file of its name in broad/, makes its entry.
 #define POLHODE_BROAD_PHASES(PHASE) \
   PHASE(all_pairs) \
-  PHASE(sweep_and_prune)
+  PHASE(sweep_and_prune) \
+  PHASE(uniform_grid)
 
 namespace polhode {
 

@@ -15,6 +15,7 @@
 
 #include "collision/broad/boxes.hpp"
 #include "collision/broad/pair_list.hpp"
+#include "collision/broad/rounded_box.hpp"
 #include "collision/broad_phase.hpp"
 
 namespace polhode {
@@ -104,16 +105,11 @@ class SweepAndPrune final : public BroadPhase {
     for (std::size_t k = 0; k < n; ++k) {
       const Box& b = boxes_[order_[k]];
       swept_[k] = b;
-      low2_[k] = rounded(b.low[second]);
-      high2_[k] = rounded(b.high[second]);
-      low3_[k] = rounded(b.low[third]);
-      high3_[k] = rounded(b.high[third]);
+      low2_[k] = broad::rounded(b.low[second]);
+      high2_[k] = broad::rounded(b.high[second]);
+      low3_[k] = broad::rounded(b.low[third]);
+      high3_[k] = broad::rounded(b.high[third]);
     }
-  }
-
-  static float rounded(double x) {
-    constexpr double most = std::numeric_limits<float>::max();
-    return static_cast<float>(std::clamp(x, -most, most));
   }
 
   void sweep(std::size_t i) {
