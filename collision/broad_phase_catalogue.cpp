@@ -7,7 +7,8 @@
 #define POLHODE_BROAD_PHASES(PHASE) \
   PHASE(all_pairs) \
   PHASE(sweep_and_prune) \
-  PHASE(uniform_grid)
+  PHASE(uniform_grid) \
+  PHASE(bvh)
 
 namespace polhode {
 
