@@ -8,6 +8,9 @@
   PHASE(all_pairs) \
   PHASE(sweep_and_prune) \
   PHASE(uniform_grid) \
+  PHASE(quadtree) \
+  PHASE(octree) \
+  PHASE(bsp_tree) \
   PHASE(bvh)
 
 namespace polhode {
