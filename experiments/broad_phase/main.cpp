@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "experiments/broad_phase/costs.hpp"
 #include "experiments/broad_phase/options.hpp"
 #include "experiments/broad_phase/recorded.hpp"
 #include "experiments/study/input_error.hpp"
@@ -24,7 +25,7 @@ int main(int argc, char** argv) {
       answer_recorded_motion(read_recorded_motion(options.boxes), *options.phases.front(), options.out);
       return 0;
     }
-    return 0;
+    return measure_costs(options);
   } catch (const InputError& error) {
     std::string line = error.what();
     std::replace(line.begin(), line.end(), '\n', ' ');

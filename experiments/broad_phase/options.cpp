@@ -73,7 +73,7 @@ BroadPhaseOptions parse_broad_phase_options(int argc, const char* const* argv) {
       app.add_option("--motion", options.motion, "path of a box in a step, over its mean edge (default: 0.02)")
           ->type_name("X"),
       app.add_option("--patience", options.patience,
-                     "leave out what is expected to take longer for a step, in s (default: 2)")
+                     "leave out what is expected to take longer for a step, in s (default: 0.5)")
           ->type_name("S"),
       app.add_option("--seed", options.seed, "of the random boxes (default: 1)")->type_name("N"),
       app.add_flag("!--no-figures", options.figures, "no figures")};

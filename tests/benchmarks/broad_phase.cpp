@@ -11,9 +11,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <functional>
 #include <memory>
-#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -24,10 +22,7 @@
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #endif
 #ifdef POLHODE_HAS_FCL
-#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
-#include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
-#include <fcl/geometry/shape/box.h>
-#include <fcl/narrowphase/collision_object.h>
+#include "tests/benchmarks/peers/fcl_trees.hpp"
 #endif
 #ifdef POLHODE_HAS_ODE
 #include <ode/ode.h>
@@ -125,37 +120,23 @@ class Bullet final : public Contender {
 #endif
 
 #ifdef POLHODE_HAS_FCL
-template <class Manager>
 class Fcl final : public Contender {
  public:
-  explicit Fcl(const char* called) : Contender(called) {}
+  Fcl(const char* called, bool in_array) : Contender(called), in_array_(in_array) {}
   std::size_t step(const Gas& gas) override {
-    if (objects_.empty()) {
-      for (const Vector& h : gas.half) {
-        objects_.push_back(std::make_unique<fcl::CollisionObjectd>(std::make_shared<fcl::Boxd>(2 * h)));
-      }
-    }
-    for (std::size_t i = 0; i < objects_.size(); ++i) {
-      objects_[i]->setTranslation(gas.centre[i]);
-      objects_[i]->computeAABB();
-    }
-    if (manager_.size() == 0) {
-      for (const auto& o : objects_) manager_.registerObject(o.get());
-      manager_.setup();
-    } else {
-      manager_.update();
-    }
-    std::size_t pairs = 0;
-    manager_.collide(&pairs, [](fcl::CollisionObjectd*, fcl::CollisionObjectd*, void* data) {
-      ++*static_cast<std::size_t*>(data);
-      return false;
-    });
-    return pairs;
+    if (!tree_) tree_ = polhode::peers::fcl_tree(plain(gas.half), in_array_);
+    return tree_->step(plain(gas.centre));
   }
 
  private:
-  std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects_;
-  Manager manager_;
+  static std::vector<double> plain(const std::vector<Vector>& vectors) {
+    std::vector<double> numbers;
+    numbers.reserve(3 * vectors.size());
+    for (const Vector& v : vectors) numbers.insert(numbers.end(), {v.x(), v.y(), v.z()});
+    return numbers;
+  }
+  bool in_array_;
+  std::unique_ptr<polhode::peers::FclTree> tree_;
 };
 #endif
 
@@ -195,8 +176,8 @@ std::vector<std::unique_ptr<Contender>> contenders(std::size_t n) {
   all.push_back(std::make_unique<Bullet>());
 #endif
 #ifdef POLHODE_HAS_FCL
-  all.push_back(std::make_unique<Fcl<fcl::DynamicAABBTreeCollisionManagerd>>("FCL DynamicAABBTree"));
-  all.push_back(std::make_unique<Fcl<fcl::DynamicAABBTreeCollisionManager_Arrayd>>("FCL DynamicAABBTree_Array"));
+  all.push_back(std::make_unique<Fcl>("FCL DynamicAABBTree", false));
+  all.push_back(std::make_unique<Fcl>("FCL DynamicAABBTree_Array", true));
 #endif
 #ifdef POLHODE_HAS_ODE
   all.push_back(std::make_unique<Ode>());

@@ -12,7 +12,7 @@ import tempfile
 import unittest
 
 PROGRAM = pathlib.Path(os.environ.get("POLHODE_BIN_DIR", ".")) / "broad_phase"
-PHASES = ["all_pairs", "sweep_and_prune"]
+PHASES = ["all_pairs", "sweep_and_prune", "uniform_grid", "quadtree", "octree", "bsp_tree", "bvh"]
 HEADER = "step,id,hx,hy,hz,px,py,pz\n"
 
 
@@ -115,6 +115,32 @@ class RecordedMotion(BroadPhaseTest):
                 self.assertEqual(done.stderr.count("\n"), 1)
                 self.assertIn(said, done.stderr)
                 self.assertEqual([p.name for p in self.folder.iterdir()], ["boxes.csv"])
+
+
+class Costs(BroadPhaseTest):
+    def test_every_broad_phase_is_measured_at_every_number_of_bodies(self):
+        done = self.call("--bodies", "50,200,800", "--out", "out", "--no-figures")
+        self.assertIn("same pairs", done.stdout)
+        with open(self.folder / "out" / "cost.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual({(r["broad_phase"], r["bodies"]) for r in rows},
+                         {(p, n) for p in PHASES for n in ("50", "200", "800")})
+        for row in rows:
+            self.assertGreater(float(row["ns_per_box"]), 0)
+            self.assertGreater(float(row["pairs_per_box"]), 0)
+        self.assertEqual(len({r["pairs_per_box"] for r in rows if r["bodies"] == "800"}), 1)
+        for table in ("cost.md", "cost.tex"):
+            self.assertIn("bvh", (self.folder / "out" / "tables" / table).read_text(encoding="utf-8"))
+
+    def test_the_figure_is_drawn(self):
+        self.call("--bodies", "50,200", "--broad-phase", "bvh,octree", "--out", "out")
+        for ending in ("gp", "dat", "svg", "tex"):
+            self.assertTrue((self.folder / "out" / "figures" / f"cost_against_bodies.{ending}").exists(), ending)
+
+    def test_what_takes_too_long_is_left_out_and_said(self):
+        done = self.call("--bodies", "100,4000", "--patience", "1e-3", "--broad-phase", "all_pairs,bvh", "--out", "out",
+                         "--no-figures")
+        self.assertIn("all_pairs is left out", done.stdout)
 
 
 class Asking(BroadPhaseTest):
