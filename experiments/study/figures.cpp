@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "experiments/study/report/child_process.hpp"
+#include "experiments/study/report/draw_figures.hpp"
 #include "experiments/study/report/gnuplot_figure.hpp"
 #include "experiments/study/report/notation.hpp"
 #include "experiments/study/report/pgfplots_figure.hpp"
@@ -93,9 +94,10 @@ std::string not_installed(const FigureSet& set, const std::string& where) {
       where, words(names));
 }
 
-/// Draws the figures into a folder of the study; says so where gnuplot is not installed.
-std::string draw(const FigureSet& set, const StudyView& study, const std::string& where) {
-  const auto folder = study.folder / where;
+}  // namespace
+
+std::string draw_figures(const FigureSet& set, const fs::path& study_folder, const std::string& where) {
+  const auto folder = study_folder / where;
   remove_old_figures(folder);
   if (set.figures.empty()) return "";
   fs::create_directories(folder);
@@ -117,14 +119,14 @@ std::string draw(const FigureSet& set, const StudyView& study, const std::string
   return "";
 }
 
-}  // namespace
-
 std::string write_figures(const StudyView& study) {
   const bool alone = study.analysis && study.analysis->alone;
   const auto grouping = group(study);
-  auto said = draw(alone ? FigureSet{study.analysis->figures, {}} : figures_of(study, grouping), study, "figures");
+  auto said = draw_figures(alone ? FigureSet{study.analysis->figures, {}} : figures_of(study, grouping), study.folder,
+                           "figures");
   if (!study.analysis) return said;
-  const auto said_of_timed = draw({.figures = study.analysis->timed.figures, .absent = {}}, study, timings_folder);
+  const auto said_of_timed =
+      draw_figures({.figures = study.analysis->timed.figures, .absent = {}}, study.folder, timings_folder);
   return said.empty() ? said_of_timed : said;
 }
 

@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A bounding volume hierarchy that follows the motion: a binary tree of boxes over fat leaves. Leaves that a body left get
+// a new box in place, and the boxes above them are refitted, with tree rotations wherever these lower the surface area
+// (Kopta, Ize, Spjut, Brunvand, Davis and Kensler, "Fast, Effective BVH Updates for Animated Scenes", 2012). A leaf that
+// jumped is taken out and inserted where it adds the least area (Goldsmith and Salmon 1987; Catto, "Dynamic Bounding Volume
+// Hierarchies", 2019).
+//
+// Pairs of fat boxes are kept from step to step. The tree is traversed against itself (van den Bergen 1999), but only where
+// a leaf has changed, and the pairs that are kept are tested as they are.
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "collision/broad/boxes.hpp"
+#include "collision/broad/fat_boxes.hpp"
+#include "collision/broad/pair_list.hpp"
+#include "collision/broad_phase.hpp"
+
+namespace polhode {
+namespace {
+
+using broad::Box;
+using broad::FatBoxes;
+
+using Index = std::uint32_t;
+constexpr Index none = ~Index(0);
+
+double area(const Box& b) {
+  const double x = b.high[0] - b.low[0], y = b.high[1] - b.low[1], z = b.high[2] - b.low[2];
+  return x * y + y * z + z * x;
+}
+
+struct Node {
+  Box box;
+  Index parent = none, left = none, right = none;  // right: of a leaf its body, left none
+  bool changed = false;                            // it, or something below it, since pairs were last looked for
+  bool leaf() const { return left == none; }
+};
+
+class Bvh final : public BroadPhase {
+ public:
+  void update(std::span<const Bounds> bounds) override {
+    const bool anew = fat_.update(bounds);
+    if (anew) begin_scene();
+    if (anew || jumps_ > fat_.size() / 4) return build();
+    for (const Index body : fat_.left()) follow(body);
+    if (root_ != none) refit(root_);
+    stale_ = true;
+  }
+
+  std::span<const BodyPair> pairs() override {
+    if (!stale_) return pairs_;
+    renew_candidates();
+    pairs_.clear();
+    for (const BodyPair& p : candidates_) {
+      if (overlap(fat_.box(p.a), fat_.box(p.b))) pairs_.push_back(p);
+    }
+    broad::leave_room(pairs_, 4 * fat_.size());
+    stale_ = false;
+    return pairs_;
+  }
+
+ private:
+  void begin_scene() {
+    leaf_.assign(fat_.size(), none);
+    changed_.assign(fat_.size(), 0);
+    candidates_.clear();
+    nodes_.reserve(2 * fat_.size() + 2);
+    order_.reserve(fat_.size());
+    outside_.reserve(fat_.size());
+  }
+
+  /// From nothing, by halves along the longest side.
+  void build() {
+    nodes_.clear();
+    free_.clear();
+    order_.clear();
+    outside_.clear();
+    jumps_ = 0;
+    for (Index i = 0; i < fat_.size(); ++i) {
+      changed_[i] = 1;
+      leaf_[i] = none;
+      if (FatBoxes::too_large(fat_.fat(i))) outside_.push_back(i);
+      else order_.push_back(i);
+    }
+    free_.reserve(2 * fat_.size() + 2);
+    root_ = order_.empty() ? none : build(0, order_.size(), none);
+    stale_ = true;
+  }
+
+  Index build(std::size_t begin, std::size_t end, Index parent) {
+    const Index v = new_node();
+    nodes_[v].parent = parent;
+    nodes_[v].changed = true;
+    if (end - begin == 1) {
+      nodes_[v].left = none;
+      nodes_[v].right = order_[begin];
+      nodes_[v].box = fat_.fat(order_[begin]);
+      leaf_[order_[begin]] = v;
+      return v;
+    }
+    std::array<double, 3> low, high;
+    low.fill(1e300);
+    high.fill(-1e300);
+    for (std::size_t i = begin; i < end; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double c = centre(fat_.fat(order_[i]), k);
+        low[k] = std::min(low[k], c);
+        high[k] = std::max(high[k], c);
+      }
+    }
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < 3; ++k) {
+      if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
+    }
+    const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+    const std::size_t middle = begin + (end - begin) / 2;
+    std::nth_element(at(begin), at(middle), at(end), [&](Index a, Index b) {
+      const double x = centre(fat_.fat(a), axis), y = centre(fat_.fat(b), axis);
+      return x < y || (x == y && a < b);
+    });
+    const Index left = build(begin, middle, v), right = build(middle, end, v);
+    nodes_[v].left = left;
+    nodes_[v].right = right;
+    nodes_[v].box = hull(nodes_[left].box, nodes_[right].box);
+    return v;
+  }
+
+  Index new_node() {
+    if (!free_.empty()) {
+      const Index v = free_.back();
+      free_.pop_back();
+      nodes_[v] = Node{};
+      return v;
+    }
+    nodes_.emplace_back();
+    return static_cast<Index>(nodes_.size() - 1);
+  }
+
+  /// A body that left its fat box.
+  void follow(Index body) {
+    const Box& box = fat_.fat(body);
+    changed_[body] = 1;
+    const bool fits = !FatBoxes::too_large(box);
+    const Index leaf = leaf_[body];
+    if (leaf == none && !fits) return;
+    if (leaf != none && fits) {
+      const Index parent = nodes_[leaf].parent;
+      const bool near = parent == none || overlap(nodes_[parent].box, box);
+      if (near) {
+        nodes_[leaf].box = box;
+        return mark(leaf);
+      }
+    }
+    ++jumps_;
+    if (leaf != none) remove(leaf);
+    leaf_[body] = none;
+    if (fits) {
+      std::erase(outside_, body);
+      insert(body);
+    } else {
+      outside_.push_back(body);
+    }
+  }
+
+  void mark(Index v) {
+    for (; v != none && !nodes_[v].changed; v = nodes_[v].parent) nodes_[v].changed = true;
+  }
+
+  void remove(Index leaf) {
+    const Index parent = nodes_[leaf].parent;
+    free_.push_back(leaf);
+    if (parent == none) {
+      root_ = none;
+      return;
+    }
+    const Index sibling = nodes_[parent].left == leaf ? nodes_[parent].right : nodes_[parent].left;
+    const Index above = nodes_[parent].parent;
+    nodes_[sibling].parent = above;
+    if (above == none) root_ = sibling;
+    else replace_child(above, parent, sibling);
+    free_.push_back(parent);
+    for (Index v = above; v != none; v = nodes_[v].parent) {
+      nodes_[v].box = hull(nodes_[nodes_[v].left].box, nodes_[nodes_[v].right].box);
+    }
+  }
+
+  void replace_child(Index parent, Index old, Index by) {
+    (nodes_[parent].left == old ? nodes_[parent].left : nodes_[parent].right) = by;
+    nodes_[by].parent = parent;
+  }
+
+  /// Down to where it adds the least area.
+  void insert(Index body) {
+    const Box box = fat_.fat(body);
+    const Index leaf = new_node();
+    nodes_[leaf].box = box;
+    nodes_[leaf].right = body;
+    leaf_[body] = leaf;
+    if (root_ == none) {
+      root_ = leaf;
+      nodes_[leaf].changed = true;
+      return;
+    }
+    Index v = root_;
+    while (!nodes_[v].leaf()) {
+      const double own = area(nodes_[v].box), with = area(hull(nodes_[v].box, box));
+      const double inherited = with - own;
+      const auto below = [&](Index child) {
+        const Box& c = nodes_[child].box;
+        const double joined = area(hull(c, box));
+        return inherited + (nodes_[child].leaf() ? joined : joined - area(c));
+      };
+      const double left = below(nodes_[v].left), right = below(nodes_[v].right);
+      if (with < left && with < right) break;
+      v = left < right ? nodes_[v].left : nodes_[v].right;
+    }
+    const Index above = nodes_[v].parent, parent = new_node();
+    nodes_[parent] = {hull(nodes_[v].box, box), above, v, leaf, nodes_[v].changed};
+    if (above == none) root_ = parent;
+    else replace_child(above, v, parent);
+    nodes_[v].parent = nodes_[leaf].parent = parent;
+    for (Index u = above; u != none; u = nodes_[u].parent) nodes_[u].box = hull(nodes_[u].box, box);
+    mark(leaf);
+  }
+
+  /// The boxes of what has changed, from below.
+  void refit(Index v) {
+    Node& node = nodes_[v];
+    if (!node.changed || node.leaf()) return;
+    refit(node.left);
+    refit(node.right);
+    rotate(v);
+    node.box = hull(nodes_[node.left].box, nodes_[node.right].box);
+  }
+
+  /// Changes a child for a grandchild on the other side where that lowers the area most.
+  void rotate(Index v) {
+    Index best_child = none, best_grandchild = none;
+    double best = 0;
+    const Index children[2] = {nodes_[v].left, nodes_[v].right};
+    for (int side = 0; side < 2; ++side) {
+      const Index child = children[side], other = children[1 - side];
+      const Node& o = nodes_[other];
+      if (o.leaf()) continue;
+      const double before = area(o.box);
+      const double left = area(hull(nodes_[child].box, nodes_[o.right].box)) - before;   // in the left one's place
+      const double right = area(hull(nodes_[child].box, nodes_[o.left].box)) - before;
+      if (left < best) best = left, best_child = child, best_grandchild = o.left;
+      if (right < best) best = right, best_child = child, best_grandchild = o.right;
+    }
+    if (best_child == none) return;
+    const Index other = nodes_[best_grandchild].parent;
+    replace_child(v, best_child, best_grandchild);
+    replace_child(other, best_grandchild, best_child);
+    Node& o = nodes_[other];
+    o.box = hull(nodes_[o.left].box, nodes_[o.right].box);
+    o.changed = true;
+  }
+
+  /// Pairs of fat boxes: those that stay, and those of bodies that have changed.
+  void renew_candidates() {
+    found_.clear();
+    if (root_ != none) traverse(root_);
+    for (std::size_t i = 0; i < outside_.size(); ++i) search_outside(i);
+    if (root_ != none) settle(root_);
+    const auto fresh = found_.sorted(fat_.size());
+    std::erase_if(candidates_, [&](const BodyPair& p) { return changed_[p.a] | changed_[p.b]; });
+    if (!fresh.empty()) {
+      merged_.resize(candidates_.size() + fresh.size());
+      std::merge(candidates_.begin(), candidates_.end(), fresh.begin(), fresh.end(), merged_.begin());
+      std::swap(candidates_, merged_);
+    }
+    broad::leave_room(candidates_, 8 * fat_.size());
+    broad::leave_room(merged_, candidates_.capacity());
+    std::fill(changed_.begin(), changed_.end(), std::uint8_t(0));
+  }
+
+  void traverse(Index v) {
+    const Node& node = nodes_[v];
+    if (!node.changed || node.leaf()) return;
+    traverse(node.left);
+    traverse(node.right);
+    traverse(node.left, node.right);
+  }
+
+  void traverse(Index u, Index v) {
+    const Node &a = nodes_[u], &b = nodes_[v];
+    if (!(a.changed | b.changed) || !overlap(a.box, b.box)) return;
+    if (a.leaf() && b.leaf()) return found_.add(a.right, b.right);
+    if (b.leaf() || (!a.leaf() && area(a.box) > area(b.box))) {
+      traverse(a.left, v);
+      traverse(a.right, v);
+    } else {
+      traverse(u, b.left);
+      traverse(u, b.right);
+    }
+  }
+
+  /// Nothing below has changed any more.
+  void settle(Index v) {
+    Node& node = nodes_[v];
+    if (!node.changed) return;
+    node.changed = false;
+    if (node.leaf()) return;
+    settle(node.left);
+    settle(node.right);
+  }
+
+  /// A body that is not in the tree, against all that are and those outside behind it.
+  void search_outside(std::size_t i) {
+    const Index body = outside_[i];
+    const Box& box = fat_.fat(body);
+    for (Index other = 0; other < fat_.size(); ++other) {
+      if (leaf_[other] == none || !(changed_[body] | changed_[other])) continue;
+      if (overlap(box, fat_.fat(other))) found_.add(body, other);
+    }
+    for (std::size_t j = i + 1; j < outside_.size(); ++j) {
+      const Index other = outside_[j];
+      if ((changed_[body] | changed_[other]) && overlap(box, fat_.fat(other))) found_.add(body, other);
+    }
+  }
+
+  FatBoxes fat_;
+  std::vector<Node> nodes_;
+  std::vector<Index> free_, leaf_, order_, outside_;
+  std::vector<std::uint8_t> changed_;  // bodies, since pairs were last looked for
+  Index root_ = none;
+  std::size_t jumps_ = 0;  // since the tree was built
+  broad::PairList found_;
+  std::vector<BodyPair> candidates_, merged_, pairs_;  // sorted
+  bool stale_ = false;
+};
+
+}  // namespace
+
+BroadPhaseEntry bvh() {
+  return {"bvh", "a binary tree of boxes over fat leaves, refitted and rotated, traversed where it changed",
+          [] { return std::unique_ptr<BroadPhase>(new Bvh); }};
+}
+
+}  // namespace polhode

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The loose quadtree (Dim 2: halves along x and y) and octree (Dim 3): Ulrich, "Loose Octrees", Game Programming Gems
+// (2000); the trees are those of Finkel and Bentley (1974) and of Meagher (1980). A body stands in the node that holds its
+// centre, no deeper than where cells are as wide as the body, so that large bodies stay in inner nodes and the boxes of a
+// cell reach out of it by half a cell at most. Nodes are split where many bodies gather and joined where they leave.
+//
+// A body that stays in its cell stays in its node. Each step the bodies are laid out in the order of the tree, with the
+// box around all that a node and those below it hold; the tree is then traversed against itself. That the pairs are right
+// rests on these boxes alone, never on where a body stands.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "collision/broad/boxes.hpp"
+#include "collision/broad/pair_list.hpp"
+#include "collision/broad_phase.hpp"
+
+namespace polhode::broad {
+
+template <std::size_t Dim>
+class LooseTree final : public BroadPhase {
+ public:
+  void update(std::span<const Bounds> bounds) override {
+    const bool new_scene = bounds.size() != boxes_.size();
+    take(bounds, boxes_);
+    if (new_scene || astray_ > boxes_.size() / 8 + 8) plant();
+    astray_ = 0;
+    for (Index i = 0; i < boxes_.size(); ++i) {
+      if (home_[i] != none && stays(i)) continue;
+      if (home_[i] != none) take_out(i);
+      if (!in_root(boxes_[i])) ++astray_;
+      put_in(i);
+    }
+    stale_ = true;
+  }
+
+  std::span<const BodyPair> pairs() override {
+    if (!stale_) return sorted_;
+    found_.clear();
+    laid_.clear();
+    bodies_.clear();
+    if (!nodes_.empty()) {
+      lay_out(0);
+      leave_room(nodes_, 256 + 2 * boxes_.size());
+      leave_room(free_, 64 + boxes_.size() / 4);
+      traverse(0);
+    }
+    sorted_ = found_.sorted(boxes_.size());
+    stale_ = false;
+    return sorted_;
+  }
+
+ private:
+  using Index = std::uint32_t;
+  static constexpr Index none = ~Index(0);
+  static constexpr Index children = Index(1) << Dim;
+  static constexpr std::size_t capacity = 8;  // of a leaf whose bodies could stand deeper
+  static constexpr int deepest = 40;
+
+  struct Node {
+    std::array<double, Dim> middle{};
+    double half = 0;                    // of the cell's edge
+    int depth = 0;
+    Index parent = none, child = none;  // the first of its children, which stand side by side
+    Index head = none;                  // the list of its bodies
+    Index count = 0;
+    Index begin = 0, own_end = 0;       // in the layout: its own bodies
+    Box box{};                          // around all, itself and below
+    bool empty = true;
+  };
+
+  /// A root cell around the centres of all bodies that are somewhere.
+  void plant() {
+    std::array<double, Dim> low, high;
+    low.fill(far);
+    high.fill(-far);
+    for (const Box& b : boxes_) {
+      for (std::size_t k = 0; k < Dim; ++k) {
+        const double c = std::clamp(centre(b, k), -far, far);
+        if (std::abs(c) == far) continue;
+        low[k] = std::min(low[k], c);
+        high[k] = std::max(high[k], c);
+      }
+    }
+    nodes_.clear();
+    free_.clear();
+    Node root;
+    for (std::size_t k = 0; k < Dim; ++k) {
+      if (!(low[k] <= high[k])) continue;
+      root.middle[k] = 0.5 * (low[k] + high[k]);
+      root.half = std::max(root.half, 0.55 * (high[k] - low[k]));
+    }
+    if (root.half == 0) root.half = 1;
+    nodes_.push_back(root);
+    home_.assign(boxes_.size(), none);
+    next_.assign(boxes_.size(), none);
+    before_.assign(boxes_.size(), none);
+    laid_.reserve(boxes_.size());
+    bodies_.reserve(boxes_.size());
+  }
+
+  bool within(const Box& b, const Node& node) const {
+    for (std::size_t k = 0; k < Dim; ++k) {
+      if (!(std::abs(centre(b, k) - node.middle[k]) <= node.half)) return false;
+    }
+    return true;
+  }
+  bool in_root(const Box& b) const { return within(b, nodes_[0]); }
+
+  /// A body is as wide as a child's cell at most where it may stand in a child.
+  static bool fits_below(const Box& b, const Node& node) { return size_of(b) <= node.half && node.depth < deepest; }
+
+  bool stays(Index i) const {
+    const Node& node = nodes_[home_[i]];
+    const bool as_deep_as_may_be = node.child == none || !fits_below(boxes_[i], node);
+    return as_deep_as_may_be && (node.parent == none || (size_of(boxes_[i]) <= 2 * node.half && within(boxes_[i], node)));
+  }
+
+  Index child_of(const Node& node, const Box& b) const {
+    Index which = 0;
+    for (std::size_t k = 0; k < Dim; ++k) which |= Index(centre(b, k) >= node.middle[k]) << k;
+    return node.child + which;
+  }
+
+  void put_in(Index i) {
+    Index v = 0;
+    while (nodes_[v].child != none && fits_below(boxes_[i], nodes_[v])) v = child_of(nodes_[v], boxes_[i]);
+    link(i, v);
+    if (nodes_[v].count > capacity && nodes_[v].child == none) split(v);
+  }
+
+  void link(Index i, Index v) {
+    Node& node = nodes_[v];
+    home_[i] = v;
+    before_[i] = none;
+    next_[i] = node.head;
+    if (node.head != none) before_[node.head] = i;
+    node.head = i;
+    ++node.count;
+  }
+
+  void take_out(Index i) {
+    Node& node = nodes_[home_[i]];
+    (before_[i] == none ? node.head : next_[before_[i]]) = next_[i];
+    if (next_[i] != none) before_[next_[i]] = before_[i];
+    --node.count;
+  }
+
+  /// Hands down what fits, where enough does.
+  void split(Index v) {
+    std::size_t fitting = 0;
+    for (Index i = nodes_[v].head; i != none; i = next_[i]) fitting += fits_below(boxes_[i], nodes_[v]);
+    if (fitting <= capacity) return;
+    Index first;
+    if (free_.empty()) {
+      first = static_cast<Index>(nodes_.size());
+      nodes_.resize(nodes_.size() + children);
+    } else {
+      first = free_.back();
+      free_.pop_back();
+    }
+    for (Index c = 0; c < children; ++c) {
+      Node child;
+      child.half = 0.5 * nodes_[v].half;
+      for (std::size_t k = 0; k < Dim; ++k) {
+        child.middle[k] = nodes_[v].middle[k] + (c >> k & 1 ? child.half : -child.half);
+      }
+      child.depth = nodes_[v].depth + 1;
+      child.parent = v;
+      nodes_[first + c] = child;
+    }
+    nodes_[v].child = first;
+    for (Index i = nodes_[v].head, after; i != none; i = after) {
+      after = next_[i];
+      if (!fits_below(boxes_[i], nodes_[v])) continue;
+      take_out(i);
+      link(i, child_of(nodes_[v], boxes_[i]));
+    }
+    for (Index c = 0; c < children; ++c) {
+      if (nodes_[first + c].count > capacity) split(first + c);
+    }
+  }
+
+  /// Below a node, in the order of the tree. Returns how many bodies there are.
+  Index lay_out(Index v) {
+    const auto begin = static_cast<Index>(laid_.size());
+    Box box{};
+    for (Index i = nodes_[v].head; i != none; i = next_[i]) {
+      box = laid_.size() == begin ? boxes_[i] : hull(box, boxes_[i]);
+      laid_.push_back(boxes_[i]);
+      bodies_.push_back(i);
+    }
+    const auto own_end = static_cast<Index>(laid_.size());
+    bool empty = own_end == begin;
+    bool leaves_below = true;
+    if (nodes_[v].child != none) {
+      for (Index c = nodes_[v].child; c < nodes_[v].child + children; ++c) {
+        lay_out(c);
+        const Node& child = nodes_[c];
+        leaves_below &= child.child == none;
+        if (child.empty) continue;
+        box = empty ? child.box : hull(box, child.box);
+        empty = false;
+      }
+    }
+    const auto count = static_cast<Index>(laid_.size()) - begin;
+    if (nodes_[v].child != none && leaves_below && count <= capacity / 2) join(v);
+    Node& node = nodes_[v];
+    node.begin = begin;
+    node.own_end = node.child == none ? begin + count : own_end;
+    node.box = box;
+    node.empty = empty;
+    return count;
+  }
+
+  /// Takes the few bodies of its children back.
+  void join(Index v) {
+    const Index first = nodes_[v].child;
+    for (Index c = first; c < first + children; ++c) {
+      for (Index i = nodes_[c].head, after; i != none; i = after) {
+        after = next_[i];
+        take_out(i);
+        link(i, v);
+      }
+    }
+    nodes_[v].child = none;
+    free_.push_back(first);
+  }
+
+  /// All pairs at and below a node.
+  void traverse(Index v) {
+    const Node& node = nodes_[v];
+    if (node.empty) return;
+    for (Index i = node.begin; i < node.own_end; ++i) {
+      for (Index j = i + 1; j < node.own_end; ++j) test(i, j);
+    }
+    if (node.child == none) return;
+    for (Index c = node.child; c < node.child + children; ++c) {
+      for (Index i = node.begin; i < node.own_end; ++i) search(c, i);
+      traverse(c);
+      for (Index d = c + 1; d < node.child + children; ++d) traverse(c, d);
+    }
+  }
+
+  /// All pairs of one body at or below u and one at or below v, neither of which is below the other.
+  void traverse(Index u, Index v) {
+    const Node &a = nodes_[u], &b = nodes_[v];
+    if (a.empty || b.empty || !overlap(a.box, b.box)) return;
+    for (Index i = a.begin; i < a.own_end; ++i) search(v, i);
+    if (a.child == none) return;
+    for (Index c = a.child; c < a.child + children; ++c) traverse(v, c);
+  }
+
+  /// All pairs of a laid-out body with those at and below a node.
+  void search(Index v, Index i) {
+    const Node& node = nodes_[v];
+    if (node.empty || !overlap(node.box, laid_[i])) return;
+    for (Index j = node.begin; j < node.own_end; ++j) test(i, j);
+    if (node.child == none) return;
+    for (Index c = node.child; c < node.child + children; ++c) search(c, i);
+  }
+
+  void test(Index i, Index j) {
+    if (overlap(laid_[i], laid_[j])) found_.add(bodies_[i], bodies_[j]);
+  }
+
+  static constexpr double far = 1e150;
+
+  std::vector<Box> boxes_;
+  std::vector<Node> nodes_;                     // the root first
+  std::vector<Index> free_;                     // blocks of children that are not in use
+  std::vector<Index> home_, next_, before_;     // of each body: its node, and its neighbours in that one's list
+  std::size_t astray_ = 0;                      // bodies put in from outside the root's cell in the last step
+  std::vector<Box> laid_;                       // in the order of the tree
+  std::vector<Index> bodies_;
+  PairList found_;
+  std::span<const BodyPair> sorted_;
+  bool stale_ = false;
+};
+
+}  // namespace polhode::broad

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/broad_phase/costs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "experiments/broad_phase/flying_boxes.hpp"
+#include "experiments/study/csv.hpp"
+#include "experiments/study/input_error.hpp"
+#include "experiments/study/report/axis.hpp"
+#include "experiments/study/report/draw_figures.hpp"
+#include "experiments/study/report/figure_layout.hpp"
+#include "experiments/study/report/notation.hpp"
+#include "experiments/study/report/table.hpp"
+#include "experiments/study/text_file.hpp"
+
+namespace polhode::study {
+namespace {
+
+using namespace report;
+using Clock = std::chrono::steady_clock;
+
+struct Cost {
+  double ns_per_box = 0, pairs_per_box = 0;
+  std::size_t steps = 0;
+};
+
+struct Runner {
+  const BroadPhaseEntry* entry = nullptr;
+  std::unique_ptr<BroadPhase> phase;
+  std::vector<double> seconds;
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+class Measurement {
+ public:
+  explicit Measurement(const BroadPhaseOptions& options) : options_(options) {}
+
+  void run() {
+    for (const std::size_t n : options_.bodies) measure(n);
+  }
+
+  int finish() const {
+    const std::filesystem::path folder = options_.out.empty() ? "results/broad_phase" : options_.out;
+    const Table table = cost_table();
+    write_files(folder, table);
+    fmt::print("{}\n", markdown(table));
+    for (const std::string& note : notes_) fmt::print("{}\n", note);
+    if (differences_.empty()) {
+      fmt::print("All report the same pairs, at each of {}.\n", count(steps_compared_, "step"));
+    }
+    fmt::print("{}\n", folder.string());
+    for (const std::string& d : differences_) fmt::print(stderr, "broad_phase: {}\n", d);
+    return differences_.empty() ? 0 : 1;
+  }
+
+ private:
+  /// All at one number of bodies, in turns, so that what disturbs the machine meets all alike.
+  void measure(std::size_t n) {
+    constexpr std::size_t warm = 3, fewest = 5, most = 200;
+    constexpr double long_enough = 2;  // s, all together
+    std::vector<Runner> runners = runners_for(n);
+    if (runners.empty()) return;
+    FlyingBoxes boxes(n, options_.filling, options_.motion, options_.seed);
+    double total = 0, pairs = 0;
+    std::size_t steps = 0;
+    for (std::size_t k = 0; k < warm + most && (k < warm + fewest || total < long_enough); ++k, boxes.step()) {
+      std::vector<BodyPair> first;
+      for (Runner& r : runners) {
+        const auto start = Clock::now();
+        r.phase->update(boxes.bounds());
+        const auto found = r.phase->pairs();
+        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        total += seconds;
+        if (k >= warm) r.seconds.push_back(seconds);
+        if (&r == &runners.front()) first.assign(found.begin(), found.end());
+        else compare(*runners.front().entry, first, *r.entry, found, n, k);
+      }
+      ++steps_compared_;
+      if (k < warm) continue;
+      pairs += static_cast<double>(first.size());
+      ++steps;
+    }
+    const auto count = static_cast<double>(n);
+    for (const Runner& r : runners) {
+      costs_[r.entry][n] = {1e9 * median(r.seconds) / count, pairs / static_cast<double>(steps) / count, steps};
+    }
+  }
+
+  /// Without those of which a step is expected to take too long, by their cost at fewer bodies and its growth at worst.
+  std::vector<Runner> runners_for(std::size_t n) {
+    std::vector<Runner> runners;
+    for (const BroadPhaseEntry* entry : options_.phases) {
+      const auto known = costs_.find(entry);
+      if (known != costs_.end()) {
+        const auto& [fewer, cost] = *std::prev(known->second.end());
+        const double seconds = 1e-9 * cost.ns_per_box * double(n) * std::max(1.0, double(n) / double(fewer));
+        if (seconds > options_.patience) {
+          notes_.push_back(fmt::format("{} is left out at {} bodies: a step may take {} s; see --patience.", entry->name, n,
+                                       number(seconds, 2)));
+          continue;
+        }
+      }
+      runners.push_back({entry, entry->make(), {}});
+    }
+    return runners;
+  }
+
+  void compare(const BroadPhaseEntry& one, const std::vector<BodyPair>& expected, const BroadPhaseEntry& other,
+               std::span<const BodyPair> found, std::size_t n, std::size_t step) {
+    if (std::equal(expected.begin(), expected.end(), found.begin(), found.end())) return;
+    constexpr std::size_t most = 20;
+    if (differences_.size() == most) return;
+    const auto [a, b] = std::mismatch(expected.begin(), expected.end(), found.begin(), found.end());
+    const auto shown = [](bool there, const BodyPair* p) { return there ? fmt::format("({}, {})", p->a, p->b) : "no more"; };
+    differences_.push_back(fmt::format("{} bodies, step {}: {} reports {} pairs and {} {}; first {} where the other has {}",
+                                       n, step, one.name, expected.size(), other.name, found.size(),
+                                       shown(a != expected.end(), &*a), shown(b != found.end(), &*b)));
+  }
+
+  /// The slope of log cost of a step against log n, by least squares over the upper half of the numbers of bodies.
+  static std::string growth(const std::map<std::size_t, Cost>& costs) {
+    std::vector<std::pair<double, double>> points;
+    for (const auto& [n, cost] : costs) points.emplace_back(std::log(double(n)), std::log(double(n) * cost.ns_per_box));
+    if (points.size() < 2) return "";
+    points.erase(points.begin(), points.end() - static_cast<std::ptrdiff_t>(std::max<std::size_t>(2, (points.size() + 1) / 2)));
+    double x = 0, y = 0, xx = 0, xy = 0;
+    const auto m = static_cast<double>(points.size());
+    for (const auto& [u, v] : points) x += u / m, y += v / m;
+    for (const auto& [u, v] : points) xx += (u - x) * (u - x), xy += (u - x) * (v - y);
+    return number(xy / xx, 3);
+  }
+
+  Table cost_table() const {
+    Table table{"Cost of a step, ns per box (median), and p of a step's cost ∝ nᵖ over the upper half of n.",
+                {{"broad phase", "", Column::Kind::name}}, {}};
+    for (const std::size_t n : options_.bodies) table.columns.push_back({fmt::format("n = {}", n), "", Column::Kind::number});
+    table.columns.push_back({"p", "", Column::Kind::number});
+    for (const BroadPhaseEntry* entry : options_.phases) {
+      const auto known = costs_.find(entry);
+      if (known == costs_.end()) continue;
+      std::vector<std::string> row = {entry->name};
+      for (const std::size_t n : options_.bodies) {
+        const auto cost = known->second.find(n);
+        row.push_back(cost == known->second.end() ? "" : number(cost->second.ns_per_box, 3));
+      }
+      row.push_back(growth(known->second));
+      table.rows.push_back(std::move(row));
+    }
+    return table;
+  }
+
+  Figure figure() const {
+    Figure figure{.name = "cost_against_bodies",
+                  .title = "Cost of a broad phase against the number of bodies",
+                  .caption = fmt::format("Median time of a step per box: boxes that fly about, {} of the space filled, a "
+                                         "step's path {} of an edge. Level: linear growth of a step.",
+                                         number(options_.filling), number(options_.motion))};
+    Panel panel{.x_column = "bodies", .y_column = "ns_per_box"};
+    std::vector<double> xs, ys;
+    for (const BroadPhaseEntry* entry : options_.phases) {
+      figure.methods.push_back(entry->name);
+      const auto known = costs_.find(entry);
+      if (known == costs_.end()) continue;
+      PlottedCurve curve{.label = entry->name, .method = figure.methods.size() - 1};
+      for (const auto& [n, cost] : known->second) {
+        curve.points.push_back({double(n), cost.ns_per_box, cost.ns_per_box});
+        xs.push_back(double(n));
+        ys.push_back(cost.ns_per_box);
+      }
+      panel.curves.push_back(std::move(curve));
+    }
+    panel.x = step_axis("bodies", xs);
+    panel.y = log_axis("time of a step per box (ns)", ys, {});
+    figure.variants = {""};
+    add_rows(figure, {std::move(panel)}, 1);
+    note_marks(figure);
+    return figure;
+  }
+
+  void write_files(const std::filesystem::path& folder, const Table& table) const {
+    std::error_code error;
+    std::filesystem::create_directories(folder / "tables", error);
+    if (error) throw InputError("--out: cannot create " + folder.string() + ": " + error.message());
+    std::string csv = csv_row({"broad_phase", "bodies", "ns_per_box", "pairs_per_box", "steps"});
+    for (const BroadPhaseEntry* entry : options_.phases) {
+      const auto known = costs_.find(entry);
+      if (known == costs_.end()) continue;
+      for (const auto& [n, cost] : known->second) {
+        csv += csv_row({entry->name, std::to_string(n), study::exact(cost.ns_per_box), study::exact(cost.pairs_per_box),
+                        std::to_string(cost.steps)});
+      }
+    }
+    write_text(folder / "cost.csv", csv);
+    write_text(folder / "tables" / "cost.md", markdown(table));
+    write_text(folder / "tables" / "cost.tex",
+               "% The preamble needs \\usepackage[T1]{fontenc}\\usepackage{booktabs}.\n" + latex(table));
+    if (!options_.figures) return;
+    if (const std::string said = draw_figures({{figure()}, {}}, folder, "figures"); !said.empty()) {
+      fmt::print(stderr, "broad_phase: {}\n", said);
+    }
+  }
+
+  const BroadPhaseOptions& options_;
+  std::map<const BroadPhaseEntry*, std::map<std::size_t, Cost>> costs_;
+  std::vector<std::string> notes_, differences_;
+  std::size_t steps_compared_ = 0;
+};
+
+}  // namespace
+
+int measure_costs(const BroadPhaseOptions& options) {
+  Measurement measurement(options);
+  measurement.run();
+  return measurement.finish();
+}
+
+}  // namespace polhode::study

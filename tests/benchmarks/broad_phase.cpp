@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Broad phases side by side in one run: ns per box per step at a fixed density, for every one of the catalogue and, where
+// Debian's libraries are installed, Bullet's dynamic tree, FCL's two trees and ODE's sweep. The same boxes on the same
+// paths; the steps of all take turns, and the median step counts, with what it takes to tell the library where the boxes
+// are. All must see the same pairs on average; the libraries' own margins and single precision let a few differ.
+//
+//   broad_phase_benchmark [motion [n ...]]   motion: path of a step over the mean edge (default: 0.02)
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "collision/broad_phase.hpp"
+
+#ifdef POLHODE_HAS_BULLET
+#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+#endif
+#ifdef POLHODE_HAS_FCL
+#include "tests/benchmarks/peers/fcl_trees.hpp"
+#endif
+#ifdef POLHODE_HAS_ODE
+#include <ode/ode.h>
+#endif
+
+namespace {
+
+using polhode::Bounds;
+using Vector = polhode::Vector3<double>;
+using Clock = std::chrono::steady_clock;
+
+constexpr double filling = 0.1;  // of the space
+
+/// Boxes that fly straight and bounce off the walls of a cube.
+struct Gas {
+  Gas(std::size_t n, double motion) {
+    std::mt19937_64 engine(1);
+    const auto uniform = [&](double low, double high) {
+      return low + (high - low) * (static_cast<double>(engine() >> 11) * 0x1p-53);
+    };
+    double volume = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      half.emplace_back(uniform(0.25, 0.5), uniform(0.25, 0.5), uniform(0.25, 0.5));
+      volume += 8 * half.back().prod();
+    }
+    edge = std::cbrt(volume / filling);
+    for (std::size_t i = 0; i < n; ++i) {
+      centre.emplace_back(uniform(0, edge), uniform(0, edge), uniform(0, edge));
+      Vector v(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+      velocity.push_back(v * (0.75 * motion / std::max(v.norm(), 1e-3)));
+    }
+    bounds.resize(n);
+    set();
+  }
+  void move() {
+    for (std::size_t i = 0; i < centre.size(); ++i) {
+      centre[i] += velocity[i];
+      for (int k = 0; k < 3; ++k) {
+        if ((centre[i][k] < 0 && velocity[i][k] < 0) || (centre[i][k] > edge && velocity[i][k] > 0)) velocity[i][k] *= -1;
+      }
+    }
+    set();
+  }
+  void set() {
+    for (std::size_t i = 0; i < centre.size(); ++i) bounds[i] = Bounds(centre[i] - half[i], centre[i] + half[i]);
+  }
+  double edge = 0;
+  std::vector<Vector> half, centre, velocity;
+  std::vector<Bounds> bounds;
+};
+
+/// One way to find the pairs of a step.
+class Contender {
+ public:
+  explicit Contender(std::string called) : name(std::move(called)) {}
+  virtual ~Contender() = default;
+  virtual std::size_t step(const Gas& gas) = 0;  ///< the number of pairs
+  std::string name;
+};
+
+class Ours final : public Contender {
+ public:
+  explicit Ours(const polhode::BroadPhaseEntry& entry) : Contender(entry.name), phase_(entry.make()) {}
+  std::size_t step(const Gas& gas) override {
+    phase_->update(gas.bounds);
+    return phase_->pairs().size();
+  }
+
+ private:
+  std::unique_ptr<polhode::BroadPhase> phase_;
+};
+
+#ifdef POLHODE_HAS_BULLET
+class Bullet final : public Contender {
+ public:
+  Bullet() : Contender("Bullet btDbvtBroadphase") {}
+  std::size_t step(const Gas& gas) override {
+    for (std::size_t i = 0; i < gas.bounds.size(); ++i) {
+      const btVector3 low = vector(gas.bounds[i].min()), high = vector(gas.bounds[i].max());
+      if (i == proxies_.size()) {
+        proxies_.push_back(broadphase_.createProxy(low, high, 0, nullptr, 1, -1, nullptr));
+      } else {
+        broadphase_.setAabb(proxies_[i], low, high, nullptr);
+      }
+    }
+    broadphase_.calculateOverlappingPairs(nullptr);
+    return static_cast<std::size_t>(broadphase_.getOverlappingPairCache()->getNumOverlappingPairs());
+  }
+
+ private:
+  static btVector3 vector(const Vector& v) { return {btScalar(v.x()), btScalar(v.y()), btScalar(v.z())}; }
+  btDbvtBroadphase broadphase_;
+  std::vector<btBroadphaseProxy*> proxies_;
+};
+#endif
+
+#ifdef POLHODE_HAS_FCL
+class Fcl final : public Contender {
+ public:
+  Fcl(const char* called, bool in_array) : Contender(called), in_array_(in_array) {}
+  std::size_t step(const Gas& gas) override {
+    if (!tree_) tree_ = polhode::peers::fcl_tree(plain(gas.half), in_array_);
+    return tree_->step(plain(gas.centre));
+  }
+
+ private:
+  static std::vector<double> plain(const std::vector<Vector>& vectors) {
+    std::vector<double> numbers;
+    numbers.reserve(3 * vectors.size());
+    for (const Vector& v : vectors) numbers.insert(numbers.end(), {v.x(), v.y(), v.z()});
+    return numbers;
+  }
+  bool in_array_;
+  std::unique_ptr<polhode::peers::FclTree> tree_;
+};
+#endif
+
+#ifdef POLHODE_HAS_ODE
+class Ode final : public Contender {
+ public:
+  Ode() : Contender("ODE dSweepAndPruneSpace"), space_(dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ)) {}
+  ~Ode() override { dSpaceDestroy(space_); }
+  std::size_t step(const Gas& gas) override {
+    if (geoms_.empty()) {
+      for (const Vector& h : gas.half) {
+        geoms_.push_back(dCreateBox(space_, dReal(2 * h.x()), dReal(2 * h.y()), dReal(2 * h.z())));
+      }
+    }
+    for (std::size_t i = 0; i < geoms_.size(); ++i) {
+      const Vector& c = gas.centre[i];
+      dGeomSetPosition(geoms_[i], dReal(c.x()), dReal(c.y()), dReal(c.z()));
+    }
+    std::size_t pairs = 0;
+    dSpaceCollide(space_, &pairs, [](void* data, dGeomID, dGeomID) { ++*static_cast<std::size_t*>(data); });
+    return pairs;
+  }
+
+ private:
+  dSpaceID space_;
+  std::vector<dGeomID> geoms_;
+};
+#endif
+
+std::vector<std::unique_ptr<Contender>> contenders(std::size_t n) {
+  std::vector<std::unique_ptr<Contender>> all;
+  constexpr std::size_t most_for_all_pairs = 20000;
+  for (const auto& entry : polhode::broad_phase_catalogue()) {
+    if (entry.name != "all_pairs" || n <= most_for_all_pairs) all.push_back(std::make_unique<Ours>(entry));
+  }
+#ifdef POLHODE_HAS_BULLET
+  all.push_back(std::make_unique<Bullet>());
+#endif
+#ifdef POLHODE_HAS_FCL
+  all.push_back(std::make_unique<Fcl>("FCL DynamicAABBTree", false));
+  all.push_back(std::make_unique<Fcl>("FCL DynamicAABBTree_Array", true));
+#endif
+#ifdef POLHODE_HAS_ODE
+  all.push_back(std::make_unique<Ode>());
+#endif
+  return all;
+}
+
+struct Result {
+  std::string name;
+  double ns_per_box = 0, pairs = 0;
+};
+
+std::vector<Result> measure(std::size_t n, double motion) {
+  Gas gas(n, motion);
+  const auto all = contenders(n);
+  const std::size_t warm = 5, steps = std::clamp<std::size_t>(1000000 / n, 15, 300);
+  std::vector<std::vector<double>> seconds(all.size());
+  std::vector<double> pairs(all.size());
+  for (std::size_t k = 0; k < warm + steps; ++k) {
+    for (std::size_t c = 0; c < all.size(); ++c) {
+      const auto start = Clock::now();
+      const std::size_t found = all[c]->step(gas);
+      if (k >= warm) seconds[c].push_back(std::chrono::duration<double>(Clock::now() - start).count());
+      if (k >= warm) pairs[c] += static_cast<double>(found) / static_cast<double>(steps);
+    }
+    gas.move();
+  }
+  std::vector<Result> results;
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    auto& s = seconds[c];
+    std::nth_element(s.begin(), s.begin() + std::ptrdiff_t(s.size() / 2), s.end());
+    results.push_back({all[c]->name, 1e9 * s[s.size() / 2] / double(n), pairs[c]});
+  }
+  return results;
+}
+
+double of(const std::vector<Result>& results, const std::string& name) {
+  for (const Result& r : results) {
+    if (r.name == name) return r.ns_per_box;
+  }
+  return 0;
+}
+
+void print_ratio(const char* what, double ours, double theirs, double goal) {
+  if (theirs > 0 && ours > 0) fmt::print("  {:<58} {:6.3f} (goal {:.2f})\n", what, ours / theirs, goal);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const double motion = argc > 1 ? std::atof(argv[1]) : 0.02;
+  std::vector<std::size_t> counts;
+  for (int i = 2; i < argc; ++i) counts.push_back(static_cast<std::size_t>(std::atof(argv[i])));
+  if (counts.empty()) counts = {1000, 10000, 100000};
+#ifdef POLHODE_HAS_ODE
+  dInitODE2(0);
+#else
+  fmt::print("ODE: skipped, because libode-dev is not installed\n");
+#endif
+#ifndef POLHODE_HAS_BULLET
+  fmt::print("Bullet: skipped, because libbullet-dev is not installed\n");
+#endif
+#ifndef POLHODE_HAS_FCL
+  fmt::print("FCL: skipped, because libfcl-dev is not installed\n");
+#endif
+  for (const std::size_t n : counts) {
+    const auto results = measure(n, motion);
+    fmt::print("n = {}, a step is {} of an edge: ns per box per step, pairs per box\n", n, motion);
+    for (const Result& r : results) fmt::print("  {:<30} {:10.1f} {:8.4f}\n", r.name, r.ns_per_box, r.pairs / double(n));
+    const double array = of(results, "FCL DynamicAABBTree_Array");
+    double best = 0;
+    for (const char* tree : {"Bullet btDbvtBroadphase", "FCL DynamicAABBTree", "FCL DynamicAABBTree_Array"}) {
+      const double ns = of(results, tree);
+      if (ns > 0 && (best == 0 || ns < best)) best = ns;
+    }
+    print_ratio("uniform_grid / the best tree of Bullet and FCL", of(results, "uniform_grid"), best, 0.45);
+    print_ratio("bvh / FCL DynamicAABBTree_Array", of(results, "bvh"), array, 0.7);
+    print_ratio("sweep_and_prune / ODE dSweepAndPruneSpace", of(results, "sweep_and_prune"),
+                of(results, "ODE dSweepAndPruneSpace"), 0.6);
+  }
+  return 0;
+}
