@@ -13,6 +13,7 @@
   SHAPE(capsule) \
   SHAPE(cylinder) \
   SHAPE(ellipsoid) \
+  SHAPE(convex_hull) \
   SHAPE(half_space)
 
 namespace polhode {
