@@ -47,7 +47,7 @@ struct GjkResult {
 /// Round-off of a corner, as a share of the largest: below `near_share` of it the sign of a distance is not trusted.
 inline constexpr double near_share = 1e-13;
 inline constexpr double stop_share = 16 * std::numeric_limits<double>::epsilon();
-inline constexpr int gjk_limit = 100;
+inline constexpr int gjk_limit = 100, stall_limit = 10;
 
 /// From the simplex given, which may be empty. With `early` it stops at the first direction that separates.
 template <bool early>
@@ -83,6 +83,7 @@ GjkResult gjk_loop(const MinkowskiPair& pair, const Simplex& start) {
   solve(r.simplex.count);
   keep();
   double square = nearest.square;
+  int stalls = 0;
 
   for (r.iterations = 1; !nearest.inside && r.iterations <= gjk_limit; ++r.iterations) {
     if (square <= near_share * near_share * scale2) break;
@@ -99,20 +100,16 @@ GjkResult gjk_loop(const MinkowskiPair& pair, const Simplex& start) {
     }
     bool met = square - reach <= rounding;
     for (int i = 0; i < count; ++i) met = met || corner[std::size_t(i)].w == next.w;
-    if (met) {
-      r.state = GjkResult::State::apart;
-      break;
-    }
+    if (met) break;
     solve(count + 1);
-    if (!(nearest.square < square)) {  // rounding has the last word
-      r.state = GjkResult::State::apart;
-      break;
-    }
+    // A corner that lies g nearer along v brings the first step only (g/|w − v|)² nearer, which rounding may hide.
+    if (nearest.square < square) stalls = 0;
+    else if (nearest.square > square * (1 + stop_share) || ++stalls > stall_limit) break;
     keep();
-    square = nearest.square;
+    square = std::min(square, nearest.square);
   }
   r.scale = std::sqrt(scale2);
-  r.distance = std::sqrt(square);
+  r.distance = r.v.norm();
   if (nearest.inside) r.state = nearest.sure ? GjkResult::State::inside : GjkResult::State::near;
   else if (square <= near_share * near_share * scale2) r.state = GjkResult::State::near;
   else r.state = GjkResult::State::apart;
