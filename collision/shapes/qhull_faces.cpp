@@ -55,7 +55,7 @@ std::vector<std::vector<std::uint32_t>> qhull_faces(std::span<const Vector3<doub
     setT* vertices = qh_facet3vertex(qh, facet);
     vertexT *vertex = nullptr, **vertexp = nullptr;
     FOREACHvertex_(vertices) loop.push_back(std::uint32_t(qh_pointid(qh, vertex->point)));
-    qh_setfree(qh, &vertices);
+    qh_settempfree(qh, &vertices);
     Vector3<double> turn = Vector3<double>::Zero();
     for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
       turn += (points[loop[i]] - points[loop[0]]).cross(points[loop[i + 1]] - points[loop[0]]);
