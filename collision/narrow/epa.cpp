@@ -47,6 +47,7 @@ class Expansion {
     result.distance = -best_reach_;
     polish(result);
     witness(result);
+    if (pair_.a.kind == ConvexCore::Kind::smooth || pair_.b.kind == ConvexCore::Kind::smooth) descend(result);
     return result;
   }
 
@@ -275,6 +276,27 @@ class Expansion {
     consider(nearest_edge_product(pair_, corners_[best_face_[0]], corners_[best_face_[1]], corners_[best_face_[2]], n));
   }
 
+  /// Where a surface bends, an inscribed polytope comes near to it only slowly. The point a little further out than the
+  /// depth has its foot on the surface; the normal there is better, by the ratio of depth and radius of curvature.
+  void descend(Penetration& result) const {
+    MinkowskiPair shifted = pair_;
+    const double further = 0.1 * scale_;
+    for (int k = 0; k < descent_limit; ++k) {
+      shifted.offset = pair_.offset + result.normal * (result.distance - further);
+      const GjkResult r = gjk_loop<false>(shifted, {});
+      if (r.state != GjkResult::State::apart) return;
+      const Vector3<double> n = r.v / r.distance;
+      const double here = separation(pair_, n);
+      if (!(here > result.distance)) return;
+      const bool settled = here - result.distance <= stop_share * scale_;
+      result.distance = here;
+      result.normal = n;
+      result.on_a = r.simplex.on_a();
+      result.on_b = r.simplex.on_b();
+      if (settled) return;
+    }
+  }
+
   /// The face that holds the point which the depth's end leaves on the surface, or comes nearest to it: of faces in one
   /// plane the best one need not be it.
   void witness(Penetration& result) const {
@@ -301,6 +323,7 @@ class Expansion {
   }
 
   static constexpr double flat_share = 1e-13;
+  static constexpr int descent_limit = 50;
   struct Rim {
     std::uint16_t from, to, outer;
   };

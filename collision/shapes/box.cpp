@@ -20,7 +20,6 @@ Polytope box_polytope(const Vector3<double>& h) {
 
 Box::Box(const Vector3<double>& half_extents)
     : Shape(ShapeTag::box), half_(positive_sizes("box", "size", half_extents)) {
-  representable("box", Box::mass_properties());
   polytope_ = box_polytope(half_);
 }
 

@@ -12,9 +12,7 @@ namespace polhode {
 Capsule::Capsule(double radius, double length)
     : Shape(ShapeTag::capsule),
       radius_(positive_size("capsule", "radius", radius)),
-      half_(non_negative_size("capsule", "length", length) / 2) {
-  representable("capsule", Capsule::mass_properties());
-}
+      half_(non_negative_size("capsule", "length", length) / 2) {}
 
 Bounds Capsule::bounds(const Pose& pose) const {
   const Vector3<double> half = half_ * pose.rotation.col(2).cwiseAbs() + Vector3<double>::Constant(radius_);

@@ -86,7 +86,6 @@ Compound::Compound(std::vector<Part> parts) : Shape(ShapeTag::compound), parts_(
     const MassProperties m = part->mass_properties();
     mass_.inertia += inertia_about_point(m.inertia, m.volume, m.centroid - mass_.centroid);
   }
-  representable("compound", mass_);
 }
 
 std::vector<Compound::Part> Compound::parts_of_obj(const std::string& path) {

@@ -40,8 +40,10 @@ std::vector<Vector3<double>> normalised(std::span<const Vector3<double>> points)
   }
   const Vector3<double> middle = around.min() + 0.5 * around.sizes();
   const double unit = around.sizes().maxCoeff();
-  if (!std::isfinite(unit)) throw std::invalid_argument("the points of a convex_hull are too far apart for double");
-  if (!(unit > 0)) throw std::invalid_argument("the points of a convex_hull are all the same");
+  if (unit > largest_size || middle.cwiseAbs().maxCoeff() > largest_size) {
+    throw std::invalid_argument("the points of a convex_hull are further than 1e50 m apart or from the origin");
+  }
+  if (unit < smallest_size) throw std::invalid_argument("the points of a convex_hull are all the same, to 1e-50 m");
   std::vector<Vector3<double>> x;
   for (const Vector3<double>& p : points) x.push_back((p - middle) / unit);
 
@@ -90,7 +92,7 @@ Polytope hull_of(std::span<const Vector3<double>> points) {
 ConvexHull::ConvexHull(std::span<const Vector3<double>> points)
     : Shape(ShapeTag::convex_hull),
       polytope_(hull_of(points)),
-      mass_(representable("convex_hull", polyhedron_mass(polytope_))) {
+      mass_(polyhedron_mass(polytope_)) {
   const auto& v = polytope_.vertices;
   for (std::size_t i = 0; i < v.size(); i += std::size_t(lane_count)) {
     Vector3<Lanes> pack;

@@ -13,9 +13,7 @@ namespace polhode {
 Cylinder::Cylinder(double radius, double length)
     : Shape(ShapeTag::cylinder),
       radius_(positive_size("cylinder", "radius", radius)),
-      half_(positive_size("cylinder", "length", length) / 2) {
-  representable("cylinder", Cylinder::mass_properties());
-}
+      half_(positive_size("cylinder", "length", length) / 2) {}
 
 Vector3<double> Cylinder::support(const Vector3<double>& d) const {
   const double across = std::hypot(d[0], d[1]), z = std::copysign(half_, d[2]);

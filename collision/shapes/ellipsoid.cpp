@@ -10,9 +10,7 @@
 namespace polhode {
 
 Ellipsoid::Ellipsoid(const Vector3<double>& semi_axes)
-    : Shape(ShapeTag::ellipsoid), semi_axes_(positive_sizes("ellipsoid", "semi_axes", semi_axes)) {
-  representable("ellipsoid", Ellipsoid::mass_properties());
-}
+    : Shape(ShapeTag::ellipsoid), semi_axes_(positive_sizes("ellipsoid", "semi_axes", semi_axes)) {}
 
 // The image S u of the unit ball's point u = S d/|S d|.
 Vector3<double> Ellipsoid::support(const Vector3<double>& d) const {

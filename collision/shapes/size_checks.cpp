@@ -16,39 +16,35 @@ std::string in_words(double value) {
 
 namespace {
 
-[[noreturn]] void refuse(const char* shape, const char* size, const char* needed, const std::string& value) {
-  throw std::invalid_argument("a " + std::string(shape) + " needs a " + needed + ", finite " + size + " in m, not " + value);
+bool taken(double value) { return value >= smallest_size && value <= largest_size; }
+
+[[noreturn]] void refuse(const char* shape, const char* size, const char* needed, const std::string& value, bool fits) {
+  const std::string all = "a " + std::string(shape) + " needs a " + needed + ", finite " + size + " in m, not " + value;
+  throw std::invalid_argument(fits ? all : all + "; sizes from 1e-50 to 1e50 m are taken");
 }
 
 }  // namespace
 
 double positive_size(const char* shape, const char* size, double value) {
-  if (!(value > 0) || !std::isfinite(value)) refuse(shape, size, "positive", in_words(value));
+  if (!taken(value)) refuse(shape, size, "positive", in_words(value), !(value > 0) || !std::isfinite(value));
   return value;
 }
 
 double non_negative_size(const char* shape, const char* size, double value) {
-  if (!(value >= 0) || !std::isfinite(value)) refuse(shape, size, "non-negative", in_words(value));
+  if (value != 0 && !taken(value)) {
+    refuse(shape, size, "non-negative", in_words(value), !(value > 0) || !std::isfinite(value));
+  }
   return value;
 }
 
 Vector3<double> positive_sizes(const char* shape, const char* sizes, const Vector3<double>& values) {
   for (const double value : values) {
-    if (value > 0 && std::isfinite(value)) continue;
+    if (taken(value)) continue;
     refuse(shape, sizes, "positive",
-           "(" + in_words(values[0]) + ", " + in_words(values[1]) + ", " + in_words(values[2]) + ")");
+           "(" + in_words(values[0]) + ", " + in_words(values[1]) + ", " + in_words(values[2]) + ")",
+           !(value > 0) || !std::isfinite(value));
   }
   return values;
-}
-
-MassProperties representable(const char* shape, const MassProperties& mass) {
-  bool normal = std::isnormal(mass.volume) && mass.volume > 0 && mass.centroid.allFinite() && mass.inertia.allFinite();
-  for (int i = 0; i < 3; ++i) normal = normal && std::isnormal(mass.inertia(i, i)) && mass.inertia(i, i) > 0;
-  if (!normal) {
-    throw std::invalid_argument("a " + std::string(shape) +
-                                " needs sizes whose volume and inertia double can hold, say 1e-50 to 1e50 m");
-  }
-  return mass;
 }
 
 MassProperties centered_mass(double volume, const Vector3<double>& moments) {

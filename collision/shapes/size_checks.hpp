@@ -8,13 +8,13 @@
 
 namespace polhode {
 
-/// Throws std::invalid_argument, "a box needs a positive, finite size in m, not -1", unless it is so.
+/// The sizes that are taken, m: products of five of them, and more, stay far from what double cannot hold.
+inline constexpr double smallest_size = 1e-50, largest_size = 1e50;
+
+/// Throws std::invalid_argument, "a sphere needs a positive, finite radius in m, not -1", unless it is so.
 double positive_size(const char* shape, const char* size, double value);
 double non_negative_size(const char* shape, const char* size, double value);
 Vector3<double> positive_sizes(const char* shape, const char* sizes, const Vector3<double>& values);
-
-/// Throws unless volume and moments are normal numbers: sizes of about 1e-60 to 1e60 m, far beyond any body.
-MassProperties representable(const char* shape, const MassProperties& mass);
 
 /// The mass properties of a body with its mass centre at the origin and its principal axes along the axes.
 MassProperties centered_mass(double volume, const Vector3<double>& moments);

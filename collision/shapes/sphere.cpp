@@ -9,9 +9,7 @@
 
 namespace polhode {
 
-Sphere::Sphere(double radius) : Shape(ShapeTag::sphere), radius_(positive_size("sphere", "radius", radius)) {
-  representable("sphere", Sphere::mass_properties());
-}
+Sphere::Sphere(double radius) : Shape(ShapeTag::sphere), radius_(positive_size("sphere", "radius", radius)) {}
 
 Bounds Sphere::bounds(const Pose& pose) const {
   const Vector3<double> half = Vector3<double>::Constant(radius_);
