@@ -13,7 +13,7 @@ namespace polhode {
 namespace {
 
 constexpr std::uint16_t none = 0xffff;
-constexpr int corner_room = 512, face_room = 4 * corner_room;
+constexpr int corner_room = 512, face_room = 2 * corner_room;  // Euler: a polytope of n corners has 2n − 4 triangles
 
 struct Face {
   Vector3<double> normal;                  ///< unit, outward
@@ -21,6 +21,7 @@ struct Face {
   std::array<std::uint16_t, 3> corner;     ///< counter-clockwise seen from outside
   std::array<std::uint16_t, 3> neighbour;  ///< across the side from corner i to corner i + 1
   bool gone;
+  std::uint32_t serial;                    ///< of all faces made: a slot is used again
 };
 
 /// A perpendicular unit vector.
@@ -52,11 +53,24 @@ class Expansion {
   }
 
  private:
+  struct Rim {
+    std::uint16_t from, to, outer, made;  ///< the side, the face beyond it, and the new one on it
+  };
+  struct Queued {
+    double offset;
+    std::uint16_t face;
+    std::uint32_t serial;
+  };
+  static bool later(const Queued& x, const Queued& y) {
+    return x.offset > y.offset || (x.offset == y.offset && x.serial > y.serial);
+  }
+
   const Vector3<double>& w(std::uint16_t i) const { return corners_[i].w; }
 
   std::uint16_t add_corner(const MinkowskiCorner& c) {
     scale_ = std::max(scale_, c.w.norm());
     corners_[std::size_t(corner_count_)] = c;
+    turned_[std::size_t(corner_count_)] = pair_.rotation * c.b;
     return std::uint16_t(corner_count_++);
   }
 
@@ -125,8 +139,9 @@ class Expansion {
 
   void set_plane(Face& f) {
     const MinkowskiCorner&a = corners_[f.corner[0]], &b = corners_[f.corner[1]], &c = corners_[f.corner[2]];
-    const Vector3<double> u = pair_.edge(a, b), v = pair_.edge(a, c), x = pair_.edge(b, c);
-    const Vector3<double> n = accurate_cross(u, v);
+    const Vector3<double>&rb = turned_[f.corner[1]], &ra = turned_[f.corner[0]], &rc = turned_[f.corner[2]];
+    const Vector3<double> u = (b.a - a.a) - (rb - ra), v = (c.a - a.a) - (rc - ra), x = v - u;
+    const Vector3<double> n = u.cross(v);
     const double size = n.norm(), longest = std::max({u.squaredNorm(), v.squaredNorm(), x.squaredNorm()});
     f.gone = false;
     if (size > 1e-15 * longest) {
@@ -139,24 +154,35 @@ class Expansion {
   }
 
   std::uint16_t add_face(std::uint16_t a, std::uint16_t b, std::uint16_t c) {
-    const auto i = std::uint16_t(face_count_++);
+    const std::uint16_t i = free_count_ > 0 ? free_[std::size_t(--free_count_)] : std::uint16_t(face_count_++);
     Face& f = faces_[i];
     f.corner = {a, b, c};
+    f.serial = ++serial_;
     f.neighbour = {none, none, none};
     set_plane(f);
     if (!f.normal.isZero(0)) push(i);
     return i;
   }
 
+  bool stale(const Queued& q) const { return faces_[q.face].gone || faces_[q.face].serial != q.serial; }
+
   void push(std::uint16_t i) {
-    heap_[std::size_t(heap_size_++)] = {faces_[i].offset, i};
+    if (heap_size_ == int(heap_.size())) {
+      const auto end = std::remove_if(heap_.begin(), heap_.end(), [this](const Queued& q) { return stale(q); });
+      heap_size_ = int(end - heap_.begin());
+      std::make_heap(heap_.begin(), end, later);
+    }
+    heap_[std::size_t(heap_size_++)] = {faces_[i].offset, i, faces_[i].serial};
     std::push_heap(heap_.begin(), heap_.begin() + heap_size_, later);
   }
 
   void first_tetrahedron() {
     const Vector3<double> u = pair_.edge(corners_[0], corners_[1]), v = pair_.edge(corners_[0], corners_[2]),
                           x = pair_.edge(corners_[0], corners_[3]);
-    if (u.cross(v).dot(x) > 0) std::swap(corners_[0], corners_[1]);  // corner 3 behind the face 0 1 2
+    if (u.cross(v).dot(x) > 0) {  // corner 3 must be behind the face 0 1 2
+      std::swap(corners_[0], corners_[1]);
+      std::swap(turned_[0], turned_[1]);
+    }
     add_face(0, 1, 2);
     add_face(0, 3, 1);
     add_face(1, 3, 2);
@@ -169,11 +195,13 @@ class Expansion {
 
   void expand() {
     while (heap_size_ > 0) {
-      const auto [offset, at] = heap_[0];
+      const Queued top = heap_[0];
+      const double offset = top.offset;
+      const std::uint16_t at = top.face;
       std::pop_heap(heap_.begin(), heap_.begin() + heap_size_, later);
       --heap_size_;
-      const Face& face = faces_[at];
-      if (face.gone) continue;
+      if (stale(top)) continue;
+      const Face face = faces_[at];
       if (offset >= best_reach_ - stop_share * scale_) return;
       const MinkowskiCorner next = pair_.support(face.normal);
       const double reach = face.normal.dot(next.w);
@@ -195,27 +223,37 @@ class Expansion {
   /// the room is full.
   bool grow(std::uint16_t seen, const MinkowskiCorner& next) {
     rim_count_ = 0;
-    faces_[seen].gone = true;
+    gone_count_ = 0;
+    remove(seen);
     for (int side = 0; side < 3; ++side) {
       if (!walk(faces_[seen].neighbour[std::size_t(side)], seen, next.w)) return false;
     }
-    if (rim_count_ < 3 || face_count_ + rim_count_ > face_room) return false;
-    const std::uint16_t top = add_corner(next);
-    const int first = face_count_;
+    if (rim_count_ < 3 || face_count_ + rim_count_ > face_room + free_count_ + gone_count_) return false;
     for (int i = 0; i < rim_count_; ++i) {
-      const Rim& r = rim_[std::size_t(i)];
-      const std::uint16_t f = add_face(r.from, r.to, top);
-      faces_[f].neighbour[0] = r.outer;
+      if (rim_[std::size_t((i + 1) % rim_count_)].from != rim_[std::size_t(i)].to) return false;
+    }
+    while (gone_count_ > 0) free_[std::size_t(free_count_++)] = gone_[std::size_t(--gone_count_)];
+    const std::uint16_t top = add_corner(next);
+    for (int i = 0; i < rim_count_; ++i) {
+      Rim& r = rim_[std::size_t(i)];
+      r.made = add_face(r.from, r.to, top);
+      faces_[r.made].neighbour[0] = r.outer;
       Face& outer = faces_[r.outer];
       for (std::size_t k = 0; k < 3; ++k) {
-        if (outer.corner[k] == r.to && outer.corner[(k + 1) % 3] == r.from) outer.neighbour[k] = f;
+        if (outer.corner[k] == r.to && outer.corner[(k + 1) % 3] == r.from) outer.neighbour[k] = r.made;
       }
-      const int before = first + (i + rim_count_ - 1) % rim_count_, after = first + (i + 1) % rim_count_;
-      faces_[f].neighbour[1] = std::uint16_t(after);
-      faces_[f].neighbour[2] = std::uint16_t(before);
-      if (rim_[std::size_t((i + 1) % rim_count_)].from != r.to) return false;
+    }
+    for (int i = 0; i < rim_count_; ++i) {
+      Face& f = faces_[rim_[std::size_t(i)].made];
+      f.neighbour[1] = rim_[std::size_t((i + 1) % rim_count_)].made;
+      f.neighbour[2] = rim_[std::size_t((i + rim_count_ - 1) % rim_count_)].made;
     }
     return true;
+  }
+
+  void remove(std::uint16_t face) {
+    faces_[face].gone = true;
+    gone_[std::size_t(gone_count_++)] = face;
   }
 
   struct Step {
@@ -236,10 +274,10 @@ class Expansion {
       const bool visible = f.normal.isZero(0) || f.normal.dot(x) - f.offset > -2 * std::numeric_limits<double>::epsilon() * scale_;
       if (!visible) {
         if (rim_count_ == corner_room) return false;
-        rim_[std::size_t(rim_count_++)] = {f.corner[(side + 1) % 3], f.corner[side], face};
+        rim_[std::size_t(rim_count_++)] = {f.corner[(side + 1) % 3], f.corner[side], face, none};
         return true;
       }
-      f.gone = true;
+      remove(face);
       if (depth == corner_room) return false;
       steps_[std::size_t(depth++)] = {face, std::uint16_t(side), 1};
       return true;
@@ -285,15 +323,22 @@ class Expansion {
       shifted.offset = pair_.offset + result.normal * (result.distance - further);
       const GjkResult r = gjk_loop<false>(shifted, {});
       if (r.state != GjkResult::State::apart) return;
-      const Vector3<double> n = r.v / r.distance;
-      const double here = separation(pair_, n);
-      if (!(here > result.distance)) return;
-      const bool settled = here - result.distance <= stop_share * scale_;
-      result.distance = here;
-      result.normal = n;
-      result.on_a = r.simplex.on_a();
-      result.on_b = r.simplex.on_b();
-      if (settled) return;
+      const Vector3<double> step = r.v / r.distance - result.normal;
+      const double before = result.distance;
+      // Where depth and radius are nearly the same the steps are short: longer ones as long as they gain.
+      const Vector3<double> from = result.normal;
+      for (double stretch = 1; stretch < 1e6; stretch *= 2) {
+        const Vector3<double> n = (from + stretch * step).normalized();
+        const double here = separation(pair_, n);
+        if (!(here > result.distance)) break;
+        result.distance = here;
+        result.normal = n;
+      }
+      if (!(result.distance > before)) return;
+      const MinkowskiCorner end = pair_.support(-result.normal);
+      result.on_a = end.a;
+      result.on_b = end.b;
+      if (result.distance - before <= stop_share * scale_) return;
     }
   }
 
@@ -324,26 +369,18 @@ class Expansion {
 
   static constexpr double flat_share = 1e-13;
   static constexpr int descent_limit = 50;
-  struct Rim {
-    std::uint16_t from, to, outer;
-  };
-  struct Queued {
-    double offset;
-    std::uint16_t face;
-  };
-  static bool later(const Queued& x, const Queued& y) {
-    return x.offset > y.offset || (x.offset == y.offset && x.face > y.face);
-  }
-
   const MinkowskiPair& pair_;
   double scale_ = 0;
-  int corner_count_ = 0, face_count_ = 0, heap_size_ = 0, rim_count_ = 0;
+  int corner_count_ = 0, face_count_ = 0, heap_size_ = 0, rim_count_ = 0, free_count_ = 0, gone_count_ = 0;
+  std::uint32_t serial_ = 0;
   Vector3<double> flat_normal_, best_normal_;
   double best_reach_ = std::numeric_limits<double>::infinity();
   std::array<std::uint16_t, 3> best_face_{};
   std::array<MinkowskiCorner, corner_room> corners_;
+  std::array<Vector3<double>, corner_room> turned_;  ///< their points of B in A's axes, about B's origin
   std::array<Face, face_room> faces_;
-  std::array<Queued, face_room> heap_;
+  std::array<Queued, 4 * face_room> heap_;
+  std::array<std::uint16_t, face_room> free_, gone_;
   std::array<Rim, corner_room> rim_;
   std::array<Step, corner_room> steps_;
 };

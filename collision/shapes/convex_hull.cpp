@@ -120,15 +120,21 @@ std::uint32_t ConvexHull::support_vertex(const Vector3<double>& d) const {
     best = select(further, along, best);
     where = select(further, Lanes(double(k)), where);
   }
-  std::uint32_t vertex = 0;
-  double most = -std::numeric_limits<double>::infinity();
+  // Halves against halves, without a branch.
+  std::array<double, lane_count> most, number;
   for (int lane = 0; lane < lane_count; ++lane) {
-    const std::uint32_t i = std::uint32_t(where[lane]) * std::uint32_t(lane_count) + std::uint32_t(lane);
-    if (best[lane] > most || (best[lane] == most && i < vertex)) {
-      most = best[lane];
-      vertex = i;
+    most[std::size_t(lane)] = best[lane];
+    number[std::size_t(lane)] = where[lane] * lane_count + lane;
+  }
+  for (std::size_t half = std::size_t(lane_count) / 2; half > 0; half /= 2) {
+    for (std::size_t i = 0; i < half; ++i) {
+      const double m = most[i + half], n = number[i + half];
+      const bool take = (m > most[i]) | ((m == most[i]) & (n < number[i]));
+      most[i] = take ? m : most[i];
+      number[i] = take ? n : number[i];
     }
   }
+  const auto vertex = std::uint32_t(number[0]);
   return vertex < polytope_.vertices.size() ? vertex : 0;  // a repeated vertex 0 in the last pack
 }
 
