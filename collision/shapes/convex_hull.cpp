@@ -120,7 +120,7 @@ std::uint32_t ConvexHull::support_vertex(const Vector3<double>& d) const {
     best = select(further, along, best);
     where = select(further, Lanes(double(k)), where);
   }
-  // Halves against halves, without a branch.
+  // Halves against halves.
   std::array<double, lane_count> most, number;
   for (int lane = 0; lane < lane_count; ++lane) {
     most[std::size_t(lane)] = best[lane];
@@ -129,7 +129,7 @@ std::uint32_t ConvexHull::support_vertex(const Vector3<double>& d) const {
   for (std::size_t half = std::size_t(lane_count) / 2; half > 0; half /= 2) {
     for (std::size_t i = 0; i < half; ++i) {
       const double m = most[i + half], n = number[i + half];
-      const bool take = (m > most[i]) | ((m == most[i]) & (n < number[i]));
+      const bool take = m > most[i] || (m == most[i] && n < number[i]);
       most[i] = take ? m : most[i];
       number[i] = take ? n : number[i];
     }
