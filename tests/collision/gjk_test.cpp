@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// gjk: boxes against a plain enumeration of their features in long double, hulls against all directions that their
+// features have, round shapes against closed forms, published cases by name, and what holds for every pair.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include "collision/narrow_phase.hpp"
+#include "collision/shapes/box.hpp"
+#include "collision/shapes/capsule.hpp"
+#include "collision/shapes/compound.hpp"
+#include "collision/shapes/cylinder.hpp"
+#include "collision/shapes/ellipsoid.hpp"
+#include "collision/shapes/half_space.hpp"
+#include "collision/shapes/sphere.hpp"
+#include "tests/collision/placed_pairs.hpp"
+
+namespace polhode {
+namespace {
+
+using Vector = Vector3<double>;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+const NarrowPhase& gjk_phase() {
+  static const auto narrow = find_narrow_phase("gjk")->make();
+  return *narrow;
+}
+
+Distance distance(const PlacedPair& p, PairMemory* memory = nullptr) {
+  return gjk_phase().distance(*p.a, p.at_a, *p.b, p.at_b, memory);
+}
+bool overlap(const PlacedPair& p) { return gjk_phase().overlap(*p.a, p.at_a, *p.b, p.at_b); }
+
+/// What every answer keeps: a unit normal, witness points that it joins, no NaN.
+void expect_sound(const Distance& d, double scale) {
+  EXPECT_NEAR(d.normal.norm(), 1, 1e-14);
+  EXPECT_LT((d.on_a - d.on_b - d.distance * d.normal).norm(), 1e-9 * scale);
+}
+
+Pose turned(const Vector& position, const Vector& rotation_vector) {
+  return {position, rotation_matrix(quaternion_from_rotation_vector<double>(rotation_vector))};
+}
+
+TEST(Gjk, BoxesAgreeWithTheirFeatures) {
+  for (std::uint64_t k = 0; k < 12000; ++k) {
+    const PlacedPair p = box_pair(k);
+    const auto truth = double(signed_distance_of_boxes(p));
+    const Distance d = distance(p);
+    const double small = std::min(p.size_a, p.size_b), large = std::max(p.size_a, p.size_b);
+    const double rounding = 4e-16 * (p.at_a.position.norm() + p.at_b.position.norm() + large);
+    ASSERT_NEAR(d.distance, truth, 1e-9 * small + rounding) << k;
+    if (std::abs(truth) > 1e-14 * large + rounding) {
+      ASSERT_EQ(d.distance <= 0, truth <= 0) << k;
+      ASSERT_EQ(overlap(p), truth <= 0) << k;
+    }
+    expect_sound(d, small + 1e-5 * large);
+    if (d.distance > 0) continue;
+    PlacedPair apart = p;  // the normal points from B to A
+    apart.at_b.position += d.distance * d.normal;
+    ASSERT_GE(double(signed_distance_of_boxes(apart)), -1e-9 * small - rounding) << k;
+  }
+}
+
+TEST(Gjk, HullsAgreeWithTheirFeatures) {
+  for (std::uint64_t k = 0; k < 300; ++k) {
+    const PlacedPair p = hull_pair(k);
+    const auto truth = double(separation_of_hulls(p));  // the signed distance where they overlap, else a lower bound
+    const Distance d = distance(p);
+    const double small = std::min(p.size_a, p.size_b), large = std::max(p.size_a, p.size_b);
+    const double rounding = 4e-16 * (p.at_a.position.norm() + p.at_b.position.norm() + large);
+    expect_sound(d, small);
+    ASSERT_EQ(overlap(p), d.distance <= 0);
+    if (truth <= 0) {
+      ASSERT_NEAR(d.distance, truth, 1e-9 * small + rounding) << k;
+      continue;
+    }
+    // Apart, the plane across the normal parts the two by the distance, and no two points can be nearer than that.
+    ASSERT_GE(d.distance, truth - 1e-9 * small - rounding) << k;
+    const Vector n = d.normal;
+    const double above = n.dot(p.at_a.to_world(p.a->support(-(p.at_a.rotation.transpose() * n))));
+    const double below = n.dot(p.at_b.to_world(p.b->support(p.at_b.rotation.transpose() * n)));
+    ASSERT_NEAR(above - below, d.distance, 1e-7 * small + rounding) << k;
+  }
+}
+
+// 42 box cases, each with its source in the table.
+TEST(Gjk, PublishedBoxCases) {
+  std::ifstream file(std::string(POLHODE_TESTS_DIR) + "/collision/collision_cases.csv");
+  std::string line;
+  int cases = 0;
+  while (std::getline(file, line)) {
+    if (line.empty() || line[0] == '#' || line.starts_with("id,")) continue;
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream words(line);
+    std::string id, name;
+    words >> id >> name;
+    const auto numbers = [&](auto&& into) {
+      std::string word;
+      for (double& x : into) {
+        words >> word;
+        x = std::stod(word);
+      }
+    };
+    std::array<Vector, 2> half, position;
+    std::array<Quaternion<double>, 2> orientation;
+    for (std::size_t i = 0; i < 2; ++i) {
+      numbers(half[i]);
+      numbers(position[i]);
+      numbers(orientation[i]);
+    }
+    std::array<double, 2> expected{};
+    numbers(expected);
+    const PlacedPair p = {std::make_shared<Box>(half[0]), std::make_shared<Box>(half[1]),
+                          {position[0], rotation_matrix(orientation[0])},
+                          {position[1], rotation_matrix(orientation[1])}, half[0].maxCoeff(), half[1].maxCoeff()};
+    const double rounding = 4e-16 * (position[0].norm() + position[1].norm() + p.size_a);
+    const double truth = std::isnan(expected[0]) ? double(signed_distance_of_boxes(p)) : expected[0];
+    const Distance d = distance(p);
+    EXPECT_NEAR(d.distance, truth, std::max(expected[1], 1e-12) + rounding) << name;
+    if (std::abs(truth) > rounding) {
+      EXPECT_EQ(overlap(p), truth <= 0) << name;
+    }
+    expect_sound(d, p.size_a);
+    ++cases;
+  }
+  EXPECT_EQ(cases, 42);
+}
+
+// Drake, geometry/proximity: a capsule of radius 2 and segment 4 along z against a box 1 × 2 × 4 at the origin.
+TEST(Gjk, DrakeCapsuleAgainstBox) {
+  const Capsule capsule(2, 4);
+  const Box box({0.5, 1, 2});
+  EXPECT_NEAR(gjk_phase().distance(capsule, turned({3, 0, 0}, Vector::Zero()), box, {}).distance, 0.5, 1e-14);
+  EXPECT_NEAR(gjk_phase().distance(capsule, turned({0, 0, 8}, Vector::Zero()), box, {}).distance, 2.0, 1e-14);
+  EXPECT_NEAR(gjk_phase().distance(capsule, turned({-10, 0.8, 1.5}, {0, std::numbers::pi / 2, 0}), box, {}).distance, 5.5, 1e-14);
+}
+
+// Depth of spheres and capsules by their cores, also where these meet.
+TEST(Gjk, RoundShapesInClosedForm) {
+  const Sphere small(0.5), large(2);
+  const Capsule capsule(0.25, 3);
+  for (const double x : {0.0, 1e-300, 1e-12, 1.0, 2.4999999, 2.5, 2.5000001, 100.0}) {
+    const Distance d = gjk_phase().distance(small, {{x, 0, 0}}, large, {});
+    EXPECT_NEAR(d.distance, x - 2.5, 1e-15 * (1 + x)) << x;
+    expect_sound(d, 1e-6);
+    if (x > 1e-200) {
+      EXPECT_NEAR(d.normal[0], 1, 1e-14);
+    }
+    EXPECT_EQ(gjk_phase().overlap(small, {{x, 0, 0}}, large, {}), d.distance <= 0) << x;
+    const double on_axis = gjk_phase().distance(small, {{x, 0, 1}}, capsule, {}).distance;
+    EXPECT_NEAR(on_axis, x - 0.75, 1e-15 * (1 + x)) << x;
+  }
+  // Crossing, parallel, in line and the same: the segments meet, and the depth is that of the radii.
+  EXPECT_NEAR(gjk_phase().distance(capsule, {}, capsule, turned({0, 0, 0.3}, {1.1, 0, 0})).distance, -0.5, 1e-15);
+  EXPECT_NEAR(gjk_phase().distance(capsule, {}, capsule, {{0.4, 0, 1}}).distance, -0.1, 1e-15);
+  EXPECT_NEAR(gjk_phase().distance(capsule, {}, capsule, {{0, 0, 3.25}}).distance, -0.25, 1e-15);
+  EXPECT_NEAR(gjk_phase().distance(capsule, {}, capsule, {{0, 0, 2}}).distance, -0.5, 1e-15);
+  EXPECT_NEAR(gjk_phase().distance(capsule, {}, capsule, {}).distance, -0.5, 1e-15);
+  // A ball's centre within a box, and on its face.
+  const Box box({1, 2, 3});
+  EXPECT_NEAR(gjk_phase().distance(small, {{0.75, 0, 0}}, box, {}).distance, -0.75, 1e-15);
+  EXPECT_NEAR(gjk_phase().distance(small, {{1, 0.5, 0.5}}, box, {}).distance, -0.5, 1e-15);
+  EXPECT_NEAR(gjk_phase().distance(small, {}, box, {}).distance, -1.5, 1e-15);
+  EXPECT_NEAR(gjk_phase().distance(small, {{4, 6, 0}}, box, {}).distance, 4.5, 1e-15);
+}
+
+TEST(Gjk, CylindersAndEllipsoidsInClosedForm) {
+  const Cylinder cylinder(0.5, 2);
+  const Ellipsoid ellipsoid({1, 2, 3});
+  const Sphere sphere(0.25);
+  EXPECT_NEAR(gjk_phase().distance(cylinder, {}, sphere, {{2, 0, 0.3}}).distance, 1.25, 1e-12);
+  EXPECT_NEAR(gjk_phase().distance(cylinder, {}, sphere, {{0.2, 0.1, 2}}).distance, 0.75, 1e-12);
+  EXPECT_NEAR(gjk_phase().distance(cylinder, {}, sphere, {{3.5, 4, 2}}).distance, std::hypot(std::hypot(3.5, 4.0) - 0.5, 1) - 0.25, 1e-9);
+  EXPECT_NEAR(gjk_phase().distance(cylinder, {}, sphere, {{0.3, 0, 0}}).distance, -0.45, 1e-9);
+  EXPECT_NEAR(gjk_phase().distance(cylinder, {}, cylinder, {{0.1, 0, 1.9}}).distance, -0.1, 1e-12);
+  EXPECT_NEAR(gjk_phase().distance(cylinder, {}, cylinder, {{0.8, 0, 0}}).distance, -0.2, 1e-9);
+  EXPECT_NEAR(gjk_phase().distance(cylinder, {}, cylinder, {}).distance, -1, 1e-9);
+  EXPECT_NEAR(gjk_phase().distance(ellipsoid, {}, sphere, {{0, 0, 5}}).distance, 1.75, 1e-9);
+  EXPECT_NEAR(gjk_phase().distance(ellipsoid, {}, ellipsoid, turned({3.5, 0, 0}, {0, 0, std::numbers::pi / 2})).distance, 0.5, 1e-9);
+  EXPECT_NEAR(gjk_phase().distance(ellipsoid, {}, ellipsoid, {{1.5, 0, 0}}).distance, -0.5, 1e-9);
+  EXPECT_NEAR(gjk_phase().distance(ellipsoid, {}, ellipsoid, {}).distance, -2, 1e-9);
+}
+
+// The box's lowest corner above the floor, and every other finite shape by its support.
+TEST(Gjk, HalfSpaceAgainstAll) {
+  const HalfSpace floor({0, 0, 2}, 0.5), ceiling({0, 0, -1}, -3);
+  const Box box({1, 1, 1});
+  const Distance d = gjk_phase().distance(box, turned({5, 6, 2}, {std::numbers::pi / 4, 0, 0}), floor, {});
+  EXPECT_NEAR(d.distance, 1.5 - std::numbers::sqrt2, 1e-15);
+  EXPECT_EQ(d.normal, Vector(0, 0, 1));
+  expect_sound(d, 1e-6);
+  EXPECT_NEAR(gjk_phase().distance(floor, {}, Sphere(0.25), {{1, 2, 0}}).distance, -0.75, 1e-15);
+  EXPECT_NEAR(gjk_phase().distance(floor, {}, ceiling, {}).distance, 2.5, 1e-15);
+  EXPECT_EQ(gjk_phase().distance(floor, {}, HalfSpace({1, 0, 0}), {}).distance, -infinity);
+  EXPECT_TRUE(gjk_phase().overlap(floor, {}, HalfSpace({1, 0, 0}), {}));
+}
+
+// Touching is contact: coincident, nested and kissing shapes of every kind always have an answer.
+TEST(Gjk, NeverDropsATouchingContact) {
+  for (const double size : {0.01, 0.5, 1000.0}) {
+    const Box box(Vector::Constant(size / 2));
+    for (std::uint64_t k = 0; k < 200; ++k) {
+      const Pose at = random_pose(k, 3 * size);
+      for (int axis = 0; axis < 3; ++axis) {
+        const Pose beside = {at.position + size * at.rotation.col(axis), at.rotation};
+        const Distance d = gjk_phase().distance(box, at, box, beside);
+        EXPECT_NEAR(d.distance, 0, 1e-15 * (size + 4 * at.position.norm()));
+        EXPECT_NEAR(std::abs(d.normal.dot(at.rotation.col(axis))), 1, 1e-12);
+        const Pose deeper = {at.position + (1 - 1e-13) * size * at.rotation.col(axis), at.rotation};
+        EXPECT_TRUE(gjk_phase().overlap(box, at, box, deeper));
+        EXPECT_EQ(gjk_phase().manifold(box, at, box, deeper).count, 1u);
+      }
+      EXPECT_NEAR(gjk_phase().distance(box, at, box, at).distance, -size, 4e-15 * size);
+    }
+  }
+}
+
+RC_GTEST_PROP(Gjk, MirrorsExactly, ()) {
+  const PlacedPair p = any_pair(*rc::gen::arbitrary<std::uint64_t>());
+  const Distance d = distance(p), m = gjk_phase().distance(*p.b, p.at_b, *p.a, p.at_a);
+  RC_ASSERT(d.distance == m.distance);
+  RC_ASSERT(d.normal == -m.normal);
+  RC_ASSERT(d.on_a == m.on_b);
+  RC_ASSERT(d.on_b == m.on_a);
+}
+
+RC_GTEST_PROP(Gjk, OverlapIsASignedDistanceOfZeroOrLess, ()) {
+  const PlacedPair p = any_pair(*rc::gen::arbitrary<std::uint64_t>());
+  const double d = distance(p).distance;
+  if (std::abs(d) > 1e-13 * (p.size_a + p.size_b)) RC_ASSERT(overlap(p) == (d <= 0));
+}
+
+RC_GTEST_PROP(Gjk, RigidMotionChangesRoundOffOnly, ()) {
+  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+  const PlacedPair p = any_pair(seed);
+  const double size = p.size_a + p.size_b;
+  const Pose motion = random_pose(seed + 1, size);
+  PlacedPair q = p;
+  for (Pose* at : {&q.at_a, &q.at_b}) *at = {motion.to_world(at->position), motion.rotation * at->rotation};
+  const double slack = p.polytopes ? 1e-13 : 1e-7;  // round bodies that overlap: the search ends at a finite polytope
+  RC_ASSERT(std::abs(distance(p).distance - distance(q).distance) <= slack * (size + p.at_a.position.norm() + p.at_b.position.norm()));
+}
+
+// What a pair remembers makes it faster, and changes its answer by round-off at most.
+RC_GTEST_PROP(Gjk, MemoryDoesNotChangeTheAnswer, ()) {
+  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+  PlacedPair p = any_pair(seed);
+  PairMemory memory;
+  for (int k = 0; k < 10; ++k) {
+    const Distance warm = distance(p, &memory), cold = distance(p);
+    const double size = p.size_a + p.size_b + (p.at_a.position - p.at_b.position).norm();
+    RC_ASSERT(std::abs(warm.distance - cold.distance) <= (p.polytopes ? 1e-13 : 1e-7) * size);
+    const Pose step = random_pose(seed + std::uint64_t(k), 0.02 * size);
+    p.at_b.position += step.position;
+    if (k == 5) p.at_b.rotation = step.rotation;
+  }
+}
+
+TEST(Gjk, RefusesPosesThatAreNotFinite) {
+  const Box box({1, 1, 1});
+  Pose bad;
+  bad.position[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW((void)gjk_phase().distance(box, bad, box, {}), std::invalid_argument);
+  EXPECT_THROW((void)gjk_phase().overlap(box, {}, box, bad), std::invalid_argument);
+  bad.position[1] = infinity;
+  EXPECT_THROW((void)gjk_phase().overlap(box, {}, box, bad), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace polhode
