@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "collision/narrow/box_sat.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace polhode {
+namespace {
+
+constexpr double round_off = 4e-15;    // of a separation, in units of RelativeBoxes::scale
+constexpr double parallel = 1e-15;     // sine of an angle below which two edges span no axis that others do not
+constexpr double nearly_best = 1e-12;  // in the same units: an edge axis that may hold the nearest points
+
+/// The nearest points known so far, in A's axes, and the unit vector from A to B that belongs to them.
+struct Nearest {
+  double squared = std::numeric_limits<double>::infinity();  // m²
+  Vector3<double> on_a, on_b, apart;                         // apart = on_b − on_a
+
+  void offer(const Vector3<double>& a, const Vector3<double>& b, const Vector3<double>& difference) {
+    const double d = difference.squaredNorm();
+    if (!(d < squared)) return;
+    squared = d;
+    on_a = a;
+    on_b = b;
+    apart = difference;
+  }
+};
+
+Vector3<double> corner(const Vector3<double>& half, int k) {
+  return {k & 1 ? half[0] : -half[0], k & 2 ? half[1] : -half[1], k & 4 ? half[2] : -half[2]};
+}
+
+Vector3<double> clamped(const Vector3<double>& x, const Vector3<double>& half) {
+  return x.cwiseMax(-half).cwiseMin(half);
+}
+
+/// Each vertex of one against the whole of the other: right wherever one of the nearest points is a vertex. A coordinate
+/// that is not clamped leaves an exact zero, so the direction stands exactly upright on the face or edge that it meets.
+void offer_vertices(const RelativeBoxes& boxes, const Vector3<double>& offset, Nearest& nearest) {
+  for (int k = 0; k < 8; ++k) {
+    const Vector3<double> b = offset + boxes.b_in_a * corner(boxes.half_b, k);
+    const Vector3<double> a = clamped(b, boxes.half_a);
+    nearest.offer(a, b, b - a);
+  }
+  for (int k = 0; k < 8; ++k) {
+    const Vector3<double> a = corner(boxes.half_a, k);
+    const Vector3<double> in_b = boxes.b_in_a.transpose() * (a - offset);
+    const Vector3<double> b = clamped(in_b, boxes.half_b);
+    nearest.offer(a, offset + boxes.b_in_a * b, boxes.b_in_a * (b - in_b));
+  }
+}
+
+/// Two edges, of A along its axis i with centre `a` and of B along its axis j with centre `b`, where both nearest points lie
+/// within them. In the plane across A's edge that edge is a point and B's a short line, however nearly parallel they are.
+void offer_edges(const RelativeBoxes& boxes, int i, int j, const Vector3<double>& a, const Vector3<double>& b,
+                 Nearest& nearest) {
+  const int y = (i + 1) % 3, z = (i + 2) % 3;
+  const Vector3<double> along = boxes.b_in_a.col(j);
+  const Vector3<double> between = b - a;
+  const double across = along[y] * along[y] + along[z] * along[z];
+  const double reach_b = boxes.half_b[j], reach_a = boxes.half_a[i];
+  const double u = std::clamp(-(between[y] * along[y] + between[z] * along[z]) / across, -reach_b, reach_b);
+  Vector3<double> difference = between + u * along;
+  const double x = std::clamp(difference[i], -reach_a, reach_a);
+  difference[i] -= x;
+  Vector3<double> on_a = a;
+  on_a[i] = x;
+  nearest.offer(on_a, b + u * along, difference);
+}
+
+/// The edge pairs that may be nearest along the axis of edges i and j: on each box the edge that is furthest along the
+/// normal, and both where the normal stands upright on a face that has them.
+void offer_edge_pairs(const RelativeBoxes& boxes, const Vector3<double>& offset, int i, int j, const Vector3<double>& normal,
+                      Nearest& nearest) {
+  constexpr double upright = 1e-7;
+  const Vector3<double> in_b = boxes.b_in_a.transpose() * normal;
+  const auto possible = [](double component, double sign) { return component * sign > -upright; };
+  for (int k = 0; k < 4; ++k) {
+    const double first = k & 1 ? 1 : -1, second = k & 2 ? 1 : -1;
+    const int y = (i + 1) % 3, z = (i + 2) % 3;
+    if (!possible(normal[y], first) || !possible(normal[z], second)) continue;
+    Vector3<double> a = Vector3<double>::Zero();
+    a[y] = first * boxes.half_a[y];
+    a[z] = second * boxes.half_a[z];
+    for (int m = 0; m < 4; ++m) {
+      const double third = m & 1 ? 1 : -1, fourth = m & 2 ? 1 : -1;
+      const int v = (j + 1) % 3, w = (j + 2) % 3;
+      if (!possible(in_b[v], -third) || !possible(in_b[w], -fourth)) continue;
+      const Vector3<double> b = offset + boxes.b_in_a.col(v) * (third * boxes.half_b[v]) +
+                                boxes.b_in_a.col(w) * (fourth * boxes.half_b[w]);
+      offer_edges(boxes, i, j, a, b, nearest);
+    }
+  }
+}
+
+/// Calls take(axis) for each of the fifteen, but those of parallel edges.
+template <class Take>
+void for_each_axis(const RelativeBoxes& boxes, const Take& take) {
+  const Matrix3<double>& c = boxes.b_in_a;
+  const Vector3<double>& t = boxes.offset;
+  for (int i = 0; i < 3; ++i) {
+    const double reach = boxes.half_a[i] + (c.row(i).cwiseAbs() * boxes.half_b).value();
+    take(BoxAxis{i, std::abs(t[i]) - reach, Vector3<double>::Unit(i) * std::copysign(1.0, t[i])});
+  }
+  for (int j = 0; j < 3; ++j) {
+    const double along = c.col(j).dot(t);
+    const double reach = boxes.half_b[j] + c.col(j).cwiseAbs().dot(boxes.half_a);
+    take(BoxAxis{3 + j, std::abs(along) - reach, c.col(j) * std::copysign(1.0, along)});
+  }
+  for (int i = 0; i < 3; ++i) {
+    const int y = (i + 1) % 3, z = (i + 2) % 3;
+    for (int j = 0; j < 3; ++j) {
+      const double length = std::sqrt(c(y, j) * c(y, j) + c(z, j) * c(z, j));
+      if (length < parallel) continue;
+      const double ny = -c(z, j) / length, nz = c(y, j) / length;
+      const int v = (j + 1) % 3, w = (j + 2) % 3;
+      const double along = t[y] * ny + t[z] * nz;
+      const double reach_a = boxes.half_a[y] * std::abs(ny) + boxes.half_a[z] * std::abs(nz);
+      const double reach_b = boxes.half_b[v] * std::abs(c(y, v) * ny + c(z, v) * nz) +
+                             boxes.half_b[w] * std::abs(c(y, w) * ny + c(z, w) * nz);
+      const double sign = std::copysign(1.0, along);
+      BoxAxis axis{6 + 3 * i + j, std::abs(along) - reach_a - reach_b, Vector3<double>::Zero()};
+      axis.normal[y] = sign * ny;
+      axis.normal[z] = sign * nz;
+      take(axis);
+    }
+  }
+}
+
+/// The distance of boxes that the axis separates, or just touches after `offset` was moved so that they do.
+Nearest nearest_points(const RelativeBoxes& boxes, const Vector3<double>& offset, double separation) {
+  Nearest nearest;
+  for_each_axis(boxes, [&](const BoxAxis& axis) {
+    if (axis.index < 6 || axis.separation < separation - nearly_best * boxes.scale) return;
+    offer_edge_pairs(boxes, offset, (axis.index - 6) / 3, (axis.index - 6) % 3, axis.normal, nearest);
+  });
+  offer_vertices(boxes, offset, nearest);
+  return nearest;
+}
+
+Distance ordered_distance(const BoxAt& a, const BoxAt& b) {
+  const RelativeBoxes boxes(a, b);
+  const BoxAxis axis = best_axis(boxes);
+  Distance result;
+  result.distance = axis.separation;
+  Vector3<double> normal = axis.normal;
+  const bool apart = axis.separation > 0;
+  const Vector3<double> shift = apart ? Vector3<double>::Zero() : Vector3<double>(-axis.separation * axis.normal);
+  const Nearest nearest = nearest_points(boxes, boxes.offset + shift, axis.separation);
+  const double distance = std::sqrt(nearest.squared);
+  if (apart && distance > axis.separation + round_off * boxes.scale) {
+    result.distance = distance;
+    normal = nearest.apart / distance;
+  }
+  result.normal = -(a.pose.rotation * normal);
+  result.on_a = a.pose.to_world(nearest.on_a);
+  result.on_b = a.pose.to_world(nearest.on_b - shift);
+  return result;
+}
+
+}  // namespace
+
+RelativeBoxes::RelativeBoxes(const BoxAt& a, const BoxAt& b)
+    : half_a(a.half),
+      half_b(b.half),
+      b_in_a(a.pose.rotation.transpose() * b.pose.rotation),
+      offset(a.pose.rotation.transpose() * (b.pose.position - a.pose.position)),
+      scale(half_a.sum() + half_b.sum() + offset.cwiseAbs().sum()) {}
+
+bool in_order(const BoxAt& a, const BoxAt& b) {
+  for (int k = 0; k < 3; ++k) {
+    if (a.pose.position[k] != b.pose.position[k]) return a.pose.position[k] < b.pose.position[k];
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (a.half[k] != b.half[k]) return a.half[k] < b.half[k];
+  }
+  for (int k = 0; k < 9; ++k) {
+    const double of_a = a.pose.rotation(k % 3, k / 3), of_b = b.pose.rotation(k % 3, k / 3);
+    if (of_a != of_b) return of_a < of_b;
+  }
+  return true;
+}
+
+BoxAxis best_axis(const RelativeBoxes& boxes) {
+  if (!std::isfinite(boxes.scale) || !boxes.b_in_a.allFinite()) {
+    throw std::invalid_argument("narrow phase: the pose of a box is not finite");
+  }
+  BoxAxis best{0, -std::numeric_limits<double>::infinity(), {}};
+  // An edge axis that is a face normal but for round-off does not take its place.
+  for_each_axis(boxes, [&](const BoxAxis& axis) {
+    const double ahead = axis.index < 6 ? 0 : round_off * boxes.scale;
+    if (axis.separation > best.separation + ahead) best = axis;
+  });
+  return best;
+}
+
+Distance boxes_distance(const BoxAt& a, const BoxAt& b) {
+  if (in_order(a, b)) return ordered_distance(a, b);
+  Distance mirrored = ordered_distance(b, a);
+  mirrored.normal = -mirrored.normal;
+  std::swap(mirrored.on_a, mirrored.on_b);
+  return mirrored;
+}
+
+}  // namespace polhode

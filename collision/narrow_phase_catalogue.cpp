@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "collision/narrow_phase.hpp"
+
+// One line lists a narrow phase: the function of its name, in the file of its name in narrow/, declares it.
+#define POLHODE_NARROW_PHASES(METHOD) \
+  METHOD(sat) \
+  METHOD(sat_course_report)
+
+namespace polhode {
+
+#define POLHODE_DECLARE(name) NarrowPhaseEntry name();
+POLHODE_NARROW_PHASES(POLHODE_DECLARE)
+
+const std::vector<NarrowPhaseEntry>& narrow_phase_catalogue() {
+#define POLHODE_ENTRY(name) name(),
+  static const std::vector<NarrowPhaseEntry> entries = {POLHODE_NARROW_PHASES(POLHODE_ENTRY)};
+  return entries;
+}
+
+const NarrowPhaseEntry* find_narrow_phase(std::string_view name) {
+  const auto& all = narrow_phase_catalogue();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace polhode
