@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "collision/narrow_phase.hpp"
 #include "core/forces/catalogue.hpp"
 #include "core/invariants.hpp"
 #include "core/shape_inertia.hpp"
@@ -69,6 +70,12 @@ std::string invariants() {
   return text;
 }
 
+std::string narrow_phases() {
+  std::string text;
+  for (const NarrowPhaseEntry& e : narrow_phase_catalogue()) text += line(e.name, e.summary);
+  return text;
+}
+
 std::string nothing() { return "  none in this version\n"; }
 
 std::string metrics() {
@@ -90,7 +97,7 @@ struct Section {
 constexpr Section sections[] = {{"integrators", integrators},   {"scenarios", scenarios},
                                 {"forces", forces},             {"shapes", shapes},
                                 {"invariants", invariants},     {"metrics", metrics},
-                                {"broad-phases", nothing},      {"narrow-phases", nothing},
+                                {"broad-phases", nothing},      {"narrow-phases", narrow_phases},
                                 {"responses", nothing}};
 
 }  // namespace
