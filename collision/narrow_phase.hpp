@@ -17,9 +17,10 @@ namespace polhode {
 /// What a pair remembers from one question to the next, to start warm; empty at first, and never needed for the answer to
 /// be right.
 struct PairMemory {
-  std::uint32_t count = 0;
-  std::array<Vector3<double>, 4> directions{};  ///< of the last simplex, in A's axes
-  std::uint32_t axis = 0;                       ///< the axis or feature that told last
+  std::uint32_t count = 0;                                  ///< corners of the last simplex
+  bool swapped = false;                                     ///< the simplex was made with A and B exchanged
+  std::array<Vector3<double>, 4> corners_a{}, corners_b{};  ///< points of the two solids, each in its own axes
+  std::uint32_t axis = 0;                                   ///< the axis or feature that told last
 };
 
 class NarrowPhase {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <memory>
 #include <string_view>
 
@@ -20,6 +21,9 @@ struct MassProperties {
   Matrix3<double> inertia = Matrix3<double>::Zero();
 };
 
+/// The shapes that narrow phases know in closed form; any other convex shape they know by its support function alone.
+enum class ShapeTag : std::uint8_t { sphere, box, capsule, cylinder, ellipsoid, convex_hull, compound, half_space, other };
+
 /// A closed convex solid, or a compound of such. Built once and never changed; a size that is zero, negative or not
 /// finite is refused when it is built, by std::invalid_argument with the reason.
 class Shape {
@@ -28,9 +32,11 @@ class Shape {
   Shape& operator=(const Shape&) = delete;
   virtual ~Shape() = default;
 
+  ShapeTag tag() const { return tag_; }
   virtual std::string_view kind() const = 0;  ///< as in the catalogue: "box"
 
   /// A point of the shape that is furthest along the direction d, which is not zero and need not be of unit length.
+  /// A half-space has one along its normal only, and refuses other directions.
   virtual Vector3<double> support(const Vector3<double>& d) const = 0;
 
   /// The smallest axis-aligned box around the shape at a pose.
@@ -41,7 +47,10 @@ class Shape {
   virtual MassProperties mass_properties() const = 0;
 
  protected:
-  Shape() = default;
+  explicit Shape(ShapeTag tag = ShapeTag::other) : tag_(tag) {}
+
+ private:
+  ShapeTag tag_;
 };
 
 using ShapePointer = std::shared_ptr<const Shape>;

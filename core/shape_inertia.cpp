@@ -19,31 +19,14 @@ Vector3<double> perpendicular(const Vector3<double>& v) {
   return {s[1] + s[2], s[0] + s[2], s[0] + s[1]};
 }
 
-Vector3<double> box(double mass, const Sizes& s) { return mass / 12 * perpendicular(vector(s, "size")); }
-
-Vector3<double> ellipsoid(double mass, const Sizes& s) { return mass / 5 * perpendicular(vector(s, "semi_axes")); }
-
-Vector3<double> sphere(double mass, const Sizes& s) {
-  const double r = number(s, "radius");
-  return Vector3<double>::Constant(2 * mass * r * r / 5);
-}
-
-Vector3<double> cylinder_moments(double mass, double r, double l) {
-  const double across = mass * (3 * r * r + l * l) / 12;
-  return {across, across, mass * r * r / 2};
-}
-
+Vector3<double> sphere(double mass, const Sizes& s) { return sphere_moments(mass, number(s, "radius")); }
+Vector3<double> box(double mass, const Sizes& s) { return box_moments(mass, vector(s, "size")); }
+Vector3<double> ellipsoid(double mass, const Sizes& s) { return ellipsoid_moments(mass, vector(s, "semi_axes")); }
 Vector3<double> cylinder(double mass, const Sizes& s) {
   return cylinder_moments(mass, number(s, "radius"), number(s, "length"));
 }
-
-/// The cylindrical part has the share l/(l + 4r/3) of the mass. A half ball has its mass centre 3r/8 from its flat
-/// face: about the capsule's centre the two together have m (2r²/5 + l²/4 + 3rl/8).
 Vector3<double> capsule(double mass, const Sizes& s) {
-  const double r = number(s, "radius"), l = number(s, "length");
-  const double of_cylinder = mass * l / (l + 4 * r / 3), of_caps = mass - of_cylinder;
-  const double across = of_caps * (2 * r * r / 5 + l * l / 4 + 3 * r * l / 8);
-  return cylinder_moments(of_cylinder, r, l) + Vector3<double>(across, across, 2 * of_caps * r * r / 5);
+  return capsule_moments(mass, number(s, "radius"), number(s, "length"));
 }
 
 Parameter length(const char* key, const char* meaning, Parameter::Range range = Parameter::Range::positive) {
@@ -55,6 +38,30 @@ Parameter three_lengths(const char* key, const char* meaning) {
 }
 
 }  // namespace
+
+Vector3<double> sphere_moments(double mass, double radius) {
+  return Vector3<double>::Constant(2 * mass * radius * radius / 5);
+}
+
+Vector3<double> box_moments(double mass, const Vector3<double>& size) { return mass / 12 * perpendicular(size); }
+
+Vector3<double> cylinder_moments(double mass, double radius, double length) {
+  const double across = mass * (3 * radius * radius + length * length) / 12;
+  return {across, across, mass * radius * radius / 2};
+}
+
+// The cylindrical part has the share l/(l + 4r/3) of the mass. A half ball has its mass centre 3r/8 from its flat
+// face: about the capsule's centre the two together have m (2r²/5 + l²/4 + 3rl/8).
+Vector3<double> capsule_moments(double mass, double radius, double length) {
+  const double r = radius, l = length;
+  const double of_cylinder = mass * l / (l + 4 * r / 3), of_caps = mass - of_cylinder;
+  const double across = of_caps * (2 * r * r / 5 + l * l / 4 + 3 * r * l / 8);
+  return cylinder_moments(of_cylinder, r, l) + Vector3<double>(across, across, 2 * of_caps * r * r / 5);
+}
+
+Vector3<double> ellipsoid_moments(double mass, const Vector3<double>& semi_axes) {
+  return mass / 5 * perpendicular(semi_axes);
+}
 
 const std::vector<ShapeKind>& shape_catalogue() {
   using enum Parameter::Range;

@@ -11,6 +11,14 @@
 
 namespace polhode {
 
+// Principal moments about the mass centre; the axis of a cylinder or capsule is body axis 3, and the length of a capsule
+// that of its cylindrical part.
+Vector3<double> sphere_moments(double mass, double radius);
+Vector3<double> box_moments(double mass, const Vector3<double>& size);  ///< size: full edge lengths
+Vector3<double> cylinder_moments(double mass, double radius, double length);
+Vector3<double> capsule_moments(double mass, double radius, double length);
+Vector3<double> ellipsoid_moments(double mass, const Vector3<double>& semi_axes);
+
 /// A shape as a scenario names it: shape = { kind = "box", size = [0.1, 0.4, 0.9] }.
 struct ShapeKind {
   std::string name;

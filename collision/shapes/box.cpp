@@ -1,35 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "collision/shapes/box.hpp"
 
-#include <cmath>
-#include <stdexcept>
-#include <string>
+#include "collision/shape_catalogue.hpp"
+#include "collision/shapes/size_checks.hpp"
+#include "core/shape_inertia.hpp"
 
 namespace polhode {
 
-Box::Box(const Vector3<double>& half_extents) : half_(half_extents) {
-  for (int k = 0; k < 3; ++k) {
-    if (std::isfinite(half_[k]) && half_[k] > 0) continue;
-    throw std::invalid_argument("box: half extent " + std::to_string(k) + " is " + std::to_string(half_[k]) +
-                                " m; it must be positive and finite");
-  }
+namespace {
+
+Polytope box_polytope(const Vector3<double>& h) {
+  std::vector<Vector3<double>> vertices;
+  for (unsigned k = 0; k < 8; ++k) vertices.push_back({k & 1 ? h[0] : -h[0], k & 2 ? h[1] : -h[1], k & 4 ? h[2] : -h[2]});
+  return make_polytope(std::move(vertices),
+                       {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}});
 }
 
-Vector3<double> Box::support(const Vector3<double>& d) const {
-  return {std::copysign(half_[0], d[0]), std::copysign(half_[1], d[1]), std::copysign(half_[2], d[2])};
+}  // namespace
+
+Box::Box(const Vector3<double>& half_extents)
+    : Shape(ShapeTag::box), half_(positive_sizes("box", "size", half_extents)) {
+  representable("box", Box::mass_properties());
+  polytope_ = box_polytope(half_);
 }
 
 Bounds Box::bounds(const Pose& pose) const {
-  const Vector3<double> reach = pose.rotation.cwiseAbs() * half_;
-  return {pose.position - reach, pose.position + reach};
+  const Vector3<double> half = pose.rotation.cwiseAbs() * half_;
+  return {pose.position - half, pose.position + half};
 }
 
 MassProperties Box::mass_properties() const {
-  MassProperties m;
-  m.volume = 8 * half_[0] * half_[1] * half_[2];
-  const Vector3<double> squares = half_.cwiseProduct(half_);
-  m.inertia.diagonal() = (Vector3<double>::Constant(squares.sum()) - squares) * (m.volume / 3);
-  return m;
+  const double volume = 8 * half_.prod();
+  return centered_mass(volume, box_moments(volume, 2 * half_));
+}
+
+ShapeEntry box() {
+  return {"box", "a cuboid; its faces look along the body axes", sizes_of_core_shape("box"),
+          [](const ShapeParameters& p) -> ShapePointer { return std::make_shared<Box>(p.vector("size") / 2); }};
 }
 
 }  // namespace polhode

@@ -1,25 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The box |x| <= hx, |y| <= hy, |z| <= hz in its own axes.
+// The box |x_i| ≤ h_i.
 #pragma once
 
+#include <cmath>
+
+#include "collision/shapes/polytope.hpp"
 #include "collision/shape.hpp"
 
 namespace polhode {
 
 class Box final : public Shape {
  public:
-  /// Half of each edge length, m. Throws std::invalid_argument if one is not positive and finite.
-  explicit Box(const Vector3<double>& half_extents);
+  explicit Box(const Vector3<double>& half_extents);                         ///< m
 
   const Vector3<double>& half_extents() const { return half_; }
 
+  /// Vertex k is at ±h: bit i of k set means + on axis i. Face 2i looks along −axis i, face 2i + 1 along +.
+  const Polytope& polytope() const { return polytope_; }
+
   std::string_view kind() const override { return "box"; }
-  Vector3<double> support(const Vector3<double>& d) const override;
+  Vector3<double> support(const Vector3<double>& d) const override {
+    return {std::copysign(half_[0], d[0]), std::copysign(half_[1], d[1]), std::copysign(half_[2], d[2])};
+  }
   Bounds bounds(const Pose& pose) const override;
   MassProperties mass_properties() const override;
 
  private:
   Vector3<double> half_;
+  Polytope polytope_;
 };
 
 }  // namespace polhode

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "collision/shapes/capsule.hpp"
+
+#include <numbers>
+
+#include "collision/shape_catalogue.hpp"
+#include "collision/shapes/size_checks.hpp"
+#include "core/shape_inertia.hpp"
+
+namespace polhode {
+
+Capsule::Capsule(double radius, double length)
+    : Shape(ShapeTag::capsule),
+      radius_(positive_size("capsule", "radius", radius)),
+      half_(non_negative_size("capsule", "length", length) / 2) {
+  representable("capsule", Capsule::mass_properties());
+}
+
+Bounds Capsule::bounds(const Pose& pose) const {
+  const Vector3<double> half = half_ * pose.rotation.col(2).cwiseAbs() + Vector3<double>::Constant(radius_);
+  return {pose.position - half, pose.position + half};
+}
+
+MassProperties Capsule::mass_properties() const {
+  const double volume = std::numbers::pi * radius_ * radius_ * (length() + 4 * radius_ / 3);
+  return centered_mass(volume, capsule_moments(volume, radius_, length()));
+}
+
+ShapeEntry capsule() {
+  return {"capsule", "all points no further than the radius from a segment on body axis 3",
+          sizes_of_core_shape("capsule"), [](const ShapeParameters& p) -> ShapePointer {
+            return std::make_shared<Capsule>(p.number("radius"), p.number("length"));
+          }};
+}
+
+}  // namespace polhode

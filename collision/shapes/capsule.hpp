@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All points no further than r from a segment of length l on body axis 3; l = 0 is a ball.
+#pragma once
+
+#include <cmath>
+
+#include "collision/shape.hpp"
+
+namespace polhode {
+
+class Capsule final : public Shape {
+ public:
+  Capsule(double radius, double length);  ///< m; the length is that of the segment
+
+  double radius() const { return radius_; }
+  double length() const { return 2 * half_; }
+
+  std::string_view kind() const override { return "capsule"; }
+  Vector3<double> support(const Vector3<double>& d) const override {
+    return radius_ * d.stableNormalized() + Vector3<double>(0, 0, std::copysign(half_, d[2]));
+  }
+  Bounds bounds(const Pose& pose) const override;
+  MassProperties mass_properties() const override;
+
+ private:
+  double radius_, half_;
+};
+
+}  // namespace polhode

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "collision/shapes/convex_hull.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "collision/shape_catalogue.hpp"
+#include "collision/shapes/obj_mesh.hpp"
+#include "collision/shapes/polyhedron_mass.hpp"
+#include "collision/shapes/qhull_faces.hpp"
+#include "collision/shapes/size_checks.hpp"
+
+namespace polhode {
+
+namespace {
+
+constexpr double flat = 1e-10;          // of the spread
+constexpr std::size_t scan_limit = 256;  // vertices; with more of them climbing is faster than looking at all
+
+/// The number of the point for which f is largest, the first of equals.
+template <class F>
+std::size_t furthest(std::span<const Vector3<double>> points, const F& f) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (f(points[i]) > f(points[best])) best = i;
+  }
+  return best;
+}
+
+/// The points about the middle of their bounds, in units of their largest size; refuses what has no hull.
+std::vector<Vector3<double>> normalised(std::span<const Vector3<double>> points) {
+  if (points.size() < 4) {
+    throw std::invalid_argument("a convex_hull needs at least 4 points, not " + std::to_string(points.size()));
+  }
+  Bounds around;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].allFinite()) throw std::invalid_argument("point " + std::to_string(i) + " of a convex_hull is not finite");
+    around.extend(points[i]);
+  }
+  const Vector3<double> middle = around.min() + 0.5 * around.sizes();
+  const double unit = around.sizes().maxCoeff();
+  if (!std::isfinite(unit)) throw std::invalid_argument("the points of a convex_hull are too far apart for double");
+  if (!(unit > 0)) throw std::invalid_argument("the points of a convex_hull are all the same");
+  std::vector<Vector3<double>> x;
+  for (const Vector3<double>& p : points) x.push_back((p - middle) / unit);
+
+  const Vector3<double> a = x[furthest(x, [](const auto& p) { return p.squaredNorm(); })];
+  const Vector3<double> b = x[furthest(x, [&](const auto& p) { return (p - a).squaredNorm(); })];
+  const Vector3<double> along = (b - a).normalized();
+  const auto off_line = [&](const Vector3<double>& p) { return (p - a).cross(along).norm(); };
+  const Vector3<double> c = x[furthest(x, off_line)];
+  const char* const remedy = "; give points that enclose a volume";
+  if (off_line(c) <= flat) throw std::invalid_argument(std::string("the points of a convex_hull lie on a line") + remedy);
+  const Vector3<double> normal = along.cross(c - a).normalized();
+  const auto off_plane = [&](const Vector3<double>& p) { return std::abs((p - a).dot(normal)); };
+  const double height = off_plane(x[furthest(x, off_plane)]);
+  if (height <= flat) {
+    throw std::invalid_argument("the points of a convex_hull are coplanar: none is more than " + in_words(height * unit) +
+                                " m off their plane" + remedy);
+  }
+  return x;
+}
+
+/// The hull's faces on its own vertices, which keep the order of the points.
+Polytope hull_polytope(std::span<const Vector3<double>> points, std::vector<std::vector<std::uint32_t>> loops) {
+  std::vector<std::uint32_t> used;
+  for (const auto& loop : loops) used.insert(used.end(), loop.begin(), loop.end());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  std::vector<Vector3<double>> vertices;
+  for (const std::uint32_t i : used) vertices.push_back(points[i]);
+  for (auto& loop : loops) {
+    for (std::uint32_t& i : loop) i = std::uint32_t(std::lower_bound(used.begin(), used.end(), i) - used.begin());
+  }
+  return make_polytope(std::move(vertices), loops);
+}
+
+Polytope hull_of(std::span<const Vector3<double>> points) {
+  const auto x = normalised(points);
+  try {
+    return hull_polytope(points, qhull_faces(x, false));
+  } catch (const std::invalid_argument&) {
+    return hull_polytope(points, qhull_faces(x, true));  // facets that were merged too far, as triangles
+  }
+}
+
+}  // namespace
+
+ConvexHull::ConvexHull(std::span<const Vector3<double>> points)
+    : Shape(ShapeTag::convex_hull),
+      polytope_(hull_of(points)),
+      mass_(representable("convex_hull", polyhedron_mass(polytope_))) {
+  const auto& v = polytope_.vertices;
+  for (std::size_t i = 0; i < v.size(); i += std::size_t(lane_count)) {
+    Vector3<Lanes> pack;
+    for (int lane = 0; lane < lane_count; ++lane) {
+      const std::size_t k = i + std::size_t(lane) < v.size() ? i + std::size_t(lane) : 0;
+      for (int axis = 0; axis < 3; ++axis) pack[axis].set(lane, v[k][axis]);
+    }
+    packs_.push_back(pack);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    extreme_[std::size_t(2 * axis)] = std::uint32_t(furthest(v, [&](const auto& p) { return -p[axis]; }));
+    extreme_[std::size_t(2 * axis + 1)] = std::uint32_t(furthest(v, [&](const auto& p) { return p[axis]; }));
+  }
+}
+
+// Of equals the one with the smallest number, whatever the width of a register.
+std::uint32_t ConvexHull::support_vertex(const Vector3<double>& d) const {
+  if (polytope_.vertices.size() > scan_limit) return climb(d);
+  const Lanes x = d[0], y = d[1], z = d[2];
+  Lanes best = -std::numeric_limits<double>::infinity(), where = 0.0;
+  for (std::size_t k = 0; k < packs_.size(); ++k) {
+    const Vector3<Lanes>& p = packs_[k];
+    const Lanes along = p[0] * x + p[1] * y + p[2] * z;
+    const auto further = along > best;
+    best = select(further, along, best);
+    where = select(further, Lanes(double(k)), where);
+  }
+  std::uint32_t vertex = 0;
+  double most = -std::numeric_limits<double>::infinity();
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const std::uint32_t i = std::uint32_t(where[lane]) * std::uint32_t(lane_count) + std::uint32_t(lane);
+    if (best[lane] > most || (best[lane] == most && i < vertex)) {
+      most = best[lane];
+      vertex = i;
+    }
+  }
+  return vertex < polytope_.vertices.size() ? vertex : 0;  // a repeated vertex 0 in the last pack
+}
+
+// On a convex polytope a vertex none of whose neighbours is further along d is furthest of all.
+std::uint32_t ConvexHull::climb(const Vector3<double>& d) const {
+  const auto along = [&](std::uint32_t i) { return polytope_.vertices[i].dot(d); };
+  std::uint32_t at = extreme_[0];
+  for (const std::uint32_t i : extreme_) {
+    if (along(i) > along(at)) at = i;
+  }
+  for (;;) {
+    std::uint32_t next = at;
+    for (const std::uint32_t i : polytope_.neighbours_of(at)) {
+      if (along(i) > along(next)) next = i;
+    }
+    if (next == at) return at;
+    at = next;
+  }
+}
+
+Bounds ConvexHull::bounds(const Pose& pose) const {
+  Bounds bounds;
+  for (const Vector3<double>& v : polytope_.vertices) bounds.extend(pose.to_world(v));
+  return bounds;
+}
+
+ShapeEntry convex_hull() {
+  return {"convex_hull", "the convex hull of the vertices of an OBJ file",
+          {{"file", std::string(), "", "path of the OBJ file, coordinates in m", Parameter::Need::required}},
+          [](const ShapeParameters& p) -> ShapePointer {
+            return std::make_shared<ConvexHull>(read_obj_mesh(p.text("file")).vertices);
+          }};
+}
+
+}  // namespace polhode

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The convex hull of points, by qhull (Barber, Dobkin & Huhdanpaa, The quickhull algorithm for convex hulls, 1996).
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "collision/shapes/polytope.hpp"
+#include "collision/shape.hpp"
+#include "core/lanes.hpp"
+
+namespace polhode {
+
+class ConvexHull final : public Shape {
+ public:
+  /// Points in m; those inside are left out, the others keep their order. Refuses fewer than 4 points, points that are
+  /// not finite, and points that all lie in a plane, to 1e-10 of their spread.
+  explicit ConvexHull(std::span<const Vector3<double>> points);
+
+  /// Coplanar facets are one face.
+  const Polytope& polytope() const { return polytope_; }
+
+  std::string_view kind() const override { return "convex_hull"; }
+  Vector3<double> support(const Vector3<double>& d) const override { return polytope_.vertices[support_vertex(d)]; }
+  std::uint32_t support_vertex(const Vector3<double>& d) const;
+  Bounds bounds(const Pose& pose) const override;
+  MassProperties mass_properties() const override { return mass_; }
+
+ private:
+  std::uint32_t climb(const Vector3<double>& d) const;
+
+  Polytope polytope_;
+  MassProperties mass_;
+  std::vector<Vector3<Lanes>> packs_;      ///< the vertices, lane_count at a time; the last one repeats vertex 0
+  std::array<std::uint32_t, 6> extreme_{};  ///< the vertices furthest along ± each axis, where a climb starts
+};
+
+}  // namespace polhode

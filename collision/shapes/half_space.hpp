@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All points with n·x ≤ c: a floor. It has no volume, and never moves.
+#pragma once
+
+#include "collision/shape.hpp"
+
+namespace polhode {
+
+class HalfSpace final : public Shape {
+ public:
+  explicit HalfSpace(const Vector3<double>& normal, double offset = 0);  ///< out of the solid, of any length; offset in m
+
+  const Vector3<double>& normal() const { return normal_; }  ///< unit
+  double offset() const { return offset_; }
+
+  bool finite() const override { return false; }
+  std::string_view kind() const override { return "half_space"; }
+  Vector3<double> support(const Vector3<double>& d) const override;
+  Bounds bounds(const Pose& pose) const override;
+  MassProperties mass_properties() const override;
+
+ private:
+  Vector3<double> normal_;
+  double offset_;
+};
+
+}  // namespace polhode

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The surface of a convex polytope: vertices, faces as polygons, edges with their two faces, and who is next to whom.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/linear_algebra.hpp"
+
+namespace polhode {
+
+struct Polytope {
+  struct Face {
+    Vector3<double> normal = Vector3<double>::Zero();  ///< unit, outward
+    double offset = 0;                                 ///< m: normal·x ≤ offset for all points of the polytope
+    std::uint32_t first = 0, count = 0;                ///< its corners in `corners`
+  };
+  /// Seen from outside, `left` goes round from `from` to `to`, and `right` back; from < to.
+  struct Edge {
+    std::uint32_t from = 0, to = 0, left = 0, right = 0;
+  };
+  /// A corner of a face is a half-edge: it starts at `vertex` and lies on `edge`.
+  struct Corner {
+    std::uint32_t vertex = 0, edge = 0;
+  };
+
+  std::vector<Vector3<double>> vertices;
+  std::vector<Face> faces;
+  std::vector<Corner> corners;  ///< of all faces, one face after the other, counter-clockwise seen from outside
+  std::vector<Edge> edges;      ///< sorted by from, to
+
+  std::span<const Corner> corners_of(std::uint32_t face) const { return {&corners[faces[face].first], faces[face].count}; }
+  /// Vertices joined to a vertex by an edge, and the faces around it, each sorted.
+  std::span<const std::uint32_t> neighbours_of(std::uint32_t vertex) const { return row(neighbours_, vertex); }
+  std::span<const std::uint32_t> faces_of(std::uint32_t vertex) const { return row(vertex_faces_, vertex); }
+
+ private:
+  friend Polytope make_polytope(std::vector<Vector3<double>>, const std::vector<std::vector<std::uint32_t>>&);
+  struct Rows {
+    std::vector<std::uint32_t> first, entries;
+  };
+  static std::span<const std::uint32_t> row(const Rows& rows, std::uint32_t i) {
+    return {rows.entries.data() + rows.first[i], rows.first[i + 1] - rows.first[i]};
+  }
+  Rows neighbours_, vertex_faces_;
+};
+
+/// From faces as loops of vertex numbers, counter-clockwise seen from outside. Throws std::invalid_argument unless every
+/// edge has exactly two faces, which pass it in opposite directions.
+Polytope make_polytope(std::vector<Vector3<double>> vertices, const std::vector<std::vector<std::uint32_t>>& loops);
+
+}  // namespace polhode
