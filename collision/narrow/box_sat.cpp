@@ -8,18 +8,30 @@
 namespace polhode {
 namespace {
 
-constexpr double round_off = 4e-15;    // of a separation, in units of RelativeBoxes::scale
+constexpr double round_off = 5e-16;    // of a separation, in units of RelativeBoxes::scale
 constexpr double parallel = 1e-15;     // sine of an angle below which two edges span no axis that others do not
 constexpr double nearly_best = 1e-12;  // in the same units: an edge axis that may hold the nearest points
 
-/// The nearest points known so far, in A's axes, and the unit vector from A to B that belongs to them.
+/// How far apart the shadows of the boxes on n are, n unit and in A's axes, from A to B.
+double shadow_gap(const RelativeBoxes& boxes, const Vector3<double>& offset, const Vector3<double>& n) {
+  return n.dot(offset) - n.cwiseAbs().dot(boxes.half_a) - (boxes.b_in_a.transpose() * n).cwiseAbs().dot(boxes.half_b);
+}
+
+/// The nearest points known so far, in A's axes. Of two pairs of points that are as near, but for round-off, the difference
+/// may point 1e-8 apart; then that one counts on which the shadows are further apart, as a normal must have it.
 struct Nearest {
+  const RelativeBoxes& boxes;
+  const Vector3<double>& offset;
   double squared = std::numeric_limits<double>::infinity();  // m²
-  Vector3<double> on_a, on_b, apart;                         // apart = on_b − on_a
+  Vector3<double> on_a{}, on_b{}, apart{};                   // apart = on_b − on_a
+
+  double gap(const Vector3<double>& difference) const { return shadow_gap(boxes, offset, difference.normalized()); }
 
   void offer(const Vector3<double>& a, const Vector3<double>& b, const Vector3<double>& difference) {
+    constexpr double as_near = 1e-13;
     const double d = difference.squaredNorm();
-    if (!(d < squared)) return;
+    if (!(d <= squared * (1 + as_near))) return;
+    if (d >= squared * (1 - as_near) && !(gap(difference) > gap(apart))) return;
     squared = d;
     on_a = a;
     on_b = b;
@@ -54,16 +66,19 @@ void offer_vertices(const RelativeBoxes& boxes, const Vector3<double>& offset, N
 /// Two edges, of A along its axis i with centre `a` and of B along its axis j with centre `b`, where both nearest points lie
 /// within them. In the plane across A's edge that edge is a point and B's a short line, however nearly parallel they are.
 void offer_edges(const RelativeBoxes& boxes, int i, int j, const Vector3<double>& a, const Vector3<double>& b,
-                 Nearest& nearest) {
+                 const Vector3<double>& normal, Nearest& nearest) {
   const int y = (i + 1) % 3, z = (i + 2) % 3;
   const Vector3<double> along = boxes.b_in_a.col(j);
   const Vector3<double> between = b - a;
   const double across = along[y] * along[y] + along[z] * along[z];
   const double reach_b = boxes.half_b[j], reach_a = boxes.half_a[i];
-  const double u = std::clamp(-(between[y] * along[y] + between[z] * along[z]) / across, -reach_b, reach_b);
+  const double best = -(between[y] * along[y] + between[z] * along[z]) / across;
+  const double u = std::clamp(best, -reach_b, reach_b);
   Vector3<double> difference = between + u * along;
   const double x = std::clamp(difference[i], -reach_a, reach_a);
+  const bool both_within = u == best && x == difference[i];
   difference[i] -= x;
+  if (both_within) difference = normal * difference.dot(normal);
   Vector3<double> on_a = a;
   on_a[i] = x;
   nearest.offer(on_a, b + u * along, difference);
@@ -89,7 +104,7 @@ void offer_edge_pairs(const RelativeBoxes& boxes, const Vector3<double>& offset,
       if (!possible(in_b[v], -third) || !possible(in_b[w], -fourth)) continue;
       const Vector3<double> b = offset + boxes.b_in_a.col(v) * (third * boxes.half_b[v]) +
                                 boxes.b_in_a.col(w) * (fourth * boxes.half_b[w]);
-      offer_edges(boxes, i, j, a, b, nearest);
+      offer_edges(boxes, i, j, a, b, normal, nearest);
     }
   }
 }
@@ -130,7 +145,7 @@ void for_each_axis(const RelativeBoxes& boxes, const Take& take) {
 
 /// The distance of boxes that the axis separates, or just touches after `offset` was moved so that they do.
 Nearest nearest_points(const RelativeBoxes& boxes, const Vector3<double>& offset, double separation) {
-  Nearest nearest;
+  Nearest nearest{boxes, offset};
   for_each_axis(boxes, [&](const BoxAxis& axis) {
     if (axis.index < 6 || axis.separation < separation - nearly_best * boxes.scale) return;
     offer_edge_pairs(boxes, offset, (axis.index - 6) / 3, (axis.index - 6) % 3, axis.normal, nearest);
@@ -147,11 +162,13 @@ Distance ordered_distance(const BoxAt& a, const BoxAt& b) {
   Vector3<double> normal = axis.normal;
   const bool apart = axis.separation > 0;
   const Vector3<double> shift = apart ? Vector3<double>::Zero() : Vector3<double>(-axis.separation * axis.normal);
-  const Nearest nearest = nearest_points(boxes, boxes.offset + shift, axis.separation);
-  const double distance = std::sqrt(nearest.squared);
-  if (apart && distance > axis.separation + round_off * boxes.scale) {
-    result.distance = distance;
-    normal = nearest.apart / distance;
+  const Vector3<double> offset = boxes.offset + shift;
+  const Nearest nearest = nearest_points(boxes, offset, axis.separation);
+  if (apart) {
+    result.distance = std::max(axis.separation, std::sqrt(nearest.squared));
+    // Where they touch but for round-off, the axis knows the direction better.
+    const bool known = nearest.squared > 0 && nearest.gap(nearest.apart) >= axis.separation - round_off * boxes.scale;
+    if (known) normal = nearest.apart.normalized();
   }
   result.normal = -(a.pose.rotation * normal);
   result.on_a = a.pose.to_world(nearest.on_a);
