@@ -43,7 +43,8 @@ inline Answer answer(double separation, double bound) {
   return separation < -bound ? Answer::yes : Answer::unknown;
 }
 
-inline Answer quick_overlap(const BoxAt& a, const BoxAt& b) {
+/// `margin` is how far apart counts as overlapping.
+inline Answer quick_overlap(const BoxAt& a, const BoxAt& b, double margin) {
   const Matrix3<double>&ra = a.pose.rotation, &rb = b.pose.rotation;
   const Vector3<double> d = b.pose.position - a.pose.position;
   const Four a0 = three(ra(0, 0), ra(0, 1), ra(0, 2)), a1 = three(ra(1, 0), ra(1, 1), ra(1, 2)),
@@ -57,7 +58,7 @@ inline Answer quick_overlap(const BoxAt& a, const BoxAt& b) {
     reach += absolute(a0 * all(rb(0, j)) + a1 * all(rb(1, j)) + a2 * all(rb(2, j))) * all(b.half[j]);
   }
   const Four total = reach + absolute(t);
-  const double bound = undecided * (total[0] + total[1] + total[2]);
+  const double bound = undecided * (total[0] + total[1] + total[2]) + margin;
   Four separations = absolute(t) - reach;
   if (largest(separations) > bound) return Answer::no;
 
@@ -132,8 +133,10 @@ LanedAnswer quick_overlap(const Lanes (&ra)[9], const Lanes (&rb)[9], const Lane
 
 }  // namespace
 
+bool boxes_apart(const BoxAt& a, const BoxAt& b, double margin) { return quick_overlap(a, b, margin) == Answer::no; }
+
 bool boxes_overlap(const BoxAt& a, const BoxAt& b) {
-  const Answer quick = quick_overlap(a, b);
+  const Answer quick = quick_overlap(a, b, 0);
   return quick == Answer::unknown ? overlap_with_care(a, b) : quick == Answer::yes;
 }
 

@@ -51,7 +51,10 @@ BoxAxis best_axis(const RelativeBoxes& boxes);
 /// std::invalid_argument if a pose is not finite.
 bool boxes_overlap(const BoxAt& a, const BoxAt& b);
 
-/// Signed distance. Throws std::invalid_argument if a pose is not finite.
+/// A quick answer: true only where the boxes are further apart than `margin` (m) along one of the axes.
+bool boxes_apart(const BoxAt& a, const BoxAt& b, double margin);
+
+/// Signed distance. Boxes that are the same in all numbers have no order; else A against B mirrors B against A exactly. Throws std::invalid_argument if a pose is not finite.
 Distance boxes_distance(const BoxAt& a, const BoxAt& b);
 
 /// A box where it stands, for many pairs at once.

@@ -4,6 +4,7 @@
 //
 // It errs by design: three of the fifteen axes of two boxes leave pairs that are apart unnoticed. Its signed distance is
 // the largest separation over those normals, and A against B is not B against A.
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -15,7 +16,7 @@ namespace polhode {
 namespace {
 
 const Box& box(const Shape& shape) {
-  if (const auto* found = dynamic_cast<const Box*>(&shape)) return *found;
+  if (shape.tag() == ShapeTag::box) return static_cast<const Box&>(shape);
   throw std::invalid_argument("sat_course_report: it needs faces and vertices, and knows those of boxes; a " +
                               std::string(shape.kind()) + " is for gjk");
 }
