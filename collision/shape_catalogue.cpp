@@ -14,6 +14,7 @@
   SHAPE(cylinder) \
   SHAPE(ellipsoid) \
   SHAPE(convex_hull) \
+  SHAPE(compound) \
   SHAPE(half_space)
 
 namespace polhode {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "collision/shapes/qhull_faces.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
@@ -51,19 +52,16 @@ std::vector<std::vector<std::uint32_t>> qhull_faces(std::span<const Vector3<doub
   std::vector<std::vector<std::uint32_t>> loops;
   for (facetT* facet = qh->facet_list; facet && facet->next; facet = facet->next) {
     std::vector<std::uint32_t> loop;
-    setT* const vertices = qh_facet3vertex(qh, facet);
-    const int n = qh_setsize(qh, vertices);
+    setT* vertices = qh_facet3vertex(qh, facet);
+    vertexT *vertex = nullptr, **vertexp = nullptr;
+    FOREACHvertex_(vertices) loop.push_back(std::uint32_t(qh_pointid(qh, vertex->point)));
+    qh_settempfree(qh, &vertices);
     Vector3<double> turn = Vector3<double>::Zero();
-    for (int i = 0; i < n; ++i) {
-      const auto* vertex = static_cast<const vertexT*>(vertices->e[i].p);
-      loop.push_back(std::uint32_t(qh_pointid(qh, vertex->point)));
-    }
-    qh_settempfree_all(qh);
     for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
       turn += (points[loop[i]] - points[loop[0]]).cross(points[loop[i + 1]] - points[loop[0]]);
     }
     if (turn.dot(Vector3<double>(facet->normal[0], facet->normal[1], facet->normal[2])) < 0) {
-      loop.assign(loop.rbegin(), loop.rend());
+      std::reverse(loop.begin(), loop.end());
     }
     loops.push_back(std::move(loop));
   }

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The narrow phase `gjk`: distance by GJK, depth by EPA, for every pair of shapes.
+// A half-space has closed forms, and a compound answers with its parts: the least distance, or the deepest of the parts
+// that overlap.
+#include <cmath>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "collision/narrow/epa.hpp"
+#include "collision/narrow/gjk_loop.hpp"
+#include "collision/narrow/pair_order.hpp"
+#include "collision/narrow_phase.hpp"
+#include "collision/shapes/compound.hpp"
+#include "collision/shapes/half_space.hpp"
+
+namespace polhode {
+
+namespace {
+
+/// The same answer with A and B exchanged.
+Distance mirrored(const Distance& d) { return {d.distance, -d.normal, d.on_b, d.on_a}; }
+
+Distance outside_half_space(const Shape& a, const Pose& at_a, const HalfSpace& b, const Pose& at_b) {
+  const Vector3<double> n = at_b.rotation * b.normal();
+  const Vector3<double> lowest = at_a.rotation * a.support(-(at_a.rotation.transpose() * n));
+  const double distance = n.dot(at_a.position - at_b.position) + n.dot(lowest) - b.offset();
+  const Vector3<double> on_a = at_a.position + lowest;
+  return {distance, n, on_a, on_a - distance * n};
+}
+
+/// Two of them overlap without end, but for floor and ceiling.
+Distance between_half_spaces(const HalfSpace& a, const Pose& at_a, const HalfSpace& b, const Pose& at_b) {
+  const Vector3<double> up = at_b.rotation * b.normal(), down = at_a.rotation * a.normal();
+  const Vector3<double> on_b = at_b.position + b.offset() * up, on_a = at_a.position + a.offset() * down;
+  if (!(up + down).isZero(0)) return {-std::numeric_limits<double>::infinity(), up, on_a, on_b};
+  const double distance = up.dot(on_a - on_b);
+  return {distance, up, on_a, on_a - distance * up};
+}
+
+Simplex remembered(const PairMemory* memory, bool swapped, const MinkowskiPair& pair) {
+  Simplex s;
+  if (!memory || memory->swapped != swapped) return s;
+  s.count = int(memory->count);
+  for (std::size_t i = 0; i < memory->count; ++i) s.corners[i] = pair.corner(memory->corners_a[i], memory->corners_b[i]);
+  return s;
+}
+
+void remember(PairMemory* memory, bool swapped, const Simplex& s) {
+  if (!memory) return;
+  memory->swapped = swapped;
+  memory->count = std::uint32_t(s.count);
+  for (std::size_t i = 0; i < std::size_t(s.count); ++i) {
+    memory->corners_a[i] = s.corners[i].a;
+    memory->corners_b[i] = s.corners[i].b;
+  }
+}
+
+void check(const MinkowskiPair& pair) {
+  if (std::isfinite(pair.rotation.sum()) && pair.offset.squaredNorm() < 1e200) return;
+  throw std::invalid_argument("gjk: a pose is not finite, or the shapes are more than 1e100 m apart");
+}
+
+Distance convex_distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory, bool swapped) {
+  const MinkowskiPair pair(a, at_a, b, at_b);
+  check(pair);
+  const GjkResult r = gjk_loop<false>(pair, remembered(memory, swapped, pair));
+  remember(memory, swapped, r.simplex);
+  Penetration p;
+  if (r.state == GjkResult::State::apart) {
+    p = {r.distance, r.v / r.distance, r.simplex.on_a(), r.simplex.on_b()};
+  } else {
+    p = epa(pair, r.simplex);
+  }
+  const Vector3<double> n = at_a.rotation * p.normal;
+  return {p.distance - (pair.a.radius + pair.b.radius), n, at_a.to_world(p.on_a) - pair.a.radius * n,
+          at_b.to_world(p.on_b) + pair.b.radius * n};
+}
+
+bool convex_overlap(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory, bool swapped) {
+  const MinkowskiPair pair(a, at_a, b, at_b);
+  check(pair);
+  if (pair.a.radius + pair.b.radius == 0) {
+    const GjkResult r = gjk_loop<true>(pair, remembered(memory, swapped, pair));
+    remember(memory, swapped, r.simplex);
+    if (r.state == GjkResult::State::separated) return false;
+    if (r.state == GjkResult::State::inside) return true;
+  }
+  return convex_distance(a, at_a, b, at_b, memory, swapped).distance <= 0;
+}
+
+std::span<const Compound::Part> parts_of(const Shape& shape) {
+  if (shape.tag() != ShapeTag::compound) return {};
+  return static_cast<const Compound&>(shape).parts();
+}
+
+/// In the order of `exchanged`.
+Distance ordered_distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory, bool swapped) {
+  if (b.tag() == ShapeTag::half_space) {
+    const auto& floor = static_cast<const HalfSpace&>(b);
+    if (a.tag() != ShapeTag::half_space) return outside_half_space(a, at_a, floor, at_b);
+    return between_half_spaces(static_cast<const HalfSpace&>(a), at_a, floor, at_b);
+  }
+  if (a.tag() == ShapeTag::half_space) {
+    return mirrored(outside_half_space(b, at_b, static_cast<const HalfSpace&>(a), at_a));
+  }
+  if (a.tag() != ShapeTag::compound && b.tag() != ShapeTag::compound) {
+    return convex_distance(a, at_a, b, at_b, memory, swapped);
+  }
+  Distance least{std::numeric_limits<double>::infinity()};
+  const auto consider = [&](const Shape& part_a, const Shape& part_b) {
+    const Distance d = convex_distance(part_a, at_a, part_b, at_b, nullptr, swapped);
+    if (d.distance < least.distance) least = d;
+  };
+  const auto against_b = [&](const Shape& part_a) {
+    if (b.tag() != ShapeTag::compound) consider(part_a, b);
+    for (const Compound::Part& part : parts_of(b)) consider(part_a, *part);
+  };
+  if (a.tag() != ShapeTag::compound) against_b(a);
+  for (const Compound::Part& part : parts_of(a)) against_b(*part);
+  return least;
+}
+
+class Gjk final : public NarrowPhase {
+ public:
+  bool overlap(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory) const override {
+    const bool swapped = exchanged(a, at_a, b, at_b);
+    const auto special = [](const Shape& s) { return s.tag() == ShapeTag::half_space || s.tag() == ShapeTag::compound; };
+    if (special(a) || special(b)) return distance(a, at_a, b, at_b, memory).distance <= 0;
+    return swapped ? convex_overlap(b, at_b, a, at_a, memory, swapped) : convex_overlap(a, at_a, b, at_b, memory, swapped);
+  }
+
+  Distance distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory) const override {
+    const bool swapped = exchanged(a, at_a, b, at_b);
+    if (swapped) return mirrored(ordered_distance(b, at_b, a, at_a, memory, swapped));
+    return ordered_distance(a, at_a, b, at_b, memory, swapped);
+  }
+
+  /// The deepest point alone.
+  Manifold manifold(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, double margin,
+                    PairMemory* memory) const override {
+    const Distance d = distance(a, at_a, b, at_b, memory);
+    Manifold m;
+    if (!(d.distance <= margin)) return m;
+    m.normal = d.normal;
+    m.points[0] = {0.5 * (d.on_a + d.on_b), -d.distance, {}};
+    m.count = 1;
+    return m;
+  }
+};
+
+}  // namespace
+
+NarrowPhaseEntry gjk() {
+  return {"gjk", "min |a - b| over A and B by simplices of A - B; depth by EPA",
+          []() -> std::unique_ptr<NarrowPhase> { return std::make_unique<Gjk>(); }};
+}
+
+}  // namespace polhode

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Several convex hulls as one solid. Where they overlap, their mass counts twice.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "collision/shapes/convex_hull.hpp"
+
+namespace polhode {
+
+class Compound final : public Shape {
+ public:
+  using Part = std::shared_ptr<const ConvexHull>;
+
+  explicit Compound(std::vector<Part> parts);  ///< at least one, each in the axes of the compound
+
+  /// The pieces (lines `o` or `g`) of an OBJ mesh, coordinates in m. Refuses a piece that is not closed or not convex, with
+  /// file and line.
+  static std::vector<Part> parts_of_obj(const std::string& path);
+
+  const std::vector<Part>& parts() const { return parts_; }
+
+  std::string_view kind() const override { return "compound"; }
+  Vector3<double> support(const Vector3<double>& d) const override;
+  Bounds bounds(const Pose& pose) const override;
+  MassProperties mass_properties() const override { return mass_; }
+
+ private:
+  std::vector<Part> parts_;
+  MassProperties mass_;
+};
+
+}  // namespace polhode
