@@ -1,116 +1,148 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/csv_reader.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 
 #include "experiments/study/input_error.hpp"
-#include "experiments/study/report/read_file.hpp"
+#include "experiments/study/suggestion.hpp"
 
 namespace polhode::study {
 namespace {
 
+constexpr std::string_view blanks = " \t";
+
 std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
+  const auto first = text.find_first_not_of(blanks);
   if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// A cell as errors quote it: short, on one line.
+std::string shown(std::string_view text) {
+  constexpr std::size_t most = 40;
+  std::string clean;
+  for (const char c : text.substr(0, most)) clean += c >= 0 && (c < ' ' || c == '\x7f') ? '?' : c;
+  return "'" + clean + (text.size() > most ? "…'" : "'");
 }
 
 }  // namespace
 
 CsvReader::CsvReader(const std::string& path) : path_(path) {
-  auto content = std::filesystem::is_directory(path) ? std::nullopt : report::read_file(path);
-  if (!content) throw InputError(path + ": the file cannot be read");
-  content_ = std::move(*content);
-  if (content_.starts_with("\xef\xbb\xbf")) offset_ = 3;
-  if (!next_line()) throw InputError(path + ": it is empty; its first line must be a header");
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw InputError(path + " is a folder; name a CSV file in it");
+  file_.open(path, std::ios::binary);
+  if (!file_) throw InputError(path + ": no such file, or it cannot be read");
+  if (!next_line()) throw InputError(path + ": there is nothing in it; it needs a line of column names, then rows");
   split();
-  for (const Cell& cell : cells_) header_.push_back(cell.text);
+  names_ = cells_;
 }
 
-bool CsvReader::next_line() {
-  while (offset_ < content_.size()) {
-    const std::size_t end = std::min(content_.find('\n', offset_), content_.size());
-    line_ = std::string_view(content_).substr(offset_, end - offset_);
-    offset_ = end + 1;
-    ++line_number_;
-    if (line_.ends_with('\r')) line_.remove_suffix(1);
-    if (!line_.empty() && line_.front() != '#') return true;
+std::size_t CsvReader::column(std::string_view name) const {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  if (found == names_.end()) {
+    const std::vector<std::string_view> given(names_.begin(), names_.end());
+    const auto near = nearest(name, given);
+    fail_at(1, fmt::format("there is no column {}{}; name it in the first line", name,
+                           near.empty() ? "" : "; is it " + shown(near) + "?"));
   }
-  return false;
-}
-
-void CsvReader::split() {
-  cells_.clear();
-  std::size_t at = 0;
-  for (;;) {
-    const std::size_t start = at;
-    std::string text;
-    if (at < line_.size() && line_[at] == '"') {
-      for (++at;; ++at) {
-        if (at >= line_.size()) fail_at(start + 1, "a quote that is opened here is not closed");
-        if (line_[at] != '"') text += line_[at];
-        else if (at + 1 < line_.size() && line_[at + 1] == '"') text += line_[at++];
-        else break;
-      }
-      ++at;
-      if (at < line_.size() && line_[at] != ',') fail_at(at + 1, "a comma must follow the closing quote");
-    } else {
-      at = std::min(line_.find(',', start), line_.size());
-      text = trimmed(line_.substr(start, at - start));
-    }
-    cells_.push_back({std::move(text), start + 1});
-    if (at >= line_.size()) return;
-    ++at;
+  const auto place = static_cast<std::size_t>(found - names_.begin());
+  const auto twin = std::find(found + 1, names_.end(), name);
+  if (twin != names_.end()) {
+    fail_at(places_[static_cast<std::size_t>(twin - names_.begin())],
+            fmt::format("the column {} stands twice; leave one out", name));
   }
-}
-
-std::optional<std::size_t> CsvReader::column(std::string_view name) const {
-  std::optional<std::size_t> found;
-  for (std::size_t k = 0; k < header_.size(); ++k) {
-    if (header_[k] != name) continue;
-    if (found) throw InputError(path_ + ": the header has '" + std::string(name) + "' twice");
-    found = k;
-  }
-  return found;
+  return place;
 }
 
 bool CsvReader::next() {
   if (!next_line()) return false;
   split();
-  if (cells_.size() != header_.size()) {
-    const std::size_t at = cells_.size() > header_.size() ? cells_[header_.size()].at : line_.size() + 1;
-    fail_at(at, "the header has " + std::to_string(header_.size()) + " columns and this line " + std::to_string(cells_.size()));
+  if (cells_.size() != names_.size()) {
+    fail_at(places_.back(), fmt::format("{} cells under {} column names; end the file after a whole row, and put cells "
+                                        "with commas into quotes", cells_.size(), names_.size()));
   }
   return true;
 }
 
+/// The next line that holds something.
+bool CsvReader::next_line() {
+  while (std::getline(file_, line_)) {
+    ++line_number_;
+    if (line_number_ == 1 && line_.starts_with("\xEF\xBB\xBF")) line_.erase(0, 3);
+    if (line_.ends_with('\r')) line_.pop_back();
+    if (!trimmed(line_).empty() && line_.front() != '#') return true;
+  }
+  if (file_.bad()) throw InputError(path_ + ": it cannot be read to its end");
+  return false;
+}
+
+void CsvReader::split() {
+  std::size_t count = 0;
+  for (std::size_t at = 0;; ++count) {
+    if (count == cells_.size()) cells_.emplace_back(), places_.push_back(0);
+    std::string& cell = cells_[count];
+    std::size_t first = std::min(line_.find_first_not_of(blanks, at), line_.size());
+    places_[count] = std::min(first, line_.size()) + 1;
+    if (first < line_.size() && line_[first] == '"') {
+      cell.clear();
+      std::size_t k = first + 1;
+      for (;; ++k) {
+        if (k >= line_.size()) fail_at(first + 1, "a quote is opened and never closed; close it on the same line");
+        if (line_[k] == '"' && k + 1 < line_.size() && line_[k + 1] == '"') ++k;
+        else if (line_[k] == '"') break;
+        cell += line_[k];
+      }
+      at = std::min(line_.find_first_not_of(blanks, k + 1), line_.size());
+      if (at < line_.size() && line_[at] != ',') fail_at(at + 1, "text behind a closed quote; double the quotes within");
+    } else {
+      const std::size_t end = std::min(line_.find(',', at), line_.size());
+      cell.assign(trimmed(std::string_view(line_).substr(at, end - at)));
+      if (cell.empty()) places_[count] = at + 1;
+      at = end;
+    }
+    if (at == line_.size()) break;
+    ++at;
+  }
+  cells_.resize(count + 1);
+  places_.resize(count + 1);
+}
+
+std::int64_t CsvReader::integer(std::size_t column) const {
+  const std::string& text = cells_[column];
+  std::int64_t x = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+  if (text.empty() || error != std::errc() || end != text.data() + text.size()) {
+    fail(column, name_and(column) + ", which is not a whole number");
+  }
+  return x;
+}
+
 double CsvReader::number(std::size_t column) const {
-  const std::string& word = cells_[column].text;
-  const std::size_t sign = word.starts_with('+') && !word.starts_with("+-") ? 1 : 0;
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data() + sign, word.data() + word.size(), value);
-  if (error == std::errc::result_out_of_range) fail(column, "'" + word + "' is out of the range of a double");
-  if (error != std::errc() || end != word.data() + word.size()) fail(column, "'" + word + "' is not a number");
-  if (!std::isfinite(value)) fail(column, "'" + word + "' is not finite");
-  return value;
+  std::string_view text = cells_[column];
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double x = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+  if (error == std::errc::result_out_of_range) fail(column, name_and(column) + ", beyond what a double can hold");
+  if (text.empty() || error != std::errc() || end != text.data() + text.size() || text.starts_with('+')) {
+    fail(column, name_and(column) + ", which is not a number");
+  }
+  if (std::isnan(x)) fail(column, name_and(column) + "; cut the file before the motion is lost");
+  return x;
 }
 
-std::uint64_t CsvReader::count(std::size_t column) const {
-  const std::string& word = cells_[column].text;
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) fail(column, "'" + word + "' is not a whole number from 0 on");
-  return value;
+std::string CsvReader::name_and(std::size_t column) const {
+  return names_[column] + (cells_[column].empty() ? " is empty" : " is " + shown(cells_[column]));
 }
 
-void CsvReader::fail(std::size_t column, const std::string& why) const {
-  fail_at(cells_[column].at, header_[column] + ": " + why);
-}
+void CsvReader::fail(std::size_t column, const std::string& what) const { fail_at(places_[column], what); }
 
-void CsvReader::fail_at(std::size_t character, const std::string& why) const {
-  throw InputError(path_ + ":" + std::to_string(line_number_) + ":" + std::to_string(character) + ": " + why);
+void CsvReader::fail_at(std::size_t character, const std::string& what) const {
+  throw InputError(fmt::format("{}:{}:{}: {}", path_, line_number_, character, what));
 }
 
 }  // namespace polhode::study

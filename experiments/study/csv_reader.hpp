@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a CSV file with a header strictly: every complaint says file, line and column. Lines that start with # and empty
-// ones are left out.
+// Reads tables of numbers that any program wrote as CSV (RFC 4180), a row at a time. The first line names the columns, which
+// go by their names, in any order; others are passed over. Lines may end in CR LF; empty lines, and those that begin with #,
+// are skipped. Every error is
+// an InputError with file, line, column and a remedy.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,37 +16,39 @@ namespace polhode::study {
 
 class CsvReader {
  public:
-  /// Reads the whole file and its header. Throws InputError.
+  /// Opens the file and reads the names of its columns.
   explicit CsvReader(const std::string& path);
 
-  const std::vector<std::string>& header() const { return header_; }
-  /// The place of a column in the header; absent: there is none. Throws InputError if there are two.
-  std::optional<std::size_t> column(std::string_view name) const;
+  const std::vector<std::string>& names() const { return names_; }
 
-  /// The next row, which has as many cells as the header; false: there is none. Throws InputError.
+  /// The place of a column that must be there, and only once.
+  std::size_t column(std::string_view name) const;
+
+  /// The next row; false at the end of the file.
   bool next();
-  const std::string& text(std::size_t column) const { return cells_[column].text; }
-  /// Throw InputError where the cell is no finite number, or no whole number from 0 on.
-  double number(std::size_t column) const;
-  std::uint64_t count(std::size_t column) const;
 
-  /// Throws InputError: "pairs.csv:3:7: ahx: " and why.
-  [[noreturn]] void fail(std::size_t column, const std::string& why) const;
+  std::size_t line() const { return line_number_; }  ///< of the present row, from 1
+
+  const std::string& text(std::size_t column) const { return cells_[column]; }
+  std::int64_t integer(std::size_t column) const;
+  double number(std::size_t column) const;  ///< may be infinite ("inf"), never NaN
+
+  /// About a cell of the present row: "boxes.csv:3:8: hx is negative; …".
+  [[noreturn]] void fail(std::size_t column, const std::string& what) const;
 
  private:
-  struct Cell {
-    std::string text;
-    std::size_t at;  ///< counted from 1
-  };
   bool next_line();
   void split();
-  [[noreturn]] void fail_at(std::size_t character, const std::string& why) const;
+  std::string name_and(std::size_t column) const;
+  [[noreturn]] void fail_at(std::size_t character, const std::string& what) const;
 
-  std::string path_, content_;
-  std::string_view line_;
-  std::size_t offset_ = 0, line_number_ = 0;
-  std::vector<std::string> header_;
-  std::vector<Cell> cells_;
+  std::string path_;
+  std::ifstream file_;
+  std::size_t line_number_ = 0;
+  std::string line_;
+  std::vector<std::string> names_;
+  std::vector<std::string> cells_;
+  std::vector<std::size_t> places_;  // of each cell's first character, from 1
 };
 
 }  // namespace polhode::study

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "collision/broad_phase.hpp"
 #include "collision/narrow_phase.hpp"
 #include "core/forces/catalogue.hpp"
 #include "core/invariants.hpp"
@@ -70,6 +71,12 @@ std::string invariants() {
   return text;
 }
 
+std::string broad_phases() {
+  std::string text;
+  for (const BroadPhaseEntry& e : broad_phase_catalogue()) text += line(e.name, e.summary);
+  return text;
+}
+
 std::string narrow_phases() {
   std::string text;
   for (const NarrowPhaseEntry& e : narrow_phase_catalogue()) text += line(e.name, e.summary);
@@ -97,7 +104,7 @@ struct Section {
 constexpr Section sections[] = {{"integrators", integrators},   {"scenarios", scenarios},
                                 {"forces", forces},             {"shapes", shapes},
                                 {"invariants", invariants},     {"metrics", metrics},
-                                {"broad-phases", nothing},      {"narrow-phases", narrow_phases},
+                                {"broad-phases", broad_phases}, {"narrow-phases", narrow_phases},
                                 {"responses", nothing}};
 
 }  // namespace

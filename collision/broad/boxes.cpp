@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "collision/broad/boxes.hpp"
+
+#include <stdexcept>
+#include <string>
+
+namespace polhode::broad {
+namespace {
+
+bool good(const Bounds& b) {
+  return (b.min().x() <= b.max().x()) & (b.min().y() <= b.max().y()) & (b.min().z() <= b.max().z());
+}
+
+[[noreturn]] void refuse(std::size_t body, const Bounds& b) {
+  const bool nan = b.min().hasNaN() || b.max().hasNaN();
+  throw std::invalid_argument("broad phase: the bounds of body " + std::to_string(body) +
+                              (nan ? " have a NaN in them; stop the motion where it diverges"
+                                   : " end before they begin; give the lower corner first"));
+}
+
+}  // namespace
+
+void take(std::span<const Bounds> bounds, std::vector<Box>& boxes) {
+  bool all = true;
+  for (const Bounds& b : bounds) all &= good(b);
+  for (std::size_t i = 0; !all; ++i) {
+    if (!good(bounds[i])) refuse(i, bounds[i]);
+  }
+  boxes.resize(bounds.size());
+  for (std::size_t i = 0; i < bounds.size(); ++i) boxes[i] = box_of(bounds[i]);
+}
+
+}  // namespace polhode::broad

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/broad_phase/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "experiments/study/axes.hpp"
+#include "experiments/study/input_error.hpp"
+#include "experiments/study/suggestion.hpp"
+
+namespace polhode::study {
+namespace {
+
+std::vector<const BroadPhaseEntry*> phases_of(const std::string& text) {
+  std::vector<const BroadPhaseEntry*> phases;
+  std::vector<std::string_view> known;
+  for (const BroadPhaseEntry& e : broad_phase_catalogue()) known.emplace_back(e.name);
+  for (const std::string& name : split_list(text, ',', "--broad-phase")) {
+    if (name == "all") {
+      for (const BroadPhaseEntry& e : broad_phase_catalogue()) phases.push_back(&e);
+      continue;
+    }
+    const BroadPhaseEntry* found = find_broad_phase(name);
+    if (!found) {
+      throw InputError("--broad-phase: no broad phase '" + name + "'" + suggestion(name, "There are", known));
+    }
+    phases.push_back(found);
+  }
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (phases[i] == phases[j]) throw InputError("--broad-phase: " + phases[i]->name + " is named twice");
+    }
+  }
+  return phases;
+}
+
+std::vector<std::size_t> counts_of(const std::string& text) {
+  std::vector<std::size_t> counts;
+  for (const double x : numbers(text, "--bodies")) {
+    const double n = std::round(x);
+    if (!(n >= 1 && n <= 1e8)) throw InputError("--bodies: " + exact(x) + " bodies; take 1 to 1e8");
+    if (counts.empty() || counts.back() != static_cast<std::size_t>(n)) counts.push_back(static_cast<std::size_t>(n));
+  }
+  return counts;
+}
+
+void require(bool good, const std::string& what) {
+  if (!good) throw InputError(what);
+}
+
+}  // namespace
+
+BroadPhaseOptions parse_broad_phase_options(int argc, const char* const* argv) {
+  BroadPhaseOptions options;
+  CLI::App app{std::string(broad_phase_question) +
+                   "\n\nWithout --boxes: measures boxes that move about at a fixed density. With --boxes: answers recorded "
+                   "motion.",
+               "broad_phase"};
+  app.get_formatter()->column_width(32);
+  std::string phases, bodies = "100:100000:7:log", list;
+  app.add_option("--broad-phase", phases, "broad phases, or all (default; with --boxes one must be named)")
+      ->type_name("NAME,…");
+  const auto* boxes =
+      app.add_option("--boxes", options.boxes, "recorded motion: CSV with the columns step, id, hx, hy, hz, px, py, pz")
+          ->type_name("FILE");
+  app.add_option("--out", options.out,
+                 "with --boxes the file of pairs: step, a, b; otherwise the folder of results (default: "
+                 "results/broad_phase)")
+      ->type_name("PATH");
+  std::vector<CLI::Option*> measuring = {
+      app.add_option("--bodies", bodies, "how many boxes (default: " + bodies + ")")->type_name("N,…"),
+      app.add_option("--filling", options.filling, "part of the space that is within boxes (default: 0.1)")->type_name("X"),
+      app.add_option("--motion", options.motion, "path of a box in a step, over its mean edge (default: 0.02)")
+          ->type_name("X"),
+      app.add_option("--patience", options.patience,
+                     "leave out what is expected to take longer for a step, in s (default: 2)")
+          ->type_name("S"),
+      app.add_option("--seed", options.seed, "of the random boxes (default: 1)")->type_name("N"),
+      app.add_flag("!--no-figures", options.figures, "no figures")};
+  const CLI::Option* list_option =
+      app.add_option("--list", list, "print the catalogue: broad-phases, or what else the experiments list")
+          ->type_name("[WHAT]")
+          ->expected(0, 1);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    options.exit_status = app.exit(help);
+    return options;
+  } catch (const CLI::ParseError& error) {
+    const std::string text = error.what();
+    throw InputError(text.substr(0, text.find('\n')) + "; see --help");
+  }
+  options.command = "broad_phase";
+  for (int i = 1; i < argc; ++i) options.command += std::string(" ") + argv[i];
+  if (*list_option) options.list = list;
+  if (options.list) return options;
+  if (*boxes) {
+    for (const CLI::Option* option : measuring) {
+      require(!*option, option->get_name() + " has no meaning with --boxes; leave it out");
+    }
+    require(!options.boxes.empty(), "--boxes: no file is named");
+    require(!phases.empty(), "--broad-phase is missing: it says which one answers --boxes; see --list broad-phases");
+    require(!options.out.empty(), "--out is missing: it names the file for the pairs");
+  }
+  options.phases = phases_of(phases.empty() ? "all" : phases);
+  if (*boxes) require(options.phases.size() == 1, "--broad-phase: with --boxes it takes one name");
+  options.bodies = counts_of(bodies);
+  require(options.filling > 0 && options.filling <= 100, "--filling: take a number above 0, 100 at most");
+  require(options.motion >= 0 && std::isfinite(options.motion), "--motion: take 0 or a finite number above");
+  require(options.patience > 0, "--patience: take a number above 0");
+  return options;
+}
+
+}  // namespace polhode::study

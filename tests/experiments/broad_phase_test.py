@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The experiment `broad_phase` as a user meets it: recorded motion answered, bad files refused, costs measured.
+
+POLHODE_BIN_DIR is the folder of the program.
+"""
+import csv
+import os
+import pathlib
+import random
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = pathlib.Path(os.environ.get("POLHODE_BIN_DIR", ".")) / "broad_phase"
+PHASES = ["all_pairs", "sweep_and_prune"]
+HEADER = "step,id,hx,hy,hz,px,py,pz\n"
+
+
+class BroadPhaseTest(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory(prefix="polhode_broad_phase_")
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+
+    def call(self, *arguments, status=0):
+        done = subprocess.run([str(PROGRAM), *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
+                              timeout=120, stdin=subprocess.DEVNULL)
+        self.assertEqual(done.returncode, status, done.stderr[-1500:])
+        return done
+
+    def write(self, text):
+        (self.folder / "boxes.csv").write_text(text, encoding="utf-8")
+
+    def answer(self, phase="all_pairs"):
+        done = self.call("--boxes", "boxes.csv", "--broad-phase", phase, "--out", "pairs.csv")
+        return done.stdout, (self.folder / "pairs.csv").read_text(encoding="utf-8")
+
+
+class RecordedMotion(BroadPhaseTest):
+    def test_every_broad_phase_reports_the_pairs_of_brute_force(self):
+        numbers = random.Random(1)
+        rows = []
+        for step in range(5):
+            for body in range(60):
+                half = [numbers.uniform(0.1, 1) for _ in range(3)]
+                centre = [numbers.uniform(0, 6) for _ in range(3)]
+                rows.append((step, 3 * body + 7, *half, *centre))
+        expected = ["step,a,b"]
+        for step in range(5):
+            here = [r for r in rows if r[0] == step]
+            for i, a in enumerate(here):
+                for b in here[i + 1:]:
+                    if all(a[5 + k] - a[2 + k] <= b[5 + k] + b[2 + k] and b[5 + k] - b[2 + k] <= a[5 + k] + a[2 + k]
+                           for k in range(3)):
+                        expected.append(f"{step},{a[1]},{b[1]}")
+        self.assertGreater(len(expected), 50)
+        numbers.shuffle(rows)
+        self.write(HEADER + "".join(",".join(map(repr, r)) + "\n" for r in rows))
+        for phase in PHASES:
+            printed, pairs = self.answer(phase)
+            self.assertEqual(pairs.splitlines(), expected, phase)
+            table = list(csv.DictReader(line for line in printed.splitlines() if not line.startswith("#")))
+            self.assertEqual([row["step"] for row in table], ["0", "1", "2", "3", "4"])
+            self.assertTrue(all(float(row["time_s"]) > 0 and row["boxes"] == "60" for row in table))
+
+    def test_columns_go_by_name_and_bodies_may_come_and_go(self):
+        self.write('note,px,py,pz,hx,hy,hz,id,step\r\n"a, b",0,0,0,1,1,1,5,2\r\n"say ""x""",2,0,0,1,1,1,-3,2\r\n\r\n'
+                   ',0,0,0,1,1,1,5,9\r\n,9,9,9,inf,inf,9,1,9\r\n,1e2,1e2,0,0,0,0,4,9\r\n')
+        self.assertEqual(self.answer()[1], "step,a,b\n2,-3,5\n9,1,4\n9,1,5\n")
+
+    def test_no_rows_no_pairs(self):
+        self.write(HEADER)
+        self.assertEqual(self.answer()[1], "step,a,b\n")
+
+    def test_bad_files_are_refused_with_their_place(self):
+        good = "0,0,1,1,1,0,0,0\n"
+        for text, said in (
+                ("", ["boxes.csv: ", "nothing in it"]),
+                ("step,id,hx,hy,hz,px,py\n", ["boxes.csv:1:1: ", "no column pz"]),
+                ("step,id,hx,hx,hy,hz,px,py,pz\n", ["boxes.csv:1:12: ", "hx stands twice"]),
+                (HEADER + "0,0,1,1,1,0,0\n", ["boxes.csv:2:13: ", "7 cells under 8"]),
+                (HEADER + good + "0,1,1,x,1,0,0,0\n", ["boxes.csv:3:7: ", "hy is 'x'"]),
+                (HEADER + "0,1,1,,1,0,0,0\n", ["boxes.csv:2:7: ", "hy is empty"]),
+                (HEADER + "0,1,1,1,-1,0,0,0\n", ["boxes.csv:2:9: ", "negative"]),
+                (HEADER + "0,1,1,1,1,nan,0,0\n", ["boxes.csv:2:11: ", "px is 'nan'"]),
+                (HEADER + "0,1,1,1,1,0,inf,0\n", ["boxes.csv:2:13: ", "infinite centre"]),
+                (HEADER + "0,1,1,1,1,0,1e999,0\n", ["boxes.csv:2:13: ", "1e999"]),
+                (HEADER + "0.5,1,1,1,1,0,0,0\n", ["boxes.csv:2:1: ", "step is '0.5'", "whole number"]),
+                (HEADER + "0,1 2,1,1,1,0,0,0\n", ["boxes.csv:2:3: ", "id is '1 2'"]),
+                (HEADER + good + good, ["boxes.csv:3:1: ", "id 0 stands twice in step 0", "line 2"]),
+                (HEADER + '0,"1,1,1,1,0,0,0\n', ["boxes.csv:2:3: ", "quote"])):
+            with self.subTest(text=text):
+                self.write(text)
+                done = self.call("--boxes", "boxes.csv", "--broad-phase", "all_pairs", "--out", "pairs.csv", status=2)
+                self.assertEqual(done.stdout, "")
+                self.assertEqual(done.stderr.count("\n"), 1)
+                for word in said:
+                    self.assertIn(word, done.stderr)
+                self.assertFalse((self.folder / "pairs.csv").exists())
+
+    def test_bad_options_are_refused_with_the_remedy(self):
+        self.write(HEADER)
+        boxes = ["--boxes", "boxes.csv"]
+        for arguments, said in (
+                (boxes + ["--out", "p.csv"], "--broad-phase is missing"),
+                (boxes + ["--broad-phase", "all_pairs"], "--out is missing"),
+                (boxes + ["--broad-phase", "all_pears", "--out", "p.csv"], "did you mean 'all_pairs'"),
+                (boxes + ["--broad-phase", "all", "--out", "p.csv"], "one name"),
+                (boxes + ["--broad-phase", "all_pairs", "--out", "p.csv", "--bodies", "5"], "--bodies has no meaning"),
+                (["--boxes", "none.csv", "--broad-phase", "all_pairs", "--out", "p.csv"], "none.csv: no such file"),
+                (["--boxes", ".", "--broad-phase", "all_pairs", "--out", "p.csv"], "is a folder"),
+                (["--bodies", "0"], "--bodies"), (["--filling", "-1"], "--filling"), (["--magic"], "--help")):
+            with self.subTest(arguments=arguments):
+                done = self.call(*arguments, status=2)
+                self.assertEqual(done.stderr.count("\n"), 1)
+                self.assertIn(said, done.stderr)
+                self.assertEqual([p.name for p in self.folder.iterdir()], ["boxes.csv"])
+
+
+class Asking(BroadPhaseTest):
+    def test_lists_the_catalogue(self):
+        listed = self.call("--list", "broad-phases").stdout
+        self.assertEqual([line.split()[0] for line in listed.splitlines()], PHASES)
+        self.assertIn("sweep_and_prune", self.call("--list").stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
