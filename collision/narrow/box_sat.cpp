@@ -109,9 +109,34 @@ void offer_edge_pairs(const RelativeBoxes& boxes, const Vector3<double>& offset,
   }
 }
 
-/// Calls take(axis) for each of the fifteen, but those of parallel edges.
-template <class Take>
-void for_each_axis(const RelativeBoxes& boxes, const Take& take) {
+/// What the separation along the product of edge i of A and edge j of B is at most: the product itself is no longer than 1.
+/// True of negative ones only.
+double at_most(const RelativeBoxes& boxes, int i, int j) {
+  const Matrix3<double>& c = boxes.b_in_a;
+  const int y = (i + 1) % 3, z = (i + 2) % 3, v = (j + 1) % 3, w = (j + 2) % 3;
+  return std::abs(boxes.offset[z] * c(y, j) - boxes.offset[y] * c(z, j)) - boxes.half_a[y] * std::abs(c(z, j)) -
+         boxes.half_a[z] * std::abs(c(y, j)) - boxes.half_b[v] * std::abs(c(i, w)) - boxes.half_b[w] * std::abs(c(i, v)) +
+         10 * round_off * boxes.scale;
+}
+
+BoxAxis edge_axis(const RelativeBoxes& boxes, int i, int j, double length) {
+  const Matrix3<double>& c = boxes.b_in_a;
+  const int y = (i + 1) % 3, z = (i + 2) % 3, v = (j + 1) % 3, w = (j + 2) % 3;
+  const double ny = -c(z, j) / length, nz = c(y, j) / length;
+  const double along = boxes.offset[y] * ny + boxes.offset[z] * nz;
+  const double reach_a = boxes.half_a[y] * std::abs(ny) + boxes.half_a[z] * std::abs(nz);
+  const double reach_b = boxes.half_b[v] * std::abs(c(y, v) * ny + c(z, v) * nz) +
+                         boxes.half_b[w] * std::abs(c(y, w) * ny + c(z, w) * nz);
+  const double sign = std::copysign(1.0, along);
+  BoxAxis axis{6 + 3 * i + j, std::abs(along) - reach_a - reach_b, Vector3<double>::Zero()};
+  axis.normal[y] = sign * ny;
+  axis.normal[z] = sign * nz;
+  return axis;
+}
+
+/// Calls take(axis) for the six faces, then for the products of edges that are not parallel and may reach `wanted()`.
+template <class Take, class Wanted>
+void for_each_axis(const RelativeBoxes& boxes, const Take& take, const Wanted& wanted) {
   const Matrix3<double>& c = boxes.b_in_a;
   const Vector3<double>& t = boxes.offset;
   for (int i = 0; i < 3; ++i) {
@@ -124,21 +149,12 @@ void for_each_axis(const RelativeBoxes& boxes, const Take& take) {
     take(BoxAxis{3 + j, std::abs(along) - reach, c.col(j) * std::copysign(1.0, along)});
   }
   for (int i = 0; i < 3; ++i) {
-    const int y = (i + 1) % 3, z = (i + 2) % 3;
     for (int j = 0; j < 3; ++j) {
-      const double length = std::sqrt(c(y, j) * c(y, j) + c(z, j) * c(z, j));
-      if (length < parallel) continue;
-      const double ny = -c(z, j) / length, nz = c(y, j) / length;
-      const int v = (j + 1) % 3, w = (j + 2) % 3;
-      const double along = t[y] * ny + t[z] * nz;
-      const double reach_a = boxes.half_a[y] * std::abs(ny) + boxes.half_a[z] * std::abs(nz);
-      const double reach_b = boxes.half_b[v] * std::abs(c(y, v) * ny + c(z, v) * nz) +
-                             boxes.half_b[w] * std::abs(c(y, w) * ny + c(z, w) * nz);
-      const double sign = std::copysign(1.0, along);
-      BoxAxis axis{6 + 3 * i + j, std::abs(along) - reach_a - reach_b, Vector3<double>::Zero()};
-      axis.normal[y] = sign * ny;
-      axis.normal[z] = sign * nz;
-      take(axis);
+      const double most = at_most(boxes, i, j);
+      if (most < 0 && most < wanted()) continue;
+      const double y = c((i + 1) % 3, j), z = c((i + 2) % 3, j);
+      const double length = std::sqrt(y * y + z * z);
+      if (length >= parallel) take(edge_axis(boxes, i, j, length));
     }
   }
 }
@@ -149,7 +165,7 @@ Nearest nearest_points(const RelativeBoxes& boxes, const Vector3<double>& offset
   for_each_axis(boxes, [&](const BoxAxis& axis) {
     if (axis.index < 6 || axis.separation < separation - nearly_best * boxes.scale) return;
     offer_edge_pairs(boxes, offset, (axis.index - 6) / 3, (axis.index - 6) % 3, axis.normal, nearest);
-  });
+  }, [&] { return separation - nearly_best * boxes.scale; });
   offer_vertices(boxes, offset, nearest);
   return nearest;
 }
@@ -208,7 +224,7 @@ BoxAxis best_axis(const RelativeBoxes& boxes) {
   for_each_axis(boxes, [&](const BoxAxis& axis) {
     const double ahead = axis.index < 6 ? 0 : round_off * boxes.scale;
     if (axis.separation > best.separation + ahead) best = axis;
-  });
+  }, [&] { return best.separation; });
   return best;
 }
 
