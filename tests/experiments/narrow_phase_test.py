@@ -83,6 +83,27 @@ class NarrowPhase(unittest.TestCase):
         self.assertIn("sat", self.answer(f"{NAMES}\n{ROW}\n", "--narrow-phase", "satt", status=2))
         self.assertIn("nothing.csv", self.run_program("--pairs", "nothing.csv", status=2))
 
+    def test_side_by_side(self):
+        said = self.run_program("--count", 200, "--out", "out")
+        self.assertIn("sat_course_report calls up to", said)
+        with open(self.folder / "out/comparison.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        for row in rows:
+            if row["narrow_phase"] == "sat":
+                self.assertEqual((row["wrong_overlaps"], row["missed_overlaps"]), ("0", "0"))
+            if row["narrow_phase"] == "sat_course_report":
+                self.assertEqual(row["missed_overlaps"], "0")
+        wrong = {r["class"]: int(r["wrong_overlaps"]) for r in rows if r["narrow_phase"] == "sat_course_report"}
+        self.assertGreater(wrong["edge to edge"], 20)
+        with open(self.folder / "out/course_report.csv", newline="", encoding="utf-8") as file:
+            shares = [float(r["share_of_pairs_apart"]) for r in csv.DictReader(file)]
+        self.assertEqual(shares[0], 0)  # parallel cubes are told apart by A's faces alone
+        self.assertGreater(max(shares), 0.2)
+        self.assertGreater((self.folder / "out/figures/course_report_errors.svg").stat().st_size, 1000)
+        self.run_program("--count", 200, "--no-figures", "--out", "again")
+        for name in ("comparison.csv", "course_report.csv"):
+            self.assertEqual((self.folder / "again" / name).read_bytes(), (self.folder / "out" / name).read_bytes())
+
     def test_the_catalogue_is_listed(self):
         said = self.run_program("--list", "narrow-phases")
         for name in ("sat", "gjk", "sat_course_report"):
