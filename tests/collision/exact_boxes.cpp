@@ -154,7 +154,7 @@ long double distance_apart(const Pair& pair) {
 
 ExactDistance exact_distance(const ExactBox& first, const ExactBox& second) {
   const Pair pair(first, second);
-  const auto& [a, b, unit] = pair;
+  const WholeBox &a = pair.a, &b = pair.b;
   const Whole3 between = b.centre - a.centre;
   ExactDistance result{-1, -std::numeric_limits<long double>::infinity()};
   const auto take = [&](const Whole3& axis, long double length) {
@@ -163,7 +163,7 @@ ExactDistance exact_distance(const ExactBox& first, const ExactBox& second) {
       for (std::size_t k = 0; k < 3; ++k) separation -= magnitude(dot(box->edge[k], axis));
     }
     result.sign = std::max(result.sign, separation.sign());
-    result.distance = std::max(result.distance, rounded(separation) / length * unit);
+    result.distance = std::max(result.distance, rounded(separation) / length * pair.unit);
   };
   for (const WholeBox* box : {&a, &b}) {
     for (const Whole3& axis : box->axis) take(axis, rounded(box->squared));
