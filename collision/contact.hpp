@@ -13,7 +13,8 @@ namespace polhode {
 /// Which parts of two shapes touch. The numbers are those of the shapes' own faces, edges and vertices, and stay the same
 /// while the contact does: warm starting knows a contact by them.
 struct Feature {
-  enum class Kind : std::uint8_t { vertex_face, edge_edge, other };
+  /// A vertex of A and a face of B, a face of A and a vertex of B, an edge of each, anything else.
+  enum class Kind : std::uint8_t { vertex_face, face_vertex, edge_edge, other };
   Kind kind = Kind::other;
   std::uint32_t of_a = 0, of_b = 0;
   bool operator==(const Feature&) const = default;

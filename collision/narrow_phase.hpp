@@ -30,7 +30,8 @@ class NarrowPhase {
   virtual bool overlap(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory = nullptr) const = 0;
   virtual Distance distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b,
                             PairMemory* memory = nullptr) const = 0;
-  /// Points where the surfaces are no further apart than `margin` (m).
+  /// Points where the surfaces are no further apart than `margin` (m). Of two faces that are almost parallel, and no further
+  /// apart than that, all points that matter, also those where they are: then their depth is negative.
   virtual Manifold manifold(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, double margin = 0,
                             PairMemory* memory = nullptr) const = 0;
 };

@@ -5,7 +5,9 @@
 
 // One line lists a narrow phase: the function of its name, in the file of its name in narrow/, declares it.
 #define POLHODE_NARROW_PHASES(METHOD) \
-  METHOD(gjk)
+  METHOD(sat) \
+  METHOD(gjk) \
+  METHOD(sat_course_report)
 
 namespace polhode {
 

@@ -75,7 +75,7 @@ bool CsvReader::next_line() {
     ++line_number_;
     if (line_number_ == 1 && line_.starts_with("\xEF\xBB\xBF")) line_.erase(0, 3);
     if (line_.ends_with('\r')) line_.pop_back();
-    if (!trimmed(line_).empty()) return true;
+    if (!trimmed(line_).empty() && line_.front() != '#') return true;
   }
   if (file_.bad()) throw InputError(path_ + ": it cannot be read to its end");
   return false;

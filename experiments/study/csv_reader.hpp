@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads tables of numbers that any program wrote as CSV (RFC 4180), a row at a time. The first line names the columns, which
-// go by their names, in any order; others are passed over. Lines may end in CR LF; empty lines are skipped. Every error is
+// go by their names, in any order; others are passed over. Lines may end in CR LF; empty lines, and those that begin with #,
+// are skipped. Every error is
 // an InputError with file, line, column and a remedy.
 #pragma once
 
@@ -18,6 +19,8 @@ class CsvReader {
   /// Opens the file and reads the names of its columns.
   explicit CsvReader(const std::string& path);
 
+  const std::vector<std::string>& names() const { return names_; }
+
   /// The place of a column that must be there, and only once.
   std::size_t column(std::string_view name) const;
 
@@ -26,6 +29,7 @@ class CsvReader {
 
   std::size_t line() const { return line_number_; }  ///< of the present row, from 1
 
+  const std::string& text(std::size_t column) const { return cells_[column]; }
   std::int64_t integer(std::size_t column) const;
   double number(std::size_t column) const;  ///< may be infinite ("inf"), never NaN
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "collision/broad_phase.hpp"
+#include "collision/narrow_phase.hpp"
 #include "core/forces/catalogue.hpp"
 #include "core/invariants.hpp"
 #include "core/shape_inertia.hpp"
@@ -76,6 +77,12 @@ std::string broad_phases() {
   return text;
 }
 
+std::string narrow_phases() {
+  std::string text;
+  for (const NarrowPhaseEntry& e : narrow_phase_catalogue()) text += line(e.name, e.summary);
+  return text;
+}
+
 std::string nothing() { return "  none in this version\n"; }
 
 std::string metrics() {
@@ -101,7 +108,7 @@ struct Section {
 constexpr Section sections[] = {{"integrators", integrators},   {"scenarios", scenarios},
                                 {"forces", forces},             {"shapes", shapes},
                                 {"invariants", invariants},     {"metrics", metrics},
-                                {"broad-phases", broad_phases},      {"narrow-phases", nothing},
+                                {"broad-phases", broad_phases}, {"narrow-phases", narrow_phases},
                                 {"responses", nothing}};
 
 }  // namespace

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The contact patch of two boxes. Vertices, edges and faces are numbered as the box's polytope has them.
+#pragma once
+
+#include "collision/narrow/box_sat.hpp"
+
+namespace polhode {
+
+/// Empty where the boxes are further apart than `margin` (m). Two faces that are almost parallel (0.1 rad) meet as faces
+/// even where an edge axis has a little less depth. Throws std::invalid_argument if a pose is not finite.
+Manifold boxes_manifold(const BoxAt& a, const BoxAt& b, double margin);
+
+}  // namespace polhode

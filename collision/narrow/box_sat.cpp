@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "collision/narrow/box_sat.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace polhode {
+namespace {
+
+constexpr double round_off = 5e-16;    // of a separation, in units of RelativeBoxes::scale
+constexpr double parallel = 1e-15;     // sine of an angle below which two edges span no axis that others do not
+constexpr double nearly_best = 1e-12;  // in the same units: an edge axis that may hold the nearest points
+
+/// How far apart the shadows of the boxes on n are, n unit and in A's axes, from A to B.
+double shadow_gap(const RelativeBoxes& boxes, const Vector3<double>& offset, const Vector3<double>& n) {
+  return n.dot(offset) - n.cwiseAbs().dot(boxes.half_a) - (boxes.b_in_a.transpose() * n).cwiseAbs().dot(boxes.half_b);
+}
+
+/// The nearest points known so far, in A's axes. Of two pairs of points that are as near, but for round-off, the difference
+/// may point 1e-8 apart; then that one counts on which the shadows are further apart, as a normal must have it.
+struct Nearest {
+  const RelativeBoxes& boxes;
+  const Vector3<double>& offset;
+  double squared = std::numeric_limits<double>::infinity();  // m²
+  Vector3<double> on_a{}, on_b{}, apart{};                   // apart = on_b − on_a
+
+  double gap(const Vector3<double>& difference) const { return shadow_gap(boxes, offset, difference.normalized()); }
+
+  void offer(const Vector3<double>& a, const Vector3<double>& b, const Vector3<double>& difference) {
+    constexpr double as_near = 1e-13;
+    const double d = difference.squaredNorm();
+    if (!(d <= squared * (1 + as_near))) return;
+    if (d >= squared * (1 - as_near) && !(gap(difference) > gap(apart))) return;
+    squared = d;
+    on_a = a;
+    on_b = b;
+    apart = difference;
+  }
+};
+
+Vector3<double> corner(const Vector3<double>& half, int k) {
+  return {k & 1 ? half[0] : -half[0], k & 2 ? half[1] : -half[1], k & 4 ? half[2] : -half[2]};
+}
+
+Vector3<double> clamped(const Vector3<double>& x, const Vector3<double>& half) {
+  return x.cwiseMax(-half).cwiseMin(half);
+}
+
+/// Each vertex of one against the whole of the other: right wherever one of the nearest points is a vertex. A coordinate
+/// that is not clamped leaves an exact zero, so the direction stands exactly upright on the face or edge that it meets.
+void offer_vertices(const RelativeBoxes& boxes, const Vector3<double>& offset, Nearest& nearest) {
+  for (int k = 0; k < 8; ++k) {
+    const Vector3<double> b = offset + boxes.b_in_a * corner(boxes.half_b, k);
+    const Vector3<double> a = clamped(b, boxes.half_a);
+    nearest.offer(a, b, b - a);
+  }
+  for (int k = 0; k < 8; ++k) {
+    const Vector3<double> a = corner(boxes.half_a, k);
+    const Vector3<double> in_b = boxes.b_in_a.transpose() * (a - offset);
+    const Vector3<double> b = clamped(in_b, boxes.half_b);
+    nearest.offer(a, offset + boxes.b_in_a * b, boxes.b_in_a * (b - in_b));
+  }
+}
+
+/// Two edges, of A along its axis i with centre `a` and of B along its axis j with centre `b`, where both nearest points lie
+/// within them. In the plane across A's edge that edge is a point and B's a short line, however nearly parallel they are.
+void offer_edges(const RelativeBoxes& boxes, int i, int j, const Vector3<double>& a, const Vector3<double>& b,
+                 const Vector3<double>& normal, Nearest& nearest) {
+  const int y = (i + 1) % 3, z = (i + 2) % 3;
+  const Vector3<double> along = boxes.b_in_a.col(j);
+  const Vector3<double> between = b - a;
+  const double across = along[y] * along[y] + along[z] * along[z];
+  const double reach_b = boxes.half_b[j], reach_a = boxes.half_a[i];
+  const double best = -(between[y] * along[y] + between[z] * along[z]) / across;
+  const double u = std::clamp(best, -reach_b, reach_b);
+  Vector3<double> difference = between + u * along;
+  const double x = std::clamp(difference[i], -reach_a, reach_a);
+  const bool both_within = u == best && x == difference[i];
+  difference[i] -= x;
+  if (both_within) difference = normal * difference.dot(normal);
+  Vector3<double> on_a = a;
+  on_a[i] = x;
+  nearest.offer(on_a, b + u * along, difference);
+}
+
+/// The edge pairs that may be nearest along the axis of edges i and j: on each box the edge that is furthest along the
+/// normal, and both where the normal stands upright on a face that has them.
+void offer_edge_pairs(const RelativeBoxes& boxes, const Vector3<double>& offset, int i, int j, const Vector3<double>& normal,
+                      Nearest& nearest) {
+  constexpr double upright = 1e-7;
+  const Vector3<double> in_b = boxes.b_in_a.transpose() * normal;
+  const auto possible = [](double component, double sign) { return component * sign > -upright; };
+  for (int k = 0; k < 4; ++k) {
+    const double first = k & 1 ? 1 : -1, second = k & 2 ? 1 : -1;
+    const int y = (i + 1) % 3, z = (i + 2) % 3;
+    if (!possible(normal[y], first) || !possible(normal[z], second)) continue;
+    Vector3<double> a = Vector3<double>::Zero();
+    a[y] = first * boxes.half_a[y];
+    a[z] = second * boxes.half_a[z];
+    for (int m = 0; m < 4; ++m) {
+      const double third = m & 1 ? 1 : -1, fourth = m & 2 ? 1 : -1;
+      const int v = (j + 1) % 3, w = (j + 2) % 3;
+      if (!possible(in_b[v], -third) || !possible(in_b[w], -fourth)) continue;
+      const Vector3<double> b = offset + boxes.b_in_a.col(v) * (third * boxes.half_b[v]) +
+                                boxes.b_in_a.col(w) * (fourth * boxes.half_b[w]);
+      offer_edges(boxes, i, j, a, b, normal, nearest);
+    }
+  }
+}
+
+/// What the separation along the product of edge i of A and edge j of B is at most: the product itself is no longer than 1.
+/// True of negative ones only.
+double at_most(const RelativeBoxes& boxes, int i, int j) {
+  const Matrix3<double>& c = boxes.b_in_a;
+  const int y = (i + 1) % 3, z = (i + 2) % 3, v = (j + 1) % 3, w = (j + 2) % 3;
+  return std::abs(boxes.offset[z] * c(y, j) - boxes.offset[y] * c(z, j)) - boxes.half_a[y] * std::abs(c(z, j)) -
+         boxes.half_a[z] * std::abs(c(y, j)) - boxes.half_b[v] * std::abs(c(i, w)) - boxes.half_b[w] * std::abs(c(i, v)) +
+         10 * round_off * boxes.scale;
+}
+
+BoxAxis edge_axis(const RelativeBoxes& boxes, int i, int j, double length) {
+  const Matrix3<double>& c = boxes.b_in_a;
+  const int y = (i + 1) % 3, z = (i + 2) % 3, v = (j + 1) % 3, w = (j + 2) % 3;
+  const double ny = -c(z, j) / length, nz = c(y, j) / length;
+  const double along = boxes.offset[y] * ny + boxes.offset[z] * nz;
+  const double reach_a = boxes.half_a[y] * std::abs(ny) + boxes.half_a[z] * std::abs(nz);
+  const double reach_b = boxes.half_b[v] * std::abs(c(y, v) * ny + c(z, v) * nz) +
+                         boxes.half_b[w] * std::abs(c(y, w) * ny + c(z, w) * nz);
+  const double sign = std::copysign(1.0, along);
+  BoxAxis axis{6 + 3 * i + j, std::abs(along) - reach_a - reach_b, Vector3<double>::Zero()};
+  axis.normal[y] = sign * ny;
+  axis.normal[z] = sign * nz;
+  return axis;
+}
+
+/// Calls take(axis) for the six faces, then for the products of edges that are not parallel and may reach `wanted()`.
+template <class Take, class Wanted>
+void for_each_axis(const RelativeBoxes& boxes, const Take& take, const Wanted& wanted) {
+  const Matrix3<double>& c = boxes.b_in_a;
+  const Vector3<double>& t = boxes.offset;
+  for (int i = 0; i < 3; ++i) {
+    const double reach = boxes.half_a[i] + (c.row(i).cwiseAbs() * boxes.half_b).value();
+    take(BoxAxis{i, std::abs(t[i]) - reach, Vector3<double>::Unit(i) * std::copysign(1.0, t[i])});
+  }
+  for (int j = 0; j < 3; ++j) {
+    const double along = c.col(j).dot(t);
+    const double reach = boxes.half_b[j] + c.col(j).cwiseAbs().dot(boxes.half_a);
+    take(BoxAxis{3 + j, std::abs(along) - reach, c.col(j) * std::copysign(1.0, along)});
+  }
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const double most = at_most(boxes, i, j);
+      if (most < 0 && most < wanted()) continue;
+      const double y = c((i + 1) % 3, j), z = c((i + 2) % 3, j);
+      const double length = std::sqrt(y * y + z * z);
+      if (length >= parallel) take(edge_axis(boxes, i, j, length));
+    }
+  }
+}
+
+/// The distance of boxes that the axis separates, or just touches after `offset` was moved so that they do.
+Nearest nearest_points(const RelativeBoxes& boxes, const Vector3<double>& offset, double separation) {
+  Nearest nearest{boxes, offset};
+  for_each_axis(boxes, [&](const BoxAxis& axis) {
+    if (axis.index < 6 || axis.separation < separation - nearly_best * boxes.scale) return;
+    offer_edge_pairs(boxes, offset, (axis.index - 6) / 3, (axis.index - 6) % 3, axis.normal, nearest);
+  }, [&] { return separation - nearly_best * boxes.scale; });
+  offer_vertices(boxes, offset, nearest);
+  return nearest;
+}
+
+Distance ordered_distance(const BoxAt& a, const BoxAt& b) {
+  const RelativeBoxes boxes(a, b);
+  const BoxAxis axis = best_axis(boxes);
+  Distance result;
+  result.distance = axis.separation;
+  Vector3<double> normal = axis.normal;
+  const bool apart = axis.separation > 0;
+  const Vector3<double> shift = apart ? Vector3<double>::Zero() : Vector3<double>(-axis.separation * axis.normal);
+  const Vector3<double> offset = boxes.offset + shift;
+  const Nearest nearest = nearest_points(boxes, offset, axis.separation);
+  if (apart) {
+    result.distance = std::max(axis.separation, std::sqrt(nearest.squared));
+    // Where they touch but for round-off, the axis knows the direction better.
+    const bool known = nearest.squared > 0 && nearest.gap(nearest.apart) >= axis.separation - round_off * boxes.scale;
+    if (known) normal = nearest.apart.normalized();
+  }
+  result.normal = -(a.pose.rotation * normal);
+  result.on_a = a.pose.to_world(nearest.on_a);
+  result.on_b = a.pose.to_world(nearest.on_b - shift);
+  return result;
+}
+
+}  // namespace
+
+RelativeBoxes::RelativeBoxes(const BoxAt& a, const BoxAt& b)
+    : half_a(a.half),
+      half_b(b.half),
+      b_in_a(a.pose.rotation.transpose() * b.pose.rotation),
+      offset(a.pose.rotation.transpose() * (b.pose.position - a.pose.position)),
+      scale(half_a.sum() + half_b.sum() + offset.cwiseAbs().sum()) {}
+
+bool in_order(const BoxAt& a, const BoxAt& b) {
+  for (int k = 0; k < 3; ++k) {
+    if (a.pose.position[k] != b.pose.position[k]) return a.pose.position[k] < b.pose.position[k];
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (a.half[k] != b.half[k]) return a.half[k] < b.half[k];
+  }
+  for (int k = 0; k < 9; ++k) {
+    const double of_a = a.pose.rotation(k % 3, k / 3), of_b = b.pose.rotation(k % 3, k / 3);
+    if (of_a != of_b) return of_a < of_b;
+  }
+  return true;
+}
+
+BoxAxis best_axis(const RelativeBoxes& boxes) {
+  if (!std::isfinite(boxes.scale) || !boxes.b_in_a.allFinite()) {
+    throw std::invalid_argument("narrow phase: the pose of a box is not finite");
+  }
+  BoxAxis best{0, -std::numeric_limits<double>::infinity(), {}};
+  // An edge axis that is a face normal but for round-off does not take its place.
+  for_each_axis(boxes, [&](const BoxAxis& axis) {
+    const double ahead = axis.index < 6 ? 0 : round_off * boxes.scale;
+    if (axis.separation > best.separation + ahead) best = axis;
+  }, [&] { return best.separation; });
+  return best;
+}
+
+Distance boxes_distance(const BoxAt& a, const BoxAt& b) {
+  if (in_order(a, b)) return ordered_distance(a, b);
+  Distance mirrored = ordered_distance(b, a);
+  mirrored.normal = -mirrored.normal;
+  std::swap(mirrored.on_a, mirrored.on_b);
+  return mirrored;
+}
+
+}  // namespace polhode

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Do the narrow phases agree, what do they cost, and how often does the course report's test err?
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+
+#include "experiments/narrow_phase/comparison.hpp"
+#include "experiments/narrow_phase/options.hpp"
+#include "experiments/narrow_phase/pairs.hpp"
+#include "experiments/study/input_error.hpp"
+#include "experiments/study/listing.hpp"
+#include "experiments/study/study_view.hpp"
+#include "experiments/study/suggestion.hpp"
+#include "experiments/study/text_file.hpp"
+
+namespace polhode::study {
+namespace {
+
+const NarrowPhaseEntry& entry(const std::string& name) {
+  if (const NarrowPhaseEntry* found = find_narrow_phase(name)) return *found;
+  std::vector<std::string_view> known;
+  for (const NarrowPhaseEntry& e : narrow_phase_catalogue()) known.emplace_back(e.name);
+  throw InputError("--narrow-phase: no narrow phase '" + name + "'" + suggestion(name, "There are", known));
+}
+
+void answer_pairs(const NarrowPhaseOptions& options) {
+  const auto narrow_phase = entry(options.narrow_phase.empty() ? "sat" : options.narrow_phase).make();
+  const std::string text = answers(read_pairs(options.pairs), *narrow_phase);
+  if (options.out.empty()) {
+    fmt::print("{}", text);
+  } else {
+    write_text(options.out, text);
+  }
+}
+
+void compare(const NarrowPhaseOptions& options, const std::string& question) {
+  std::vector<const NarrowPhaseEntry*> entries;
+  for (const NarrowPhaseEntry& e : narrow_phase_catalogue()) entries.push_back(&e);
+  if (!options.narrow_phase.empty()) entries = {&entry(options.narrow_phase)};
+  StudyView view;
+  view.experiment = "narrow_phase";
+  view.question = question;
+  view.folder = options.out.empty() ? "results/narrow_phase" : options.out;
+  Analysis analysis{.alone = true, .heading = "Narrow phases side by side"};
+  compare_narrow_phases(entries, options.count, options.seed, analysis);
+  measure_course_report(options.count, options.seed, analysis);
+  view.analysis = std::move(analysis);
+  std::filesystem::create_directories(view.folder);
+  write_tables(view);
+  if (options.figures) {
+    const std::string skipped = write_figures(view);
+    if (!skipped.empty()) fmt::print(stderr, "narrow_phase: {}\n", skipped);
+  }
+  fmt::print("{}\n", report::markdown(view.analysis->tables.front().table));
+  for (const auto* sentences : {&view.analysis->sentences, &view.analysis->timed.sentences}) {
+    for (const std::string& sentence : *sentences) fmt::print("{}\n", sentence);
+  }
+  fmt::print("{}\n", view.folder.string());
+}
+
+int run(int argc, char** argv) {
+  const std::string question = "Do the narrow phases agree, what do they cost, and how often does the course report's test err?";
+  const auto options = parse_narrow_phase_options(question, argc, argv);
+  if (options.exit_status) return *options.exit_status;
+  if (options.list) {
+    fmt::print("{}", listing(*options.list));
+    return 0;
+  }
+  if (options.pairs.empty()) {
+    compare(options, question);
+  } else {
+    answer_pairs(options);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace polhode::study
+
+int main(int argc, char** argv) {
+  try {
+    return polhode::study::run(argc, argv);
+  } catch (const polhode::study::InputError& error) {
+    fmt::print(stderr, "narrow_phase: {}\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "narrow_phase: {}\n", error.what());
+    return 3;
+  }
+}

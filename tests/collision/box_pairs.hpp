@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Random and degenerate pairs of boxes, the same ones for a number.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tests/collision/exact_boxes.hpp"
+
+namespace polhode {
+
+inline const std::vector<std::string>& box_pair_classes() {
+  static const std::vector<std::string> names = {"random",        "face to face",     "edge to edge", "parallel edges",
+                                                 "vertex to vertex", "vertex to face", "nested",       "far apart"};
+  return names;
+}
+
+struct BoxPairCase {
+  std::string what;
+  ExactBox a, b;
+};
+
+/// Makes pair number k of a sequence; its class is k modulo the number of classes.
+class BoxPairs {
+ public:
+  explicit BoxPairs(std::uint64_t seed) : seed_(seed) {}
+
+  BoxPairCase operator()(std::uint64_t k) {
+    dice_.seed(seed_ * 0x9e3779b97f4a7c15u + k);
+    const std::size_t kind = k % box_pair_classes().size();
+    const double scale = std::pow(10.0, uniform(-3, 3));
+    Vector3<double> half_a = scale * sides(), half_b = scale * sides() * std::pow(10.0, chance(0.5) ? 0 : -uniform(0, 4));
+    if (chance(0.5)) std::swap(half_a, half_b);
+    Quaternion<double> turn = turned();
+    Vector3<double> offset = Vector3<double>::Zero();
+    const double gap = tiny() * std::min(half_a.minCoeff(), half_b.minCoeff());
+    switch (kind) {
+      case 0: offset = along_a_line(half_a, half_b, turn, direction(), 0) * uniform(0, 1.5); break;
+      case 1: {
+        turn = product(about(0, chance(0.3) ? 0 : angle()), cube_turn());
+        if (chance(0.3)) turn = product(almost_none(), turn);
+        offset = along_a_line(half_a, half_b, turn, Vector3<double>::UnitX(), gap);
+        for (int i = 1; i < 3; ++i) offset[i] = uniform(-1, 1) * std::max(half_a[i], half_b.maxCoeff());
+        break;
+      }
+      case 2: {
+        const Matrix3<double> r = rotation_matrix<double>(turn);
+        const int i = whole(3), j = whole(3);
+        Vector3<double> n = Vector3<double>::Unit(i).cross(r.col(j)).normalized();
+        if (chance(0.5)) n = -n;
+        Vector3<double> a = furthest(half_a, n), b = furthest(half_b, -(r.transpose() * n));
+        a[i] *= uniform(-1, 1);
+        b[j] *= uniform(-1, 1);
+        offset = a - r * b + gap * n;
+        break;
+      }
+      case 3: {
+        turn = product(almost_none(), product(about(2, angle()), cube_turn()));
+        Vector3<double> n = direction();
+        n[2] = 0;
+        n.normalize();
+        offset = along_a_line(half_a, half_b, turn, n, gap);
+        offset[2] = uniform(-1, 1) * (half_a[2] + half_b.maxCoeff());
+        break;
+      }
+      case 4: {
+        if (chance(0.3)) turn = product(almost_none(), cube_turn());
+        const Vector3<double> n = direction();
+        const Matrix3<double> r = rotation_matrix<double>(turn);
+        offset = furthest(half_a, n) - r * furthest(half_b, -(r.transpose() * n)) + gap * n;
+        break;
+      }
+      case 5: {
+        const Matrix3<double> r = rotation_matrix<double>(turn);
+        const Vector3<double> n = Vector3<double>::Unit(whole(3));
+        Vector3<double> on_face = half_a.cwiseProduct(Vector3<double>(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)));
+        on_face = on_face - on_face.dot(n) * n + half_a.dot(n) * n;
+        offset = on_face - r * furthest(half_b, -(r.transpose() * n)) + gap * n;
+        break;
+      }
+      case 6:
+        half_b = half_b.cwiseMin(0.5 * half_a.minCoeff());
+        if (chance(0.3)) turn = cube_turn();
+        if (chance(0.7)) offset = 0.4 * half_a.cwiseProduct(direction());
+        break;
+      default: offset = along_a_line(half_a, half_b, turn, direction(), 0) * uniform(1, 10); break;
+    }
+    return posed(box_pair_classes()[kind], half_a, half_b, turn, offset, scale);
+  }
+
+ private:
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(dice_); }
+  bool chance(double p) { return uniform(0, 1) < p; }
+  int whole(int n) { return std::min(int(uniform(0, n)), n - 1); }
+  double angle() { return uniform(-std::numbers::pi, std::numbers::pi); }
+  double tiny() { return chance(0.2) ? 0 : (chance(0.5) ? 1 : -1) * std::pow(10.0, uniform(-16, 0)); }
+  Vector3<double> sides() {
+    if (chance(0.3)) return Vector3<double>::Ones();
+    return {std::pow(10.0, uniform(-0.5, 0.5)), std::pow(10.0, uniform(-0.5, 0.5)), std::pow(10.0, uniform(-0.5, 0.5))};
+  }
+  Vector3<double> direction() {
+    std::normal_distribution<double> normal;
+    return Vector3<double>(normal(dice_), normal(dice_), normal(dice_)).normalized();
+  }
+  Quaternion<double> turned() {
+    std::normal_distribution<double> normal;
+    return Quaternion<double>(normal(dice_), normal(dice_), normal(dice_), normal(dice_)).normalized();
+  }
+  static Quaternion<double> about(int axis, double angle) {
+    Quaternion<double> q(std::cos(angle / 2), 0, 0, 0);
+    q[axis + 1] = std::sin(angle / 2);
+    return q;
+  }
+  /// One of the turns that take a cube to itself, not normalised and so exact.
+  Quaternion<double> cube_turn() {
+    Quaternion<double> q(1, 0, 0, 0);
+    for (int k = 0; k < 3; ++k) {
+      Quaternion<double> quarter(1, 0, 0, 0);
+      quarter[1 + whole(3)] = chance(0.5) ? 1 : chance(0.5) ? -1 : 0;
+      q = product(q, quarter);
+    }
+    return q;
+  }
+  Quaternion<double> almost_none() {
+    return quaternion_from_rotation_vector<double>(direction() * (chance(0.3) ? 0 : std::pow(10.0, uniform(-17, 0))));
+  }
+  static Vector3<double> furthest(const Vector3<double>& half, const Vector3<double>& n) {
+    return {std::copysign(half[0], n[0]), std::copysign(half[1], n[1]), std::copysign(half[2], n[2])};
+  }
+  /// The offset along n at which the shadows of the boxes on n are `gap` apart.
+  static Vector3<double> along_a_line(const Vector3<double>& half_a, const Vector3<double>& half_b, const Quaternion<double>& turn,
+                                      const Vector3<double>& n, double gap) {
+    const Vector3<double> in_b = rotation_matrix<double>(turn).transpose() * n;
+    return n * (half_a.dot(n.cwiseAbs()) + half_b.dot(in_b.cwiseAbs()) + gap);
+  }
+  /// A third of the pairs stay in A's axes, where what is degenerate is so exactly.
+  BoxPairCase posed(const std::string& what, const Vector3<double>& half_a, const Vector3<double>& half_b,
+                    const Quaternion<double>& turn, const Vector3<double>& offset, double scale) {
+    if (chance(0.33)) return {what, {half_a, Vector3<double>::Zero(), {1, 0, 0, 0}}, {half_b, offset, turn}};
+    const Quaternion<double> q = chance(0.3) ? cube_turn() : turned();
+    const Vector3<double> p = scale * uniform(0, 2) * direction();
+    return {what, {half_a, p, q}, {half_b, p + rotation_matrix<double>(q) * offset, product(q, turn)}};
+  }
+
+  std::uint64_t seed_;
+  std::mt19937_64 dice_;
+};
+
+}  // namespace polhode

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The judge of two boxes: their signed distance in whole numbers, so that every sign is right. Only the last division and
+// root are rounded, in long double.
+#pragma once
+
+#include "core/quaternion.hpp"
+
+namespace polhode {
+
+/// A box as the numbers say it: the rotation is exactly that of q/|q|.
+struct ExactBox {
+  Vector3<double> half, position;
+  Quaternion<double> orientation;
+};
+
+struct ExactDistance {
+  int sign = 0;                ///< of the signed distance, exact: −1 where the interiors overlap
+  long double distance = 0;    ///< signed, to a few units of the last place of long double
+};
+
+ExactDistance exact_distance(const ExactBox& a, const ExactBox& b);
+
+}  // namespace polhode
