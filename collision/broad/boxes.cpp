@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "collision/broad/boxes.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -8,7 +9,7 @@ namespace polhode::broad {
 namespace {
 
 bool good(const Bounds& b) {
-  return (b.min().x() <= b.max().x()) & (b.min().y() <= b.max().y()) & (b.min().z() <= b.max().z());
+  return all(b.min().x() <= b.max().x(), b.min().y() <= b.max().y(), b.min().z() <= b.max().z());
 }
 
 [[noreturn]] void refuse(std::size_t body, const Bounds& b) {
@@ -21,10 +22,11 @@ bool good(const Bounds& b) {
 }  // namespace
 
 void take(std::span<const Bounds> bounds, std::vector<Box>& boxes) {
-  bool all = true;
-  for (const Bounds& b : bounds) all &= good(b);
-  for (std::size_t i = 0; !all; ++i) {
-    if (!good(bounds[i])) refuse(i, bounds[i]);
+  bool none_bad = true;
+  for (const Bounds& b : bounds) none_bad &= good(b);
+  if (!none_bad) {
+    const auto bad = std::find_if_not(bounds.begin(), bounds.end(), good);
+    refuse(static_cast<std::size_t>(bad - bounds.begin()), *bad);
   }
   boxes.resize(bounds.size());
   for (std::size_t i = 0; i < bounds.size(); ++i) boxes[i] = box_of(bounds[i]);

@@ -22,15 +22,21 @@ inline Box box_of(const Bounds& b) {
   return {{b.min().x(), b.min().y(), b.min().z()}, {b.max().x(), b.max().y(), b.max().z()}};
 }
 
+/// Without the branches that && would bring.
+template <class... Truth>
+constexpr bool all(Truth... truths) {
+  return (int(truths) & ...) != 0;
+}
+
 /// Closed intervals. Without branches: most pairs that are asked about are neither clearly near nor clearly far.
 inline bool overlap(const Box& a, const Box& b) {
-  return (a.low[0] <= b.high[0]) & (b.low[0] <= a.high[0]) & (a.low[1] <= b.high[1]) & (b.low[1] <= a.high[1]) &
-         (a.low[2] <= b.high[2]) & (b.low[2] <= a.high[2]);
+  return all(a.low[0] <= b.high[0], b.low[0] <= a.high[0], a.low[1] <= b.high[1], b.low[1] <= a.high[1],
+             a.low[2] <= b.high[2], b.low[2] <= a.high[2]);
 }
 
 inline bool contains(const Box& outer, const Box& inner) {
-  return (outer.low[0] <= inner.low[0]) & (inner.high[0] <= outer.high[0]) & (outer.low[1] <= inner.low[1]) &
-         (inner.high[1] <= outer.high[1]) & (outer.low[2] <= inner.low[2]) & (inner.high[2] <= outer.high[2]);
+  return all(outer.low[0] <= inner.low[0], inner.high[0] <= outer.high[0], outer.low[1] <= inner.low[1], inner.high[1] <= outer.high[1],
+             outer.low[2] <= inner.low[2], inner.high[2] <= outer.high[2]);
 }
 
 inline Box hull(const Box& a, const Box& b) {

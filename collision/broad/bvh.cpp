@@ -286,7 +286,7 @@ class Bvh final : public BroadPhase {
 
   void traverse(Index u, Index v) {
     const Node &a = nodes_[u], &b = nodes_[v];
-    if (!(a.changed | b.changed) || !overlap(a.box, b.box)) return;
+    if (!(a.changed || b.changed) || !overlap(a.box, b.box)) return;
     if (a.leaf() && b.leaf()) return found_.add(a.right, b.right);
     if (b.leaf() || (!a.leaf() && area(a.box) > area(b.box))) {
       traverse(a.left, v);

@@ -26,13 +26,13 @@ struct RoundedBox {
 };
 
 inline bool may_overlap(const RoundedBox& a, const RoundedBox& b) {
-  return (a.low[0] <= b.high[0]) & (b.low[0] <= a.high[0]) & (a.low[1] <= b.high[1]) & (b.low[1] <= a.high[1]) &
-         (a.low[2] <= b.high[2]) & (b.low[2] <= a.high[2]);
+  return all(a.low[0] <= b.high[0], b.low[0] <= a.high[0], a.low[1] <= b.high[1], b.low[1] <= a.high[1],
+             a.low[2] <= b.high[2], b.low[2] <= a.high[2]);
 }
 
 inline bool surely_overlap(const RoundedBox& a, const RoundedBox& b) {
-  return (a.low[0] < b.high[0]) & (b.low[0] < a.high[0]) & (a.low[1] < b.high[1]) & (b.low[1] < a.high[1]) &
-         (a.low[2] < b.high[2]) & (b.low[2] < a.high[2]);
+  return all(a.low[0] < b.high[0], b.low[0] < a.high[0], a.low[1] < b.high[1], b.low[1] < a.high[1],
+             a.low[2] < b.high[2], b.low[2] < a.high[2]);
 }
 
 }  // namespace polhode::broad
