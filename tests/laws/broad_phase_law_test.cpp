@@ -3,12 +3,9 @@
 // the boxes are and however they move; refuse what is no box; and allocate nothing once a scene goes on as it began.
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <limits>
-#include <new>
 #include <numbers>
 #include <random>
 #include <stdexcept>
@@ -16,28 +13,7 @@
 #include <vector>
 
 #include "collision/broad_phase.hpp"
-
-namespace {
-
-std::atomic<std::size_t> allocations{0};
-
-void* allocate(std::size_t size, std::size_t alignment) {
-  ++allocations;
-  const std::size_t rounded = (std::max<std::size_t>(size, 1) + alignment - 1) / alignment * alignment;
-  if (void* p = std::aligned_alloc(alignment, rounded)) return p;
-  throw std::bad_alloc();
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return allocate(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return allocate(size, std::max(std::size_t(alignment), alignof(std::max_align_t)));
-}
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+#include "tests/laws/allocations.hpp"
 
 namespace polhode {
 
@@ -409,10 +385,10 @@ TEST_P(BroadPhaseLaw, ASteadySceneAllocatesNothingAfterItsFirstStep) {
     fresh->update(steps[0]);
     std::size_t pairs = fresh->pairs().size();
     for (std::size_t k = 1; k < steps.size(); ++k) {
-      const std::size_t before = allocations;
+      const std::size_t before = allocations();
       fresh->update(steps[k]);
       pairs += fresh->pairs().size();
-      ASSERT_EQ(allocations - before, 0u) << "step " << k << " of a motion by " << reach;
+      ASSERT_EQ(allocations() - before, 0u) << "step " << k << " of a motion by " << reach;
     }
     EXPECT_GT(pairs, 0u);
   }
