@@ -4,14 +4,14 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/fisher_f.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
+
+#include "experiments/study/quantiles.hpp"
 
 namespace polhode::study {
 namespace {
@@ -256,8 +256,6 @@ Index below_lines(const Cosines& cosines, const Spectrum& rest) {
   return count;
 }
 
-double quantile(double degrees) { return boost::math::quantile(boost::math::students_t(degrees), 0.975); }
-
 struct Exponent {
   double value = 0, half_width = 0;
 };
@@ -278,8 +276,7 @@ class Estimator {
   bool secular() const {
     const Fit with = fit(c_, with_edges(trend_), v_), without = fit(c_, edges_, v_);
     const double f = (without.squares - with.squares) / 2 / with.scale2();
-    const boost::math::fisher_f distribution(2, with.degrees);
-    return f > boost::math::quantile(boost::math::complement(distribution, significance));
+    return f > fisher_f_exceeded(2, with.degrees, significance);
   }
 
   /// What t and t² add up to over the run.
@@ -293,7 +290,7 @@ class Estimator {
     const Regressors x = polynomial_.topRows(with_lines_.size());
     const Spectrum v = noise_shape(cosines_, with_lines_, x), x2 = x.col(0).cwiseAbs2();
     const Fit f = fit(with_lines_, x, v);
-    return quantile(f.degrees) * std::sqrt(f.scale2() * x2.dot(v)) / x2.sum();
+    return students_t_95(f.degrees) * std::sqrt(f.scale2() * x2.dot(v)) / x2.sum();
   }
 
   /// constant + a t^p, by Gauss and Newton: the regressors are t^p and its derivative with respect to p.
@@ -312,7 +309,7 @@ class Estimator {
     }
     const Fit f = fit(c_, power_regressors(p), v_);
     const double error = std::sqrt(f.scale2() * f.covariance(1, 1)) / std::abs(f.coefficients[0]);
-    return {p, quantile(f.degrees) * error};
+    return {p, students_t_95(f.degrees) * error};
   }
 
   /// H of v_k = s² (2 sin(θ/2))^−(1+2H).
@@ -327,7 +324,7 @@ class Estimator {
     constexpr int bits = 16;
     const double h = boost::math::tools::brent_find_minima(minus_likelihood, least, most, bits).first;
     const double information = 0.5 * (per_h.array() - per_h.mean()).square().sum();
-    return {h, quantile(static_cast<double>(used - 2)) / std::sqrt(information)};
+    return {h, students_t_95(static_cast<double>(used - 2)) / std::sqrt(information)};
   }
 
   /// Of what is left without the oscillations that were taken out.

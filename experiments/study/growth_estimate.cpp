@@ -2,8 +2,9 @@
 #include "experiments/study/growth_estimate.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+
+#include "experiments/study/quantiles.hpp"
 
 namespace polhode::study {
 namespace {
@@ -64,8 +65,7 @@ std::optional<GrowthEstimate> estimate_growth(const std::vector<double>& path_ex
   double mean = 0, rest = 0;
   for (const double p : path_exponents) mean += p / count;
   for (const double p : path_exponents) rest += (p - mean) * (p - mean);
-  const boost::math::students_t distribution(count - 1);
-  return GrowthEstimate{mean, boost::math::quantile(distribution, 0.975) * std::sqrt(rest / (count - 1) / count), n};
+  return GrowthEstimate{mean, students_t_95(count - 1) * std::sqrt(rest / (count - 1) / count), n};
 }
 
 std::string text(Growth growth) {

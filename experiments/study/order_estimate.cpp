@@ -2,9 +2,10 @@
 #include "experiments/study/order_estimate.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <span>
+
+#include "experiments/study/quantiles.hpp"
 
 namespace polhode::study {
 namespace {
@@ -34,11 +35,6 @@ Fit fit(std::span<const LogPoint> points) {
   }
   line.standard_error = std::sqrt(rest / (n - 2) / xx);
   return line;
-}
-
-double students_t_975(std::size_t degrees_of_freedom) {
-  const boost::math::students_t distribution(static_cast<double>(degrees_of_freedom));
-  return boost::math::quantile(distribution, 0.975);
 }
 
 /// Takes away the points at and above the smallest step at which the motion is lost; those left are finite.
@@ -102,7 +98,7 @@ OrderEstimate estimate_order(std::vector<LadderPoint> points, const OrderSetting
   estimate.points = stretch.size();
   estimate.largest = points[estimate.not_straight].step;
   estimate.line =
-      OrderEstimate::Line{line.slope, line.standard_error, students_t_975(stretch.size() - 2) * line.standard_error};
+      OrderEstimate::Line{line.slope, line.standard_error, students_t_95(static_cast<double>(stretch.size() - 2)) * line.standard_error};
   return estimate;
 }
 
