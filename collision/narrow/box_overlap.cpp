@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether two boxes overlap: the fifteen axes without normalising any, with a bound on the round-off. Where that does not
-// decide, the axes are taken with care. Three axes stand side by side in a register for one pair; for many pairs, one pair
-// in each lane.
-// Source: Gottschalk, Lin & Manocha, OBBTree, 1996.
+// Whether two boxes overlap. First a witness: the point of A nearest to B's centre, if B has it too. That needs no relative
+// rotation, and tells for most boxes that overlap. Then the fifteen axes without normalising any, with a bound on the
+// round-off. Where that does not decide either, the axes are taken with care. Three axes stand side by side in a register
+// for one pair; for many pairs, one pair in each lane.
+// Source of the axes: Gottschalk, Lin & Manocha, OBBTree, 1996.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 #include "collision/narrow/box_sat.hpp"
@@ -14,8 +16,9 @@
 namespace polhode {
 namespace {
 
-// In units of half extents and offset; a sum over all entries of the poses, so that a NaN in one of them decides nothing. An undivided edge product is off by as much at most, however short it is; and where
-// it is shorter than `parallel`, the axis tells nothing that a face normal does not.
+// In units of half extents and offset; a sum over all entries of the poses, so that a NaN in one of them decides nothing.
+// An undivided edge product is off by as much at most, however short it is; and where it is shorter than `parallel`, the
+// axis tells nothing that a face normal does not.
 constexpr double undecided = 6e-15;
 constexpr double parallel_squared = 1e-28;
 
@@ -26,7 +29,12 @@ bool overlap_with_care(const BoxAt& a, const BoxAt& b) {
 using Four [[gnu::vector_size(32)]] = double;
 using FourBits [[gnu::vector_size(32)]] = long long;
 
-inline Four three(double x, double y, double z) { return Four{x, y, z, z}; }
+inline Four four(const double* numbers) {
+  Four x;
+  std::memcpy(&x, numbers, sizeof x);
+  return x;
+}
+inline Four three(const Vector3<double>& x) { return Four{x[0], x[1], x[2], x[2]}; }
 inline Four all(double x) { return Four{x, x, x, x}; }
 inline Four absolute(Four x) {
   constexpr long long magnitude = 0x7fffffffffffffff;
@@ -35,7 +43,21 @@ inline Four absolute(Four x) {
 inline Four next(Four x) { return __builtin_shufflevector(x, x, 1, 2, 0, 0); }
 inline Four after_next(Four x) { return __builtin_shufflevector(x, x, 2, 0, 1, 1); }
 inline Four larger(Four a, Four b) { return a > b ? a : b; }
+inline Four smaller(Four a, Four b) { return a < b ? a : b; }
 inline double largest(Four x) { return std::max(std::max(x[0], x[1]), x[2]); }
+
+/// A 3×3 matrix by its rows.
+struct Rows {
+  Four row[3];
+  explicit Rows(const Matrix3<double>& m) {
+    const Four first = four(m.data()), middle = four(m.data() + 4), last = four(m.data() + 5);
+    row[0] = __builtin_shufflevector(first, middle, 0, 3, 6, 6);
+    row[1] = __builtin_shufflevector(first, middle, 1, 4, 7, 7);
+    row[2] = __builtin_shufflevector(first, last, 2, 4, 7, 7);
+  }
+  /// Of the transposed matrix and x.
+  Four transposed_times(Four x) const { return all(x[0]) * row[0] + all(x[1]) * row[1] + all(x[2]) * row[2]; }
+};
 
 enum class Answer { no, yes, unknown };
 
@@ -44,49 +66,59 @@ inline Answer answer(double separation, double bound) {
   return separation < -bound ? Answer::yes : Answer::unknown;
 }
 
-/// `margin` is how far apart counts as overlapping. Products of parallel edges decide nothing: `guarded` leaves them out,
-/// which costs a quarter more.
+/// Two boxes, three numbers of each side by side.
+struct QuickBoxes {
+  const BoxAt &a, &b;
+  Rows ra{a.pose.rotation}, rb{b.pose.rotation};
+  Four half_a = three(a.half), half_b = three(b.half);
+  Four between = three(b.pose.position) - three(a.pose.position);
+  Four in_a = ra.transposed_times(between), in_b = rb.transposed_times(between);
+  double bound;  // m, of round-off
+
+  QuickBoxes(const BoxAt& first, const BoxAt& second) : a(first), b(second) {
+    const Four total = half_a + half_b + (absolute(in_a) + absolute(in_b));
+    bound = undecided * (total[0] + total[1] + total[2]);
+  }
+
+  /// True only where B has the point of A that is nearest to B's centre.
+  bool have_a_common_point() const {
+    const Four beyond = in_a - larger(smaller(in_a, half_a), -half_a);
+    const double* const columns = a.pose.rotation.data();
+    // The last column is read from one number earlier.
+    const Four last = __builtin_shufflevector(four(columns + 5), four(columns + 5), 1, 2, 3, 3);
+    const Four offset = all(beyond[0]) * four(columns) + all(beyond[1]) * four(columns + 3) + all(beyond[2]) * last;
+    return largest(absolute(rb.transposed_times(offset)) - half_b) < -bound;
+  }
+
+  /// `margin` is how far apart counts as overlapping. Products of parallel edges decide nothing: `guarded` leaves them out,
+  /// which costs a quarter more.
+  template <bool guarded>
+  Answer by_axes(double margin) const;
+};
+
 template <bool guarded>
-inline Answer quick_overlap(const BoxAt& a, const BoxAt& b, double margin) {
-  const Matrix3<double>&ra = a.pose.rotation, &rb = b.pose.rotation;
-  const Vector3<double> d = b.pose.position - a.pose.position;
-  const Four a0 = three(ra(0, 0), ra(0, 1), ra(0, 2)), a1 = three(ra(1, 0), ra(1, 1), ra(1, 2)),
-             a2 = three(ra(2, 0), ra(2, 1), ra(2, 2));
-  const Four half_a = three(a.half[0], a.half[1], a.half[2]), half_b = three(b.half[0], b.half[1], b.half[2]);
-  const Four t = a0 * all(d[0]) + a1 * all(d[1]) + a2 * all(d[2]);
-
-  // A's faces: the columns of the relative rotation, each with the entries of A's three axes side by side.
-  Four reach = half_a;
-  for (int j = 0; j < 3; ++j) {
-    reach += absolute(a0 * all(rb(0, j)) + a1 * all(rb(1, j)) + a2 * all(rb(2, j))) * all(b.half[j]);
-  }
-  const Four total = reach + absolute(t);
-  const double bound = undecided * (total[0] + total[1] + total[2]) + margin;
-  Four separations = absolute(t) - reach;
-  if (largest(separations) > bound) return Answer::no;
-
-  // B's faces: its rows.
-  const Four b0 = three(rb(0, 0), rb(0, 1), rb(0, 2)), b1 = three(rb(1, 0), rb(1, 1), rb(1, 2)),
-             b2 = three(rb(2, 0), rb(2, 1), rb(2, 2));
+inline Answer QuickBoxes::by_axes(double margin) const {
+  const Matrix3<double>&of_a = a.pose.rotation, &of_b = b.pose.rotation;
+  const double most = bound + margin;
+  // The faces: columns of the relative rotation for those of A, and its rows for those of B.
+  Four reach_a = half_a, reach_b = half_b;
   Four c[3], magnitude[3];
-  Four along = {};
-  reach = half_b;
   for (int i = 0; i < 3; ++i) {
-    c[i] = all(ra(0, i)) * b0 + all(ra(1, i)) * b1 + all(ra(2, i)) * b2;
+    c[i] = rb.transposed_times(three(of_a.col(i)));
     magnitude[i] = absolute(c[i]);
-    along += all(t[i]) * c[i];
-    reach += all(a.half[i]) * magnitude[i];
+    reach_b += all(a.half[i]) * magnitude[i];
+    reach_a += all(b.half[i]) * absolute(ra.transposed_times(three(of_b.col(i))));
   }
-  separations = larger(separations, absolute(along) - reach);
-  if (largest(separations) > bound) return Answer::no;
+  Four separations = larger(absolute(in_a) - reach_a, absolute(in_b) - reach_b);
+  if (largest(separations) > most) return Answer::no;
 
   const Four half_next = next(half_b), half_after = after_next(half_b);
   for (int i = 0; i < 3; ++i) {
     const int y = (i + 1) % 3, z = (i + 2) % 3;
-    const Four product = absolute(all(t[z]) * c[y] - all(t[y]) * c[z]);
-    const Four reach_a = all(a.half[y]) * magnitude[z] + all(a.half[z]) * magnitude[y];
-    const Four reach_b = half_next * after_next(magnitude[i]) + half_after * next(magnitude[i]);
-    const Four separation = product - (reach_a + reach_b);
+    const Four product = absolute(all(in_a[z]) * c[y] - all(in_a[y]) * c[z]);
+    const Four of_edges_a = all(a.half[y]) * magnitude[z] + all(a.half[z]) * magnitude[y];
+    const Four of_edges_b = half_next * after_next(magnitude[i]) + half_after * next(magnitude[i]);
+    const Four separation = product - (of_edges_a + of_edges_b);
     if constexpr (guarded) {
       const Four squared = c[y] * c[y] + c[z] * c[z];
       separations = larger(separations, squared < all(parallel_squared) ? separations : separation);
@@ -94,11 +126,11 @@ inline Answer quick_overlap(const BoxAt& a, const BoxAt& b, double margin) {
       separations = larger(separations, separation);
     }
   }
-  return answer(largest(separations), bound);
+  return answer(largest(separations), most);
 }
 
 [[gnu::noinline]] bool overlap_of_undecided(const BoxAt& a, const BoxAt& b) {
-  const Answer guarded = quick_overlap<true>(a, b, 0);
+  const Answer guarded = QuickBoxes(a, b).by_axes<true>(0);
   return guarded == Answer::unknown ? overlap_with_care(a, b) : guarded == Answer::yes;
 }
 
@@ -150,10 +182,12 @@ LanedAnswer quick_overlap(const Lanes (&ra)[9], const Lanes (&rb)[9], const Lane
 
 }  // namespace
 
-bool boxes_apart(const BoxAt& a, const BoxAt& b, double margin) { return quick_overlap<false>(a, b, margin) == Answer::no; }
+bool boxes_apart(const BoxAt& a, const BoxAt& b, double margin) { return QuickBoxes(a, b).by_axes<false>(margin) == Answer::no; }
 
 bool boxes_overlap(const BoxAt& a, const BoxAt& b) {
-  const Answer quick = quick_overlap<false>(a, b, 0);
+  const QuickBoxes boxes(a, b);
+  if (boxes.have_a_common_point()) return true;
+  const Answer quick = boxes.by_axes<false>(0);
   return quick == Answer::unknown ? overlap_of_undecided(a, b) : quick == Answer::yes;
 }
 
