@@ -5,13 +5,19 @@
 // for one pair; for many pairs, one pair in each lane.
 // Source of the axes: Gottschalk, Lin & Manocha, OBBTree, 1996.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "collision/narrow/box_sat.hpp"
 #include "core/lanes.hpp"
+
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
 
 namespace polhode {
 namespace {
@@ -134,51 +140,157 @@ inline Answer QuickBoxes::by_axes(double margin) const {
   return guarded == Answer::unknown ? overlap_with_care(a, b) : guarded == Answer::yes;
 }
 
-Lanes larger(Lanes a, Lanes b) { return select(a > b, a, b); }
+inline Lanes larger(Lanes a, Lanes b) { return select(a > b, a, b); }
+inline Lanes smaller(Lanes a, Lanes b) { return select(a < b, a, b); }
 
-Lanes loaded(const double* numbers) {
-  Lanes::Pack pack;
-  std::memcpy(&pack, numbers, sizeof pack);
-  return Lanes(pack);
+/// a b + c, rounded once where the processor can. No answer depends on it: the bound on the round-off decides what is sure.
+inline Lanes sum(Lanes::Pack a, Lanes::Pack b, Lanes::Pack c) {
+#if defined(__AVX512F__)
+  return Lanes(Lanes::Pack(_mm512_fmadd_pd(a, b, c)));
+#elif defined(__FMA__)
+  return Lanes(Lanes::Pack(_mm256_fmadd_pd(a, b, c)));
+#else
+  return Lanes(Lanes::Pack(a * b + c));
+#endif
 }
 
-/// The same, each lane its own pair. Neither: it is not decided.
-struct LanedAnswer {
-  Lanes::Mask apart, together;
+/// Some numbers of a box, as they lie in memory.
+template <class Pack>
+inline Pack read(const PosedBox* box, int first) {
+  Pack some;
+  std::memcpy(&some, reinterpret_cast<const char*>(box) + std::size_t(first) * sizeof(double), sizeof some);
+  return some;
+}
+
+#ifdef __AVX512F__
+/// Four numbers of eight boxes. Two boxes share a register; pairs of numbers are exchanged within its quarters, then the
+/// quarters.
+inline constexpr int numbers_at_once = 4;
+inline void transpose(const PosedBox* const* boxes, int first, Lanes* number) {
+  using Pack = Lanes::Pack;
+  const auto both = [&](int k, int l) {
+    return Pack(_mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(read<Four>(boxes[k], first)), read<Four>(boxes[l], first), 1));
+  };
+  const Pack p02 = both(0, 2), p13 = both(1, 3), p46 = both(4, 6), p57 = both(5, 7);
+  const auto even = [](Pack a, Pack b) { return Pack(__builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14)); };
+  const auto odd = [](Pack a, Pack b) { return Pack(__builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15)); };
+  const auto near = [](Pack a, Pack b) { return Lanes(Pack(__builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13))); };
+  const auto far = [](Pack a, Pack b) { return Lanes(Pack(__builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15))); };
+  const Pack low_even = even(p02, p13), low_odd = odd(p02, p13), high_even = even(p46, p57), high_odd = odd(p46, p57);
+  number[0] = near(low_even, high_even);
+  number[1] = near(low_odd, high_odd);
+  number[2] = far(low_even, high_even);
+  number[3] = far(low_odd, high_odd);
+}
+#else
+/// Two numbers of two or four boxes: the even boxes side by side, the odd ones, and then these two interleaved.
+inline constexpr int numbers_at_once = 2;
+inline void transpose(const PosedBox* const* boxes, int first, Lanes* number) {
+  using Two [[gnu::vector_size(16)]] = double;
+#ifdef __AVX__
+  const auto both = [&](int k) {
+    return _mm256_insertf128_pd(_mm256_castpd128_pd256(read<Two>(boxes[k], first)), read<Two>(boxes[k + 2], first), 1);
+  };
+  const Lanes::Pack even = both(0), odd = both(1);
+  number[0] = Lanes(Lanes::Pack(_mm256_unpacklo_pd(even, odd)));
+  number[1] = Lanes(Lanes::Pack(_mm256_unpackhi_pd(even, odd)));
+#else
+  const Two even = read<Two>(boxes[0], first), odd = read<Two>(boxes[1], first);
+  number[0] = Lanes(Lanes::Pack(__builtin_shufflevector(even, odd, 0, 2)));
+  number[1] = Lanes(Lanes::Pack(__builtin_shufflevector(even, odd, 1, 3)));
+#endif
+}
+#endif
+
+/// The same number of several boxes in the lanes of each pack: half extents, position, and the rotation by columns.
+struct LanedBoxes {
+  static constexpr int numbers = 15;
+  static_assert(sizeof(PosedBox) == numbers * sizeof(double));
+  Lanes number[numbers];
+
+  const Lanes* half() const { return number; }
+  const Lanes* position() const { return number + 3; }
+  const Lanes* axis(int k) const { return number + 6 + 3 * k; }
+
+  [[gnu::always_inline]] explicit LanedBoxes(const PosedBox* const (&boxes)[lane_count]) {
+    take(boxes, std::make_integer_sequence<int, (numbers + numbers_at_once - 1) / numbers_at_once>());
+  }
+
+ private:
+  template <int... k>
+  [[gnu::always_inline]] void take(const PosedBox* const* boxes, std::integer_sequence<int, k...>) {
+    // The last ones overlap those before.
+    const auto first = [](int block) { return std::min(block * numbers_at_once, numbers - numbers_at_once); };
+    (transpose(boxes, first(k), number + first(k)), ...);
+  }
 };
 
-LanedAnswer quick_overlap(const Lanes (&ra)[9], const Lanes (&rb)[9], const Lanes (&half_a)[3], const Lanes (&half_b)[3],
-                          const Lanes (&d)[3]) {
-  Lanes c[3][3], m[3][3], t[3];
-  Lanes total(0.0);
-  for (int i = 0; i < 3; ++i) {
-    const Lanes *column = ra + 3 * i;
-    t[i] = column[0] * d[0] + column[1] * d[1] + column[2] * d[2];
-    for (int j = 0; j < 3; ++j) {
-      c[i][j] = column[0] * rb[3 * j] + column[1] * rb[3 * j + 1] + column[2] * rb[3 * j + 2];
-      m[i][j] = abs(c[i][j]);
+inline Lanes::Pack packed(Lanes x) { return std::bit_cast<Lanes::Pack>(x); }
+
+/// Several pairs, one in each lane.
+struct LanedPairs {
+  LanedBoxes a, b;
+  Lanes between[3], in_a[3], in_b[3];  // from the centre of A to that of B, in three frames
+  Lanes halves{0.0};
+
+  [[gnu::always_inline]] LanedPairs(const PosedBox* const (&of_a)[lane_count], const PosedBox* const (&of_b)[lane_count]) : a(of_a), b(of_b) {
+    for (int k = 0; k < 3; ++k) between[k] = b.position()[k] - a.position()[k];
+    for (int k = 0; k < 3; ++k) {
+      in_a[k] = dot(a.axis(k), between);
+      in_b[k] = dot(b.axis(k), between);
+      halves += a.half()[k] + b.half()[k];
     }
   }
-  Lanes most(-std::numeric_limits<double>::infinity());
-  for (int i = 0; i < 3; ++i) {
-    const Lanes reach = half_a[i] + m[i][0] * half_b[0] + m[i][1] * half_b[1] + m[i][2] * half_b[2];
-    total += reach + abs(t[i]);
-    most = larger(abs(t[i]) - reach, most);
-    const Lanes along = abs(t[0] * c[0][i] + t[1] * c[1][i] + t[2] * c[2][i]);
-    most = larger(along - (half_b[i] + m[0][i] * half_a[0] + m[1][i] * half_a[1] + m[2][i] * half_a[2]), most);
-  }
-  for (int i = 0; i < 3; ++i) {
-    const int y = (i + 1) % 3, z = (i + 2) % 3;
-    for (int j = 0; j < 3; ++j) {
-      const int v = (j + 1) % 3, w = (j + 2) % 3;
-      const Lanes separation = abs(t[z] * c[y][j] - t[y] * c[z][j]) -
-                               ((half_a[y] * m[z][j] + half_a[z] * m[y][j]) + (half_b[v] * m[i][w] + half_b[w] * m[i][v]));
-      most = larger(separation, most);
+  static Lanes total(const Lanes* x) { return abs(x[0]) + abs(x[1]) + abs(x[2]); }
+  Lanes bound() const { return (halves + (total(in_a) + total(in_b))) * undecided; }
+
+  static Lanes sum(Lanes x, Lanes y, Lanes z) { return polhode::sum(packed(x), packed(y), packed(z)); }
+  static Lanes dot(const Lanes* x, const Lanes* y) { return sum(x[0], y[0], sum(x[1], y[1], x[2] * y[2])); }
+
+  Lanes::Mask have_a_common_point() const {
+    Lanes beyond[3], offset[3];
+    for (int k = 0; k < 3; ++k) beyond[k] = in_a[k] - larger(smaller(in_a[k], a.half()[k]), -a.half()[k]);
+    for (int k = 0; k < 3; ++k) {
+      offset[k] = sum(beyond[0], a.axis(0)[k], sum(beyond[1], a.axis(1)[k], beyond[2] * a.axis(2)[k]));
     }
+    Lanes most(-std::numeric_limits<double>::infinity()), any(0.0);
+    for (int k = 0; k < 3; ++k) {
+      const Lanes along = dot(b.axis(k), offset);
+      most = larger(most, abs(along) - b.half()[k]);
+      any += along;
+    }
+    // Nothing times any of them: not below a NaN.
+    return most < sum(any, Lanes(0.0), (halves + 2 * total(between)) * -undecided);
   }
-  const Lanes bound = total * Lanes(undecided);
-  return {most > bound, most < -bound};
-}
+
+  /// The largest separation, of an edge product times its length.
+  Lanes by_axes() const {
+    Lanes c[3][3], m[3][3], less_a[3], less_b[3];
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        c[i][j] = dot(a.axis(i), b.axis(j));
+        m[i][j] = abs(c[i][j]);
+      }
+      less_a[i] = -a.half()[i];
+      less_b[i] = -b.half()[i];
+    }
+    Lanes most(-std::numeric_limits<double>::infinity());
+    for (int i = 0; i < 3; ++i) {
+      const Lanes of_a = sum(less_b[0], m[i][0], sum(less_b[1], m[i][1], sum(less_b[2], m[i][2], abs(in_a[i]) + less_a[i])));
+      const Lanes of_b = sum(less_a[0], m[0][i], sum(less_a[1], m[1][i], sum(less_a[2], m[2][i], abs(in_b[i]) + less_b[i])));
+      most = larger(most, larger(of_a, of_b));
+    }
+    for (int i = 0; i < 3; ++i) {
+      const int y = (i + 1) % 3, z = (i + 2) % 3;
+      for (int j = 0; j < 3; ++j) {
+        const int v = (j + 1) % 3, w = (j + 2) % 3;
+        const Lanes product = abs(sum(in_a[z], c[y][j], -in_a[y] * c[z][j]));
+        most = larger(most, sum(less_a[y], m[z][j], sum(less_a[z], m[y][j], product)) + sum(less_b[v], m[i][w], less_b[w] * m[i][v]));
+      }
+    }
+    return most;
+  }
+};
 
 }  // namespace
 
@@ -191,45 +303,57 @@ bool boxes_overlap(const BoxAt& a, const BoxAt& b) {
   return quick == Answer::unknown ? overlap_of_undecided(a, b) : quick == Answer::yes;
 }
 
+[[gnu::noinline]] static bool overlap_alone(const PosedBox& a, const PosedBox& b) {
+  return boxes_overlap(BoxAt{a.half, a.pose}, BoxAt{b.half, b.pose});
+}
+
 void boxes_overlap(std::span<const PosedBox> boxes, std::span<const BodyPair> pairs, std::span<std::uint8_t> overlap) {
   if (overlap.size() != pairs.size()) throw std::invalid_argument("boxes_overlap: there must be one answer for each pair");
-  for (std::size_t first = 0; first < pairs.size(); first += lane_count) {
-    const std::size_t count = std::min<std::size_t>(lane_count, pairs.size() - first);
-    alignas(64) double of_a[12][lane_count], of_b[12][lane_count], between[3][lane_count];
-    for (int lane = 0; lane < lane_count; ++lane) {
-      const BodyPair pair = pairs[first + std::min(std::size_t(lane), count - 1)];
-      const PosedBox &a = boxes[pair.a], &b = boxes[pair.b];
-      for (int k = 0; k < 9; ++k) {
-        of_a[k][lane] = a.pose.rotation.data()[k];
-        of_b[k][lane] = b.pose.rotation.data()[k];
+  const PosedBox* const all = boxes.data();
+  const BodyPair* const pair = pairs.data();
+  std::uint8_t* const answer = overlap.data();
+  const PosedBox *a[lane_count], *b[lane_count];
+  // Pairs without a common point wait until there are enough for all lanes.
+  constexpr std::size_t lanes = lane_count, at_once = 16 * lanes;
+  std::size_t waiting[lanes + at_once];
+  std::size_t count = 0, k = 0;
+  const std::size_t last = pairs.size() - pairs.size() % lanes;
+  while (k < last) {
+    for (const std::size_t end = std::min(k + at_once, last); k < end; k += lanes) {
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        a[lane] = all + pair[k + lane].a;
+        b[lane] = all + pair[k + lane].b;
       }
-      for (int k = 0; k < 3; ++k) {
-        of_a[9 + k][lane] = a.half[k];
-        of_b[9 + k][lane] = b.half[k];
-        between[k][lane] = b.pose.position[k] - a.pose.position[k];
+      const Lanes::Mask mask = LanedPairs(a, b).have_a_common_point();
+      std::int64_t together[lanes];
+      std::memcpy(together, &mask.bits, sizeof together);
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        answer[k + lane] = together[lane] & 1;
+        waiting[count] = k + lane;
+        count += std::size_t(together[lane] + 1);
       }
     }
-    Lanes ra[9], rb[9], half_a[3], half_b[3], d[3];
-    for (int k = 0; k < 9; ++k) {
-      ra[k] = loaded(of_a[k]);
-      rb[k] = loaded(of_b[k]);
-    }
-    for (int k = 0; k < 3; ++k) {
-      half_a[k] = loaded(of_a[9 + k]);
-      half_b[k] = loaded(of_b[9 + k]);
-      d[k] = loaded(between[k]);
-    }
-    const LanedAnswer quick = quick_overlap(ra, rb, half_a, half_b, d);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const bool apart = quick.apart.bits[lane] != 0, together = quick.together.bits[lane] != 0;
-      if (apart == together) {
-        const PosedBox &a = boxes[pairs[first + lane].a], &b = boxes[pairs[first + lane].b];
-        overlap[first + lane] = overlap_of_undecided({a.half, a.pose}, {b.half, b.pose});
-      } else {
-        overlap[first + lane] = together;
+    while (count >= lanes) {
+      count -= lanes;
+      const std::size_t* const these = waiting + count;
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        a[lane] = all + pair[these[lane]].a;
+        b[lane] = all + pair[these[lane]].b;
+      }
+      const LanedPairs laned(a, b);
+      const Lanes most = laned.by_axes();
+      const Lanes::Mask sure = abs(most) > laned.bound(), touch = most < Lanes(0.0);
+      std::int64_t decided[lanes], together[lanes];
+      std::memcpy(decided, &sure.bits, sizeof decided);
+      std::memcpy(together, &touch.bits, sizeof together);
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        answer[these[lane]] = together[lane] & 1;
+        if (decided[lane] == 0) answer[these[lane]] = overlap_alone(*a[lane], *b[lane]);
       }
     }
   }
+  for (; k < pairs.size(); ++k) waiting[count++] = k;
+  for (const std::size_t left : std::span(waiting, count)) answer[left] = overlap_alone(all[pair[left].a], all[pair[left].b]);
 }
 
 }  // namespace polhode
