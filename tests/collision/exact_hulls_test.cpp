@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/collision/box_pairs.hpp"
+#include "experiments/narrow_phase/box_pairs.hpp"
 #include "tests/collision/hull_pairs.hpp"
 #include "tests/collision/placed_pairs.hpp"
 
