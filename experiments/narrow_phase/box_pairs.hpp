@@ -71,8 +71,9 @@ class BoxPairs {
         Vector3<double> n = dice_.direction();
         n[2] = 0;
         n.normalize();
-        offset = along_a_line(half_a, half_b, turn, n, gap);
-        offset[2] = uniform(-1, 1) * (half_a[2] + half_b.maxCoeff());
+        const Matrix3<double> r = rotation_matrix<double>(turn);
+        offset = furthest(half_a, n) - r * furthest(half_b, -(r.transpose() * n)) + gap * n;
+        if (chance(0.7)) offset[2] = uniform(-1, 1) * (half_a[2] + half_b.maxCoeff());
         break;
       }
       case 4: {
