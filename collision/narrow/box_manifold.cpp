@@ -107,7 +107,7 @@ double separation_of_face_of_b(const RelativeBoxes& boxes, int k) {
 Manifold ordered_manifold(const BoxAt& a, const BoxAt& b, double margin) {
   Manifold manifold;
   const RelativeBoxes boxes(a, b);
-  const BoxAxis axis = best_axis(boxes);
+  const BoxAxis axis = best_axis(boxes, margin);
   if (axis.separation > margin) return manifold;
   const Vector3<double> in_b = boxes.b_in_a.transpose() * axis.normal;
   const int of_a = largest(axis.normal), of_b = largest(in_b);
@@ -126,7 +126,7 @@ Manifold ordered_manifold(const BoxAt& a, const BoxAt& b, double margin) {
   }
   if (found) return manifold;
   const Distance d = boxes_distance(a, b);
-  if (d.distance > margin) return Manifold{};
+  if (d.distance > margin) return manifold;
   if (axis.index >= 6 && d.distance <= axis.separation * (1 + 1e-9)) {
     edge_point(boxes, a.pose, axis, manifold);
   } else {
@@ -138,10 +138,9 @@ Manifold ordered_manifold(const BoxAt& a, const BoxAt& b, double margin) {
 }  // namespace
 
 Manifold boxes_manifold(const BoxAt& a, const BoxAt& b, double margin) {
-  if (boxes_apart(a, b, margin)) return {};
-  if (in_order(a, b)) return ordered_manifold(a, b, margin);
-  Manifold manifold = ordered_manifold(b, a, margin);
-  mirror(manifold);
+  const bool exchanged = !in_order(a, b);
+  Manifold manifold = exchanged ? ordered_manifold(b, a, margin) : ordered_manifold(a, b, margin);
+  if (exchanged) mirror(manifold);
   return manifold;
 }
 

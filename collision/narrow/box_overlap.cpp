@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "collision/narrow/box_sat.hpp"
+#include "collision/narrow/four.hpp"
 #include "core/lanes.hpp"
 
 #ifdef __AVX__
@@ -31,26 +32,6 @@ constexpr double parallel_squared = 1e-28;
 bool overlap_with_care(const BoxAt& a, const BoxAt& b) {
   return best_axis(in_order(a, b) ? RelativeBoxes(a, b) : RelativeBoxes(b, a)).separation <= 0;
 }
-
-using Four [[gnu::vector_size(32)]] = double;
-using FourBits [[gnu::vector_size(32)]] = long long;
-
-inline Four four(const double* numbers) {
-  Four x;
-  std::memcpy(&x, numbers, sizeof x);
-  return x;
-}
-inline Four three(const Vector3<double>& x) { return Four{x[0], x[1], x[2], x[2]}; }
-inline Four all(double x) { return Four{x, x, x, x}; }
-inline Four absolute(Four x) {
-  constexpr long long magnitude = 0x7fffffffffffffff;
-  return Four(FourBits(x) & FourBits{magnitude, magnitude, magnitude, magnitude});
-}
-inline Four next(Four x) { return __builtin_shufflevector(x, x, 1, 2, 0, 0); }
-inline Four after_next(Four x) { return __builtin_shufflevector(x, x, 2, 0, 1, 1); }
-inline Four larger(Four a, Four b) { return a > b ? a : b; }
-inline Four smaller(Four a, Four b) { return a < b ? a : b; }
-inline double largest(Four x) { return std::max(std::max(x[0], x[1]), x[2]); }
 
 /// A 3×3 matrix by its rows.
 struct Rows {
@@ -96,16 +77,14 @@ struct QuickBoxes {
     return largest(absolute(rb.transposed_times(offset)) - half_b) < -bound;
   }
 
-  /// `margin` is how far apart counts as overlapping. Products of parallel edges decide nothing: `guarded` leaves them out,
-  /// which costs a quarter more.
+  /// Products of parallel edges decide nothing: `guarded` leaves them out, which costs a quarter more.
   template <bool guarded>
-  Answer by_axes(double margin) const;
+  Answer by_axes() const;
 };
 
 template <bool guarded>
-inline Answer QuickBoxes::by_axes(double margin) const {
+inline Answer QuickBoxes::by_axes() const {
   const Matrix3<double>&of_a = a.pose.rotation, &of_b = b.pose.rotation;
-  const double most = bound + margin;
   // The faces: columns of the relative rotation for those of A, and its rows for those of B.
   Four reach_a = half_a, reach_b = half_b;
   Four c[3], magnitude[3];
@@ -116,7 +95,7 @@ inline Answer QuickBoxes::by_axes(double margin) const {
     reach_a += all(b.half[i]) * absolute(ra.transposed_times(three(of_b.col(i))));
   }
   Four separations = larger(absolute(in_a) - reach_a, absolute(in_b) - reach_b);
-  if (largest(separations) > most) return Answer::no;
+  if (largest(separations) > bound) return Answer::no;
 
   const Four half_next = next(half_b), half_after = after_next(half_b);
   for (int i = 0; i < 3; ++i) {
@@ -132,11 +111,11 @@ inline Answer QuickBoxes::by_axes(double margin) const {
       separations = larger(separations, separation);
     }
   }
-  return answer(largest(separations), most);
+  return answer(largest(separations), bound);
 }
 
 [[gnu::noinline]] bool overlap_of_undecided(const BoxAt& a, const BoxAt& b) {
-  const Answer guarded = QuickBoxes(a, b).by_axes<true>(0);
+  const Answer guarded = QuickBoxes(a, b).by_axes<true>();
   return guarded == Answer::unknown ? overlap_with_care(a, b) : guarded == Answer::yes;
 }
 
@@ -294,12 +273,10 @@ struct LanedPairs {
 
 }  // namespace
 
-bool boxes_apart(const BoxAt& a, const BoxAt& b, double margin) { return QuickBoxes(a, b).by_axes<false>(margin) == Answer::no; }
-
 bool boxes_overlap(const BoxAt& a, const BoxAt& b) {
   const QuickBoxes boxes(a, b);
   if (boxes.have_a_common_point()) return true;
-  const Answer quick = boxes.by_axes<false>(0);
+  const Answer quick = boxes.by_axes<false>();
   return quick == Answer::unknown ? overlap_of_undecided(a, b) : quick == Answer::yes;
 }
 
