@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// gjk: boxes against a plain enumeration of their features in long double, hulls against all directions that their
-// features have, round shapes against closed forms, published cases by name, and what holds for every pair.
+// gjk: boxes against the exact judge, hulls against all directions that their features have, round shapes against closed forms, published cases by name, and what holds for every pair.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include "collision/narrow_phase.hpp"
 #include "collision/shapes/box.hpp"
@@ -18,6 +15,7 @@
 #include "collision/shapes/ellipsoid.hpp"
 #include "collision/shapes/half_space.hpp"
 #include "collision/shapes/sphere.hpp"
+#include "tests/collision/box_judge.hpp"
 #include "tests/collision/placed_pairs.hpp"
 
 namespace polhode {
@@ -46,25 +44,8 @@ Pose turned(const Vector& position, const Vector& rotation_vector) {
   return {position, rotation_matrix(quaternion_from_rotation_vector<double>(rotation_vector))};
 }
 
-TEST(Gjk, BoxesAgreeWithTheirFeatures) {
-  for (std::uint64_t k = 0; k < 12000; ++k) {
-    const PlacedPair p = box_pair(k);
-    const auto truth = double(signed_distance_of_boxes(p));
-    const Distance d = distance(p);
-    const double small = std::min(p.size_a, p.size_b), large = std::max(p.size_a, p.size_b);
-    const double rounding = 4e-16 * (p.at_a.position.norm() + p.at_b.position.norm() + large);
-    ASSERT_NEAR(d.distance, truth, 1e-9 * small + rounding) << k;
-    if (std::abs(truth) > 1e-14 * large + rounding) {
-      ASSERT_EQ(d.distance <= 0, truth <= 0) << k;
-      ASSERT_EQ(overlap(p), truth <= 0) << k;
-    }
-    expect_sound(d, small + 1e-5 * large);
-    if (d.distance > 0) continue;
-    PlacedPair apart = p;  // the normal points from B to A
-    apart.at_b.position += d.distance * d.normal;
-    ASSERT_GE(double(signed_distance_of_boxes(apart)), -1e-9 * small - rounding) << k;
-  }
-}
+TEST(Gjk, IsRightOnRandomAndDegenerateBoxes) { judge_many(gjk_phase(), 1, 2000, 1e-8); }
+TEST(Gjk, IsRightOnManyRandomAndDegenerateBoxesSlow) { judge_many(gjk_phase(), 2, 100000, 1e-8); }
 
 TEST(Gjk, HullsAgreeWithTheirFeatures) {
   for (std::uint64_t k = 0; k < 300; ++k) {
@@ -88,48 +69,7 @@ TEST(Gjk, HullsAgreeWithTheirFeatures) {
   }
 }
 
-// 42 box cases, each with its source in the table.
-TEST(Gjk, PublishedBoxCases) {
-  std::ifstream file(std::string(POLHODE_TESTS_DIR) + "/collision/collision_cases.csv");
-  std::string line;
-  int cases = 0;
-  while (std::getline(file, line)) {
-    if (line.empty() || line[0] == '#' || line.starts_with("id,")) continue;
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream words(line);
-    std::string id, name;
-    words >> id >> name;
-    const auto numbers = [&](auto&& into) {
-      std::string word;
-      for (double& x : into) {
-        words >> word;
-        x = std::stod(word);
-      }
-    };
-    std::array<Vector, 2> half, position;
-    std::array<Quaternion<double>, 2> orientation;
-    for (std::size_t i = 0; i < 2; ++i) {
-      numbers(half[i]);
-      numbers(position[i]);
-      numbers(orientation[i]);
-    }
-    std::array<double, 2> expected{};
-    numbers(expected);
-    const PlacedPair p = {std::make_shared<Box>(half[0]), std::make_shared<Box>(half[1]),
-                          {position[0], rotation_matrix(orientation[0])},
-                          {position[1], rotation_matrix(orientation[1])}, half[0].maxCoeff(), half[1].maxCoeff()};
-    const double rounding = 4e-16 * (position[0].norm() + position[1].norm() + p.size_a);
-    const double truth = std::isnan(expected[0]) ? double(signed_distance_of_boxes(p)) : expected[0];
-    const Distance d = distance(p);
-    EXPECT_NEAR(d.distance, truth, std::max(expected[1], 1e-12) + rounding) << name;
-    if (std::abs(truth) > rounding) {
-      EXPECT_EQ(overlap(p), truth <= 0) << name;
-    }
-    expect_sound(d, p.size_a);
-    ++cases;
-  }
-  EXPECT_EQ(cases, 42);
-}
+TEST(Gjk, PublishedBoxCases) { judge_published(gjk_phase(), 1e-8); }
 
 // Drake, geometry/proximity: a capsule of radius 2 and segment 4 along z against a box 1 × 2 × 4 at the origin.
 TEST(Gjk, DrakeCapsuleAgainstBox) {
