@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "collision/shapes/box.hpp"
+#include "tests/collision/exact_boxes.hpp"
 
 namespace polhode {
 namespace {
