@@ -256,7 +256,7 @@ TEST_P(NarrowPhaseLaw, WitnessesLieOnTheSurfacesAndAreApartAlongTheNormal) {
   for_pairs(100, [&](const ShapePair& p, const Asked& ask) {
     const Distance d = ask.distance();
     if (!std::isfinite(d.distance)) return;  // two half-spaces
-    ASSERT_LE((d.on_a - d.on_b - d.distance * d.normal).norm(), slack(p));
+    ASSERT_LE((d.on_a - d.on_b - d.distance * d.normal).norm(), p.round ? 1e-6 * p.scale : slack(p));
     const double most = (p.round ? 1e-6 : 1e-9) * p.smaller + slack(p);
     ASSERT_LE(off_surface(*p.a, p.at_a, d.on_a, -d.normal), most);
     ASSERT_LE(off_surface(*p.b, p.at_b, d.on_b, d.normal), most);
