@@ -21,21 +21,21 @@ double shadow_gap(const RelativeBoxes& boxes, const Vector3<double>& offset, con
 }
 
 /// The nearest points known so far, in A's axes. Of two pairs of points that are as near, but for round-off, the difference
-/// may point 1e-8 apart; then that one counts on which the shadows are further apart, as a normal must have it.
+/// may point anywhere that is nearly upright; then that one counts on which the shadows are further apart, as a normal must
+/// have it.
 struct Nearest {
   const RelativeBoxes& boxes;
   const Vector3<double>& offset;
-  double squared = std::numeric_limits<double>::infinity();  // m²
-  Vector3<double> on_a{}, on_b{}, apart{};                   // apart = on_b − on_a
+  double distance = std::numeric_limits<double>::infinity();  // m
+  Vector3<double> on_a{}, on_b{}, apart{};                    // apart = on_b − on_a
 
   double gap(const Vector3<double>& difference) const { return shadow_gap(boxes, offset, difference.normalized()); }
 
   void offer(const Vector3<double>& a, const Vector3<double>& b, const Vector3<double>& difference) {
-    constexpr double as_near = 1e-13;
-    const double d = difference.squaredNorm();
-    if (!(d <= squared * (1 + as_near))) return;
-    if (d >= squared * (1 - as_near) && !(gap(difference) > gap(apart))) return;
-    squared = d;
+    const double d = difference.norm(), as_near = 1e-13 * d + round_off * boxes.scale;
+    if (!(d <= distance + as_near)) return;
+    if (d >= distance - as_near && !(gap(difference) > gap(apart))) return;
+    distance = d;
     on_a = a;
     on_b = b;
     apart = difference;
@@ -81,7 +81,9 @@ void offer_edges(const RelativeBoxes& boxes, int i, int j, const Vector3<double>
   const double x = std::clamp(difference[i], -reach_a, reach_a);
   const bool both_within = u == best && x == difference[i];
   difference[i] -= x;
-  if (both_within) difference = normal * difference.dot(normal);
+  // Of nearly parallel edges that are well apart the points tell the direction better than the product.
+  const Vector3<double> straight = normal * difference.dot(normal);
+  if (both_within && (difference - straight).norm() <= 4 * round_off * boxes.scale) difference = straight;
   Vector3<double> on_a = a;
   on_a[i] = x;
   nearest.offer(on_a, b + u * along, difference);
@@ -191,9 +193,10 @@ Distance ordered_distance(const BoxAt& a, const BoxAt& b) {
   const Vector3<double> offset = boxes.offset + shift;
   const Nearest nearest = nearest_points(boxes, offset, axis.separation);
   if (apart) {
-    result.distance = std::max(axis.separation, std::sqrt(nearest.squared));
+    result.distance = std::max(axis.separation, nearest.distance);
     // Where they touch but for round-off, the axis knows the direction better.
-    const bool known = nearest.squared > 0 && nearest.gap(nearest.apart) >= axis.separation - round_off * boxes.scale;
+    const bool touch = (nearest.apart - axis.separation * axis.normal).norm() <= 20 * round_off * boxes.scale;
+    const bool known = nearest.distance > 0 && (!touch || nearest.gap(nearest.apart) >= axis.separation - round_off * boxes.scale);
     if (known) normal = nearest.apart.normalized();
   }
   result.normal = -(a.pose.rotation * normal);

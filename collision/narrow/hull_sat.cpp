@@ -326,8 +326,9 @@ Distance ordered_distance(const Shape& a, const Pose& at_a, const Shape& b, cons
     const Vector towards = pair.apart.stableNormalized();
     if (axis.normal.isZero(0)) {
       normal = pair.nearest > 2 * round_off * pair.scale ? towards : across(pair);
-    } else if (!pair.apart.isZero(0) && pair.gap(towards) >= axis.separation - round_off * pair.scale) {
-      normal = towards;
+    } else if (!pair.apart.isZero(0)) {
+      const bool touch = (pair.apart - axis.separation * axis.normal).norm() <= 10 * round_off * pair.scale;
+      if (!touch || pair.gap(towards) >= axis.separation - round_off * pair.scale) normal = towards;
     }
   } else {
     shift = -axis.separation * axis.normal;
