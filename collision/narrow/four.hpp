@@ -7,6 +7,9 @@
 
 #include "core/linear_algebra.hpp"
 
+// Where the processor has narrower registers, GCC warns of how such numbers are passed. They pass within a file only.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 namespace polhode {
 
 using Four [[gnu::vector_size(32)]] = double;
