@@ -90,11 +90,49 @@ void edge_point(const RelativeBoxes& boxes, const Pose& pose, const BoxAxis& axi
                         {Feature::Kind::edge_edge, edge_from[of_a][i], edge_from[of_b][j]}};
 }
 
-/// Where neither faces nor edges meet: the nearest points.
-void nearest_point(const Distance& d, Manifold& manifold) {
+/// What of a box a point on its surface is part of.
+struct Part {
+  int faces = 0;             // how many it lies on: 1 a face, 2 an edge, 3 a vertex
+  int along = 0;             // axis of the edge, or of the face's normal
+  std::uint32_t vertex = 0;  // bits as the box numbers its vertices
+
+  Part(const BoxAt& box, const Vector3<double>& point) {
+    constexpr double nearly = 1 - 1e-9;
+    const Vector3<double> x = box.pose.to_body(point);
+    int in = 0, on = 0;
+    for (int k = 0; k < 3; ++k) {
+      if (x[k] > 0) vertex |= 1u << k;
+      const bool at_face = std::abs(x[k]) >= nearly * box.half[k];
+      faces += at_face;
+      (at_face ? on : in) = k;
+    }
+    along = faces == 1 ? on : in;
+  }
+  std::uint32_t face() const { return std::uint32_t(2 * along) + (vertex >> along & 1); }
+  /// Of a vertex, the edge that is most nearly parallel to d.
+  std::uint32_t edge(const BoxAt& box, const Vector3<double>& d) const {
+    return edge_from[vertex & ~(1u << axis(box, d))][axis(box, d)];
+  }
+
+ private:
+  int axis(const BoxAt& box, const Vector3<double>& d) const {
+    return faces == 2 ? along : largest(box.pose.rotation.transpose() * d);
+  }
+};
+
+/// Where neither faces nor edges that cross meet: the nearest points. An edge beside an edge is nearest at an end of one.
+void nearest_point(const BoxAt& a, const BoxAt& b, const Distance& d, Manifold& manifold) {
+  const Part of_a(a, d.on_a), of_b(b, d.on_b);
+  Feature feature;
+  if (of_a.faces == 3 && of_b.faces == 1) feature = {Feature::Kind::vertex_face, of_a.vertex, of_b.face()};
+  if (of_a.faces == 1 && of_b.faces == 3) feature = {Feature::Kind::face_vertex, of_a.face(), of_b.vertex};
+  if (std::min(of_a.faces, of_b.faces) == 2) {
+    const Vector3<double> along = of_a.faces == 2 ? a.pose.rotation.col(of_a.along) : b.pose.rotation.col(of_b.along);
+    feature = {Feature::Kind::edge_edge, of_a.edge(a, along), of_b.edge(b, along)};
+  }
   manifold.count = 1;
   manifold.normal = d.normal;
-  manifold.points[0] = {0.5 * (d.on_a + d.on_b), -d.distance, {}};
+  manifold.points[0] = {0.5 * (d.on_a + d.on_b), -d.distance, feature};
 }
 
 double separation_of_face_of_a(const RelativeBoxes& boxes, int k) {
@@ -107,7 +145,7 @@ double separation_of_face_of_b(const RelativeBoxes& boxes, int k) {
 Manifold ordered_manifold(const BoxAt& a, const BoxAt& b, double margin) {
   Manifold manifold;
   const RelativeBoxes boxes(a, b);
-  const BoxAxis axis = best_axis(boxes);
+  const BoxAxis axis = best_axis(boxes, margin);
   if (axis.separation > margin) return manifold;
   const Vector3<double> in_b = boxes.b_in_a.transpose() * axis.normal;
   const int of_a = largest(axis.normal), of_b = largest(in_b);
@@ -126,11 +164,11 @@ Manifold ordered_manifold(const BoxAt& a, const BoxAt& b, double margin) {
   }
   if (found) return manifold;
   const Distance d = boxes_distance(a, b);
-  if (d.distance > margin) return Manifold{};
+  if (d.distance > margin) return manifold;
   if (axis.index >= 6 && d.distance <= axis.separation * (1 + 1e-9)) {
     edge_point(boxes, a.pose, axis, manifold);
   } else {
-    nearest_point(d, manifold);
+    nearest_point(a, b, d, manifold);
   }
   return manifold;
 }
@@ -138,10 +176,9 @@ Manifold ordered_manifold(const BoxAt& a, const BoxAt& b, double margin) {
 }  // namespace
 
 Manifold boxes_manifold(const BoxAt& a, const BoxAt& b, double margin) {
-  if (boxes_apart(a, b, margin)) return {};
-  if (in_order(a, b)) return ordered_manifold(a, b, margin);
-  Manifold manifold = ordered_manifold(b, a, margin);
-  mirror(manifold);
+  const bool exchanged = !in_order(a, b);
+  Manifold manifold = exchanged ? ordered_manifold(b, a, margin) : ordered_manifold(a, b, margin);
+  if (exchanged) mirror(manifold);
   return manifold;
 }
 

@@ -2,8 +2,11 @@
 #include "collision/narrow/box_sat.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
+
+#include "collision/narrow/four.hpp"
 
 namespace polhode {
 namespace {
@@ -18,21 +21,21 @@ double shadow_gap(const RelativeBoxes& boxes, const Vector3<double>& offset, con
 }
 
 /// The nearest points known so far, in A's axes. Of two pairs of points that are as near, but for round-off, the difference
-/// may point 1e-8 apart; then that one counts on which the shadows are further apart, as a normal must have it.
+/// may point anywhere that is nearly upright; then that one counts on which the shadows are further apart, as a normal must
+/// have it.
 struct Nearest {
   const RelativeBoxes& boxes;
   const Vector3<double>& offset;
-  double squared = std::numeric_limits<double>::infinity();  // m²
-  Vector3<double> on_a{}, on_b{}, apart{};                   // apart = on_b − on_a
+  double distance = std::numeric_limits<double>::infinity();  // m
+  Vector3<double> on_a{}, on_b{}, apart{};                    // apart = on_b − on_a
 
   double gap(const Vector3<double>& difference) const { return shadow_gap(boxes, offset, difference.normalized()); }
 
   void offer(const Vector3<double>& a, const Vector3<double>& b, const Vector3<double>& difference) {
-    constexpr double as_near = 1e-13;
-    const double d = difference.squaredNorm();
-    if (!(d <= squared * (1 + as_near))) return;
-    if (d >= squared * (1 - as_near) && !(gap(difference) > gap(apart))) return;
-    squared = d;
+    const double d = difference.norm(), as_near = 1e-13 * d + round_off * boxes.scale;
+    if (!(d <= distance + as_near)) return;
+    if (d >= distance - as_near && !(gap(difference) > gap(apart))) return;
+    distance = d;
     on_a = a;
     on_b = b;
     apart = difference;
@@ -78,7 +81,9 @@ void offer_edges(const RelativeBoxes& boxes, int i, int j, const Vector3<double>
   const double x = std::clamp(difference[i], -reach_a, reach_a);
   const bool both_within = u == best && x == difference[i];
   difference[i] -= x;
-  if (both_within) difference = normal * difference.dot(normal);
+  // Of nearly parallel edges that are well apart the points tell the direction better than the product.
+  const Vector3<double> straight = normal * difference.dot(normal);
+  if (both_within && (difference - straight).norm() <= 4 * round_off * boxes.scale) difference = straight;
   Vector3<double> on_a = a;
   on_a[i] = x;
   nearest.offer(on_a, b + u * along, difference);
@@ -109,14 +114,34 @@ void offer_edge_pairs(const RelativeBoxes& boxes, const Vector3<double>& offset,
   }
 }
 
-/// What the separation along the product of edge i of A and edge j of B is at most: the product itself is no longer than 1.
-/// True of negative ones only.
-double at_most(const RelativeBoxes& boxes, int i, int j) {
-  const Matrix3<double>& c = boxes.b_in_a;
-  const int y = (i + 1) % 3, z = (i + 2) % 3, v = (j + 1) % 3, w = (j + 2) % 3;
-  return std::abs(boxes.offset[z] * c(y, j) - boxes.offset[y] * c(z, j)) - boxes.half_a[y] * std::abs(c(z, j)) -
-         boxes.half_a[z] * std::abs(c(y, j)) - boxes.half_b[v] * std::abs(c(i, w)) - boxes.half_b[w] * std::abs(c(i, v)) +
-         10 * round_off * boxes.scale;
+/// The relative rotation, three entries side by side.
+struct Sides {
+  Four row[3], magnitude[3];  // of a row
+
+  explicit Sides(const Matrix3<double>& c) {
+    for (int i = 0; i < 3; ++i) {
+      row[i] = Four{c(i, 0), c(i, 1), c(i, 2), c(i, 2)};
+      magnitude[i] = absolute(row[i]);
+    }
+  }
+};
+
+/// The products of edges along which the separation may be `wanted` or more, bit 3i + j for edge i of A and edge j of B. The
+/// separation times the length of the product is compared, squared with its sign, three products at a time.
+std::uint32_t possible_edges(const RelativeBoxes& boxes, const Sides& sides, double wanted) {
+  const Four half_b = three(boxes.half_b), half_next = next(half_b), half_after = after_next(half_b);
+  std::uint32_t possible = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int y = (i + 1) % 3, z = (i + 2) % 3;
+    const Four along = absolute(all(boxes.offset[z]) * sides.row[y] - all(boxes.offset[y]) * sides.row[z]);
+    const Four reach_a = all(boxes.half_a[y]) * sides.magnitude[z] + all(boxes.half_a[z]) * sides.magnitude[y];
+    const Four reach_b = half_next * after_next(sides.magnitude[i]) + half_after * next(sides.magnitude[i]);
+    const Four squared = sides.row[y] * sides.row[y] + sides.row[z] * sides.row[z];
+    const Four most = along - (reach_a + reach_b) + all(12 * round_off * boxes.scale);
+    const auto short_of = most * absolute(most) < all(wanted * std::abs(wanted)) * squared;
+    for (int j = 0; j < 3; ++j) possible |= std::uint32_t(short_of[j] + 1) << (3 * i + j);
+  }
+  return possible;
 }
 
 BoxAxis edge_axis(const RelativeBoxes& boxes, int i, int j, double length) {
@@ -134,38 +159,25 @@ BoxAxis edge_axis(const RelativeBoxes& boxes, int i, int j, double length) {
   return axis;
 }
 
-/// Calls take(axis) for the six faces, then for the products of edges that are not parallel and may reach `wanted()`.
-template <class Take, class Wanted>
-void for_each_axis(const RelativeBoxes& boxes, const Take& take, const Wanted& wanted) {
-  const Matrix3<double>& c = boxes.b_in_a;
-  const Vector3<double>& t = boxes.offset;
-  for (int i = 0; i < 3; ++i) {
-    const double reach = boxes.half_a[i] + (c.row(i).cwiseAbs() * boxes.half_b).value();
-    take(BoxAxis{i, std::abs(t[i]) - reach, Vector3<double>::Unit(i) * std::copysign(1.0, t[i])});
-  }
-  for (int j = 0; j < 3; ++j) {
-    const double along = c.col(j).dot(t);
-    const double reach = boxes.half_b[j] + c.col(j).cwiseAbs().dot(boxes.half_a);
-    take(BoxAxis{3 + j, std::abs(along) - reach, c.col(j) * std::copysign(1.0, along)});
-  }
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      const double most = at_most(boxes, i, j);
-      if (most < 0 && most < wanted()) continue;
-      const double y = c((i + 1) % 3, j), z = c((i + 2) % 3, j);
-      const double length = std::sqrt(y * y + z * z);
-      if (length >= parallel) take(edge_axis(boxes, i, j, length));
-    }
+/// Calls take(axis) for the products of edges that are not parallel, where the separation may be `wanted` or more.
+template <class Take>
+void for_each_edge_axis(const RelativeBoxes& boxes, const Sides& sides, double wanted, const Take& take) {
+  for (std::uint32_t left = possible_edges(boxes, sides, wanted); left != 0; left &= left - 1) {
+    const int k = std::countr_zero(left), i = k / 3, j = k % 3;
+    const double y = boxes.b_in_a((i + 1) % 3, j), z = boxes.b_in_a((i + 2) % 3, j);
+    const double length = std::sqrt(y * y + z * z);
+    if (length >= parallel) take(edge_axis(boxes, i, j, length));
   }
 }
 
 /// The distance of boxes that the axis separates, or just touches after `offset` was moved so that they do.
 Nearest nearest_points(const RelativeBoxes& boxes, const Vector3<double>& offset, double separation) {
   Nearest nearest{boxes, offset};
-  for_each_axis(boxes, [&](const BoxAxis& axis) {
-    if (axis.index < 6 || axis.separation < separation - nearly_best * boxes.scale) return;
+  const double wanted = separation - nearly_best * boxes.scale;
+  for_each_edge_axis(boxes, Sides(boxes.b_in_a), wanted, [&](const BoxAxis& axis) {
+    if (axis.separation < wanted) return;
     offer_edge_pairs(boxes, offset, (axis.index - 6) / 3, (axis.index - 6) % 3, axis.normal, nearest);
-  }, [&] { return separation - nearly_best * boxes.scale; });
+  });
   offer_vertices(boxes, offset, nearest);
   return nearest;
 }
@@ -181,9 +193,10 @@ Distance ordered_distance(const BoxAt& a, const BoxAt& b) {
   const Vector3<double> offset = boxes.offset + shift;
   const Nearest nearest = nearest_points(boxes, offset, axis.separation);
   if (apart) {
-    result.distance = std::max(axis.separation, std::sqrt(nearest.squared));
+    result.distance = std::max(axis.separation, nearest.distance);
     // Where they touch but for round-off, the axis knows the direction better.
-    const bool known = nearest.squared > 0 && nearest.gap(nearest.apart) >= axis.separation - round_off * boxes.scale;
+    const bool touch = (nearest.apart - axis.separation * axis.normal).norm() <= 20 * round_off * boxes.scale;
+    const bool known = nearest.distance > 0 && (!touch || nearest.gap(nearest.apart) >= axis.separation - round_off * boxes.scale);
     if (known) normal = nearest.apart.normalized();
   }
   result.normal = -(a.pose.rotation * normal);
@@ -215,16 +228,36 @@ bool in_order(const BoxAt& a, const BoxAt& b) {
   return true;
 }
 
-BoxAxis best_axis(const RelativeBoxes& boxes) {
-  if (!std::isfinite(boxes.scale) || !boxes.b_in_a.allFinite()) {
+BoxAxis best_axis(const RelativeBoxes& boxes, double enough) {
+  if (!std::isfinite(boxes.scale) || !std::isfinite(boxes.b_in_a.sum())) {
     throw std::invalid_argument("narrow phase: the pose of a box is not finite");
   }
-  BoxAxis best{0, -std::numeric_limits<double>::infinity(), {}};
+  const Matrix3<double>& c = boxes.b_in_a;
+  const Vector3<double>& t = boxes.offset;
+  const Sides sides(c);
+  Four reach_a = three(boxes.half_a), reach_b = three(boxes.half_b), along_b{};
+  for (int k = 0; k < 3; ++k) {
+    reach_a += absolute(three(c.col(k))) * all(boxes.half_b[k]);
+    reach_b += sides.magnitude[k] * all(boxes.half_a[k]);
+    along_b += sides.row[k] * all(t[k]);
+  }
+  const Four of_a = absolute(three(t)) - reach_a, of_b = absolute(along_b) - reach_b;
+  BoxAxis best{0, of_a[0], {}};
+  for (int k = 1; k < 6; ++k) {
+    const double separation = k < 3 ? of_a[k] : of_b[k - 3];
+    best.index = separation > best.separation ? k : best.index;
+    best.separation = std::max(best.separation, separation);
+  }
+  if (best.index < 3) {
+    best.normal = Vector3<double>::Unit(best.index) * std::copysign(1.0, t[best.index]);
+  } else {
+    best.normal = c.col(best.index - 3) * std::copysign(1.0, c.col(best.index - 3).dot(t));
+  }
+  if (best.separation > enough) return best;
   // An edge axis that is a face normal but for round-off does not take its place.
-  for_each_axis(boxes, [&](const BoxAxis& axis) {
-    const double ahead = axis.index < 6 ? 0 : round_off * boxes.scale;
-    if (axis.separation > best.separation + ahead) best = axis;
-  }, [&] { return best.separation; });
+  for_each_edge_axis(boxes, sides, best.separation, [&](const BoxAxis& axis) {
+    if (axis.separation > best.separation + round_off * boxes.scale) best = axis;
+  });
   return best;
 }
 

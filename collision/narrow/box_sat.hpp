@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "collision/broad_phase.hpp"
@@ -44,15 +45,13 @@ struct RelativeBoxes {
 /// The order in which two boxes are looked at, so that A against B and B against A are one computation.
 bool in_order(const BoxAt& a, const BoxAt& b);
 
-/// Along which the boxes are furthest apart, or overlap least. Throws std::invalid_argument if a pose is not finite.
-BoxAxis best_axis(const RelativeBoxes& boxes);
+/// Along which the boxes are furthest apart, or overlap least; the first face along which they are further apart than
+/// `enough` (m), if there is one. Throws std::invalid_argument if a pose is not finite.
+BoxAxis best_axis(const RelativeBoxes& boxes, double enough = std::numeric_limits<double>::infinity());
 
 /// Closed boxes: true where they touch. Right wherever they are apart, or overlap, by more than round-off. Throws
 /// std::invalid_argument if a pose is not finite.
 bool boxes_overlap(const BoxAt& a, const BoxAt& b);
-
-/// A quick answer: true only where the boxes are further apart than `margin` (m) along one of the axes.
-bool boxes_apart(const BoxAt& a, const BoxAt& b, double margin);
 
 /// Signed distance. Boxes that are the same in all numbers have no order; else A against B mirrors B against A exactly. Throws std::invalid_argument if a pose is not finite.
 Distance boxes_distance(const BoxAt& a, const BoxAt& b);

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The narrow phase `sat`: separating axes.
+// The narrow phase `sat`: separating axes. Boxes have a path of their own; a compound answers with its parts: the least
+// distance, or the deepest of the parts that overlap.
+#include <algorithm>
+#include <limits>
+#include <span>
 #include <stdexcept>
 #include <string>
 
 #include "collision/narrow/box_manifold.hpp"
+#include "collision/narrow/hull_sat.hpp"
 #include "collision/narrow_phase.hpp"
 #include "collision/shapes/box.hpp"
+#include "collision/shapes/compound.hpp"
 
 namespace polhode {
 namespace {
@@ -19,22 +25,47 @@ BoxAt box_at(const Shape& shape, const Pose& pose) { return {static_cast<const B
                               "; take gjk");
 }
 
+Distance mirrored(const Distance& d) { return {d.distance, -d.normal, d.on_b, d.on_a}; }
+
+Distance signed_distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b) {
+  if (both_boxes(a, b)) return boxes_distance(box_at(a, at_a), box_at(b, at_b));
+  if (a.tag() == ShapeTag::compound || b.tag() == ShapeTag::compound) {
+    const bool parts_of_a = a.tag() == ShapeTag::compound;
+    Distance least{std::numeric_limits<double>::infinity()};
+    for (const Compound::Part& part : static_cast<const Compound&>(parts_of_a ? a : b).parts()) {
+      const Distance d = parts_of_a ? signed_distance(*part, at_a, b, at_b) : signed_distance(a, at_a, *part, at_b);
+      if (d.distance < least.distance) least = d;
+    }
+    return least;
+  }
+  if (has_separating_axes(a) && has_separating_axes(b)) return hulls_distance(a, at_a, b, at_b);
+  if (has_separating_axes(a) && b.tag() == ShapeTag::half_space) return above_half_space(a, at_a, b, at_b);
+  if (has_separating_axes(b) && a.tag() == ShapeTag::half_space) return mirrored(above_half_space(b, at_b, a, at_a));
+  refuse(a, b);
+}
+
 class Sat final : public NarrowPhase {
  public:
   bool overlap(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory*) const override {
     if (both_boxes(a, b)) return boxes_overlap(box_at(a, at_a), box_at(b, at_b));
-    refuse(a, b);
+    return signed_distance(a, at_a, b, at_b).distance <= 0;
   }
 
   Distance distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory*) const override {
-    if (both_boxes(a, b)) return boxes_distance(box_at(a, at_a), box_at(b, at_b));
-    refuse(a, b);
+    return signed_distance(a, at_a, b, at_b);
   }
 
+  /// Of boxes the whole patch, of other shapes the deepest point.
   Manifold manifold(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, double margin,
                     PairMemory*) const override {
     if (both_boxes(a, b)) return boxes_manifold(box_at(a, at_a), box_at(b, at_b), margin);
-    refuse(a, b);
+    const Distance d = signed_distance(a, at_a, b, at_b);
+    Manifold one;
+    if (!(d.distance <= margin)) return one;
+    one.normal = d.normal;
+    one.points[0] = {0.5 * (d.on_a + d.on_b), -d.distance, {}};
+    one.count = 1;
+    return one;
   }
 };
 

@@ -10,6 +10,8 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,11 +19,11 @@
 #include "experiments/study/csv.hpp"
 #include "experiments/study/input_error.hpp"
 #include "experiments/study/report/axis.hpp"
-#include "experiments/study/report/draw_figures.hpp"
 #include "experiments/study/report/figure_layout.hpp"
 #include "experiments/study/report/notation.hpp"
 #include "experiments/study/report/table.hpp"
-#include "experiments/study/text_file.hpp"
+#include "experiments/study/study_view.hpp"
+#include "experiments/study/summary.hpp"
 
 namespace polhode::study {
 namespace {
@@ -29,8 +31,9 @@ namespace {
 using namespace report;
 using Clock = std::chrono::steady_clock;
 
+/// The mean is what a run pays: some broad phases do little in most steps and catch up in a few.
 struct Cost {
-  double ns_per_box = 0, pairs_per_box = 0;
+  double ns_per_box = 0, median_ns_per_box = 0, pairs_per_box = 0;
   std::size_t steps = 0;
 };
 
@@ -54,51 +57,88 @@ class Measurement {
     for (const std::size_t n : options_.bodies) measure(n);
   }
 
+  /// All of it is from wall times: no two calls leave the same bytes.
   int finish() const {
-    const std::filesystem::path folder = options_.out.empty() ? "results/broad_phase" : options_.out;
-    const Table table = cost_table();
-    write_files(folder, table);
-    fmt::print("{}\n", markdown(table));
-    for (const std::string& note : notes_) fmt::print("{}\n", note);
-    if (differences_.empty()) {
-      fmt::print("All report the same pairs, at each of {}.\n", count(steps_compared_, "step"));
-    }
-    fmt::print("{}\n", folder.string());
+    StudyView view;
+    view.experiment = "broad_phase";
+    view.question = broad_phase_question;
+    view.command = options_.command;
+    view.folder = options_.out.empty() ? "results/broad_phase" : options_.out;
+    view.analysis = Analysis{.alone = true, .heading = "Cost of a step", .sentences = notes_};
+    view.analysis->sentences.push_back(
+        differences_.empty() ? fmt::format("All report the same pairs, at each of {}.", count(steps_compared_, "step"))
+                             : "They do not all report the same pairs: " + differences_.front() + ".");
+    view.analysis->tables.push_back({"cost", cost_table()});
+    view.analysis->files.push_back({"cost.csv", csv()});
+    if (options_.figures) view.analysis->figures.push_back(figure());
+    std::error_code error;
+    std::filesystem::create_directories(view.folder, error);
+    if (error) throw InputError("--out: cannot create " + view.folder.string() + ": " + error.message());
+    write_tables(view);
+    if (const std::string said = write_figures(view); !said.empty()) fmt::print(stderr, "broad_phase: {}\n", said);
+    write_report(view);
+    fmt::print("{}\n{}\n", summary_table(view), (view.folder / "report.html").string());
     for (const std::string& d : differences_) fmt::print(stderr, "broad_phase: {}\n", d);
     return differences_.empty() ? 0 : 1;
   }
 
  private:
-  /// All at one number of bodies, in turns, so that what disturbs the machine meets all alike.
+  /// All at one number of bodies, in turns, so that what disturbs the machine meets all alike; and twice, of which the
+  /// faster counts for each step.
   void measure(std::size_t n) {
-    constexpr std::size_t warm = 3, fewest = 5, most = 200;
-    constexpr double long_enough = 2;  // s, all together
     std::vector<Runner> runners = runners_for(n);
     if (runners.empty()) return;
+    const double pairs = first_round(n, runners);
+    const std::size_t steps = runners.front().seconds.size();
+    second_round(n, runners);
+    const auto count = static_cast<double>(n);
+    for (const Runner& r : runners) {
+      const double mean = std::accumulate(r.seconds.begin(), r.seconds.end(), 0.0) / static_cast<double>(steps);
+      costs_[r.entry][n] = {1e9 * mean / count, 1e9 * median(r.seconds) / count, pairs / static_cast<double>(steps) / count, steps};
+    }
+  }
+
+  static constexpr std::size_t warm = 3, fewest = 20, most = 200;  // steps
+
+  /// As many steps as the time allows. Compares the pairs of all, and returns how many there were after the warm steps.
+  double first_round(std::size_t n, std::vector<Runner>& runners) {
+    constexpr double long_enough = 2;  // s, all together
     FlyingBoxes boxes(n, options_.filling, options_.motion, options_.seed);
     double total = 0, pairs = 0;
-    std::size_t steps = 0;
     for (std::size_t k = 0; k < warm + most && (k < warm + fewest || total < long_enough); ++k, boxes.step()) {
       std::vector<BodyPair> first;
       for (Runner& r : runners) {
-        const auto start = Clock::now();
-        r.phase->update(boxes.bounds());
-        const auto found = r.phase->pairs();
-        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        std::span<const BodyPair> found;
+        const double seconds = step(r, boxes, found);
         total += seconds;
         if (k >= warm) r.seconds.push_back(seconds);
         if (&r == &runners.front()) first.assign(found.begin(), found.end());
         else compare(*runners.front().entry, first, *r.entry, found, n, k);
       }
       ++steps_compared_;
-      if (k < warm) continue;
-      pairs += static_cast<double>(first.size());
-      ++steps;
+      if (k >= warm) pairs += static_cast<double>(first.size());
     }
-    const auto count = static_cast<double>(n);
-    for (const Runner& r : runners) {
-      costs_[r.entry][n] = {1e9 * median(r.seconds) / count, pairs / static_cast<double>(steps) / count, steps};
+    return pairs;
+  }
+
+  void second_round(std::size_t n, std::vector<Runner>& runners) {
+    FlyingBoxes boxes(n, options_.filling, options_.motion, options_.seed);
+    for (Runner& r : runners) r.phase = r.entry->make();
+    const std::size_t steps = warm + runners.front().seconds.size();
+    for (std::size_t k = 0; k < steps; ++k, boxes.step()) {
+      for (Runner& r : runners) {
+        std::span<const BodyPair> found;
+        const double seconds = step(r, boxes, found);
+        if (k >= warm) r.seconds[k - warm] = std::min(r.seconds[k - warm], seconds);
+      }
     }
+  }
+
+  static double step(Runner& r, const FlyingBoxes& boxes, std::span<const BodyPair>& found) {
+    const auto start = Clock::now();
+    r.phase->update(boxes.bounds());
+    found = r.phase->pairs();
+    return std::chrono::duration<double>(Clock::now() - start).count();
   }
 
   /// Without those of which a step is expected to take too long, by their cost at fewer bodies and its growth at worst.
@@ -123,8 +163,8 @@ class Measurement {
   void compare(const BroadPhaseEntry& one, const std::vector<BodyPair>& expected, const BroadPhaseEntry& other,
                std::span<const BodyPair> found, std::size_t n, std::size_t step) {
     if (std::equal(expected.begin(), expected.end(), found.begin(), found.end())) return;
-    constexpr std::size_t most = 20;
-    if (differences_.size() == most) return;
+    constexpr std::size_t shown_at_most = 20;
+    if (differences_.size() == shown_at_most) return;
     const auto [a, b] = std::mismatch(expected.begin(), expected.end(), found.begin(), found.end());
     const auto shown = [](bool there, const BodyPair* p) { return there ? fmt::format("({}, {})", p->a, p->b) : "no more"; };
     differences_.push_back(fmt::format("{} bodies, step {}: {} reports {} pairs and {} {}; first {} where the other has {}",
@@ -146,7 +186,7 @@ class Measurement {
   }
 
   Table cost_table() const {
-    Table table{"Cost of a step, ns per box (median), and p of a step's cost ∝ nᵖ over the upper half of n.",
+    Table table{"Cost of a step, ns per box (mean), and p of a step's cost ∝ nᵖ over the upper half of n.",
                 {{"broad phase", "", Column::Kind::name}}, {}};
     for (const std::size_t n : options_.bodies) table.columns.push_back({fmt::format("n = {}", n), "", Column::Kind::number});
     table.columns.push_back({"p", "", Column::Kind::number});
@@ -167,7 +207,7 @@ class Measurement {
   Figure figure() const {
     Figure figure{.name = "cost_against_bodies",
                   .title = "Cost of a broad phase against the number of bodies",
-                  .caption = fmt::format("Median time of a step per box: boxes that fly about, {} of the space filled, a "
+                  .caption = fmt::format("Mean time of a step per box: boxes that fly about, {} of the space filled, a "
                                          "step's path {} of an edge. Level: linear growth of a step.",
                                          number(options_.filling), number(options_.motion))};
     Panel panel{.x_column = "bodies", .y_column = "ns_per_box"};
@@ -192,27 +232,17 @@ class Measurement {
     return figure;
   }
 
-  void write_files(const std::filesystem::path& folder, const Table& table) const {
-    std::error_code error;
-    std::filesystem::create_directories(folder / "tables", error);
-    if (error) throw InputError("--out: cannot create " + folder.string() + ": " + error.message());
-    std::string csv = csv_row({"broad_phase", "bodies", "ns_per_box", "pairs_per_box", "steps"});
+  std::string csv() const {
+    std::string csv = csv_row({"broad_phase", "bodies", "ns_per_box", "median_ns_per_box", "pairs_per_box", "steps"});
     for (const BroadPhaseEntry* entry : options_.phases) {
       const auto known = costs_.find(entry);
       if (known == costs_.end()) continue;
       for (const auto& [n, cost] : known->second) {
-        csv += csv_row({entry->name, std::to_string(n), study::exact(cost.ns_per_box), study::exact(cost.pairs_per_box),
-                        std::to_string(cost.steps)});
+        csv += csv_row({entry->name, std::to_string(n), study::exact(cost.ns_per_box), study::exact(cost.median_ns_per_box),
+                        study::exact(cost.pairs_per_box), std::to_string(cost.steps)});
       }
     }
-    write_text(folder / "cost.csv", csv);
-    write_text(folder / "tables" / "cost.md", markdown(table));
-    write_text(folder / "tables" / "cost.tex",
-               "% The preamble needs \\usepackage[T1]{fontenc}\\usepackage{booktabs}.\n" + latex(table));
-    if (!options_.figures) return;
-    if (const std::string said = draw_figures({{figure()}, {}}, folder, "figures"); !said.empty()) {
-      fmt::print(stderr, "broad_phase: {}\n", said);
-    }
+    return csv;
   }
 
   const BroadPhaseOptions& options_;

@@ -10,7 +10,7 @@
 #include "collision/narrow/box_sat.hpp"
 #include "collision/narrow_phase.hpp"
 #include "collision/shapes/box.hpp"
-#include "tests/collision/box_pairs.hpp"
+#include "experiments/study/dice.hpp"
 
 #ifdef POLHODE_HAS_ODE
 #include <ode/collision.h>
@@ -29,18 +29,13 @@ struct Pairs {
   std::vector<BodyPair> pairs;
   std::vector<std::unique_ptr<Box>> shapes;
 
-  /// Boxes of similar size at random, about as many apart as together.
+  /// Boxes of similar size at random, four in five of the pairs together.
   Pairs() {
-    std::mt19937_64 dice(7);
-    std::normal_distribution<double> normal;
-    std::uniform_real_distribution<double> uniform(0.5, 1.5);
+    study::Dice dice(7);
     for (std::uint32_t k = 0; k < 1024; ++k) {
       for (int side = 0; side < 2; ++side) {
-        PosedBox box;
-        for (int i = 0; i < 3; ++i) box.half[i] = uniform(dice);
-        const Vector3<double> direction = Vector3<double>(normal(dice), normal(dice), normal(dice)).normalized();
-        if (side == 1) box.pose.position = direction * 2 * uniform(dice);
-        box.pose.rotation = rotation_matrix<double>({normal(dice), normal(dice), normal(dice), normal(dice)});
+        PosedBox box{dice.uniform_vector(0.5, 1.5), {Vector3<double>::Zero(), dice.rotation()}};
+        if (side == 1) box.pose.position = dice.direction() * dice.uniform(1, 3);
         shapes.push_back(std::make_unique<Box>(box.half));
         boxes.push_back(box);
       }

@@ -12,11 +12,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "collision/broad_phase.hpp"
+#include "experiments/broad_phase/flying_boxes.hpp"
 
 #ifdef POLHODE_HAS_BULLET
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
@@ -34,45 +34,9 @@ using polhode::Bounds;
 using Vector = polhode::Vector3<double>;
 using Clock = std::chrono::steady_clock;
 
-constexpr double filling = 0.1;  // of the space
+using Gas = polhode::study::FlyingBoxes;
 
-/// Boxes that fly straight and bounce off the walls of a cube.
-struct Gas {
-  Gas(std::size_t n, double motion) {
-    std::mt19937_64 engine(1);
-    const auto uniform = [&](double low, double high) {
-      return low + (high - low) * (static_cast<double>(engine() >> 11) * 0x1p-53);
-    };
-    double volume = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      half.emplace_back(uniform(0.25, 0.5), uniform(0.25, 0.5), uniform(0.25, 0.5));
-      volume += 8 * half.back().prod();
-    }
-    edge = std::cbrt(volume / filling);
-    for (std::size_t i = 0; i < n; ++i) {
-      centre.emplace_back(uniform(0, edge), uniform(0, edge), uniform(0, edge));
-      Vector v(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
-      velocity.push_back(v * (0.75 * motion / std::max(v.norm(), 1e-3)));
-    }
-    bounds.resize(n);
-    set();
-  }
-  void move() {
-    for (std::size_t i = 0; i < centre.size(); ++i) {
-      centre[i] += velocity[i];
-      for (int k = 0; k < 3; ++k) {
-        if ((centre[i][k] < 0 && velocity[i][k] < 0) || (centre[i][k] > edge && velocity[i][k] > 0)) velocity[i][k] *= -1;
-      }
-    }
-    set();
-  }
-  void set() {
-    for (std::size_t i = 0; i < centre.size(); ++i) bounds[i] = Bounds(centre[i] - half[i], centre[i] + half[i]);
-  }
-  double edge = 0;
-  std::vector<Vector> half, centre, velocity;
-  std::vector<Bounds> bounds;
-};
+constexpr double filling = 0.1;  // of the space
 
 /// One way to find the pairs of a step.
 class Contender {
@@ -87,7 +51,7 @@ class Ours final : public Contender {
  public:
   explicit Ours(const polhode::BroadPhaseEntry& entry) : Contender(entry.name), phase_(entry.make()) {}
   std::size_t step(const Gas& gas) override {
-    phase_->update(gas.bounds);
+    phase_->update(gas.bounds());
     return phase_->pairs().size();
   }
 
@@ -100,8 +64,8 @@ class Bullet final : public Contender {
  public:
   Bullet() : Contender("Bullet btDbvtBroadphase") {}
   std::size_t step(const Gas& gas) override {
-    for (std::size_t i = 0; i < gas.bounds.size(); ++i) {
-      const btVector3 low = vector(gas.bounds[i].min()), high = vector(gas.bounds[i].max());
+    for (std::size_t i = 0; i < gas.bounds().size(); ++i) {
+      const btVector3 low = vector(gas.bounds()[i].min()), high = vector(gas.bounds()[i].max());
       if (i == proxies_.size()) {
         proxies_.push_back(broadphase_.createProxy(low, high, 0, nullptr, 1, -1, nullptr));
       } else {
@@ -124,8 +88,8 @@ class Fcl final : public Contender {
  public:
   Fcl(const char* called, bool in_array) : Contender(called), in_array_(in_array) {}
   std::size_t step(const Gas& gas) override {
-    if (!tree_) tree_ = polhode::peers::fcl_tree(plain(gas.half), in_array_);
-    return tree_->step(plain(gas.centre));
+    if (!tree_) tree_ = polhode::peers::fcl_tree(plain(gas.half()), in_array_);
+    return tree_->step(plain(gas.centre()));
   }
 
  private:
@@ -147,12 +111,12 @@ class Ode final : public Contender {
   ~Ode() override { dSpaceDestroy(space_); }
   std::size_t step(const Gas& gas) override {
     if (geoms_.empty()) {
-      for (const Vector& h : gas.half) {
+      for (const Vector& h : gas.half()) {
         geoms_.push_back(dCreateBox(space_, dReal(2 * h.x()), dReal(2 * h.y()), dReal(2 * h.z())));
       }
     }
     for (std::size_t i = 0; i < geoms_.size(); ++i) {
-      const Vector& c = gas.centre[i];
+      const Vector& c = gas.centre()[i];
       dGeomSetPosition(geoms_[i], dReal(c.x()), dReal(c.y()), dReal(c.z()));
     }
     std::size_t pairs = 0;
@@ -191,7 +155,7 @@ struct Result {
 };
 
 std::vector<Result> measure(std::size_t n, double motion) {
-  Gas gas(n, motion);
+  Gas gas(n, filling, motion, 1);
   const auto all = contenders(n);
   const std::size_t warm = 5, steps = std::clamp<std::size_t>(1000000 / n, 15, 300);
   std::vector<std::vector<double>> seconds(all.size());
@@ -203,7 +167,7 @@ std::vector<Result> measure(std::size_t n, double motion) {
       if (k >= warm) seconds[c].push_back(std::chrono::duration<double>(Clock::now() - start).count());
       if (k >= warm) pairs[c] += static_cast<double>(found) / static_cast<double>(steps);
     }
-    gas.move();
+    gas.step();
   }
   std::vector<Result> results;
   for (std::size_t c = 0; c < all.size(); ++c) {

@@ -7,13 +7,13 @@
 #include <chrono>
 #include <cstdio>
 #include <functional>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "collision/narrow_phase.hpp"
 #include "collision/shapes/box.hpp"
 #include "collision/shapes/convex_hull.hpp"
+#include "experiments/study/dice.hpp"
 
 #ifdef POLHODE_HAS_FCL
 #include "tests/benchmarks/peers/fcl.hpp"
@@ -26,7 +26,7 @@
 namespace {
 
 using namespace polhode;
-using Random = std::mt19937_64;
+using study::Dice;
 using ShapePair = std::pair<ShapePointer, ShapePointer>;
 
 constexpr int pair_count = 512, rounds = 21;
@@ -36,32 +36,23 @@ struct Placed {
   Pose at_a, at_b;
 };
 
-double number(Random& random) { return double(random() >> 11) * 0x1p-53; }
+Pose placed(Dice& dice, double spread) { return {spread * dice.uniform_vector(0, 1), dice.rotation()}; }
 
-Pose placed(Random& random, double spread) {
-  std::normal_distribution<double> bell;
-  const Quaternion<double> q(bell(random), bell(random), bell(random), bell(random));
-  return {spread * Vector3<double>(number(random), number(random), number(random)), rotation_matrix(q)};
-}
+ShapePointer random_box(Dice& dice) { return std::make_shared<Box>(dice.uniform_vector(0.2, 1.2)); }
 
-ShapePointer random_box(Random& random) {
-  return std::make_shared<Box>(Vector3<double>(0.2 + number(random), 0.2 + number(random), 0.2 + number(random)));
-}
-
-ShapePointer random_hull(Random& random) {
-  std::normal_distribution<double> bell;
+ShapePointer random_hull(Dice& dice) {
   std::vector<Vector3<double>> points;
-  for (int i = 0; i < 32; ++i) points.push_back(Vector3<double>(bell(random), bell(random), bell(random)).normalized());
+  for (int i = 0; i < 32; ++i) points.push_back(dice.direction());
   return std::make_shared<ConvexHull>(points);
 }
 
 /// Pairs that overlap, that do not, or both as they come.
-std::vector<Placed> pairs(ShapePointer (*make)(Random&), int overlapping) {
-  Random random(7);
+std::vector<Placed> pairs(ShapePointer (*make)(Dice&), int overlapping) {
+  Dice dice(7);
   const auto narrow = find_narrow_phase("gjk")->make();
   std::vector<Placed> found;
   while (found.size() < pair_count) {
-    const Placed p = {make(random), make(random), placed(random, 2.5), placed(random, 2.5)};
+    const Placed p = {make(dice), make(dice), placed(dice, 2.5), placed(dice, 2.5)};
     const bool touch = narrow->overlap(*p.a, p.at_a, *p.b, p.at_b);
     if (overlapping < 0 || touch == (overlapping > 0)) found.push_back(p);
   }
@@ -207,7 +198,7 @@ std::function<void()> ccd_questions(const std::vector<Placed>& pairs, bool depth
 #endif
 
 /// With what the build found of the peers; the last rival is the one that ratios refer to.
-void questions(const std::string& what, ShapePointer (*make)(Random&)) {
+void questions(const std::string& what, ShapePointer (*make)(Dice&)) {
   for (const int overlapping : {0, 1, -1}) {
     const std::string set = what + (overlapping < 0 ? ", mixed" : overlapping ? ", overlapping" : ", apart");
     const auto p = pairs(make, overlapping);

@@ -17,18 +17,11 @@ struct PlacedPair {
 
 Pose random_pose(std::uint64_t seed, double spread);
 
-/// Boxes of size ratios to 1e4 and scales of 1e-3 to 1e3 m: as they come, face to face, nearly parallel, edge to edge,
-/// vertex to face, nested and far apart, with gaps and depths from 1e-15 of their size.
-PlacedPair box_pair(std::uint64_t k);
-
 /// Hulls of 4 to 128 points.
 PlacedPair hull_pair(std::uint64_t k);
 
 /// Of every convex kind but the half-space.
 PlacedPair any_pair(std::uint64_t seed);
-
-/// Two boxes: over all pairs of features, in long double.
-long double signed_distance_of_boxes(const PlacedPair& pair);
 
 /// Two hulls: the largest separation along all normals of faces and products of edges, in long double.
 long double separation_of_hulls(const PlacedPair& pair);

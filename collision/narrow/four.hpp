@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Three numbers side by side in a register of four: of the last there are two.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/linear_algebra.hpp"
+
+// Where the processor has narrower registers, GCC warns of how such numbers are passed. They pass within a file only.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace polhode {
+
+using Four [[gnu::vector_size(32)]] = double;
+using FourBits [[gnu::vector_size(32)]] = long long;
+
+inline Four four(const double* numbers) {
+  Four x;
+  std::memcpy(&x, numbers, sizeof x);
+  return x;
+}
+inline Four three(const Vector3<double>& x) { return Four{x[0], x[1], x[2], x[2]}; }
+inline Four all(double x) { return Four{x, x, x, x}; }
+inline Four absolute(Four x) {
+  constexpr long long magnitude = 0x7fffffffffffffff;
+  return Four(FourBits(x) & FourBits{magnitude, magnitude, magnitude, magnitude});
+}
+inline Four next(Four x) { return __builtin_shufflevector(x, x, 1, 2, 0, 0); }
+inline Four after_next(Four x) { return __builtin_shufflevector(x, x, 2, 0, 1, 1); }
+inline Four larger(Four a, Four b) { return a > b ? a : b; }
+inline Four smaller(Four a, Four b) { return a < b ? a : b; }
+inline double largest(Four x) { return std::max(std::max(x[0], x[1]), x[2]); }
+
+}  // namespace polhode
