@@ -59,8 +59,10 @@ inline double centre(const Box& b, std::size_t axis) {
   return std::isnan(c) ? 0 : c;
 }
 
-/// Takes the bounds over, after a look at all of them. Throws std::invalid_argument, with `boxes` as they were, where one
-/// has a NaN or ends before it begins.
+/// Throws std::invalid_argument where one has a NaN or ends before it begins.
+void check(std::span<const Bounds> bounds);
+
+/// Takes the bounds over, after a look at all of them: where check() throws, `boxes` are as they were.
 void take(std::span<const Bounds> bounds, std::vector<Box>& boxes);
 
 /// Once a list is nearly full, room for twice of what is there: a scene that goes on as it began allocates no more.
