@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Binary space partitioning by planes across the axes: Fuchs, Kedem and Naylor, "On Visible Surface Generation by a priori
 // Tree Structures" (1980); with planes across the axes it is the k-d tree of Bentley (1975). A box is listed in every leaf
-// that its fat box reaches, and only the boxes of one leaf are tested against each other. Of two that overlap, the lower
-// corner of what they share lies in one leaf alone, and there the pair is reported.
+// that its fat box reaches, and only the boxes of one leaf are tested against each other.
 //
-// When a body leaves its fat box, its entries in the leaves are renewed. Leaves in which many gather are split at the median
+// When a body leaves its fat box, its entries in the leaves are renewed and looked through for new pairs; all others are
+// kept. Leaves in which many gather are split at the median
 // centre, where a plane tells enough of them apart; two that have become poor are joined.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include "collision/broad/boxes.hpp"
 #include "collision/broad/fat_boxes.hpp"
-#include "collision/broad/pair_list.hpp"
+#include "collision/broad/kept_pairs.hpp"
+#include "collision/broad/rounded_box.hpp"
 #include "collision/broad_phase.hpp"
 
 namespace polhode {
 namespace {
 
 using broad::Box;
+using broad::RoundedBox;
 
 using Index = std::uint32_t;
 constexpr Index none = ~Index(0);
@@ -29,7 +30,6 @@ constexpr Index capacity = 16;         // entries of a leaf, before a plane is l
 constexpr Index poor = 8;              // entries of two leaves, to be one again
 constexpr double larger_side = 0.8;    // of the entries, at most, for a plane to be worth it
 constexpr double both_sides = 1.7;     // entries on both sides together, over those before
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Node {
   double plane = 0;
@@ -41,6 +41,7 @@ struct Node {
 };
 
 struct Entry {
+  RoundedBox box;
   Index body = 0, next = none;
 };
 
@@ -48,6 +49,7 @@ class BspTree final : public BroadPhase {
  public:
   void update(std::span<const Bounds> bounds) override {
     if (fat_.update(bounds)) {
+      kept_.forget();
       plant();
     } else {
       const auto left = fat_.left();
@@ -55,35 +57,37 @@ class BspTree final : public BroadPhase {
       for (std::size_t k = 0; k < left.size(); ++k) take_out(0, left[k], fat_.before(k));
       for (const Index body : left) put_in(0, body, fat_.fat(body));
     }
-    stale_ = true;
+    for (const Index body : fat_.left()) {
+      if (++question_ == 0) ask_anew();
+      search(0, body, RoundedBox(fat_.fat(body)));
+    }
+    pairs_ = kept_.renew(fat_, bounds);
+    leave_rooms();
   }
 
-  std::span<const BodyPair> pairs() override {
-    if (!stale_) return sorted_;
-    found_.clear();
-    Box all;
-    all.low.fill(-infinity);
-    all.high.fill(infinity);
-    if (!nodes_.empty()) search(0, all);
+  std::span<const BodyPair> pairs() override { return pairs_; }
+
+ private:
+  void leave_rooms() {
     broad::leave_room(nodes_, 64 + 4 * fat_.size());
     broad::leave_room(entries_, 64 + 16 * fat_.size());
     broad::leave_room(free_nodes_, 64 + fat_.size());
-    broad::leave_room(here_, 256);
-    broad::leave_room(bodies_here_, 256);
     broad::leave_room(centres_, 256);
-    sorted_ = found_.sorted(fat_.size());
-    stale_ = false;
-    return sorted_;
   }
 
- private:
   void plant() {
     nodes_.assign(1, Node{});
     free_nodes_.clear();
     entries_.clear();
     free_entry_ = none;
+    ask_anew();
     for (Index body = 0; body < fat_.size(); ++body) link(0, body);
     split(0);
+  }
+
+  void ask_anew() {
+    last_question_.assign(fat_.size(), 0);
+    question_ = 1;
   }
 
   static bool reaches_below(const Node& n, const Box& b) { return b.low[n.axis] < n.plane; }
@@ -97,7 +101,7 @@ class BspTree final : public BroadPhase {
     } else {
       free_entry_ = entries_[e].next;
     }
-    entries_[e] = {body, nodes_[v].head};
+    entries_[e] = {RoundedBox(fat_.fat(body)), body, nodes_[v].head};
     nodes_[v].head = e;
     ++nodes_[v].count;
   }
@@ -225,41 +229,23 @@ class BspTree final : public BroadPhase {
     return *middle;
   }
 
-  /// The pairs whose lower shared corner lies in the cell, which has no upper faces of its own.
-  void search(Index v, const Box& cell) {
-    const Node node = nodes_[v];
-    if (node.child == none) return search_leaf(node, cell);
-    Box part = cell;
-    part.high[node.axis] = node.plane;
-    search(node.child, part);
-    part = cell;
-    part.low[node.axis] = node.plane;
-    search(node.child + 1, part);
-  }
-
-  void search_leaf(const Node& node, const Box& cell) {
-    here_.clear();
-    bodies_here_.clear();
-    for (Index e = node.head; e != none; e = entries_[e].next) {
-      const Index body = entries_[e].body;
-      here_.push_back(fat_.box(body));
-      bodies_here_.push_back(body);
+  /// The pairs of a body that left its fat box, each once: with bodies that did not, and before it.
+  void search(Index v, Index body, const RoundedBox& rounded) {
+    const Box& box = fat_.fat(body);
+    while (nodes_[v].child != none) {
+      const Node& node = nodes_[v];
+      const bool below = reaches_below(node, box), above = reaches_above(node, box);
+      if (below && above) search(node.child, body, rounded);
+      v = node.child + Index(above);
     }
-    for (std::size_t i = 0; i < here_.size(); ++i) {
-      for (std::size_t j = i + 1; j < here_.size(); ++j) {
-        if (overlap(here_[i], here_[j]) && shared_corner_within(here_[i], here_[j], cell)) {
-          found_.add(bodies_here_[i], bodies_here_[j]);
-        }
-      }
+    for (Index e = nodes_[v].head; e != none; e = entries_[e].next) {
+      const Entry& entry = entries_[e];
+      if (!may_overlap(rounded, entry.box)) continue;
+      const Index other = entry.body;
+      if (other == body || last_question_[other] == question_ || (other > body && fat_.has_left(other))) continue;
+      last_question_[other] = question_;
+      if (overlap(box, fat_.fat(other))) kept_.add(body, other);
     }
-  }
-
-  static bool shared_corner_within(const Box& a, const Box& b, const Box& cell) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double corner = std::max(a.low[k], b.low[k]);
-      if (corner < cell.low[k] || (corner >= cell.high[k] && cell.high[k] < infinity)) return false;
-    }
-    return true;
   }
 
   broad::FatBoxes fat_;
@@ -268,11 +254,10 @@ class BspTree final : public BroadPhase {
   std::vector<Index> free_nodes_;  // pairs of children that are not in use
   Index free_entry_ = none;        // a list of entries that are not in use
   std::vector<double> centres_;
-  std::vector<Box> here_;          // the boxes of one leaf
-  std::vector<Index> bodies_here_;
-  broad::PairList found_;
-  std::span<const BodyPair> sorted_;
-  bool stale_ = false;
+  Index question_ = 0;                // the number of a search
+  std::vector<Index> last_question_;  // of each body, the one that met it last
+  broad::KeptPairs kept_;
+  std::span<const BodyPair> pairs_;
 };
 
 }  // namespace

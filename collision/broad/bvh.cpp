@@ -52,7 +52,7 @@ class Bvh final : public BroadPhase {
     if (root_ != none) traverse(root_);
     for (std::size_t i = 0; i < outside_.size(); ++i) search_outside(i);
     if (root_ != none) settle(root_);
-    pairs_ = kept_.renew(fat_);
+    pairs_ = kept_.renew(fat_, bounds);
   }
 
   std::span<const BodyPair> pairs() override { return pairs_; }

@@ -9,7 +9,7 @@
 namespace polhode::broad {
 namespace {
 
-constexpr std::uint32_t fewest_ahead = 12, most_ahead = 20;  // steps that the room is for
+constexpr std::uint32_t fewest_ahead = 20, most_ahead = 32;  // steps that the room is for
 constexpr double widest = 0.25;     // reach ahead over the longest edge
 constexpr double hopeless = 0.1;    // path of a step over the longest edge, above which room is of no use
 constexpr double thin = 0.01;       // margin on all sides over the edge across it
@@ -23,67 +23,69 @@ std::uint32_t scatter(std::uint32_t body, std::uint32_t step) {
 
 }  // namespace
 
-bool FatBoxes::too_large(const Box& b) {
-  constexpr double most = 1e75;
-  return !(std::min({b.low[0], b.low[1], b.low[2]}) > -most && std::max({b.high[0], b.high[1], b.high[2]}) < most);
-}
-
 bool FatBoxes::update(std::span<const Bounds> bounds) {
   const std::size_t n = bounds.size();
-  if (n != boxes_.size()) {
-    take(bounds, boxes_);
-    begin_scene();
+  if (n != fat_.size()) {
+    check(bounds);
+    begin_scene(bounds);
     return true;
   }
-  check(bounds);
-  ++steps_;
   for (const std::uint32_t body : left_) has_left_[body] = 0;
   left_.resize(n);
   std::size_t count = 0;
+  bool good = true;
   for (std::size_t i = 0; i < n; ++i) {
     const Box now = box_of(bounds[i]);
+    good &= all(now.low[0] <= now.high[0], now.low[1] <= now.high[1], now.low[2] <= now.high[2]);
     left_[count] = static_cast<std::uint32_t>(i);
-    if (!contains(fat_[i], now)) last_[count++] = boxes_[i];
-    boxes_[i] = now;
+    count += !contains(fat_[i], now);
   }
-  left_.resize(count);
+  left_.resize(good ? count : 0);
+  if (!good) check(bounds);
+  ++step_;
   // Many that leave together, as when a scene begins to move, shall not do so again.
   const std::uint32_t fewest = count > n / 2 ? 1 : fewest_ahead;
   for (std::size_t k = 0; k < count; ++k) {
-    before_[k] = fat_[left_[k]];
-    has_left_[left_[k]] = 1;
-    renew(left_[k], last_[k], fewest);
+    const std::uint32_t body = left_[k];
+    before_[k] = fat_[body];
+    has_left_[body] = 1;
+    renew(body, box_of(bounds[body]), fewest);
   }
   return false;
 }
 
-void FatBoxes::begin_scene() {
-  const std::size_t n = boxes_.size();
+void FatBoxes::begin_scene(std::span<const Bounds> bounds) {
+  const std::size_t n = bounds.size();
+  step_ = 0;
   fat_.resize(n);
-  last_.resize(n);
   before_.resize(n);
+  origin_.resize(n);
   left_.resize(n);
   std::iota(left_.begin(), left_.end(), std::uint32_t(0));
   has_left_.assign(n, 1);
-  steps_ = 0;
-  for (const std::uint32_t body : left_) renew(body, boxes_[body], 1);
+  for (const std::uint32_t body : left_) {
+    const Box now = box_of(bounds[body]);
+    origin_[body] = {now, step_};
+    renew(body, now, 1);
+  }
 }
 
-void FatBoxes::renew(std::uint32_t body, const Box& last, std::uint32_t fewest_steps) {
-  const Box& now = boxes_[body];
+void FatBoxes::renew(std::uint32_t body, const Box& now, std::uint32_t fewest_steps) {
+  const Origin last = origin_[body];
+  origin_[body] = {now, step_};
   Box& fat = fat_[body];
   fat = now;
-  if (too_large(now) || too_large(last)) return;
-  const double size = size_of(now);
+  if (too_large(now) || too_large(last.box)) return;
+  const double size = size_of(now), per_step = 1 / static_cast<double>(std::max(step_ - last.step, 1u));
   std::array<double, 3> down, up;
   double path = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    down[k] = last.low[k] - now.low[k];
-    up[k] = now.high[k] - last.high[k];
+    down[k] = (last.box.low[k] - now.low[k]) * per_step;
+    up[k] = (now.high[k] - last.box.high[k]) * per_step;
     path = std::max({path, std::abs(down[k]), std::abs(up[k])});
   }
   if (path > hopeless * size) return;
-  const double steps = fewest_steps + scatter(body, steps_) % (most_ahead + 1 - fewest_steps);
+  const double steps = fewest_steps + scatter(body, step_) % (most_ahead + 1 - fewest_steps);
   for (std::size_t k = 0; k < 3; ++k) {
     const double margin = thin * (now.high[k] - now.low[k]);
     fat.low[k] -= margin + std::clamp(steps * down[k], 0.0, widest * size);

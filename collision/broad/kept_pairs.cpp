@@ -16,7 +16,7 @@ void make_room(std::vector<BodyPair>& v, std::size_t count, std::size_t bodies) 
 
 }  // namespace
 
-std::span<const BodyPair> KeptPairs::renew(const FatBoxes& boxes) {
+std::span<const BodyPair> KeptPairs::renew(const FatBoxes& boxes, std::span<const Bounds> bounds) {
   const auto fresh = fresh_.sorted(boxes.size());
   fresh_.clear();
   const std::size_t most = kept_count_ + fresh.size();
@@ -27,7 +27,7 @@ std::span<const BodyPair> KeptPairs::renew(const FatBoxes& boxes) {
   const auto take = [&](const BodyPair& p, bool stays) {
     *kept_end = *pairs_end = p;
     kept_end += stays;
-    pairs_end += stays & overlap(boxes.box(p.a), boxes.box(p.b));
+    pairs_end += stays & overlap(box_of(bounds[p.a]), box_of(bounds[p.b]));
   };
   const auto take_old = [&] {
     const BodyPair p = *old++;

@@ -23,7 +23,7 @@ class KeptPairs {
   void add(std::uint32_t a, std::uint32_t b) { fresh_.add(a, b); }
 
   /// After all calls of add() of a step: the pairs whose true boxes overlap, sorted; valid until the next call.
-  std::span<const BodyPair> renew(const FatBoxes& boxes);
+  std::span<const BodyPair> renew(const FatBoxes& boxes, std::span<const Bounds> bounds);
 
  private:
   PairList fresh_;

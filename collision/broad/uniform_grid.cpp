@@ -101,7 +101,7 @@ class UniformGrid final : public BroadPhase {
       search(body, home);
       place(body, home);
     }
-    pairs_ = kept_.renew(fat_);
+    pairs_ = kept_.renew(fat_, bounds);
   }
 
   std::span<const BodyPair> pairs() override { return pairs_; }
@@ -131,6 +131,7 @@ class UniformGrid final : public BroadPhase {
     place_.assign(fat_.size(), none);
     large_.clear();
     bodies_.fill(0);
+    levels_ = 0;
   }
 
   /// So that most bodies are on the first level. False where cells stay, as they do while sizes are more or less the same.
@@ -252,6 +253,7 @@ class UniformGrid final : public BroadPhase {
     block.set(lane, box);
     place_[body] = b * Index(Block::lanes) + static_cast<Index>(lane);
     ++bodies_[home.level];
+    levels_ = std::max(levels_, home.level + 1);
   }
 
   void take_out(Index body) {
@@ -289,7 +291,7 @@ class UniformGrid final : public BroadPhase {
   void search(Index body, const Home& home) {
     const Box& box = fat_.fat(body);
     if (FatBoxes::too_large(box)) return search_all(body);
-    for (std::size_t level = 0; level < most_levels; ++level) {
+    for (std::size_t level = 0; level < levels_; ++level) {
       if (bodies_[level] > 0) search_level(body, level, level == home.level ? home.reach : reach(box, level));
     }
     for (const Index other : large_) {
@@ -386,6 +388,7 @@ class UniformGrid final : public BroadPhase {
   broad::KeptPairs kept_;
   std::array<double, most_levels> per_metre_{};  // half cells
   std::array<Index, most_levels> bodies_{};      // how many on each level
+  std::size_t levels_ = 0;                       // that have ever held one
   std::vector<Index> slots_;                     // the first block of each hash
   Index step_y_ = 1, step_z_ = 1;                // of the hash, from a cell to the next
   std::vector<Block> blocks_;
