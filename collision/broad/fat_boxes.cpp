@@ -9,16 +9,18 @@
 namespace polhode::broad {
 namespace {
 
-constexpr std::uint32_t fewest_ahead = 20, most_ahead = 32;  // steps that the room is for
+constexpr double fewest_ahead = 20, most_ahead = 32;  // steps that the room is for
 constexpr double widest = 0.25;     // reach ahead over the longest edge
 constexpr double hopeless = 0.1;    // path of a step over the longest edge, above which room is of no use
 constexpr double thin = 0.01;       // margin on all sides over the edge across it
 
-/// A number that looks like chance, but is the same in every run.
-std::uint32_t scatter(std::uint32_t body, std::uint32_t step) {
+constexpr std::size_t boxes_ahead = 24;  // asked of memory: two streams are more than it foresees by itself
+
+/// A number from 0 to 1 that looks like chance, but is the same in every run.
+double scatter(std::uint32_t body, std::uint32_t step) {
   std::uint32_t h = body * 0x9E3779B1u ^ step * 0x85EBCA77u;
   h = (h ^ h >> 15) * 0xC2B2AE3Du;
-  return h ^ h >> 16;
+  return (h >> 8) * 0x1p-24;
 }
 
 }  // namespace
@@ -35,6 +37,9 @@ bool FatBoxes::update(std::span<const Bounds> bounds) {
   std::size_t count = 0;
   bool good = true;
   for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t soon = std::min(i + boxes_ahead, n - 1);
+    __builtin_prefetch(&bounds[soon]);
+    __builtin_prefetch(&fat_[soon]);
     const Box now = box_of(bounds[i]);
     good &= all(now.low[0] <= now.high[0], now.low[1] <= now.high[1], now.low[2] <= now.high[2]);
     left_[count] = static_cast<std::uint32_t>(i);
@@ -44,7 +49,7 @@ bool FatBoxes::update(std::span<const Bounds> bounds) {
   if (!good) check(bounds);
   ++step_;
   // Many that leave together, as when a scene begins to move, shall not do so again.
-  const std::uint32_t fewest = count > n / 2 ? 1 : fewest_ahead;
+  const double fewest = count > n / 2 ? 1 : fewest_ahead;
   for (std::size_t k = 0; k < count; ++k) {
     const std::uint32_t body = left_[k];
     before_[k] = fat_[body];
@@ -70,13 +75,13 @@ void FatBoxes::begin_scene(std::span<const Bounds> bounds) {
   }
 }
 
-void FatBoxes::renew(std::uint32_t body, const Box& now, std::uint32_t fewest_steps) {
+void FatBoxes::renew(std::uint32_t body, const Box& now, double fewest_steps) {
   const Origin last = origin_[body];
   origin_[body] = {now, step_};
   Box& fat = fat_[body];
   fat = now;
   if (too_large(now) || too_large(last.box)) return;
-  const double size = size_of(now), per_step = 1 / static_cast<double>(std::max(step_ - last.step, 1u));
+  const double size = size_of(now), per_step = 1.0 / std::max(step_ - last.step, 1u);
   std::array<double, 3> down, up;
   double path = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -85,7 +90,7 @@ void FatBoxes::renew(std::uint32_t body, const Box& now, std::uint32_t fewest_st
     path = std::max({path, std::abs(down[k]), std::abs(up[k])});
   }
   if (path > hopeless * size) return;
-  const double steps = fewest_steps + scatter(body, step_) % (most_ahead + 1 - fewest_steps);
+  const double steps = fewest_steps + (most_ahead - fewest_steps) * scatter(body, step_);
   for (std::size_t k = 0; k < 3; ++k) {
     const double margin = thin * (now.high[k] - now.low[k]);
     fat.low[k] -= margin + std::clamp(steps * down[k], 0.0, widest * size);

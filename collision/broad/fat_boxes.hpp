@@ -38,7 +38,7 @@ class FatBoxes {
   };
 
   void begin_scene(std::span<const Bounds> bounds);
-  void renew(std::uint32_t body, const Box& now, std::uint32_t fewest_steps);
+  void renew(std::uint32_t body, const Box& now, double fewest_steps);
 
   std::vector<Box> fat_, before_;
   std::vector<Origin> origin_;

@@ -100,11 +100,12 @@ class SweepAndPrune final : public BroadPhase {
   void lay_out() {
     const std::size_t n = boxes_.size(), second = (axis_ + 1) % 3, third = (axis_ + 2) % 3;
     constexpr float never = std::numeric_limits<float>::infinity();
-    for (auto* side : {&low2_, &high2_, &low3_, &high3_}) side->assign(n + block, never);
+    for (auto* side : {&low1_, &low2_, &high2_, &low3_, &high3_}) side->assign(n + block, never);
     swept_.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
       const Box& b = boxes_[order_[k]];
       swept_[k] = b;
+      low1_[k] = broad::rounded(b.low[axis_]);
       low2_[k] = broad::rounded(b.low[second]);
       high2_[k] = broad::rounded(b.high[second]);
       low3_[k] = broad::rounded(b.low[third]);
@@ -114,18 +115,15 @@ class SweepAndPrune final : public BroadPhase {
 
   void sweep(std::size_t i) {
     const Box& box = swept_[i];
-    const auto beyond = std::upper_bound(begins_.begin() + static_cast<std::ptrdiff_t>(i) + 1, begins_.end(),
-                                         box.high[axis_], [](double end, const Begin& b) { return end < b.at; });
-    const auto end = static_cast<std::size_t>(beyond - begins_.begin());
-    const float low2 = low2_[i], high2 = high2_[i], low3 = low3_[i], high3 = high3_[i];
-    for (std::size_t j = i + 1; j < end; j += block) {
+    const float high1 = broad::rounded(box.high[axis_]), low2 = low2_[i], high2 = high2_[i], low3 = low3_[i], high3 = high3_[i];
+    for (std::size_t j = i + 1; low1_[j] <= high1; j += block) {
       const float *l2 = &low2_[j], *h2 = &high2_[j], *l3 = &low3_[j], *h3 = &high3_[j];
       int any = 0;
       for (std::size_t k = 0; k < block; ++k) {
         any |= (l2[k] <= high2) & (low2 <= h2[k]) & (l3[k] <= high3) & (low3 <= h3[k]);
       }
       if (any == 0) continue;
-      for (std::size_t k = j; k < std::min(j + block, end); ++k) {
+      for (std::size_t k = j; k < std::min(j + block, swept_.size()); ++k) {
         if (overlap(box, swept_[k])) found_.add(begins_[i].body, begins_[k].body);
       }
     }
@@ -135,7 +133,7 @@ class SweepAndPrune final : public BroadPhase {
   std::vector<Box> boxes_, swept_;      // by number; by where they begin
   std::vector<std::uint32_t> order_;    // the bodies by where they begin
   std::vector<Begin> begins_;
-  std::vector<float> low2_, high2_, low3_, high3_;
+  std::vector<float> low1_, low2_, high2_, low3_, high3_;
   broad::PairList found_;
   std::span<const BodyPair> sorted_;
   bool stale_ = false;

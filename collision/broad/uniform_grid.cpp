@@ -95,11 +95,15 @@ class UniformGrid final : public BroadPhase {
       clear();
       for (Index body = 0; body < fat_.size(); ++body) place(body, home_of(fat_.fat(body)));
     }
-    for (const Index body : fat_.left()) hide(body);
-    for (const Index body : fat_.left()) {
-      const Home home = home_of(fat_.fat(body));
-      search(body, home);
-      place(body, home);
+    const auto left = fat_.left();
+    homes_.resize(left.size());
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      homes_[k] = home_of(fat_.fat(left[k]));
+      place(left[k], homes_[k]);
+    }
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      if (k + 1 < left.size()) fetch(homes_[k + 1]);
+      search(left[k], homes_[k]);
     }
     pairs_ = kept_.renew(fat_, bounds);
   }
@@ -119,6 +123,7 @@ class UniformGrid final : public BroadPhase {
     step_z_ = static_cast<Index>(0.5698402909980532 * double(slots)) | 1u;
     blocks_.reserve(fat_.size() + 1);  // each but the first holds a body
     large_.reserve(fat_.size());
+    homes_.reserve(fat_.size());
     clear();
     kept_.forget();
   }
@@ -211,12 +216,6 @@ class UniformGrid final : public BroadPhase {
     return b;
   }
 
-  /// Out of sight, until it is placed again.
-  void hide(Index body) {
-    if (place_[body] >= on_no_level) return;
-    blocks_[place_[body] / Block::lanes].hide(place_[body] % Block::lanes);
-  }
-
   void place(Index body, const Home& home) {
     const Index old = place_[body];
     if (home.level == most_levels) {
@@ -287,16 +286,30 @@ class UniformGrid final : public BroadPhase {
     return b;
   }
 
-  /// The pairs of a body that left its fat box with all that are in sight.
+  /// What is soon to be searched is on its way meanwhile.
+  void fetch(const Home& home) const {
+    if (home.level == most_levels) return;
+    const Reach& r = home.reach;
+    const Index first = hash((r.low[0] - 1) >> 1, (r.low[1] - 1) >> 1, (r.low[2] - 1) >> 1);
+    for (const Index row : {first, first + step_y_, first + step_z_, first + step_y_ + step_z_}) {
+      for (const Index h : {row, row + 1}) {
+        const Block& block = blocks_[slots_[h & (slots_.size() - 1)]];
+        __builtin_prefetch(&block);
+        __builtin_prefetch(&block.low[2]);
+        __builtin_prefetch(&block.high[1]);
+        __builtin_prefetch(&block.key);
+      }
+    }
+  }
+
+  /// The new pairs of a body that left its fat box.
   void search(Index body, const Home& home) {
     const Box& box = fat_.fat(body);
     if (FatBoxes::too_large(box)) return search_all(body);
     for (std::size_t level = 0; level < levels_; ++level) {
       if (bodies_[level] > 0) search_level(body, level, level == home.level ? home.reach : reach(box, level));
     }
-    for (const Index other : large_) {
-      if (in_sight(other, body) && overlap(box, fat_.fat(other))) kept_.add(body, other);
-    }
+    for (const Index other : large_) found(body, other);
   }
 
   void search_level(Index body, std::size_t level, const Reach& r) {
@@ -368,19 +381,16 @@ class UniformGrid final : public BroadPhase {
     for (std::size_t c = 0; c < 8; ++c) search_cell(body, rounded, blocks_[block[c]].next, keys[c]);
   }
 
+  /// Of two that both left their fat boxes, the later one finds the pair.
   void found(Index body, Index other) {
-    if (overlap(fat_.fat(body), fat_.fat(other))) kept_.add(body, other);
+    const bool fresh = other < body || (other > body && !fat_.has_left(other));
+    if (fresh && overlap(fat_.fat(body), fat_.fat(other))) kept_.add(body, other);
   }
 
   /// A body too large for any grid, a half-space above all.
   void search_all(Index body) {
-    for (Index other = 0; other < fat_.size(); ++other) {
-      if (in_sight(other, body) && overlap(fat_.fat(body), fat_.fat(other))) kept_.add(body, other);
-    }
+    for (Index other = 0; other < fat_.size(); ++other) found(body, other);
   }
-
-  /// Whether a body has its turn before another one that left its fat box.
-  bool in_sight(Index other, Index body) const { return other != body && (other < body || !fat_.has_left(other)); }
 
   static constexpr double smallest_edge = 1e-150;
 
@@ -393,6 +403,7 @@ class UniformGrid final : public BroadPhase {
   Index step_y_ = 1, step_z_ = 1;                // of the hash, from a cell to the next
   std::vector<Block> blocks_;
   Index free_block_ = no_block;                      // a list of those not in use
+  std::vector<Home> homes_;                      // of those that left their fat boxes
   std::vector<Index> place_;                     // of each body: its block and lane
   std::vector<Index> large_;                     // on no level
   double median_ = -1;
