@@ -7,8 +7,10 @@
 // On the two other axes the sweep compares single-precision copies, many at a time. Rounding keeps the order of numbers, so
 // that boxes which overlap overlap also as rounded; the few that pass are tested as they are.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -117,16 +119,34 @@ class SweepAndPrune final : public BroadPhase {
     const Box& box = swept_[i];
     const float high1 = broad::rounded(box.high[axis_]), low2 = low2_[i], high2 = high2_[i], low3 = low3_[i], high3 = high3_[i];
     for (std::size_t j = i + 1; low1_[j] <= high1; j += block) {
-      const float *l2 = &low2_[j], *h2 = &high2_[j], *l3 = &low3_[j], *h3 = &high3_[j];
-      int any = 0;
-      for (std::size_t k = 0; k < block; ++k) {
-        any |= (l2[k] <= high2) & (low2 <= h2[k]) & (l3[k] <= high3) & (low3 <= h3[k]);
+      Hits hits{};
+      for (std::size_t half = 0; half < 2; ++half) {
+        const std::size_t k = j + half * lanes;
+        const Hits hit = (at(low2_, k) <= high2) & (at(high2_, k) >= low2) & (at(low3_, k) <= high3) & (at(high3_, k) >= low3);
+        hits |= hit & (Hits{1, 2, 4, 8, 16, 32, 64, 128} << static_cast<int>(half * lanes));
       }
-      if (any == 0) continue;
-      for (std::size_t k = j; k < std::min(j + block, swept_.size()); ++k) {
+      for (unsigned bits = all_of(hits); bits != 0; bits &= bits - 1) {
+        const std::size_t k = j + static_cast<std::size_t>(std::countr_zero(bits));
         if (overlap(box, swept_[k])) found_.add(begins_[i].body, begins_[k].body);
       }
     }
+  }
+
+  static constexpr std::size_t lanes = 8;
+  using Lanes [[gnu::vector_size(lanes * sizeof(float))]] = float;
+  using Hits [[gnu::vector_size(lanes * sizeof(float))]] = std::int32_t;
+  using Pairs [[gnu::vector_size(lanes * sizeof(float))]] = std::uint64_t;
+
+  static Lanes at(const std::vector<float>& numbers, std::size_t k) {
+    Lanes x;
+    std::memcpy(&x, &numbers[k], sizeof x);
+    return x;
+  }
+
+  static unsigned all_of(Hits hits) {
+    const auto pairs = reinterpret_cast<Pairs>(hits);
+    const std::uint64_t two = (pairs[0] | pairs[1]) | (pairs[2] | pairs[3]);
+    return static_cast<unsigned>(two | two >> 32);
   }
 
   std::size_t axis_ = 0;
