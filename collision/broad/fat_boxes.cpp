@@ -10,7 +10,7 @@ namespace polhode::broad {
 namespace {
 
 constexpr double fewest_ahead = 20, most_ahead = 32;  // steps that the room is for
-constexpr double widest = 0.25;     // reach ahead over the longest edge
+constexpr double widest = 0.5;     // reach ahead over the longest edge
 constexpr double hopeless = 0.1;    // path of a step over the longest edge, above which room is of no use
 constexpr double thin = 0.01;       // margin on all sides over the edge across it
 
