@@ -14,7 +14,7 @@ constexpr double widest = 0.5;     // reach ahead over the longest edge
 constexpr double hopeless = 0.1;    // path of a step over the longest edge, above which room is of no use
 constexpr double thin = 0.01;       // margin on all sides over the edge across it
 
-constexpr std::size_t boxes_ahead = 24;  // asked of memory: two streams are more than it foresees by itself
+constexpr std::size_t boxes_ahead = 64, bodies_ahead = 8;  // asked of memory, which does not foresee it
 
 /// A number from 0 to 1 that looks like chance, but is the same in every run.
 double scatter(std::uint32_t body, std::uint32_t step) {
@@ -38,8 +38,8 @@ bool FatBoxes::update(std::span<const Bounds> bounds) {
   bool good = true;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t soon = std::min(i + boxes_ahead, n - 1);
-    __builtin_prefetch(&bounds[soon]);
-    __builtin_prefetch(&fat_[soon]);
+    fetch(bounds[soon]);
+    fetch(fat_[soon]);
     const Box now = box_of(bounds[i]);
     good &= all(now.low[0] <= now.high[0], now.low[1] <= now.high[1], now.low[2] <= now.high[2]);
     left_[count] = static_cast<std::uint32_t>(i);
@@ -51,7 +51,8 @@ bool FatBoxes::update(std::span<const Bounds> bounds) {
   // Many that leave together, as when a scene begins to move, shall not do so again.
   const double fewest = count > n / 2 ? 1 : fewest_ahead;
   for (std::size_t k = 0; k < count; ++k) {
-    const std::uint32_t body = left_[k];
+    const std::uint32_t body = left_[k], soon = left_[std::min(k + bodies_ahead, count - 1)];
+    fetch(origin_[soon]);
     before_[k] = fat_[body];
     has_left_[body] = 1;
     renew(body, box_of(bounds[body]), fewest);

@@ -36,6 +36,7 @@ constexpr double coarser = 4;               // cells of the next level
 constexpr double common = 2;                // times the median size: still a common box
 constexpr double half_cell_of_size = 1.02;  // half the edge of a cell over the largest common size
 constexpr std::size_t slots_per_body = 2;
+constexpr std::size_t ahead = 2;  // bodies, when memory is asked for their blocks
 constexpr std::uint32_t steps_between_looks = 64;  // at the sizes of boxes
 
 /// The half cells that a box reaches.
@@ -96,13 +97,19 @@ class UniformGrid final : public BroadPhase {
       for (Index body = 0; body < fat_.size(); ++body) place(body, home_of(fat_.fat(body)));
     }
     const auto left = fat_.left();
-    homes_.resize(left.size());
-    for (std::size_t k = 0; k < left.size(); ++k) {
+    const std::size_t count = left.size();
+    homes_.resize(count);
+    for (std::size_t k = 0; k < count; ++k) {
       homes_[k] = home_of(fat_.fat(left[k]));
+      fetch_slots(homes_[k]);
+      broad::fetch(place_[left[k]]);
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      if (k + ahead < count && place_[left[k + ahead]] < on_no_level) broad::fetch(blocks_[place_[left[k + ahead]] / Block::lanes]);
       place(left[k], homes_[k]);
     }
-    for (std::size_t k = 0; k < left.size(); ++k) {
-      if (k + 1 < left.size()) fetch(homes_[k + 1]);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (k + ahead < count) fetch_blocks(homes_[k + ahead]);
       search(left[k], homes_[k]);
     }
     pairs_ = kept_.renew(fat_, bounds);
@@ -286,19 +293,21 @@ class UniformGrid final : public BroadPhase {
     return b;
   }
 
-  /// What is soon to be searched is on its way meanwhile.
-  void fetch(const Home& home) const {
-    if (home.level == most_levels) return;
+  /// The rows of two cells each that are searched first.
+  std::array<Index, 4> rows(const Home& home) const {
     const Reach& r = home.reach;
     const Index first = hash((r.low[0] - 1) >> 1, (r.low[1] - 1) >> 1, (r.low[2] - 1) >> 1);
-    for (const Index row : {first, first + step_y_, first + step_z_, first + step_y_ + step_z_}) {
-      for (const Index h : {row, row + 1}) {
-        const Block& block = blocks_[slots_[h & (slots_.size() - 1)]];
-        __builtin_prefetch(&block);
-        __builtin_prefetch(&block.low[2]);
-        __builtin_prefetch(&block.high[1]);
-        __builtin_prefetch(&block.key);
-      }
+    return {first, first + step_y_, first + step_z_, first + step_y_ + step_z_};
+  }
+  void fetch_slots(const Home& home) const {
+    if (home.level == most_levels) return;
+    for (const Index row : rows(home)) broad::fetch(slots_[row & (slots_.size() - 1)]);
+  }
+  void fetch_blocks(const Home& home) const {
+    if (home.level == most_levels) return;
+    for (const Index row : rows(home)) {
+      broad::fetch(blocks_[slots_[row & (slots_.size() - 1)]]);
+      broad::fetch(blocks_[slots_[(row + 1) & (slots_.size() - 1)]]);
     }
   }
 
