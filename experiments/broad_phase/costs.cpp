@@ -17,11 +17,11 @@
 #include "experiments/study/csv.hpp"
 #include "experiments/study/input_error.hpp"
 #include "experiments/study/report/axis.hpp"
-#include "experiments/study/report/draw_figures.hpp"
 #include "experiments/study/report/figure_layout.hpp"
 #include "experiments/study/report/notation.hpp"
 #include "experiments/study/report/table.hpp"
-#include "experiments/study/text_file.hpp"
+#include "experiments/study/study_view.hpp"
+#include "experiments/study/summary.hpp"
 
 namespace polhode::study {
 namespace {
@@ -54,16 +54,27 @@ class Measurement {
     for (const std::size_t n : options_.bodies) measure(n);
   }
 
+  /// All of it is from wall times: no two calls leave the same bytes.
   int finish() const {
-    const std::filesystem::path folder = options_.out.empty() ? "results/broad_phase" : options_.out;
-    const Table table = cost_table();
-    write_files(folder, table);
-    fmt::print("{}\n", markdown(table));
-    for (const std::string& note : notes_) fmt::print("{}\n", note);
-    if (differences_.empty()) {
-      fmt::print("All report the same pairs, at each of {}.\n", count(steps_compared_, "step"));
-    }
-    fmt::print("{}\n", folder.string());
+    StudyView view;
+    view.experiment = "broad_phase";
+    view.question = broad_phase_question;
+    view.command = options_.command;
+    view.folder = options_.out.empty() ? "results/broad_phase" : options_.out;
+    view.analysis = Analysis{.alone = true, .heading = "Cost of a step", .sentences = notes_};
+    view.analysis->sentences.push_back(
+        differences_.empty() ? fmt::format("All report the same pairs, at each of {}.", count(steps_compared_, "step"))
+                             : "They do not all report the same pairs: " + differences_.front() + ".");
+    view.analysis->tables.push_back({"cost", cost_table()});
+    view.analysis->files.push_back({"cost.csv", csv()});
+    if (options_.figures) view.analysis->figures.push_back(figure());
+    std::error_code error;
+    std::filesystem::create_directories(view.folder, error);
+    if (error) throw InputError("--out: cannot create " + view.folder.string() + ": " + error.message());
+    write_tables(view);
+    if (const std::string said = write_figures(view); !said.empty()) fmt::print(stderr, "broad_phase: {}\n", said);
+    write_report(view);
+    fmt::print("{}\n{}\n", summary_table(view), (view.folder / "report.html").string());
     for (const std::string& d : differences_) fmt::print(stderr, "broad_phase: {}\n", d);
     return differences_.empty() ? 0 : 1;
   }
@@ -192,10 +203,7 @@ class Measurement {
     return figure;
   }
 
-  void write_files(const std::filesystem::path& folder, const Table& table) const {
-    std::error_code error;
-    std::filesystem::create_directories(folder / "tables", error);
-    if (error) throw InputError("--out: cannot create " + folder.string() + ": " + error.message());
+  std::string csv() const {
     std::string csv = csv_row({"broad_phase", "bodies", "ns_per_box", "pairs_per_box", "steps"});
     for (const BroadPhaseEntry* entry : options_.phases) {
       const auto known = costs_.find(entry);
@@ -205,14 +213,7 @@ class Measurement {
                         std::to_string(cost.steps)});
       }
     }
-    write_text(folder / "cost.csv", csv);
-    write_text(folder / "tables" / "cost.md", markdown(table));
-    write_text(folder / "tables" / "cost.tex",
-               "% The preamble needs \\usepackage[T1]{fontenc}\\usepackage{booktabs}.\n" + latex(table));
-    if (!options_.figures) return;
-    if (const std::string said = draw_figures({{figure()}, {}}, folder, "figures"); !said.empty()) {
-      fmt::print(stderr, "broad_phase: {}\n", said);
-    }
+    return csv;
   }
 
   const BroadPhaseOptions& options_;

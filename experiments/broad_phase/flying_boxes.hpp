@@ -5,26 +5,26 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <random>
 #include <vector>
 
 #include "collision/shape.hpp"
+#include "experiments/study/dice.hpp"
 
 namespace polhode::study {
 
 class FlyingBoxes {
  public:
   /// `filling` is the part of the cube that is within boxes, `motion` a step's path over the mean edge.
-  FlyingBoxes(std::size_t n, double filling, double motion, std::uint64_t seed) : engine_(seed), bounds_(n) {
+  FlyingBoxes(std::size_t n, double filling, double motion, std::uint64_t seed) : dice_(seed), bounds_(n) {
     double volume = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      half_.push_back(vector(0.25, 0.5));
+      half_.push_back(dice_.uniform_vector(0.25, 0.5));
       volume += 8 * half_.back().prod();
     }
     edge_ = std::cbrt(volume / filling);
     for (std::size_t i = 0; i < n; ++i) {
-      centre_.push_back(vector(0, edge_));
-      const Vector3<double> way = vector(-1, 1);
+      centre_.push_back(dice_.uniform_vector(0, edge_));
+      const Vector3<double> way = dice_.uniform_vector(-1, 1);
       path_.push_back(way * (0.75 * motion / std::max(way.norm(), 1e-3)));
     }
     place();
@@ -42,18 +42,15 @@ class FlyingBoxes {
   }
 
   const std::vector<Bounds>& bounds() const { return bounds_; }
+  const std::vector<Vector3<double>>& half() const { return half_; }
+  const std::vector<Vector3<double>>& centre() const { return centre_; }
 
  private:
-  double uniform(double low, double high) { return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53); }
-  Vector3<double> vector(double low, double high) {
-    const double x = uniform(low, high), y = uniform(low, high);
-    return {x, y, uniform(low, high)};
-  }
   void place() {
     for (std::size_t i = 0; i < centre_.size(); ++i) bounds_[i] = Bounds(centre_[i] - half_[i], centre_[i] + half_[i]);
   }
 
-  std::mt19937_64 engine_;
+  Dice dice_;
   double edge_ = 0;
   std::vector<Vector3<double>> half_, centre_, path_;
   std::vector<Bounds> bounds_;

@@ -13,6 +13,7 @@
 #include "experiments/study/listing.hpp"
 #include "experiments/study/study_view.hpp"
 #include "experiments/study/suggestion.hpp"
+#include "experiments/study/summary.hpp"
 #include "experiments/study/text_file.hpp"
 
 namespace polhode::study {
@@ -35,17 +36,18 @@ void answer_pairs(const NarrowPhaseOptions& options) {
   }
 }
 
-void compare(const NarrowPhaseOptions& options, const std::string& question) {
+void compare(const NarrowPhaseOptions& options, const std::string& question, const std::string& command) {
   std::vector<const NarrowPhaseEntry*> entries;
   for (const NarrowPhaseEntry& e : narrow_phase_catalogue()) entries.push_back(&e);
   if (!options.narrow_phase.empty()) entries = {&entry(options.narrow_phase)};
   StudyView view;
   view.experiment = "narrow_phase";
   view.question = question;
+  view.command = command;
   view.folder = options.out.empty() ? "results/narrow_phase" : options.out;
   Analysis analysis{.alone = true, .heading = "Narrow phases side by side"};
   compare_narrow_phases(entries, options.count, options.seed, analysis);
-  measure_course_report(options.count, options.seed, analysis);
+  measure_course_report(10 * options.count, options.seed, analysis);
   view.analysis = std::move(analysis);
   std::filesystem::create_directories(view.folder);
   write_tables(view);
@@ -53,11 +55,8 @@ void compare(const NarrowPhaseOptions& options, const std::string& question) {
     const std::string skipped = write_figures(view);
     if (!skipped.empty()) fmt::print(stderr, "narrow_phase: {}\n", skipped);
   }
-  fmt::print("{}\n", report::markdown(view.analysis->tables.front().table));
-  for (const auto* sentences : {&view.analysis->sentences, &view.analysis->timed.sentences}) {
-    for (const std::string& sentence : *sentences) fmt::print("{}\n", sentence);
-  }
-  fmt::print("{}\n", view.folder.string());
+  write_report(view);
+  fmt::print("{}\n{}\n", summary_table(view), (view.folder / "report.html").string());
 }
 
 int run(int argc, char** argv) {
@@ -69,7 +68,9 @@ int run(int argc, char** argv) {
     return 0;
   }
   if (options.pairs.empty()) {
-    compare(options, question);
+    std::string command = "narrow_phase";
+    for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
+    compare(options, question, command);
   } else {
     answer_pairs(options);
   }

@@ -63,17 +63,25 @@ std::string folded(const std::string& summary, const std::string& content, bool 
 
 bool alone(const StudyView& study) { return study.analysis && study.analysis->alone; }
 
-std::string head(const StudyView& study) {
+std::string command_html(const StudyView& study) {
+  return fmt::format("<h3>The command that makes this again</h3>\n<pre><code>{}</code></pre>\n", html(study.command));
+}
+
+/// The contents are links, one after the other.
+std::string head(const StudyView& study, std::string_view contents) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{} – "
       "polhode</title>\n<style>{}</style>\n"
       "</head>\n<body>\n<header>\n<h1>{}</h1>\n<p class=\"question\">{}</p>\n"
-      "<nav aria-label=\"Contents\"><ul><li><a href=\"#seen\">What is seen</a></li>{}<li><a href=\"#run\">What was "
-      "run</a></li><li><a href=\"#runs\">All runs</a></li></ul></nav>\n</header>\n<main>\n",
-      html(title_of(study)), page_style, html(title_of(study)), html(study.question),
-      alone(study) ? ""
-                   : "<li><a href=\"#figures\">Figures</a></li><li><a href=\"#methods\">Method by method</a></li>");
+      "<nav aria-label=\"Contents\"><ul><li><a href=\"#seen\">What is seen</a></li>{}</ul></nav>\n</header>\n<main>\n",
+      html(title_of(study)), page_style, html(title_of(study)), html(study.question), contents);
+}
+
+std::string head(const StudyView& study) {
+  constexpr const char* of_curves = "<li><a href=\"#figures\">Figures</a></li><li><a href=\"#methods\">Method by method</a></li>";
+  constexpr const char* of_runs = "<li><a href=\"#run\">What was run</a></li><li><a href=\"#runs\">All runs</a></li>";
+  return head(study, std::string(alone(study) ? "" : of_curves) + of_runs);
 }
 
 /// What the experiment made of its runs: the answer to its question, so before everything else.
@@ -302,10 +310,8 @@ std::string options_html(const StudyView& study) {
 
 std::string what_was_run(const StudyView& study, const Grouping& grouping) {
   return fmt::format(
-      "<section id=\"run\">\n<h2>What was run</h2>\n{}<h3>Methods</h3>\n{}{}<h3>The command that makes this "
-      "again</h3>\n"
-      "<pre><code>{}</code></pre>\n</section>\n",
-      scenarios(study), catalogue_table(grouping), options_html(study), html(study.command));
+      "<section id=\"run\">\n<h2>What was run</h2>\n{}<h3>Methods</h3>\n{}{}{}</section>\n", scenarios(study),
+      catalogue_table(grouping), options_html(study), command_html(study));
 }
 
 std::string all_runs(const StudyView& study) {
@@ -330,9 +336,20 @@ std::string foot() {
       html(build.version), html(build.commit));
 }
 
+/// Of an experiment that integrates nothing: its own part is all.
+std::string report_without_runs(const StudyView& study) {
+  return head(study, "<li><a href=\"#figures\">Figures</a></li>") + "<section id=\"seen\">\n<h2>What is seen</h2>\n" +
+         analysis_html(*study.analysis) + command_html(study) + "</section>\n" +
+         figures(study, {study.analysis->figures, {}}) + foot();
+}
+
 }  // namespace
 
 void write_report(const StudyView& study) {
+  if (study.runs.empty() && study.analysis) {
+    write_text(study.folder / "report.html", report_without_runs(study));
+    return;
+  }
   const auto grouping = group(study);
   if (alone(study)) {
     write_text(study.folder / "report.html", head(study) + what_is_seen(study, findings_of(study, grouping)) +

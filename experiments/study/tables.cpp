@@ -12,27 +12,37 @@
 
 namespace polhode::study {
 
-void write_tables(const StudyView& study) {
-  using namespace report;
-  const auto folder = study.folder / "tables";
-  std::filesystem::create_directories(folder);
+namespace {
+
+using namespace report;
+
+std::string title_of(const StudyView& study) { return one_line(fmt::format("{}: {}", study.experiment, study.question)); }
+
+void write_tables_of_runs(const StudyView& study, const std::filesystem::path& folder) {
   const auto table = run_table(study, Extent::summary, std::numeric_limits<std::size_t>::max());
-  const auto title = fmt::format("{}: {}", study.experiment, study.question);
   write_text(folder / "summary.tex",
              fmt::format("% {}\n% The preamble needs \\usepackage[T1]{{fontenc}}\\usepackage{{booktabs,longtable}}. "
                          "A dash: not defined for that run.\n% runs.csv has all digits and all options.\n{}",
-                         one_line(title), latex(table)));
+                         title_of(study), latex(table)));
   write_text(
       folder / "summary.md",
       fmt::format(
           "# {}\n\n{}\n\nAn empty cell is not defined for that run; runs.csv has all digits and all options.\n\n{}",
           markdown(study.experiment), markdown(study.question), markdown(table)));
   write_text(folder / "values.tex", tex_values(study));
+}
+
+}  // namespace
+
+void write_tables(const StudyView& study) {
+  const auto folder = study.folder / "tables";
+  std::filesystem::create_directories(folder);
+  if (!study.runs.empty()) write_tables_of_runs(study, folder);
   if (!study.analysis) return;
   for (const auto& [name, own] : study.analysis->tables) {
     write_text(folder / (name + ".tex"),
                fmt::format("% {}: {}\n% The preamble needs \\usepackage[T1]{{fontenc}}\\usepackage{{booktabs,longtable}}.\n{}",
-                           one_line(title), one_line(own.caption), latex(own)));
+                           title_of(study), one_line(own.caption), latex(own)));
     write_text(folder / (name + ".md"), fmt::format("# {}\n\n{}\n\n{}", markdown(study.analysis->heading),
                                                     markdown(own.caption), markdown(own)));
   }

@@ -10,7 +10,7 @@
 #include "collision/narrow/box_sat.hpp"
 #include "collision/narrow_phase.hpp"
 #include "collision/shapes/box.hpp"
-#include "tests/collision/box_pairs.hpp"
+#include "experiments/narrow_phase/box_pairs.hpp"
 
 #ifdef POLHODE_HAS_ODE
 #include <ode/collision.h>

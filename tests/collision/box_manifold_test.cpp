@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "collision/shapes/box.hpp"
-#include "tests/collision/box_pairs.hpp"
+#include "experiments/narrow_phase/box_pairs.hpp"
 
 namespace polhode {
 namespace {

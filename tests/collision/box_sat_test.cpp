@@ -12,15 +12,13 @@
 
 #include "collision/narrow_phase.hpp"
 #include "collision/shapes/box.hpp"
-#include "tests/collision/box_pairs.hpp"
+#include "experiments/narrow_phase/box_pairs.hpp"
 #include "tests/collision/exact_boxes.hpp"
 
 namespace polhode {
 namespace {
 
 using Vector = Vector3<double>;
-
-PosedBox posed(const ExactBox& box) { return {box.half, {box.position, rotation_matrix<double>(box.orientation)}}; }
 
 BoxAt at(const PosedBox& box) { return {box.half, box.pose}; }
 
@@ -51,7 +49,7 @@ std::string describe(const BoxPairCase& pair) {
 
 void judge(const BoxPairCase& pair) {
   const ExactDistance exact = exact_distance(pair.a, pair.b);
-  const PosedBox a = posed(pair.a), b = posed(pair.b);
+  const PosedBox a = pair.a.posed(), b = pair.b.posed();
   const Distance d = boxes_distance(at(a), at(b));
   const double larger = std::max(a.half.maxCoeff(), b.half.maxCoeff());
   const double smaller = std::min(a.half.minCoeff(), b.half.minCoeff());
@@ -95,8 +93,8 @@ TEST(BoxSat, LanesSayWhatOnePairAtATimeSays) {
   std::vector<BodyPair> pairs;
   for (std::uint32_t k = 0; k < 4003; ++k) {  // not a multiple of the lanes
     const BoxPairCase pair = make(k);
-    boxes.push_back(posed(pair.a));
-    boxes.push_back(posed(pair.b));
+    boxes.push_back(pair.a.posed());
+    boxes.push_back(pair.b.posed());
     pairs.push_back({2 * k, 2 * k + 1});
   }
   std::vector<std::uint8_t> overlap(pairs.size());
@@ -130,7 +128,7 @@ TEST(BoxSat, PublishedCases) {
                            {{x[10], x[11], x[12]}, {x[13], x[14], x[15]}, {x[16], x[17], x[18], x[19]}}};
     judge(pair);
     if (!std::isnan(x[20])) {
-      const PosedBox a = posed(pair.a), b = posed(pair.b);
+      const PosedBox a = pair.a.posed(), b = pair.b.posed();
       EXPECT_NEAR(boxes_distance(at(a), at(b)).distance, x[20], x[21]) << name;
       EXPECT_NEAR(double(exact_distance(pair.a, pair.b).distance), x[20], x[21]) << name;
     }
@@ -143,7 +141,7 @@ TEST(BoxSat, ARigidMotionOfThePairChangesRoundOffOnly) {
   BoxPairs make(4), motions(5);
   for (std::uint64_t k = 0; k < 2000; ++k) {
     const BoxPairCase pair = make(k);
-    const PosedBox a = posed(pair.a), b = posed(pair.b);
+    const PosedBox a = pair.a.posed(), b = pair.b.posed();
     const double size = std::max(a.half.maxCoeff(), b.half.maxCoeff());
     const Pose motion{size * motions(k).a.position.normalized(), rotation_matrix<double>(motions(k + 1).b.orientation)};
     if (!motion.position.allFinite()) continue;

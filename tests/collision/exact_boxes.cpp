@@ -1,43 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A double is a whole number times a power of two, and the rotation of q/|q| is one of whole numbers over |q|². Lengths are
-// counted in units of 2^-k / (|qa|² |qb|²), with which every vertex is a whole number.
+// The rotation of q/|q| is one of whole numbers over |q|². Lengths are counted in units of 2^-k / (|qa|² |qb|²), with which every
+// vertex is a whole number.
 #include "tests/collision/exact_boxes.hpp"
 
 #include <algorithm>
 #include <array>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
+
+#include "tests/collision/whole_numbers.hpp"
 
 namespace polhode {
 namespace {
-
-using Whole = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
-using Whole3 = std::array<Whole, 3>;
-
-Whole dot(const Whole3& a, const Whole3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Whole3 cross(const Whole3& a, const Whole3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Whole3 operator*(const Whole3& a, const Whole& s) { return {a[0] * s, a[1] * s, a[2] * s}; }
-Whole3 operator+(const Whole3& a, const Whole3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Whole3 operator-(const Whole3& a, const Whole3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Whole magnitude(const Whole& x) { return x < 0 ? Whole(-x) : x; }
-long double rounded(const Whole& x) { return x.convert_to<long double>(); }
-
-/// The power of two in the last bit of x; large where x is 0.
-int last_bit(double x) {
-  if (x == 0) return 2000;
-  int exponent = 0;
-  std::frexp(x, &exponent);
-  return exponent - 53;
-}
-/// x 2^-unit, which is whole.
-Whole whole(double x, int unit) {
-  if (x == 0) return 0;
-  int exponent = 0;
-  const double mantissa = std::frexp(x, &exponent);
-  return Whole(static_cast<long long>(std::ldexp(mantissa, 53))) << (exponent - 53 - unit);
-}
 
 /// The rotation as |q|² times its columns, in units of q's last bit.
 struct WholeRotation {
@@ -45,8 +18,7 @@ struct WholeRotation {
   Whole squared;  // |q|²
 
   explicit WholeRotation(const Quaternion<double>& q) {
-    int unit = 2000;
-    for (int k = 0; k < 4; ++k) unit = std::min(unit, last_bit(q[k]));
+    const int unit = last_bit_of_all(q);
     const Whole w = whole(q[0], unit), x = whole(q[1], unit), y = whole(q[2], unit), z = whole(q[3], unit);
     axis[0] = {w * w + x * x - y * y - z * z, 2 * (x * y + w * z), 2 * (x * z - w * y)};
     axis[1] = {2 * (x * y - w * z), w * w - x * x + y * y - z * z, 2 * (y * z + w * x)};
@@ -107,10 +79,8 @@ struct Pair {
   long double unit;  ///< m
 
   Pair(const ExactBox& first, const ExactBox& second) {
-    int last = 2000;
-    for (const ExactBox* box : {&first, &second}) {
-      for (int k = 0; k < 3; ++k) last = std::min({last, last_bit(box->half[k]), last_bit(box->position[k])});
-    }
+    int last = no_bits;
+    for (const ExactBox* box : {&first, &second}) last = last_bit_of_all(box->half, last_bit_of_all(box->position, last));
     const WholeRotation of_a(first.orientation), of_b(second.orientation);
     const Whole both = of_a.squared * of_b.squared;
     fill(a, first, of_a, of_b.squared, both, last);

@@ -3,15 +3,12 @@
 // root are rounded, in long double.
 #pragma once
 
-#include "core/quaternion.hpp"
+#include "experiments/narrow_phase/box_pairs.hpp"
 
 namespace polhode {
 
 /// A box as the numbers say it: the rotation is exactly that of q/|q|.
-struct ExactBox {
-  Vector3<double> half, position;
-  Quaternion<double> orientation;
-};
+using ExactBox = TurnedBox;
 
 struct ExactDistance {
   int sign = 0;                ///< of the signed distance, exact: −1 where the interiors overlap

@@ -136,6 +136,8 @@ class Costs(BroadPhaseTest):
         self.call("--bodies", "50,200", "--broad-phase", "bvh,octree", "--out", "out")
         for ending in ("gp", "dat", "svg", "tex"):
             self.assertTrue((self.folder / "out" / "figures" / f"cost_against_bodies.{ending}").exists(), ending)
+        self.assertIn("data:image/svg+xml", (self.folder / "out" / "report.html").read_text(encoding="utf-8"))
+        self.assertEqual(sorted(p.name for p in (self.folder / "out" / "tables").iterdir()), ["cost.md", "cost.tex"])
 
     def test_what_takes_too_long_is_left_out_and_said(self):
         done = self.call("--bodies", "100,4000", "--patience", "1e-3", "--broad-phase", "all_pairs,bvh", "--out", "out",

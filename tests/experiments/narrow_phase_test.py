@@ -100,6 +100,14 @@ class NarrowPhase(unittest.TestCase):
         self.assertEqual(shares[0], 0)  # parallel cubes are told apart by A's faces alone
         self.assertGreater(max(shares), 0.2)
         self.assertGreater((self.folder / "out/figures/course_report_errors.svg").stat().st_size, 1000)
+        made = {str(p.relative_to(self.folder / "out")) for p in (self.folder / "out").rglob("*") if p.is_file()}
+        drawn = {f"figures/course_report_errors.{ending}" for ending in ("dat", "gp", "pdf", "svg", "tex")}
+        self.assertEqual(made - drawn, {"report.html", "comparison.csv", "course_report.csv", "figures/style.gnuplot",
+                                        "tables/agreement.md", "tables/agreement.tex", "timings/costs.csv"})
+        page = (self.folder / "out/report.html").read_text(encoding="utf-8")
+        for word in ("vertex to vertex", "data:image/svg+xml", "narrow_phase --count 200 --out out"):
+            self.assertIn(word, page)
+        self.assertNotIn("runs.csv", page)
         self.run_program("--count", 200, "--no-figures", "--out", "again")
         for name in ("comparison.csv", "course_report.csv"):
             self.assertEqual((self.folder / "again" / name).read_bytes(), (self.folder / "out" / name).read_bytes())

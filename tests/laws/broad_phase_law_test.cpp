@@ -7,12 +7,12 @@
 #include <functional>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "collision/broad_phase.hpp"
+#include "experiments/study/dice.hpp"
 #include "tests/laws/allocations.hpp"
 
 namespace polhode {
@@ -22,6 +22,7 @@ void PrintTo(const BroadPhaseEntry& e, std::ostream* out) { *out << e.name; }
 
 namespace {
 
+using study::Dice;
 using Vector = Vector3<double>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -48,23 +49,6 @@ std::vector<BodyPair> answer(BroadPhase& phase, const std::vector<Bounds>& boxes
 
 Bounds box(const Vector& centre, const Vector& half) { return {centre - half, centre + half}; }
 
-/// Numbers that are the same with every standard library, which the distributions of <random> are not.
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
-  Vector vector(double low, double high) {
-    const double x = uniform(low, high), y = uniform(low, high);
-    return {x, y, uniform(low, high)};
-  }
-  double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
-
- private:
-  std::mt19937_64 engine_;
-};
-
 class BroadPhaseLaw : public ::testing::TestWithParam<BroadPhaseEntry> {
  protected:
   std::unique_ptr<BroadPhase> phase = GetParam().make();
@@ -76,11 +60,11 @@ class BroadPhaseLaw : public ::testing::TestWithParam<BroadPhaseEntry> {
   }
 };
 
-std::vector<Bounds> random_boxes(Random& random, std::size_t n, double edge, double half_low, double half_high) {
+std::vector<Bounds> random_boxes(Dice& random, std::size_t n, double edge, double half_low, double half_high) {
   std::vector<Bounds> boxes;
   for (std::size_t i = 0; i < n; ++i) {
-    const Vector centre = random.vector(0, edge);
-    boxes.push_back(box(centre, random.vector(half_low, half_high)));
+    const Vector centre = random.uniform_vector(0, edge);
+    boxes.push_back(box(centre, random.uniform_vector(half_low, half_high)));
   }
   return boxes;
 }
@@ -96,7 +80,7 @@ TEST_P(BroadPhaseLaw, KnowsNoneAndOneAndTwo) {
 TEST_P(BroadPhaseLaw, NothingIsAskedBeforeTheFirstStep) { EXPECT_TRUE(phase->pairs().empty()); }
 
 TEST_P(BroadPhaseLaw, FindsThePairsOfRandomBoxes) {
-  Random random(1);
+  Dice random(1);
   for (const std::size_t n : {3u, 10u, 100u, 700u}) {
     for (const double edge : {0.0, 1.0, 10.0, 40.0}) {
       expect_right(random_boxes(random, n, edge, 0.1, 1), std::to_string(n) + " in " + std::to_string(edge));
@@ -105,15 +89,15 @@ TEST_P(BroadPhaseLaw, FindsThePairsOfRandomBoxes) {
 }
 
 TEST_P(BroadPhaseLaw, FollowsManySteps) {
-  Random random(2);
+  Dice random(2);
   for (const double step : {0.001, 0.02, 0.2, 3.0}) {
     const std::size_t n = 300;
     const double edge = 12;
     std::vector<Vector> centres, halves, velocities;
     for (std::size_t i = 0; i < n; ++i) {
-      centres.push_back(random.vector(0, edge));
-      halves.push_back(random.vector(0.2, 0.8));
-      velocities.push_back(random.vector(-1, 1));
+      centres.push_back(random.uniform_vector(0, edge));
+      halves.push_back(random.uniform_vector(0.2, 0.8));
+      velocities.push_back(random.uniform_vector(-1, 1));
     }
     for (int k = 0; k < 60; ++k) {
       std::vector<Bounds> boxes;
@@ -130,7 +114,7 @@ TEST_P(BroadPhaseLaw, FollowsManySteps) {
 }
 
 TEST_P(BroadPhaseLaw, FollowsASceneThatFliesApartAndComesBack) {
-  Random random(3);
+  Dice random(3);
   const auto start = random_boxes(random, 250, 5, 0.1, 0.5);
   for (int k = 0; k < 40; ++k) {
     const double grow = std::exp(12 * std::sin(std::numbers::pi * k / 39));
@@ -141,7 +125,7 @@ TEST_P(BroadPhaseLaw, FollowsASceneThatFliesApartAndComesBack) {
 }
 
 TEST_P(BroadPhaseLaw, FollowsABoxThroughACrowdThatRests) {
-  Random random(4);
+  Dice random(4);
   auto boxes = random_boxes(random, 300, 15, 0.2, 0.6);
   for (int k = 0; k < 100; ++k) {
     boxes[17] = box({0.2 * k - 2, 0.15 * k, 7}, {1, 1, 1});
@@ -159,14 +143,14 @@ TEST_P(BroadPhaseLaw, FollowsAColumnThatFalls) {
 }
 
 TEST_P(BroadPhaseLaw, FindsThePairsOfClusters) {
-  Random random(5);
+  Dice random(5);
   std::vector<Vector> at;
-  for (int c = 0; c < 5; ++c) at.push_back(random.vector(-1e6, 1e6));
+  for (int c = 0; c < 5; ++c) at.push_back(random.uniform_vector(-1e6, 1e6));
   for (int k = 0; k < 10; ++k) {
     std::vector<Bounds> boxes;
     for (std::size_t i = 0; i < 400; ++i) {
-      const Vector centre = at[i % at.size()] + random.vector(-2, 2);
-      boxes.push_back(box(centre, random.vector(0.05, 0.3)));
+      const Vector centre = at[i % at.size()] + random.uniform_vector(-2, 2);
+      boxes.push_back(box(centre, random.uniform_vector(0.05, 0.3)));
     }
     expect_right(boxes, "step " + std::to_string(k));
   }
@@ -210,7 +194,7 @@ TEST_P(BroadPhaseLaw, NegativeZeroIsZero) {
 }
 
 TEST_P(BroadPhaseLaw, BoundsMayBeInfinite) {
-  Random random(6);
+  Dice random(6);
   auto boxes = random_boxes(random, 200, 10, 0.1, 0.8);
   boxes.emplace_back(Vector(-infinity, -infinity, -infinity), Vector(infinity, infinity, 1));
   boxes.insert(boxes.begin() + 50, Bounds(Vector(3, 3, -infinity), Vector(4, 4, infinity)));
@@ -220,7 +204,7 @@ TEST_P(BroadPhaseLaw, BoundsMayBeInfinite) {
   boxes.emplace_back(Vector(-infinity, -infinity, -infinity), Vector(-infinity, -infinity, -infinity));
   for (int k = 0; k < 20; ++k) {
     expect_right(boxes, "step " + std::to_string(k));
-    for (Bounds& b : boxes) b.translate(random.vector(-0.1, 0.1));
+    for (Bounds& b : boxes) b.translate(random.uniform_vector(-0.1, 0.1));
   }
   std::vector<Bounds> everywhere(40, Bounds(Vector::Constant(-infinity), Vector::Constant(infinity)));
   expect_right(everywhere, "all without end");
@@ -230,18 +214,18 @@ TEST_P(BroadPhaseLaw, BoundsMayBeInfinite) {
 }
 
 TEST_P(BroadPhaseLaw, CoordinatesMayBeHuge) {
-  Random random(7);
+  Dice random(7);
   for (const double far : {1e8, 1e15, 1e150, 1e307}) {
     std::vector<Bounds> boxes;
     for (int i = 0; i < 150; ++i) {
-      const Vector centre = far * random.vector(-1, 1);
-      boxes.push_back(box(centre, far * random.vector(0, 0.1)));
-      boxes.push_back(box(centre, random.vector(0, 1)));
-      boxes.push_back(box(random.vector(-5, 5), random.vector(0, 1)));
+      const Vector centre = far * random.uniform_vector(-1, 1);
+      boxes.push_back(box(centre, far * random.uniform_vector(0, 0.1)));
+      boxes.push_back(box(centre, random.uniform_vector(0, 1)));
+      boxes.push_back(box(random.uniform_vector(-5, 5), random.uniform_vector(0, 1)));
     }
     for (int k = 0; k < 5; ++k) {
       expect_right(boxes, "as far as " + std::to_string(far));
-      for (Bounds& b : boxes) b.translate(random.vector(-1, 1));
+      for (Bounds& b : boxes) b.translate(random.uniform_vector(-1, 1));
     }
   }
   constexpr double most = std::numeric_limits<double>::max();
@@ -251,32 +235,32 @@ TEST_P(BroadPhaseLaw, CoordinatesMayBeHuge) {
 }
 
 TEST_P(BroadPhaseLaw, SizesMaySpanSixOrders) {
-  Random random(8);
+  Dice random(8);
   std::vector<Bounds> boxes;
   for (int i = 0; i < 700; ++i) {
-    const double size = random.log_uniform(1e-4, 1e2);
-    const Vector centre = random.vector(-50, 50);
-    boxes.push_back(box(centre, size * random.vector(0.1, 1)));
+    const double size = random.power_of_ten(-4, 2);
+    const Vector centre = random.uniform_vector(-50, 50);
+    boxes.push_back(box(centre, size * random.uniform_vector(0.1, 1)));
   }
   for (int k = 0; k < 20; ++k) {
     expect_right(boxes, "step " + std::to_string(k));
-    for (Bounds& b : boxes) b.translate(random.vector(-0.3, 0.3));
+    for (Bounds& b : boxes) b.translate(random.uniform_vector(-0.3, 0.3));
   }
 }
 
 TEST_P(BroadPhaseLaw, SmallBoxesMayLieWithinALargeOne) {
-  Random random(9);
+  Dice random(9);
   auto boxes = random_boxes(random, 300, 1, 1e-3, 1e-2);
   boxes.push_back(box({0.5, 0.5, 0.5}, {10, 10, 10}));
   boxes.push_back(box({0.5, 0.5, 0.5}, {1e4, 1e4, 1e-4}));
   for (int k = 0; k < 10; ++k) {
     expect_right(boxes, "step " + std::to_string(k));
-    for (Bounds& b : boxes) b.translate(random.vector(-0.01, 0.01));
+    for (Bounds& b : boxes) b.translate(random.uniform_vector(-0.01, 0.01));
   }
 }
 
 TEST_P(BroadPhaseLaw, SizesMayChange) {
-  Random random(10);
+  Dice random(10);
   auto boxes = random_boxes(random, 200, 10, 0.1, 0.4);
   for (int k = 0; k < 30; ++k) {
     expect_right(boxes, "step " + std::to_string(k));
@@ -286,38 +270,38 @@ TEST_P(BroadPhaseLaw, SizesMayChange) {
 }
 
 TEST_P(BroadPhaseLaw, AnotherNumberOfBodiesIsANewScene) {
-  Random random(11);
+  Dice random(11);
   for (const std::size_t n : {100u, 101u, 40u, 0u, 1u, 300u, 299u}) {
     auto boxes = random_boxes(random, n, 6, 0.1, 0.5);
     for (int k = 0; k < 3; ++k) {
       expect_right(boxes, std::to_string(n) + " bodies");
-      for (Bounds& b : boxes) b.translate(random.vector(-0.1, 0.1));
+      for (Bounds& b : boxes) b.translate(random.uniform_vector(-0.1, 0.1));
     }
   }
 }
 
 TEST_P(BroadPhaseLaw, ASceneMayJump) {
-  Random random(12);
+  Dice random(12);
   for (int k = 0; k < 8; ++k) {
     expect_right(random_boxes(random, 300, 10, 0.1, 0.5), "scene " + std::to_string(k));
   }
 }
 
 TEST_P(BroadPhaseLaw, AScenesAxesMayAllBeTheWidest) {
-  Random random(13);
+  Dice random(13);
   for (int k = 0; k < 6; ++k) {
     std::vector<Bounds> boxes;
     for (int i = 0; i < 200; ++i) {
-      Vector centre = random.vector(0, 0.5);
+      Vector centre = random.uniform_vector(0, 0.5);
       centre[k % 3] = random.uniform(0, 50);
-      boxes.push_back(box(centre, random.vector(0.1, 0.5)));
+      boxes.push_back(box(centre, random.uniform_vector(0.1, 0.5)));
     }
     expect_right(boxes, "along axis " + std::to_string(k % 3));
   }
 }
 
 TEST_P(BroadPhaseLaw, RefusesWhatIsNoBox) {
-  Random random(14);
+  Dice random(14);
   const auto good = random_boxes(random, 30, 3, 0.1, 0.5);
   const auto expected = answer(*phase, good);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -341,7 +325,7 @@ TEST_P(BroadPhaseLaw, RefusesWhatIsNoBox) {
 }
 
 TEST_P(BroadPhaseLaw, PairsMayBeAskedAgain) {
-  Random random(15);
+  Dice random(15);
   auto boxes = random_boxes(random, 100, 5, 0.1, 0.5);
   const auto first = answer(*phase, boxes);
   const auto again = phase->pairs();
@@ -356,7 +340,7 @@ TEST_P(BroadPhaseLaw, PairsMayBeAskedAgain) {
 }
 
 TEST_P(BroadPhaseLaw, TheCallersBoundsMayGoAfterTheUpdate) {
-  Random random(16);
+  Dice random(16);
   auto boxes = random_boxes(random, 100, 5, 0.1, 0.5);
   const auto expected = by_brute_force(boxes);
   phase->update(boxes);
@@ -376,7 +360,7 @@ std::vector<Bounds> swaying(const std::vector<Bounds>& places, double t, double 
 }
 
 TEST_P(BroadPhaseLaw, ASteadySceneAllocatesNothingAfterItsFirstStep) {
-  Random random(17);
+  Dice random(17);
   const auto places = random_boxes(random, 1000, 12, 0.2, 0.6);
   for (const double reach : {0.0, 0.01, 0.2, 1.0}) {
     std::vector<std::vector<Bounds>> steps;
@@ -395,7 +379,7 @@ TEST_P(BroadPhaseLaw, ASteadySceneAllocatesNothingAfterItsFirstStep) {
 }
 
 TEST_P(BroadPhaseLaw, TheSameMotionGivesTheSameBytes) {
-  Random random(18);
+  Dice random(18);
   const auto places = random_boxes(random, 200, 6, 0.2, 0.6);
   auto other = GetParam().make();
   for (int k = 0; k < 20; ++k) {

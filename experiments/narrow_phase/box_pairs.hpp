@@ -1,18 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random and degenerate pairs of boxes, the same ones for a number.
+// Random and degenerate pairs of boxes, the same ones for a number: sizes up to 1e4 apart, scales from 1e-3 to 1e3 m.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
-#include "tests/collision/exact_boxes.hpp"
+#include "collision/narrow/box_sat.hpp"
+#include "experiments/study/dice.hpp"
 
 namespace polhode {
+
+/// A box as a user says it.
+struct TurnedBox {
+  Vector3<double> half, position;  ///< m
+  Quaternion<double> orientation;  ///< of any length
+
+  PosedBox posed() const { return {half, {position, rotation_matrix<double>(orientation)}}; }
+};
 
 inline const std::vector<std::string>& box_pair_classes() {
   static const std::vector<std::string> names = {"random",        "face to face",     "edge to edge", "parallel edges",
@@ -22,7 +29,7 @@ inline const std::vector<std::string>& box_pair_classes() {
 
 struct BoxPairCase {
   std::string what;
-  ExactBox a, b;
+  TurnedBox a, b;
 };
 
 /// Makes pair number k of a sequence; its class is k modulo the number of classes.
@@ -31,18 +38,18 @@ class BoxPairs {
   explicit BoxPairs(std::uint64_t seed) : seed_(seed) {}
 
   BoxPairCase operator()(std::uint64_t k) {
-    dice_.seed(seed_ * 0x9e3779b97f4a7c15u + k);
+    dice_ = study::Dice(seed_ * 0x9e3779b97f4a7c15u + k);
     const std::size_t kind = k % box_pair_classes().size();
-    const double scale = std::pow(10.0, uniform(-3, 3));
-    Vector3<double> half_a = scale * sides(), half_b = scale * sides() * std::pow(10.0, chance(0.5) ? 0 : -uniform(0, 4));
+    const double scale = dice_.power_of_ten(-3, 3);
+    Vector3<double> half_a = scale * sides(), half_b = scale * sides() * (chance(0.5) ? 1 : dice_.power_of_ten(-4, 0));
     if (chance(0.5)) std::swap(half_a, half_b);
-    Quaternion<double> turn = turned();
+    Quaternion<double> turn = dice_.turn();
     Vector3<double> offset = Vector3<double>::Zero();
     const double gap = tiny() * std::min(half_a.minCoeff(), half_b.minCoeff());
     switch (kind) {
-      case 0: offset = along_a_line(half_a, half_b, turn, direction(), 0) * uniform(0, 1.5); break;
+      case 0: offset = along_a_line(half_a, half_b, turn, dice_.direction(), 0) * uniform(0, 1.5); break;
       case 1: {
-        turn = product(about(0, chance(0.3) ? 0 : angle()), cube_turn());
+        turn = product(about(0, chance(0.3) ? 0 : dice_.angle()), cube_turn());
         if (chance(0.3)) turn = product(almost_none(), turn);
         offset = along_a_line(half_a, half_b, turn, Vector3<double>::UnitX(), gap);
         for (int i = 1; i < 3; ++i) offset[i] = uniform(-1, 1) * std::max(half_a[i], half_b.maxCoeff());
@@ -50,7 +57,7 @@ class BoxPairs {
       }
       case 2: {
         const Matrix3<double> r = rotation_matrix<double>(turn);
-        const int i = whole(3), j = whole(3);
+        const int i = dice_.below(3), j = dice_.below(3);
         Vector3<double> n = Vector3<double>::Unit(i).cross(r.col(j)).normalized();
         if (chance(0.5)) n = -n;
         Vector3<double> a = furthest(half_a, n), b = furthest(half_b, -(r.transpose() * n));
@@ -60,25 +67,26 @@ class BoxPairs {
         break;
       }
       case 3: {
-        turn = product(almost_none(), product(about(2, angle()), cube_turn()));
-        Vector3<double> n = direction();
+        turn = product(almost_none(), product(about(2, dice_.angle()), cube_turn()));
+        Vector3<double> n = dice_.direction();
         n[2] = 0;
         n.normalize();
-        offset = along_a_line(half_a, half_b, turn, n, gap);
-        offset[2] = uniform(-1, 1) * (half_a[2] + half_b.maxCoeff());
+        const Matrix3<double> r = rotation_matrix<double>(turn);
+        offset = furthest(half_a, n) - r * furthest(half_b, -(r.transpose() * n)) + gap * n;
+        if (chance(0.7)) offset[2] = uniform(-1, 1) * (half_a[2] + half_b.maxCoeff());
         break;
       }
       case 4: {
         if (chance(0.3)) turn = product(almost_none(), cube_turn());
-        const Vector3<double> n = direction();
+        const Vector3<double> n = dice_.direction();
         const Matrix3<double> r = rotation_matrix<double>(turn);
         offset = furthest(half_a, n) - r * furthest(half_b, -(r.transpose() * n)) + gap * n;
         break;
       }
       case 5: {
         const Matrix3<double> r = rotation_matrix<double>(turn);
-        const Vector3<double> n = Vector3<double>::Unit(whole(3));
-        Vector3<double> on_face = half_a.cwiseProduct(Vector3<double>(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)));
+        const Vector3<double> n = Vector3<double>::Unit(dice_.below(3));
+        Vector3<double> on_face = half_a.cwiseProduct(dice_.uniform_vector(-1, 1));
         on_face = on_face - on_face.dot(n) * n + half_a.dot(n) * n;
         offset = on_face - r * furthest(half_b, -(r.transpose() * n)) + gap * n;
         break;
@@ -86,30 +94,21 @@ class BoxPairs {
       case 6:
         half_b = half_b.cwiseMin(0.5 * half_a.minCoeff());
         if (chance(0.3)) turn = cube_turn();
-        if (chance(0.7)) offset = 0.4 * half_a.cwiseProduct(direction());
+        if (chance(0.7)) offset = 0.4 * half_a.cwiseProduct(dice_.direction());
         break;
-      default: offset = along_a_line(half_a, half_b, turn, direction(), 0) * uniform(1, 10); break;
+      default: offset = along_a_line(half_a, half_b, turn, dice_.direction(), 0) * uniform(1, 10); break;
     }
     return posed(box_pair_classes()[kind], half_a, half_b, turn, offset, scale);
   }
 
  private:
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(dice_); }
-  bool chance(double p) { return uniform(0, 1) < p; }
-  int whole(int n) { return std::min(int(uniform(0, n)), n - 1); }
-  double angle() { return uniform(-std::numbers::pi, std::numbers::pi); }
-  double tiny() { return chance(0.2) ? 0 : (chance(0.5) ? 1 : -1) * std::pow(10.0, uniform(-16, 0)); }
+  double uniform(double low, double high) { return dice_.uniform(low, high); }
+  bool chance(double p) { return dice_.chance(p); }
+  double tiny() { return chance(0.2) ? 0 : (chance(0.5) ? 1 : -1) * dice_.power_of_ten(-16, 0); }
   Vector3<double> sides() {
     if (chance(0.3)) return Vector3<double>::Ones();
-    return {std::pow(10.0, uniform(-0.5, 0.5)), std::pow(10.0, uniform(-0.5, 0.5)), std::pow(10.0, uniform(-0.5, 0.5))};
-  }
-  Vector3<double> direction() {
-    std::normal_distribution<double> normal;
-    return Vector3<double>(normal(dice_), normal(dice_), normal(dice_)).normalized();
-  }
-  Quaternion<double> turned() {
-    std::normal_distribution<double> normal;
-    return Quaternion<double>(normal(dice_), normal(dice_), normal(dice_), normal(dice_)).normalized();
+    const double x = dice_.power_of_ten(-0.5, 0.5), y = dice_.power_of_ten(-0.5, 0.5);
+    return {x, y, dice_.power_of_ten(-0.5, 0.5)};
   }
   static Quaternion<double> about(int axis, double angle) {
     Quaternion<double> q(std::cos(angle / 2), 0, 0, 0);
@@ -121,13 +120,13 @@ class BoxPairs {
     Quaternion<double> q(1, 0, 0, 0);
     for (int k = 0; k < 3; ++k) {
       Quaternion<double> quarter(1, 0, 0, 0);
-      quarter[1 + whole(3)] = chance(0.5) ? 1 : chance(0.5) ? -1 : 0;
+      quarter[1 + dice_.below(3)] = chance(0.5) ? 1 : chance(0.5) ? -1 : 0;
       q = product(q, quarter);
     }
     return q;
   }
   Quaternion<double> almost_none() {
-    return quaternion_from_rotation_vector<double>(direction() * (chance(0.3) ? 0 : std::pow(10.0, uniform(-17, 0))));
+    return quaternion_from_rotation_vector<double>(dice_.direction() * (chance(0.3) ? 0 : dice_.power_of_ten(-17, 0)));
   }
   static Vector3<double> furthest(const Vector3<double>& half, const Vector3<double>& n) {
     return {std::copysign(half[0], n[0]), std::copysign(half[1], n[1]), std::copysign(half[2], n[2])};
@@ -142,13 +141,13 @@ class BoxPairs {
   BoxPairCase posed(const std::string& what, const Vector3<double>& half_a, const Vector3<double>& half_b,
                     const Quaternion<double>& turn, const Vector3<double>& offset, double scale) {
     if (chance(0.33)) return {what, {half_a, Vector3<double>::Zero(), {1, 0, 0, 0}}, {half_b, offset, turn}};
-    const Quaternion<double> q = chance(0.3) ? cube_turn() : turned();
-    const Vector3<double> p = scale * uniform(0, 2) * direction();
+    const Quaternion<double> q = chance(0.3) ? cube_turn() : dice_.turn();
+    const Vector3<double> p = scale * uniform(0, 2) * dice_.direction();
     return {what, {half_a, p, q}, {half_b, p + rotation_matrix<double>(q) * offset, product(q, turn)}};
   }
 
   std::uint64_t seed_;
-  std::mt19937_64 dice_;
+  study::Dice dice_{0};
 };
 
 }  // namespace polhode
