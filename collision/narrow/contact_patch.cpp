@@ -20,7 +20,7 @@ using Kind = SupportFeature::Kind;
 using Corner = SupportFeature::Corner;
 
 constexpr std::uint32_t end_of_edge = 1u << 31;
-constexpr double parallel = 0.0998;      // sine of the angle between edges that lie side by side
+constexpr double parallel = 1e-5;        // of edges side by side: how far they part, across the normal, over their length
 constexpr double as_deep = 1e-3;         // how much depth, of the least, a normal may have too much to be as good
 constexpr double round_off = 1e-9;       // of a face's size
 
@@ -164,7 +164,7 @@ bool side_by_side(const SupportFeature& ea, const Placed& a, const SupportFeatur
                   Manifold& manifold) {
   const Vector3<double> from_a = a.pose.rotation * ea.corners[0].at, from_b = b.pose.rotation * eb.corners[0].at;
   const Vector3<double> u = a.pose.rotation * ea.corners[1].at - from_a, v = b.pose.rotation * eb.corners[1].at - from_b;
-  if (u.cross(v).norm() > parallel * u.norm() * v.norm()) return false;
+  if (std::abs(d.normal.dot(u.cross(v))) > parallel * u.norm() * v.norm() || std::abs(u.dot(v)) < 0.5 * u.norm() * v.norm()) return false;
   const Vector3<double> between = (b.pose.position - a.pose.position) + (from_b - from_a);
   // Ends as shares of A's edge.
   const double length = u.squaredNorm(), start = between.dot(u) / length, end = start + v.dot(u) / length;

@@ -2,8 +2,8 @@
 // The contact patch of any two convex shapes, from their signed distance: whatever narrow phase found it.
 //
 // A face that looks along the normal is the reference; what the other shape turns towards it, a face, an edge or a point, is
-// clipped by its sides (patch.hpp). Without such a face, edges side by side meet in the two ends of what they share, and all
-// else in the nearest points. Of two faces at most 0.1 rad from parallel the one that is further from the other shape is the
+// clipped by its sides (patch.hpp). Without such a face, edges that are parallel as seen along the normal meet in the two
+// ends of what they share, and all else in the nearest points. Of two faces at most 0.1 rad from parallel the one that is further from the other shape is the
 // reference, and the manifold's normal is its own: a body that rocks keeps its points. Otherwise the normal is that of the
 // distance.
 #pragma once
