@@ -17,10 +17,20 @@ namespace polhode {
 /// What a pair remembers from one question to the next, to start warm; empty at first, and never needed for the answer to
 /// be right.
 struct PairMemory {
-  std::uint32_t count = 0;                                  ///< corners of the last simplex
-  bool swapped = false;                                     ///< the simplex was made with A and B exchanged
-  std::array<Vector3<double>, 4> corners_a{}, corners_b{};  ///< points of the two solids, each in its own axes
-  std::uint32_t axis = 0;                                   ///< the axis or feature that told last
+  /// A closed surface of triangles on corners of A − B, which overlapping polytopes leave: numbers of vertices of A and B.
+  struct Shell {
+    static constexpr std::uint8_t corner_room = 24, face_room = 2 * corner_room - 4;
+    std::uint8_t corner_count = 0, face_count = 0;
+    std::array<std::array<std::uint32_t, 2>, corner_room> corners;
+    std::array<std::array<std::uint8_t, 3>, face_room> faces;
+  };
+
+  std::uint32_t count = 0;                                   ///< corners of the last simplex
+  bool swapped = false;                                      ///< all this was made with A and B exchanged
+  std::array<Vector3<double>, 4> corners_a, corners_b;       ///< points of the two solids, each in its own axes
+  std::array<std::array<std::uint32_t, 2>, 4> vertices;      ///< their numbers, where they are vertices
+  Shell shell;
+  std::uint32_t axis = 0;                                    ///< the axis or feature that told last
 };
 
 class NarrowPhase {

@@ -124,8 +124,10 @@ PrincipalTop::PrincipalTop(const Matrix3<double>& inertia, const Vector3<double>
   const double negligible_omega = found.given ? 1e-120 : 1e-30, negligible_difference = found.given ? 0 : 1e-30;
 
   std::array<std::size_t, 3> order{0, 1, 2};
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t j, std::size_t k) { return (found.moment[j] - found.moment[k]).hi < 0; });
+  std::sort(order.begin(), order.end(), [&](std::size_t j, std::size_t k) {  // stable, and without memory of its own
+    const double ahead = (found.moment[k] - found.moment[j]).hi;
+    return ahead > 0 || (ahead == 0 && j < k);
+  });
   for (std::size_t j = 0; j < 3; ++j) {
     moment[j] = found.moment[order[j]];
     axis[j] = rounded(found.axis[order[j]]);

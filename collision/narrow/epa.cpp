@@ -6,295 +6,133 @@
 
 #include <algorithm>
 
+#include "collision/narrow/epa_polytope.hpp"
 #include "collision/narrow/face_normals.hpp"
 
 namespace polhode {
 
 namespace {
 
-constexpr std::uint16_t none = 0xffff;
-constexpr int corner_room = 512, face_room = 2 * corner_room;  // Euler: a polytope of n corners has 2n − 4 triangles
-
-struct Face {
-  Vector3<double> normal;                  ///< unit, outward
-  double offset;                           ///< normal·x on the face
-  std::array<std::uint16_t, 3> corner;     ///< counter-clockwise seen from outside
-  std::array<std::uint16_t, 3> neighbour;  ///< across the side from corner i to corner i + 1
-  bool gone;
-  std::uint32_t serial;                    ///< of all faces made: a slot is used again
-};
-
-/// A perpendicular unit vector.
-Vector3<double> across(const Vector3<double>& d) { return d.unitOrthogonal(); }
+constexpr double flat_share = 1e-13;
+constexpr int descent_limit = 50;
 
 class Expansion {
  public:
-  explicit Expansion(const MinkowskiPair& pair) : pair_(pair) {}
+  using Index = EpaPolytope::Index;
 
-  Penetration run(const Simplex& start) {
-    for (int i = 0; i < start.count; ++i) add_corner(start.corners[std::size_t(i)]);
-    const int dimension = span_space();
-    Penetration result;
-    if (dimension < 3) {
-      result.normal = flat_normal_;
-      result.distance = separation(pair_, flat_normal_);
-      result.on_a = start.on_a();
-      result.on_b = start.on_b();
-      return result;
+  explicit Expansion(const MinkowskiPair& pair) : pair_(pair) { polytope_.met(pair.offset.norm()); }
+
+  Penetration run(const Simplex& start, bool certain, PairMemory::Shell* shell) {
+    if (!span_space(start, certain)) {
+      if (shell) shell->corner_count = 0;
+      return {separation(pair_, flat_normal_), flat_normal_, start.on_a(), pair_.in_b(start.turned_on_b())};
     }
-    first_tetrahedron();
-    expand();
-    result.normal = -best_normal_;
-    result.distance = -best_reach_;
-    polish(result);
-    witness(result);
-    if (pair_.a.kind == ConvexCore::Kind::smooth || pair_.b.kind == ConvexCore::Kind::smooth) descend(result);
+    polytope_.close_tetrahedron();
+    expand(-std::numeric_limits<double>::infinity());
+    const Penetration result = finish();
+    if (shell && !pair_.smooth()) polytope_.save(*shell);
     return result;
   }
 
+  std::optional<Penetration> run(PairMemory::Shell& shell) {
+    if (!polytope_.load(pair_, shell)) return std::nullopt;
+    const int corners = polytope_.corner_count();
+    if (!expand(0)) return std::nullopt;
+    if (polytope_.corner_count() > corners) polytope_.save(shell);
+    return finish();
+  }
+
  private:
-  struct Rim {
-    std::uint16_t from, to, outer, made;  ///< the side, the face beyond it, and the new one on it
-  };
-  struct Queued {
-    double offset;
-    std::uint16_t face;
-    std::uint32_t serial;
-  };
-  static bool later(const Queued& x, const Queued& y) {
-    return x.offset > y.offset || (x.offset == y.offset && x.serial > y.serial);
-  }
-
-  const Vector3<double>& w(std::uint16_t i) const { return corners_[i].w; }
-
-  std::uint16_t add_corner(const MinkowskiCorner& c) {
-    scale_ = std::max(scale_, c.w.norm());
-    corners_[std::size_t(corner_count_)] = c;
-    turned_[std::size_t(corner_count_)] = pair_.rotation * c.b;
-    return std::uint16_t(corner_count_++);
-  }
-
-  /// Extends the corners to a tetrahedron with room inside; the dimension reached. Below 3, `flat_normal_` is
-  /// perpendicular to the whole difference.
-  int span_space() {
-    std::array<MinkowskiCorner, 4> found{};
-    const int given = corner_count_;
-    std::array<MinkowskiCorner, 4> start{};
-    for (int i = 0; i < given; ++i) start[std::size_t(i)] = corners_[std::size_t(i)];
-    corner_count_ = 0;
-    found[0] = given > 0 ? start[0] : pair_.support(Vector3<double>::UnitX());
+  /// A tetrahedron with room inside, from the simplex and, where it is not known to be one, from other corners. Where there
+  /// is none, false, and `flat_normal_` is perpendicular to the whole difference.
+  bool span_space(const Simplex& start, bool certain) {
+    std::array<MinkowskiCorner, 4> given, found;
+    std::size_t count = 0;
+    for (unsigned left = start.used; left != 0; left &= left - 1) given[count++] = start.corners[std::size_t(std::countr_zero(left))];
+    if (certain) {
+      for (const MinkowskiCorner& c : given) polytope_.add_corner(c);
+      return true;
+    }
+    found[0] = count > 0 ? given[0] : pair_.support(Vector3<double>::UnitX());
 
     // Of the simplex's own corners and of those furthest along some directions, the one that is furthest off.
-    const auto choose = [&](const auto& directions, const auto& off) {
+    const auto choose = [&](const auto& directions, MinkowskiCorner& best, const auto& off) {
       double most = -1;
-      MinkowskiCorner best = found[0];
       const auto consider = [&](const MinkowskiCorner& c) {
-        scale_ = std::max(scale_, c.w.norm());
+        polytope_.met(c.w.norm());
         const double here = off(c);
         if (here > most) {
           most = here;
           best = c;
         }
       };
-      for (int i = 0; i < given; ++i) consider(start[std::size_t(i)]);
-      if (most > 1e-3 * scale_) return std::pair(most, best);
+      for (std::size_t i = 0; i < count; ++i) consider(given[i]);
+      if (most > 1e-3 * polytope_.scale()) return most;
       for (const Vector3<double>& d : directions) {
         consider(pair_.support(d));
         consider(pair_.support(-d));
       }
-      return std::pair(most, best);
+      return most;
     };
 
     const std::array<Vector3<double>, 3> axes = {Vector3<double>::UnitX(), Vector3<double>::UnitY(), Vector3<double>::UnitZ()};
-    const auto [length, second] = choose(axes, [&](const MinkowskiCorner& c) { return pair_.edge(found[0], c).norm(); });
-    scale_ = std::max(scale_, pair_.offset.norm());
-    if (length <= flat_share * scale_) {
+    const double length = choose(axes, found[1], [&](const MinkowskiCorner& c) { return edge(found[0], c).norm(); });
+    if (length <= flat_share * polytope_.scale()) {
       // Two points: apart they tell the normal, together any will do.
       flat_normal_ = found[0].w.norm() > 0 ? found[0].w.stableNormalized() : Vector3<double>::UnitZ();
-      return 0;
+      return false;
     }
-    found[1] = second;
-    const Vector3<double> along = pair_.edge(found[0], found[1]).stableNormalized();
-    const Vector3<double> side = across(along), other = along.cross(side);
+    const Vector3<double> along = edge(found[0], found[1]).stableNormalized();
+    const Vector3<double> side = along.unitOrthogonal(), other = along.cross(side);
     const std::array<Vector3<double>, 4> sides = {side, other, side + other, side - other};
-    const auto [width, third] =
-        choose(sides, [&](const MinkowskiCorner& c) { return pair_.edge(found[0], c).cross(along).norm(); });
-    if (width <= flat_share * scale_) {
+    const double width = choose(sides, found[2], [&](const MinkowskiCorner& c) { return edge(found[0], c).cross(along).norm(); });
+    if (width <= flat_share * polytope_.scale()) {
       flat_normal_ = side;
-      return 1;
+      return false;
     }
-    found[2] = third;
-    const Vector3<double> normal = along.cross(pair_.edge(found[0], found[2])).stableNormalized();
+    const Vector3<double> normal = along.cross(edge(found[0], found[2])).stableNormalized();
     const std::array<Vector3<double>, 1> up = {normal};
-    const auto [height, fourth] =
-        choose(up, [&](const MinkowskiCorner& c) { return std::abs(pair_.edge(found[0], c).dot(normal)); });
-    if (height <= flat_share * scale_) {
+    const double height =
+        choose(up, found[3], [&](const MinkowskiCorner& c) { return std::abs(edge(found[0], c).dot(normal)); });
+    if (height <= flat_share * polytope_.scale()) {
       flat_normal_ = separation(pair_, normal) >= separation(pair_, -normal) ? normal : Vector3<double>(-normal);
-      return 2;
+      return false;
     }
-    found[3] = fourth;
-    for (const MinkowskiCorner& c : found) add_corner(c);
-    return 3;
+    for (const MinkowskiCorner& c : found) polytope_.add_corner(c);
+    return true;
   }
 
-  void set_plane(Face& f) {
-    const MinkowskiCorner&a = corners_[f.corner[0]], &b = corners_[f.corner[1]], &c = corners_[f.corner[2]];
-    const Vector3<double>&rb = turned_[f.corner[1]], &ra = turned_[f.corner[0]], &rc = turned_[f.corner[2]];
-    const Vector3<double> u = (b.a - a.a) - (rb - ra), v = (c.a - a.a) - (rc - ra), x = v - u;
-    const Vector3<double> n = u.cross(v);
-    const double size = n.norm(), longest = std::max({u.squaredNorm(), v.squaredNorm(), x.squaredNorm()});
-    f.gone = false;
-    if (size > 1e-15 * longest) {
-      f.normal = n / size;
-      f.offset = std::max({f.normal.dot(a.w), f.normal.dot(b.w), f.normal.dot(c.w)});
-    } else {  // no area: never expanded, and hidden by no corner but its neighbours' loss
-      f.normal.setZero();
-      f.offset = 0;
-    }
-  }
-
-  std::uint16_t add_face(std::uint16_t a, std::uint16_t b, std::uint16_t c) {
-    const std::uint16_t i = free_count_ > 0 ? free_[std::size_t(--free_count_)] : std::uint16_t(face_count_++);
-    Face& f = faces_[i];
-    f.corner = {a, b, c};
-    f.serial = ++serial_;
-    f.neighbour = {none, none, none};
-    set_plane(f);
-    if (!f.normal.isZero(0)) push(i);
-    return i;
-  }
-
-  bool stale(const Queued& q) const { return faces_[q.face].gone || faces_[q.face].serial != q.serial; }
-
-  void push(std::uint16_t i) {
-    if (heap_size_ == int(heap_.size())) {
-      const auto end = std::remove_if(heap_.begin(), heap_.end(), [this](const Queued& q) { return stale(q); });
-      heap_size_ = int(end - heap_.begin());
-      std::make_heap(heap_.begin(), end, later);
-    }
-    heap_[std::size_t(heap_size_++)] = {faces_[i].offset, i, faces_[i].serial};
-    std::push_heap(heap_.begin(), heap_.begin() + heap_size_, later);
-  }
-
-  void first_tetrahedron() {
-    const Vector3<double> u = pair_.edge(corners_[0], corners_[1]), v = pair_.edge(corners_[0], corners_[2]),
-                          x = pair_.edge(corners_[0], corners_[3]);
-    if (u.cross(v).dot(x) > 0) {  // corner 3 must be behind the face 0 1 2
-      std::swap(corners_[0], corners_[1]);
-      std::swap(turned_[0], turned_[1]);
-    }
-    add_face(0, 1, 2);
-    add_face(0, 3, 1);
-    add_face(1, 3, 2);
-    add_face(2, 3, 0);
-    faces_[0].neighbour = {1, 2, 3};
-    faces_[1].neighbour = {3, 2, 0};
-    faces_[2].neighbour = {1, 3, 0};
-    faces_[3].neighbour = {2, 1, 0};
-  }
-
-  void expand() {
-    while (heap_size_ > 0) {
-      const Queued top = heap_[0];
-      const double offset = top.offset;
-      const std::uint16_t at = top.face;
-      std::pop_heap(heap_.begin(), heap_.begin() + heap_size_, later);
-      --heap_size_;
-      if (stale(top)) continue;
-      const Face face = faces_[at];
-      if (offset >= best_reach_ - stop_share * scale_) return;
+  /// False where a face comes up that is nearer than `least`.
+  bool expand(double least) {
+    while (const auto at = polytope_.nearest_face()) {
+      const EpaPolytope::Face& face = polytope_.face(*at);
+      const double offset = face.offset, rounding = stop_share * polytope_.scale();
+      if (offset < least) return false;
+      if (offset >= best_reach_ - rounding) return true;
       const MinkowskiCorner next = pair_.support(face.normal);
       const double reach = face.normal.dot(next.w);
       if (reach < best_reach_) {
         best_reach_ = reach;
         best_normal_ = face.normal;
-        best_face_ = face.corner;
+        for (std::size_t k = 0; k < 3; ++k) best_face_[k] = polytope_.corner(face.corner[k]);
       }
-      if (reach - offset <= stop_share * scale_) continue;
-      bool met = false;
-      for (int i = 0; i < corner_count_; ++i) met = met || corners_[std::size_t(i)].w == next.w;
-      if (met) continue;
-      if (corner_count_ == corner_room) return;
-      if (!grow(at, next)) return;
-    }
-  }
-
-  /// Puts a cone from the new corner in the place of all faces that it sees. False where the rim is no simple loop or
-  /// the room is full.
-  bool grow(std::uint16_t seen, const MinkowskiCorner& next) {
-    rim_count_ = 0;
-    gone_count_ = 0;
-    remove(seen);
-    for (int side = 0; side < 3; ++side) {
-      if (!walk(faces_[seen].neighbour[std::size_t(side)], seen, next.w)) return false;
-    }
-    if (rim_count_ < 3 || face_count_ + rim_count_ > face_room + free_count_ + gone_count_) return false;
-    for (int i = 0; i < rim_count_; ++i) {
-      if (rim_[std::size_t((i + 1) % rim_count_)].from != rim_[std::size_t(i)].to) return false;
-    }
-    while (gone_count_ > 0) free_[std::size_t(free_count_++)] = gone_[std::size_t(--gone_count_)];
-    const std::uint16_t top = add_corner(next);
-    for (int i = 0; i < rim_count_; ++i) {
-      Rim& r = rim_[std::size_t(i)];
-      r.made = add_face(r.from, r.to, top);
-      faces_[r.made].neighbour[0] = r.outer;
-      Face& outer = faces_[r.outer];
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (outer.corner[k] == r.to && outer.corner[(k + 1) % 3] == r.from) outer.neighbour[k] = r.made;
-      }
-    }
-    for (int i = 0; i < rim_count_; ++i) {
-      Face& f = faces_[rim_[std::size_t(i)].made];
-      f.neighbour[1] = rim_[std::size_t((i + 1) % rim_count_)].made;
-      f.neighbour[2] = rim_[std::size_t((i + rim_count_ - 1) % rim_count_)].made;
-    }
-    return true;
-  }
-
-  void remove(std::uint16_t face) {
-    faces_[face].gone = true;
-    gone_[std::size_t(gone_count_++)] = face;
-  }
-
-  struct Step {
-    std::uint16_t face, from;
-    int next;
-  };
-
-  /// Depth first round the faces that the corner sees, so that the rim comes out in order.
-  bool walk(std::uint16_t start, std::uint16_t from, const Vector3<double>& x) {
-    int depth = 0;
-    const auto enter = [&](std::uint16_t face, std::uint16_t previous) {
-      Face& f = faces_[face];
-      if (f.gone) return true;
-      std::size_t side = 0;
-      while (side < 3 && f.neighbour[side] != previous) ++side;
-      if (side == 3) return false;
-      // A face whose plane holds the corner goes too, so that no sliver is left beside it.
-      const bool visible = f.normal.isZero(0) || f.normal.dot(x) - f.offset > -2 * std::numeric_limits<double>::epsilon() * scale_;
-      if (!visible) {
-        if (rim_count_ == corner_room) return false;
-        rim_[std::size_t(rim_count_++)] = {f.corner[(side + 1) % 3], f.corner[side], face, none};
-        return true;
-      }
-      remove(face);
-      if (depth == corner_room) return false;
-      steps_[std::size_t(depth++)] = {face, std::uint16_t(side), 1};
-      return true;
-    };
-    if (!enter(start, from)) return false;
-    while (depth > 0) {
-      Step& s = steps_[std::size_t(depth - 1)];
-      if (s.next > 2) {
-        --depth;
+      if (reach - offset <= rounding || polytope_.has_corner(next)) {
+        polytope_.retire(*at);
         continue;
       }
-      const std::size_t side = (s.from + std::size_t(s.next)) % 3;
-      ++s.next;
-      const std::uint16_t face = s.face;
-      if (!enter(faces_[face].neighbour[side], face)) return false;
+      if (polytope_.full() || !polytope_.grow(*at, next)) return least < 0;
     }
     return true;
+  }
+
+  Penetration finish() {
+    Penetration result;
+    result.normal = -best_normal_;
+    result.distance = -best_reach_;
+    polish(result);
+    witness(result);
+    if (pair_.smooth()) descend(result);
+    return result;
   }
 
   /// The best face found is that of a feature of the shapes, whose normal they know to the last digit: a face of either,
@@ -311,17 +149,18 @@ class Expansion {
     const Vector3<double> n = result.normal;
     if (pair_.a.has_faces()) consider(-nearest_face_normal(pair_.a, -n));
     if (pair_.b.has_faces()) consider(pair_.rotation * nearest_face_normal(pair_.b, pair_.rotation.transpose() * n));
-    consider(nearest_edge_product(pair_, corners_[best_face_[0]], corners_[best_face_[1]], corners_[best_face_[2]], n));
+    consider(nearest_edge_product(best_face_[0], best_face_[1], best_face_[2], n));
   }
 
   /// Where a surface bends, an inscribed polytope comes near to it only slowly. The point a little further out than the
   /// depth has its foot on the surface; the normal there is better, by the ratio of depth and radius of curvature.
   void descend(Penetration& result) const {
     MinkowskiPair shifted = pair_;
-    const double further = 0.1 * scale_;
+    const double scale = polytope_.scale(), further = 0.1 * scale;
     for (int k = 0; k < descent_limit; ++k) {
       shifted.offset = pair_.offset + result.normal * (result.distance - further);
-      const GjkResult r = gjk_loop<false>(shifted, {});
+      GjkResult r;
+      gjk_loop<false>(shifted, r);
       if (r.state != GjkResult::State::apart) return;
       const Vector3<double> step = r.v / r.distance - result.normal;
       const double before = result.distance;
@@ -337,8 +176,8 @@ class Expansion {
       if (!(result.distance > before)) return;
       const MinkowskiCorner end = pair_.support(-result.normal);
       result.on_a = end.a;
-      result.on_b = end.b;
-      if (result.distance - before <= stop_share * scale_) return;
+      result.on_b = pair_.in_b(end.turned_b);
+      if (result.distance - before <= stop_share * scale) return;
     }
   }
 
@@ -346,52 +185,57 @@ class Expansion {
   /// plane the best one need not be it.
   void witness(Penetration& result) const {
     const Vector3<double> x = result.normal * result.distance;
+    double least = std::numeric_limits<double>::infinity();
     NearestPoint nearest;
-    nearest.square = std::numeric_limits<double>::infinity();
-    const Face* holder = nullptr;
-    for (int i = 0; i < face_count_; ++i) {
-      const Face& f = faces_[std::size_t(i)];
-      if (f.gone || f.normal.dot(result.normal) > -0.5) continue;
-      const NearestPoint p =
-          SignedVolumes::triangle(w(f.corner[0]) - x, w(f.corner[1]) - x, w(f.corner[2]) - x, 0, 1, 2);
-      if (p.square >= nearest.square) continue;
-      nearest = p;
-      holder = &f;
+    std::array<double, 4> weight{}, share{};
+    std::array<MinkowskiCorner, 3> holder;
+    const auto consider = [&](const MinkowskiCorner& c0, const MinkowskiCorner& c1, const MinkowskiCorner& c2) {
+      SignedVolumes(nearest, weight).triangle(c0.w - x, c1.w - x, c2.w - x, 0, 1, 2);
+      if (nearest.square >= least) return;
+      least = nearest.square;
+      holder = {c0, c1, c2};
+      share = {nearest.used & 1 ? weight[0] : 0, nearest.used & 2 ? weight[1] : 0, nearest.used & 4 ? weight[2] : 0, 0};
+    };
+    consider(best_face_[0], best_face_[1], best_face_[2]);
+    const double there = 4 * std::numeric_limits<double>::epsilon() * polytope_.scale();
+    for (int i = 0; i < polytope_.face_count() && least > there * there; ++i) {
+      const EpaPolytope::Face& f = polytope_.face(Index(i));
+      const double off_plane = f.normal.dot(x) - f.offset;
+      if (polytope_.gone(Index(i)) || off_plane * off_plane >= least) continue;
+      consider(polytope_.corner(f.corner[0]), polytope_.corner(f.corner[1]), polytope_.corner(f.corner[2]));
     }
-    if (!holder) return;
-    for (int i = 0; i < nearest.count; ++i) {
-      const double share = nearest.weight[std::size_t(i)];
-      const MinkowskiCorner& corner = corners_[holder->corner[std::size_t(nearest.kept[std::size_t(i)])]];
-      result.on_a += share * corner.a;
-      result.on_b += share * corner.b;
+    refine(holder[0], holder[1], holder[2], x, share);
+    Vector3<double> turned = Vector3<double>::Zero();
+    for (std::size_t i = 0; i < 3; ++i) {
+      result.on_a += share[i] * holder[i].a;
+      turned += share[i] * holder[i].turned_b;
     }
+    result.on_b = pair_.in_b(turned);
   }
 
-  static constexpr double flat_share = 1e-13;
-  static constexpr int descent_limit = 50;
   const MinkowskiPair& pair_;
-  double scale_ = 0;
-  int corner_count_ = 0, face_count_ = 0, heap_size_ = 0, rim_count_ = 0, free_count_ = 0, gone_count_ = 0;
-  std::uint32_t serial_ = 0;
+  EpaPolytope polytope_;
   Vector3<double> flat_normal_, best_normal_;
   double best_reach_ = std::numeric_limits<double>::infinity();
-  std::array<std::uint16_t, 3> best_face_{};
-  std::array<MinkowskiCorner, corner_room> corners_;
-  std::array<Vector3<double>, corner_room> turned_;  ///< their points of B in A's axes, about B's origin
-  std::array<Face, face_room> faces_;
-  std::array<Queued, 4 * face_room> heap_;
-  std::array<std::uint16_t, face_room> free_, gone_;
-  std::array<Rim, corner_room> rim_;
-  std::array<Step, corner_room> steps_;
+  std::array<MinkowskiCorner, 3> best_face_;
 };
 
 }  // namespace
 
-double separation(const MinkowskiPair& pair, const Vector3<double>& n) { return n.dot(pair.support(-n).w); }
+double separation(const MinkowskiPair& pair, const Vector3<double>& n) {
+  MinkowskiCorner c;
+  pair.support_against(n, c);
+  return n.dot(c.w);
+}
 
-Penetration epa(const MinkowskiPair& pair, const Simplex& start) {
+Penetration epa(const MinkowskiPair& pair, const GjkResult& start, PairMemory::Shell* shell) {
   Expansion expansion(pair);
-  return expansion.run(start);
+  return expansion.run(start.simplex, start.state == GjkResult::State::inside, shell);
+}
+
+std::optional<Penetration> epa_again(const MinkowskiPair& pair, PairMemory::Shell& shell) {
+  Expansion expansion(pair);
+  return expansion.run(shell);
 }
 
 }  // namespace polhode

@@ -4,7 +4,10 @@
 // Source: van den Bergen, Proximity queries and penetration depth computation on 3D game objects, GDC 2001.
 #pragma once
 
+#include <optional>
+
 #include "collision/narrow/gjk_loop.hpp"
+#include "collision/narrow_phase.hpp"
 
 namespace polhode {
 
@@ -20,7 +23,12 @@ struct Penetration {
   Vector3<double> on_b = Vector3<double>::Zero();
 };
 
-/// `start` is a simplex that holds the origin or lies within rounding of it.
-Penetration epa(const MinkowskiPair& pair, const Simplex& start);
+/// `start` says `inside` or `near`. What is left in `shell`, unless that is null,
+/// serves `epa_again`.
+Penetration epa(const MinkowskiPair& pair, const GjkResult& start, PairMemory::Shell* shell);
+
+/// The same, from what the last answer left. Where that still holds the origin one corner proves the answer, as long as the
+/// features that touch are the same. Nothing where it does not.
+std::optional<Penetration> epa_again(const MinkowskiPair& pair, PairMemory::Shell& shell);
 
 }  // namespace polhode

@@ -15,7 +15,7 @@ Vector3<double> nearest_face_normal(const ConvexCore& core, const Vector3<double
 
 /// The unit product of an edge of A and an edge of B, among those between three corners, that lies nearest to n; zero if
 /// there is none within 0.1 rad.
-Vector3<double> nearest_edge_product(const MinkowskiPair& pair, const MinkowskiCorner& c0, const MinkowskiCorner& c1,
-                                     const MinkowskiCorner& c2, const Vector3<double>& n);
+Vector3<double> nearest_edge_product(const MinkowskiCorner& c0, const MinkowskiCorner& c1, const MinkowskiCorner& c2,
+                                     const Vector3<double>& n);
 
 }  // namespace polhode

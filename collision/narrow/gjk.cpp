@@ -40,21 +40,28 @@ Distance between_half_spaces(const HalfSpace& a, const Pose& at_a, const HalfSpa
   return {distance, up, on_a, on_a - distance * up};
 }
 
-Simplex remembered(const PairMemory* memory, bool swapped, const MinkowskiPair& pair) {
-  Simplex s;
-  if (!memory || memory->swapped != swapped) return s;
-  s.count = int(memory->count);
-  for (std::size_t i = 0; i < memory->count; ++i) s.corners[i] = pair.corner(memory->corners_a[i], memory->corners_b[i]);
-  return s;
+void recall(const PairMemory* memory, bool swapped, const MinkowskiPair& pair, Simplex& s) {
+  if (!memory || memory->swapped != swapped) return;
+  s.used = (1u << memory->count) - 1;
+  for (std::size_t i = 0; i < memory->count; ++i) {
+    MinkowskiCorner& c = s.corners[i];
+    c.a = memory->corners_a[i];
+    pair.complete(c, memory->corners_b[i]);
+    c.vertex_a = memory->vertices[i][0];
+    c.vertex_b = memory->vertices[i][1];
+  }
 }
 
-void remember(PairMemory* memory, bool swapped, const Simplex& s) {
+void remember(PairMemory* memory, bool swapped, const MinkowskiPair& pair, const Simplex& s) {
   if (!memory) return;
   memory->swapped = swapped;
-  memory->count = std::uint32_t(s.count);
-  for (std::size_t i = 0; i < std::size_t(s.count); ++i) {
-    memory->corners_a[i] = s.corners[i].a;
-    memory->corners_b[i] = s.corners[i].b;
+  memory->count = 0;
+  for (unsigned left = s.used; left != 0; left &= left - 1) {
+    const MinkowskiCorner& c = s.corners[std::size_t(std::countr_zero(left))];
+    memory->corners_a[memory->count] = c.a;
+    memory->corners_b[memory->count] = pair.in_b(c.turned_b);
+    memory->vertices[memory->count] = {c.vertex_a, c.vertex_b};
+    ++memory->count;
   }
 }
 
@@ -63,31 +70,51 @@ void check(const MinkowskiPair& pair) {
   throw std::invalid_argument("gjk: a pose is not finite, or the shapes are more than 1e100 m apart");
 }
 
+/// The shares of a triangle, to the last digit.
+void refine(Simplex& s) {
+  if (s.count() != 3) return;
+  const unsigned missing = ~s.used & 15;
+  const auto at = [missing](unsigned k) { return std::size_t(k + (1u << k >= missing)); };
+  std::array<double, 4> share = {s.weight[at(0)], s.weight[at(1)], s.weight[at(2)], 0};
+  refine(s.corners[at(0)], s.corners[at(1)], s.corners[at(2)], Vector3<double>::Zero(), share);
+  for (unsigned k = 0; k < 3; ++k) s.weight[at(k)] = share[k];
+}
+
+Penetration signed_distance(const MinkowskiPair& pair, PairMemory* memory, bool swapped) {
+  PairMemory::Shell* const shell = memory ? &memory->shell : nullptr;
+  if (shell && shell->corner_count > 0) {
+    if (memory->swapped == swapped) {
+      if (const auto p = epa_again(pair, *shell)) return *p;
+    }
+    shell->corner_count = 0;
+  }
+  GjkResult r;
+  recall(memory, swapped, pair, r.simplex);
+  gjk_loop<false>(pair, r);
+  remember(memory, swapped, pair, r.simplex);
+  if (r.state != GjkResult::State::apart) return epa(pair, r, shell);
+  refine(r.simplex);
+  return {r.distance, r.v / r.distance, r.simplex.on_a(), pair.in_b(r.simplex.turned_on_b())};
+}
+
 Distance convex_distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory, bool swapped) {
   const MinkowskiPair pair(a, at_a, b, at_b);
   check(pair);
-  const GjkResult r = gjk_loop<false>(pair, remembered(memory, swapped, pair));
-  remember(memory, swapped, r.simplex);
-  Penetration p;
-  if (r.state == GjkResult::State::apart) {
-    p = {r.distance, r.v / r.distance, r.simplex.on_a(), r.simplex.on_b()};
-  } else {
-    p = epa(pair, r.simplex);
-  }
+  const Penetration p = signed_distance(pair, memory, swapped);
   const Vector3<double> n = at_a.rotation * p.normal;
-  return {p.distance - (pair.a.radius + pair.b.radius), n, at_a.to_world(p.on_a) - pair.a.radius * n,
+  return {p.distance - pair.radius(), n, at_a.to_world(p.on_a) - pair.a.radius * n,
           at_b.to_world(p.on_b) + pair.b.radius * n};
 }
 
 bool convex_overlap(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory, bool swapped) {
   const MinkowskiPair pair(a, at_a, b, at_b);
   check(pair);
-  if (pair.a.radius + pair.b.radius == 0) {
-    const GjkResult r = gjk_loop<true>(pair, remembered(memory, swapped, pair));
-    remember(memory, swapped, r.simplex);
-    if (r.state == GjkResult::State::separated) return false;
-    if (r.state == GjkResult::State::inside) return true;
-  }
+  GjkResult r;
+  recall(memory, swapped, pair, r.simplex);
+  gjk_loop<true>(pair, r);
+  remember(memory, swapped, pair, r.simplex);
+  if (r.state == GjkResult::State::separated) return false;
+  if (r.state == GjkResult::State::inside) return true;
   return convex_distance(a, at_a, b, at_b, memory, swapped).distance <= 0;
 }
 

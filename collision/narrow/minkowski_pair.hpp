@@ -13,6 +13,8 @@ namespace polhode {
 
 struct ConvexCore {
   enum class Kind : std::uint8_t { point, segment, box, hull, smooth };
+  static constexpr std::uint32_t no_vertex = 0xffffffff;  ///< the number of a point that is no vertex, of a smooth core
+
   Kind kind = Kind::point;
   double radius = 0;                                ///< m, around the core
   Vector3<double> half = Vector3<double>::Zero();   ///< m: of the box; of the segment the last counts
@@ -20,26 +22,39 @@ struct ConvexCore {
 
   explicit ConvexCore(const Shape& s);  ///< of a convex, finite shape
 
+  bool smooth() const { return kind == Kind::smooth; }
   bool has_faces() const { return kind == Kind::box || kind == Kind::hull; }
   const ConvexHull& hull() const { return static_cast<const ConvexHull&>(*shape); }
 
-  Vector3<double> support(const Vector3<double>& d) const {
-    switch (kind) {
-      case Kind::point: return Vector3<double>::Zero();
-      case Kind::segment: return {0, 0, std::copysign(half[2], d[2])};
-      case Kind::box: return {std::copysign(half[0], d[0]), std::copysign(half[1], d[1]), std::copysign(half[2], d[2])};
-      case Kind::hull: return hull().support(d);
-      case Kind::smooth: break;
-    }
-    return shape->support(d);
+  /// x becomes the point furthest along d; the number of the vertex that it is. Numbers are written one by one: a copy of
+  /// three at once would have to wait for them.
+  std::uint32_t support(const Vector3<double>& d, Vector3<double>& x) const {
+    if (kind != Kind::box) return support_of_others(d, x);
+    for (int i = 0; i < 3; ++i) x[i] = std::copysign(half[i], d[i]);
+    return unsigned(!std::signbit(d[0])) | unsigned(!std::signbit(d[1])) << 1 | unsigned(!std::signbit(d[2])) << 2;
   }
+
+  std::uint32_t vertex_count() const;
+  Vector3<double> vertex(std::uint32_t i) const;  ///< numbered as a box, a hull and a segment number theirs
+
+ private:
+  std::uint32_t support_of_others(const Vector3<double>& d, Vector3<double>& x) const;
 };
 
-/// A corner w = a − (R b + p) of the difference. The edges between corners are differences of a and of b, each in its
-/// own axes, which keeps them exact beside a far larger partner.
+/// A corner w = a − (R b + p) of the difference. The edges between corners are differences of a and of R b, which keeps
+/// them exact beside a far larger partner.
 struct MinkowskiCorner {
-  Vector3<double> w, a, b;  ///< a in A's axes, b in B's
+  Vector3<double> w;
+  Vector3<double> a, turned_b;            ///< in A's axes, each about its own origin
+  std::uint32_t vertex_a = 0, vertex_b = 0;
+
+  bool operator==(const MinkowskiCorner& o) const { return vertex_a == o.vertex_a && vertex_b == o.vertex_b && w == o.w; }
 };
+
+/// From corner i to corner j.
+inline Vector3<double> edge(const MinkowskiCorner& i, const MinkowskiCorner& j) {
+  return (j.a - i.a) - (j.turned_b - i.turned_b);
+}
 
 struct MinkowskiPair {
   ConvexCore a, b;
@@ -52,17 +67,31 @@ struct MinkowskiPair {
         rotation(at_a.rotation.transpose() * at_b.rotation),
         offset(at_a.rotation.transpose() * (at_b.position - at_a.position)) {}
 
-  MinkowskiCorner corner(const Vector3<double>& of_a, const Vector3<double>& of_b) const {
-    return {of_a - (rotation * of_b + offset), of_a, of_b};
+  bool smooth() const { return a.smooth() || b.smooth(); }
+  double radius() const { return a.radius + b.radius; }
+
+  /// c.a is given; the rest of the corner that it makes with a point of B.
+  void complete(MinkowskiCorner& c, const Vector3<double>& of_b) const {
+    for (int i = 0; i < 3; ++i) {
+      const double turned = rotation(i, 0) * of_b[0] + rotation(i, 1) * of_b[1] + rotation(i, 2) * of_b[2];
+      c.turned_b[i] = turned;
+      c.w[i] = c.a[i] - (turned + offset[i]);
+    }
+  }
+  /// c becomes the corner furthest along −d.
+  void support_against(const Vector3<double>& d, MinkowskiCorner& c) const {
+    Vector3<double> of_b;
+    c.vertex_a = a.support(-d, c.a);
+    c.vertex_b = b.support(rotation.transpose() * d, of_b);
+    complete(c, of_b);
   }
   /// The corner furthest along d.
   MinkowskiCorner support(const Vector3<double>& d) const {
-    return corner(a.support(d), b.support(-(rotation.transpose() * d)));
+    MinkowskiCorner c;
+    support_against(-d, c);
+    return c;
   }
-  /// From corner i to corner j.
-  Vector3<double> edge(const MinkowskiCorner& i, const MinkowskiCorner& j) const {
-    return (j.a - i.a) - rotation * (j.b - i.b);
-  }
+  Vector3<double> in_b(const Vector3<double>& turned) const { return rotation.transpose() * turned; }
 };
 
 }  // namespace polhode

@@ -2,11 +2,13 @@
 // The point of a simplex that is nearest to the origin, by signed volumes: which of its faces holds the point is told by
 // the signs of barycentric coordinates, not by differences of nearly equal numbers.
 // Source: Montanari, Petrinic & Barbieri, Improving the GJK algorithm for faster and more reliable distance queries
-// between convex objects, ACM Transactions on Graphics 36(3), 2017.
+// between convex objects, ACM Transactions on Graphics 36(3), 2017. Volumes and areas are taken about the newest corner,
+// whose edges are short beside the distance where the shapes are far apart.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -14,94 +16,177 @@
 
 namespace polhode {
 
-/// The nearest point Σ λ_i w_i; those of the corners with λ > 0 that it needs.
+/// Up to four corners in fixed places; a bit of `used` for each place, and its share λ of the nearest point Σ λ w.
+struct Simplex {
+  unsigned used = 0;
+  std::array<MinkowskiCorner, 4> corners;
+  std::array<double, 4> weight{};
+
+  int count() const { return std::popcount(used); }
+  Vector3<double> on_a() const {
+    return blend([](const MinkowskiCorner& c) -> const Vector3<double>& { return c.a; });
+  }
+  Vector3<double> turned_on_b() const {
+    return blend([](const MinkowskiCorner& c) -> const Vector3<double>& { return c.turned_b; });
+  }
+
+ private:
+  template <class F>
+  Vector3<double> blend(const F& f) const {
+    Vector3<double> sum = Vector3<double>::Zero();
+    for (unsigned left = used; left != 0; left &= left - 1) {
+      const auto i = std::size_t(std::countr_zero(left));
+      sum += weight[i] * f(corners[i]);
+    }
+    return sum;
+  }
+};
+
+/// The nearest point of a simplex; `used` are the corners that it needs.
 struct NearestPoint {
   Vector3<double> v = Vector3<double>::Zero();
   double square = 0;  ///< |v|²
-  int count = 0;
-  std::array<int, 4> kept{};
-  std::array<double, 4> weight{};
+  unsigned used = 0;
   bool inside = false;  ///< the origin is within the tetrahedron,
   bool sure = false;    ///< and further from its faces than rounding reaches
 };
+
+/// One step of iterative refinement of the shares of three corners, so that they give the point of their plane below x to the
+/// last digit also where the triangle is thin: what they miss of it is small, and split as the whole was.
+inline void refine(const MinkowskiCorner& s0, const MinkowskiCorner& s1, const MinkowskiCorner& p, const Vector3<double>& x,
+                   std::array<double, 4>& share) {
+  const Vector3<double> e0 = edge(p, s0), e1 = edge(p, s1), n = e0.cross(e1);
+  const Vector3<double> missed = share[0] * (s0.w - x) + share[1] * (s1.w - x) + share[2] * (p.w - x);
+  const double nn = n.squaredNorm();
+  const double d0 = missed.dot(n.cross(e1)) / nn, d1 = missed.dot(e0.cross(n)) / nn;
+  const std::array<double, 3> better = {share[0] + d0, share[1] + d1, share[2] - d0 - d1};
+  if (!(std::min({better[0], better[1], better[2]}) >= 0)) return;
+  std::copy(better.begin(), better.end(), share.begin());
+}
 
 class SignedVolumes {
  public:
   using Corner = Vector3<double>;
 
-  static NearestPoint point(const Corner& s, int i) { return {s, s.squaredNorm(), 1, {i}, {1.0}, false, false}; }
+  /// The nearest of all the points that it is offered; i, j, k are the places of the corners, which get their shares in
+  /// `weight`.
+  SignedVolumes(NearestPoint& nearest, std::array<double, 4>& weight) : nearest_(nearest), weight_(weight) {
+    nearest.square = std::numeric_limits<double>::infinity();
+    nearest.inside = false;
+  }
 
-  static NearestPoint segment(const Corner& s0, const Corner& s1, int i, int j) {
-    const Vector3<double> t = s1 - s0;
-    const double along = -s0.dot(t), length = t.squaredNorm();
-    if (!(along > 0)) return point(s0, i);
-    if (!(along < length)) return point(s1, j);
+  void point(const Corner& s, unsigned i) {
+    const double square = s.squaredNorm();
+    if (!(square < nearest_.square)) return;
+    take(s, square, 1u << i);
+    weight_[i] = 1;
+  }
+
+  void segment(const Corner& s, const Corner& p, unsigned i, unsigned j) {
+    const Vector3<double> t = s - p;
+    const double along = -p.dot(t), length = t.squaredNorm();
+    if (!(along > 0)) return point(p, j);
+    if (!(along < length)) return point(s, i);
     // From the nearer end, where less cancels.
     const double u = along / length;
-    const Vector3<double> v = u < 0.5 ? Vector3<double>(s0 + u * t) : Vector3<double>(s1 + (s1.dot(t) / -length) * t);
-    return {v, v.squaredNorm(), 2, {i, j}, {1 - u, u}, false, false};
+    const Vector3<double> v = u < 0.5 ? Vector3<double>(p + u * t) : Vector3<double>(s - (s.dot(t) / length) * t);
+    const double square = v.squaredNorm();
+    if (!(square < nearest_.square)) return;
+    take(v, square, 1u << i | 1u << j);
+    weight_[i] = u;
+    weight_[j] = 1 - u;
   }
 
-  static NearestPoint triangle(const Corner& s0, const Corner& s1, const Corner& s2, int i, int j, int k) {
-    const Vector3<double> n = (s1 - s0).cross(s2 - s0);
-    const double nn = n.squaredNorm();
-    // Signed areas of the triangles that the origin's projection makes with the sides, on the plane where most is seen.
-    int axis = 0;
-    if (std::abs(n[1]) > std::abs(n[axis])) axis = 1;
-    if (std::abs(n[2]) > std::abs(n[axis])) axis = 2;
-    if (nn > 0) {
-      const Vector3<double> v = n * (s0.dot(n) / nn);
-      const int x = axis == 2 ? 0 : axis + 1, y = axis == 0 ? 2 : axis - 1;  // the next two, in cyclic order
-      const auto area = [&](const Corner& a, const Corner& b) {
-        return (a[x] - v[x]) * (b[y] - v[y]) - (a[y] - v[y]) * (b[x] - v[x]);
-      };
-      const double whole = n[axis];
-      const double c0 = area(s1, s2) / whole, c1 = area(s2, s0) / whole, c2 = area(s0, s1) / whole;
-      if (c0 > 0 && c1 > 0 && c2 > 0) {
-        const double sum = c0 + c1 + c2;
-        return {v, v.squaredNorm(), 3, {i, j, k}, {c0 / sum, c1 / sum, c2 / sum}, false, false};
-      }
-      NearestPoint best;
-      best.square = -1;
-      if (!(c0 > 0)) better(best, segment(s1, s2, j, k));
-      if (!(c1 > 0)) better(best, segment(s0, s2, i, k));
-      if (!(c2 > 0)) better(best, segment(s0, s1, i, j));
-      return best;
-    }
-    NearestPoint best = segment(s0, s1, i, j);
-    better(best, segment(s0, s2, i, k));
-    better(best, segment(s1, s2, j, k));
-    return best;
+  void triangle(const Corner& s0, const Corner& s1, const Corner& p, unsigned i, unsigned j, unsigned k) {
+    const Vector3<double> e0 = s0 - p, e1 = s1 - p;
+    triangle(s0, s1, p, e0, e1, e0.cross(e1), i, j, k);
   }
 
-  static NearestPoint tetrahedron(const Corner& s0, const Corner& s1, const Corner& s2, const Corner& s3) {
-    const Vector3<double> c23 = s2.cross(s3), c01 = s0.cross(s1);
-    const double b0 = s1.dot(c23), b1 = -s0.dot(c23), b2 = s3.dot(c01), b3 = -s2.dot(c01);
-    const double whole = b0 + b1 + b2 + b3;
-    const double sign = whole < 0 ? -1 : 1;
-    bool in0 = b0 * sign > 0, in1 = b1 * sign > 0, in2 = b2 * sign > 0, in3 = b3 * sign > 0;
-    if (in0 && in1 && in2 && in3) {
-      const double square = std::max({s0.squaredNorm(), s1.squaredNorm(), s2.squaredNorm(), s3.squaredNorm()});
+  /// Of the origin, the four shares are volumes over the whole one.
+  void tetrahedron(const Corner& s0, const Corner& s1, const Corner& s2, const Corner& p, unsigned i, unsigned j, unsigned k,
+                   unsigned l) {
+    const Vector3<double> e0 = s0 - p, e1 = s1 - p, e2 = s2 - p;
+    const Vector3<double> n0 = e1.cross(e2), n1 = e2.cross(e0), n2 = e0.cross(e1);
+    const double side = e0.dot(n0), sign = std::copysign(1.0, side), whole = std::abs(side);
+    const double b0 = -sign * p.dot(n0), b1 = -sign * p.dot(n1), b2 = -sign * p.dot(n2), b3 = whole - (b0 + b1 + b2);
+    bool in0 = b0 > 0, in1 = b1 > 0, in2 = b2 > 0, in3 = b3 > 0;
+    if (in0 & in1 & in2 & in3) {
+      const double square = std::max({s0.squaredNorm(), s1.squaredNorm(), s2.squaredNorm(), p.squaredNorm()});
       const double rounding = 32 * std::numeric_limits<double>::epsilon() * square * std::sqrt(square);
-      if (std::abs(whole) > rounding) {
-        const bool sure = std::min({b0 * sign, b1 * sign, b2 * sign, b3 * sign}) > rounding;
-        return {Vector3<double>::Zero(), 0, 4, {0, 1, 2, 3}, {b0 / whole, b1 / whole, b2 / whole, b3 / whole}, true, sure};
+      if (whole > rounding) {
+        take(Vector3<double>::Zero(), 0, 1u << i | 1u << j | 1u << k | 1u << l);
+        weight_[i] = b0 / whole;
+        weight_[j] = b1 / whole;
+        weight_[k] = b2 / whole;
+        weight_[l] = b3 / whole;
+        nearest_.inside = true;
+        nearest_.sure = std::min({b0, b1, b2, b3}) > rounding;
+        return;
       }
       in0 = in1 = in2 = in3 = false;  // too flat to hold anything: one of its faces is as near
     }
-    NearestPoint best;
-    best.square = -1;
-    if (!in0) better(best, triangle(s1, s2, s3, 1, 2, 3));
-    if (!in1) better(best, triangle(s0, s2, s3, 0, 2, 3));
-    if (!in2) better(best, triangle(s0, s1, s3, 0, 1, 3));
-    if (!in3) better(best, triangle(s0, s1, s2, 0, 1, 2));
-    return best;
+    if (!in0) triangle(s1, s2, p, e1, e2, n0, j, k, l);
+    if (!in1) triangle(s2, s0, p, e2, e0, n1, k, i, l);
+    if (!in2) triangle(s0, s1, p, e0, e1, n2, i, j, l);
+    if (!in3) triangle(s0, s1, s2, i, j, k);
   }
 
  private:
-  static void better(NearestPoint& best, const NearestPoint& other) {
-    if (best.square < 0 || other.square < best.square) best = other;
+  /// e0, e1: the edges from p, n their product. The shares are areas of what the projection of the origin on the plane makes
+  /// with the sides.
+  void triangle(const Corner& s0, const Corner& s1, const Corner& p, const Vector3<double>& e0, const Vector3<double>& e1,
+                const Vector3<double>& n, unsigned i, unsigned j, unsigned k) {
+    const double nn = n.squaredNorm();
+    const double c0 = p.dot(n.cross(e1)), c1 = p.dot(e0.cross(n)), c2 = nn - (c0 + c1);
+    if ((c0 > 0) & (c1 > 0) & (c2 > 0)) {
+      const double height = p.dot(n), square = height * (height / nn);
+      if (!(square < nearest_.square)) return;
+      take(n * (height / nn), square, 1u << i | 1u << j | 1u << k);
+      weight_[i] = c0 / nn;
+      weight_[j] = c1 / nn;
+      weight_[k] = c2 / nn;
+      return;
+    }
+    if (!(c0 > 0)) segment(s1, p, j, k);
+    if (!(c1 > 0)) segment(s0, p, i, k);
+    if (!(c2 > 0)) segment(s0, s1, i, j);
   }
+
+  void take(const Vector3<double>& v, double square, unsigned used) {
+    for (int axis = 0; axis < 3; ++axis) nearest_.v[axis] = v[axis];  // one by one, so that the next step need not wait
+    nearest_.square = square;
+    nearest_.used = used;
+  }
+
+  NearestPoint& nearest_;
+  std::array<double, 4>& weight_;
 };
+
+/// The nearest point of all corners in use, and their shares.
+inline void solve(Simplex& s, unsigned newest, NearestPoint& nearest) {
+  SignedVolumes volumes(nearest, s.weight);
+  const auto w = [&](unsigned i) -> const Vector3<double>& { return s.corners[i].w; };
+  unsigned left = s.used & ~(1u << newest);
+  const auto next = [&left] {
+    const auto i = unsigned(std::countr_zero(left));
+    left &= left - 1;
+    return i;
+  };
+  switch (s.count()) {
+    case 1: return volumes.point(w(newest), newest);
+    case 2: {
+      const unsigned i = next();
+      return volumes.segment(w(i), w(newest), i, newest);
+    }
+    case 3: {
+      const unsigned i = next(), j = next();
+      return volumes.triangle(w(i), w(j), w(newest), i, j, newest);
+    }
+    default: {
+      const unsigned i = next(), j = next(), k = next();
+      return volumes.tetrahedron(w(i), w(j), w(k), w(newest), i, j, k, newest);
+    }
+  }
+}
 
 }  // namespace polhode

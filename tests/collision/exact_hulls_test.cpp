@@ -6,12 +6,12 @@
 
 #include "experiments/narrow_phase/box_pairs.hpp"
 #include "tests/collision/hull_pairs.hpp"
-#include "tests/collision/placed_pairs.hpp"
 
 namespace polhode {
 namespace {
 
 using Vector = Vector3<double>;
+using Real = long double;
 
 ExactHull box(const Vector& half, const Pose& pose = {}) {
   ExactHull hull{{}, pose};
@@ -64,12 +64,56 @@ TEST(ExactHulls, SayOfBoxesWhatTheJudgeOfBoxesSays) {
   }
 }
 
+/// The largest separation along all normals of faces and products of edges, in long double.
+Real separation_of_hulls(const HullPairCase& pair) {
+  struct Solid {
+    std::vector<Vector3<Real>> vertices, normals, edges;
+  };
+  const auto solid = [](const ConvexHull& hull, const Pose& at) {
+    const Polytope& polytope = hull.polytope();
+    const Matrix3<Real> r = at.rotation.cast<Real>();
+    Solid s;
+    for (const auto& v : polytope.vertices) s.vertices.push_back(r * v.cast<Real>() + at.position.cast<Real>());
+    for (std::uint32_t f = 0; f < polytope.faces.size(); ++f) {
+      const auto c = polytope.corners_of(f);
+      const Vector3<Real> origin = s.vertices[c[0].vertex];
+      s.normals.push_back((s.vertices[c[1].vertex] - origin).cross(s.vertices[c[2].vertex] - origin).normalized());
+    }
+    for (const auto& e : polytope.edges) s.edges.push_back((s.vertices[e.to] - s.vertices[e.from]).normalized());
+    return s;
+  };
+  const Solid a = solid(*pair.a, pair.at_a), b = solid(*pair.b, pair.at_b);
+  const auto gap = [](const Solid& low, const Solid& high, const Vector3<Real>& n, Real stop) {
+    Real top = -std::numeric_limits<Real>::infinity(), bottom = -top;
+    for (const Vector3<Real>& v : low.vertices) top = std::max(top, n.dot(v));
+    for (const Vector3<Real>& v : high.vertices) {
+      bottom = std::min(bottom, n.dot(v));
+      if (bottom - top <= stop) break;
+    }
+    return bottom - top;
+  };
+  Real most = -std::numeric_limits<Real>::infinity();
+  const auto consider = [&](const Vector3<Real>& n) {
+    most = std::max(most, gap(a, b, n, most));
+    most = std::max(most, gap(b, a, n, most));
+  };
+  for (const Vector3<Real>& n : a.normals) consider(n);
+  for (const Vector3<Real>& n : b.normals) consider(n);
+  for (const Vector3<Real>& u : a.edges) {
+    for (const Vector3<Real>& v : b.edges) {
+      const Vector3<Real> n = u.cross(v);
+      if (n.norm() > 1e-12L) consider(n.normalized());
+    }
+  }
+  return most;
+}
+
 TEST(ExactHulls, SayWhatAllDirectionsOfTheirFeaturesSay) {
   for (std::uint64_t k = 0; k < 240; ++k) {
     const HullPairCase pair = hull_pair_case(4, k);
     if (pair.a->polytope().edges.size() * pair.b->polytope().edges.size() > 5000) continue;
     const ExactDistance d = exact_distance(ExactHull{pair.points_a, pair.at_a}, ExactHull{pair.points_b, pair.at_b});
-    const long double separation = separation_of_hulls({pair.a, pair.b, pair.at_a, pair.at_b});
+    const Real separation = separation_of_hulls(pair);
     const double size = std::max(pair.a->bounds({}).sizes().maxCoeff(), pair.b->bounds({}).sizes().maxCoeff());
     // qhull leaves out a vertex that it cannot tell from a face.
     if (d.sign > 0) {

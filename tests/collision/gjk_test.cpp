@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// gjk: boxes against a plain enumeration of their features in long double, hulls against all directions that their
-// features have, round shapes against closed forms, published cases by name, and what holds for every pair.
+// gjk: boxes against the exact judge, round shapes against closed forms, and published cases by name. Hulls are in
+// hull_judge_test.cpp, what holds for every pair in laws/narrow_phase_law_test.cpp.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include "collision/narrow_phase.hpp"
 #include "collision/shapes/box.hpp"
@@ -18,7 +15,8 @@
 #include "collision/shapes/ellipsoid.hpp"
 #include "collision/shapes/half_space.hpp"
 #include "collision/shapes/sphere.hpp"
-#include "tests/collision/placed_pairs.hpp"
+#include "experiments/study/dice.hpp"
+#include "tests/collision/box_judge.hpp"
 
 namespace polhode {
 namespace {
@@ -31,11 +29,6 @@ const NarrowPhase& gjk_phase() {
   return *narrow;
 }
 
-Distance distance(const PlacedPair& p, PairMemory* memory = nullptr) {
-  return gjk_phase().distance(*p.a, p.at_a, *p.b, p.at_b, memory);
-}
-bool overlap(const PlacedPair& p) { return gjk_phase().overlap(*p.a, p.at_a, *p.b, p.at_b); }
-
 /// What every answer keeps: a unit normal, witness points that it joins, no NaN.
 void expect_sound(const Distance& d, double scale) {
   EXPECT_NEAR(d.normal.norm(), 1, 1e-14);
@@ -46,90 +39,10 @@ Pose turned(const Vector& position, const Vector& rotation_vector) {
   return {position, rotation_matrix(quaternion_from_rotation_vector<double>(rotation_vector))};
 }
 
-TEST(Gjk, BoxesAgreeWithTheirFeatures) {
-  for (std::uint64_t k = 0; k < 12000; ++k) {
-    const PlacedPair p = box_pair(k);
-    const auto truth = double(signed_distance_of_boxes(p));
-    const Distance d = distance(p);
-    const double small = std::min(p.size_a, p.size_b), large = std::max(p.size_a, p.size_b);
-    const double rounding = 4e-16 * (p.at_a.position.norm() + p.at_b.position.norm() + large);
-    ASSERT_NEAR(d.distance, truth, 1e-9 * small + rounding) << k;
-    if (std::abs(truth) > 1e-14 * large + rounding) {
-      ASSERT_EQ(d.distance <= 0, truth <= 0) << k;
-      ASSERT_EQ(overlap(p), truth <= 0) << k;
-    }
-    expect_sound(d, small + 1e-5 * large);
-    if (d.distance > 0) continue;
-    PlacedPair apart = p;  // the normal points from B to A
-    apart.at_b.position += d.distance * d.normal;
-    ASSERT_GE(double(signed_distance_of_boxes(apart)), -1e-9 * small - rounding) << k;
-  }
-}
+TEST(Gjk, IsRightOnRandomAndDegenerateBoxes) { judge_many(gjk_phase(), 1, 2000, 1e-8); }
+TEST(Gjk, IsRightOnManyRandomAndDegenerateBoxesSlow) { judge_many(gjk_phase(), 2, 100000, 1e-8); }
 
-TEST(Gjk, HullsAgreeWithTheirFeatures) {
-  for (std::uint64_t k = 0; k < 300; ++k) {
-    const PlacedPair p = hull_pair(k);
-    const auto truth = double(separation_of_hulls(p));  // the signed distance where they overlap, else a lower bound
-    const Distance d = distance(p);
-    const double small = std::min(p.size_a, p.size_b), large = std::max(p.size_a, p.size_b);
-    const double rounding = 4e-16 * (p.at_a.position.norm() + p.at_b.position.norm() + large);
-    expect_sound(d, small);
-    ASSERT_EQ(overlap(p), d.distance <= 0);
-    if (truth <= 0) {
-      ASSERT_NEAR(d.distance, truth, 1e-9 * small + rounding) << k;
-      continue;
-    }
-    // Apart, the plane across the normal parts the two by the distance, and no two points can be nearer than that.
-    ASSERT_GE(d.distance, truth - 1e-9 * small - rounding) << k;
-    const Vector n = d.normal;
-    const double above = n.dot(p.at_a.to_world(p.a->support(-(p.at_a.rotation.transpose() * n))));
-    const double below = n.dot(p.at_b.to_world(p.b->support(p.at_b.rotation.transpose() * n)));
-    ASSERT_NEAR(above - below, d.distance, 1e-7 * small + rounding) << k;
-  }
-}
-
-// 42 box cases, each with its source in the table.
-TEST(Gjk, PublishedBoxCases) {
-  std::ifstream file(std::string(POLHODE_TESTS_DIR) + "/collision/collision_cases.csv");
-  std::string line;
-  int cases = 0;
-  while (std::getline(file, line)) {
-    if (line.empty() || line[0] == '#' || line.starts_with("id,")) continue;
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream words(line);
-    std::string id, name;
-    words >> id >> name;
-    const auto numbers = [&](auto&& into) {
-      std::string word;
-      for (double& x : into) {
-        words >> word;
-        x = std::stod(word);
-      }
-    };
-    std::array<Vector, 2> half, position;
-    std::array<Quaternion<double>, 2> orientation;
-    for (std::size_t i = 0; i < 2; ++i) {
-      numbers(half[i]);
-      numbers(position[i]);
-      numbers(orientation[i]);
-    }
-    std::array<double, 2> expected{};
-    numbers(expected);
-    const PlacedPair p = {std::make_shared<Box>(half[0]), std::make_shared<Box>(half[1]),
-                          {position[0], rotation_matrix(orientation[0])},
-                          {position[1], rotation_matrix(orientation[1])}, half[0].maxCoeff(), half[1].maxCoeff()};
-    const double rounding = 4e-16 * (position[0].norm() + position[1].norm() + p.size_a);
-    const double truth = std::isnan(expected[0]) ? double(signed_distance_of_boxes(p)) : expected[0];
-    const Distance d = distance(p);
-    EXPECT_NEAR(d.distance, truth, std::max(expected[1], 1e-12) + rounding) << name;
-    if (std::abs(truth) > rounding) {
-      EXPECT_EQ(overlap(p), truth <= 0) << name;
-    }
-    expect_sound(d, p.size_a);
-    ++cases;
-  }
-  EXPECT_EQ(cases, 42);
-}
+TEST(Gjk, PublishedBoxCases) { judge_published(gjk_phase(), 1e-8); }
 
 // Drake, geometry/proximity: a capsule of radius 2 and segment 4 along z against a box 1 × 2 × 4 at the origin.
 TEST(Gjk, DrakeCapsuleAgainstBox) {
@@ -202,10 +115,11 @@ TEST(Gjk, HalfSpaceAgainstAll) {
 
 // Touching is contact: coincident, nested and kissing shapes of every kind always have an answer.
 TEST(Gjk, NeverDropsATouchingContact) {
+  study::Dice dice(1);
   for (const double size : {0.01, 0.5, 1000.0}) {
     const Box box(Vector::Constant(size / 2));
-    for (std::uint64_t k = 0; k < 200; ++k) {
-      const Pose at = random_pose(k, 3 * size);
+    for (int k = 0; k < 200; ++k) {
+      const Pose at{5 * size * dice.direction(), dice.rotation()};
       for (int axis = 0; axis < 3; ++axis) {
         const Pose beside = {at.position + size * at.rotation.col(axis), at.rotation};
         const Distance d = gjk_phase().distance(box, at, box, beside);
@@ -218,57 +132,6 @@ TEST(Gjk, NeverDropsATouchingContact) {
       EXPECT_NEAR(gjk_phase().distance(box, at, box, at).distance, -size, 4e-15 * size);
     }
   }
-}
-
-RC_GTEST_PROP(Gjk, MirrorsExactly, ()) {
-  const PlacedPair p = any_pair(*rc::gen::arbitrary<std::uint64_t>());
-  const Distance d = distance(p), m = gjk_phase().distance(*p.b, p.at_b, *p.a, p.at_a);
-  RC_ASSERT(d.distance == m.distance);
-  RC_ASSERT(d.normal == -m.normal);
-  RC_ASSERT(d.on_a == m.on_b);
-  RC_ASSERT(d.on_b == m.on_a);
-}
-
-RC_GTEST_PROP(Gjk, OverlapIsASignedDistanceOfZeroOrLess, ()) {
-  const PlacedPair p = any_pair(*rc::gen::arbitrary<std::uint64_t>());
-  const double d = distance(p).distance;
-  if (std::abs(d) > 1e-13 * (p.size_a + p.size_b)) RC_ASSERT(overlap(p) == (d <= 0));
-}
-
-RC_GTEST_PROP(Gjk, RigidMotionChangesRoundOffOnly, ()) {
-  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
-  const PlacedPair p = any_pair(seed);
-  const double size = p.size_a + p.size_b;
-  const Pose motion = random_pose(seed + 1, size);
-  PlacedPair q = p;
-  for (Pose* at : {&q.at_a, &q.at_b}) *at = {motion.to_world(at->position), motion.rotation * at->rotation};
-  const double slack = p.polytopes ? 1e-13 : 1e-7;  // round bodies that overlap: the search ends at a finite polytope
-  RC_ASSERT(std::abs(distance(p).distance - distance(q).distance) <= slack * (size + p.at_a.position.norm() + p.at_b.position.norm()));
-}
-
-// What a pair remembers makes it faster, and changes its answer by round-off at most.
-RC_GTEST_PROP(Gjk, MemoryDoesNotChangeTheAnswer, ()) {
-  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
-  PlacedPair p = any_pair(seed);
-  PairMemory memory;
-  for (int k = 0; k < 10; ++k) {
-    const Distance warm = distance(p, &memory), cold = distance(p);
-    const double size = p.size_a + p.size_b + (p.at_a.position - p.at_b.position).norm();
-    RC_ASSERT(std::abs(warm.distance - cold.distance) <= (p.polytopes ? 1e-13 : 1e-7) * size);
-    const Pose step = random_pose(seed + std::uint64_t(k), 0.02 * size);
-    p.at_b.position += step.position;
-    if (k == 5) p.at_b.rotation = step.rotation;
-  }
-}
-
-TEST(Gjk, RefusesPosesThatAreNotFinite) {
-  const Box box({1, 1, 1});
-  Pose bad;
-  bad.position[1] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW((void)gjk_phase().distance(box, bad, box, {}), std::invalid_argument);
-  EXPECT_THROW((void)gjk_phase().overlap(box, {}, box, bad), std::invalid_argument);
-  bad.position[1] = infinity;
-  EXPECT_THROW((void)gjk_phase().overlap(box, {}, box, bad), std::invalid_argument);
 }
 
 }  // namespace
