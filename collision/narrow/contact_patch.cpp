@@ -254,9 +254,11 @@ Manifold ordered_patch(const Placed& a, const Placed& b, const Distance& d, doub
     double size = 0;
     for (const Corner& c : face.corners) size = std::max(size, (c.at - face.corners[0].at).norm());
     if (!faces && beyond < enough - round_off * size) continue;
+    // Faces that rock may overhang, and then the patch is less deep than the furthest corner is.
+    const double depth = faces ? -d.distance : -beyond;
     if (reference_a) {
-      if (on_face(fa, a, b, margin, -d.distance, manifold)) return manifold;
-    } else if (on_face(fb, b, a, margin, -d.distance, manifold)) {
+      if (on_face(fa, a, b, margin, depth, manifold)) return manifold;
+    } else if (on_face(fb, b, a, margin, depth, manifold)) {
       mirror(manifold);
       return manifold;
     }
