@@ -27,11 +27,11 @@ std::span<const BodyPair> KeptPairs::renew(const FatBoxes& boxes, std::span<cons
   const auto take = [&](const BodyPair& p, bool stays) {
     *kept_end = *pairs_end = p;
     kept_end += stays;
-    pairs_end += stays & overlap(box_of(bounds[p.a]), box_of(bounds[p.b]));
+    pairs_end += all(stays, overlap(box_of(bounds[p.a]), box_of(bounds[p.b])));
   };
   const auto take_old = [&] {
     const BodyPair p = *old++;
-    take(p, !(boxes.has_left(p.a) | boxes.has_left(p.b)));
+    take(p, all(!boxes.has_left(p.a), !boxes.has_left(p.b)));
   };
   for (const BodyPair& p : fresh) {
     while (old != old_end && key(*old) < key(p)) take_old();

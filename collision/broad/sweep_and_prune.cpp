@@ -122,7 +122,12 @@ class SweepAndPrune final : public BroadPhase {
       Hits hits{};
       for (std::size_t half = 0; half < 2; ++half) {
         const std::size_t k = j + half * lanes;
-        const Hits hit = (at(low2_, k) <= high2) & (at(high2_, k) >= low2) & (at(low3_, k) <= high3) & (at(high3_, k) >= low3);
+        Lanes l2, h2, l3, h3;
+        load(low2_, k, l2);
+        load(high2_, k, h2);
+        load(low3_, k, l3);
+        load(high3_, k, h3);
+        const Hits hit = (l2 <= high2) & (h2 >= low2) & (l3 <= high3) & (h3 >= low3);
         hits |= hit & (Hits{1, 2, 4, 8, 16, 32, 64, 128} << static_cast<int>(half * lanes));
       }
       for (unsigned bits = all_of(hits); bits != 0; bits &= bits - 1) {
@@ -137,13 +142,9 @@ class SweepAndPrune final : public BroadPhase {
   using Hits [[gnu::vector_size(lanes * sizeof(float))]] = std::int32_t;
   using Pairs [[gnu::vector_size(lanes * sizeof(float))]] = std::uint64_t;
 
-  static Lanes at(const std::vector<float>& numbers, std::size_t k) {
-    Lanes x;
-    std::memcpy(&x, &numbers[k], sizeof x);
-    return x;
-  }
+  static void load(const std::vector<float>& numbers, std::size_t k, Lanes& x) { std::memcpy(&x, &numbers[k], sizeof x); }
 
-  static unsigned all_of(Hits hits) {
+  static unsigned all_of(const Hits& hits) {
     const auto pairs = reinterpret_cast<Pairs>(hits);
     const std::uint64_t two = (pairs[0] | pairs[1]) | (pairs[2] | pairs[3]);
     return static_cast<unsigned>(two | two >> 32);

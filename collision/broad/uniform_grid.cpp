@@ -83,7 +83,7 @@ struct alignas(64) Block {
   void overlapping(const RoundedBox& b, unsigned bit, Hits& hits) const {
     const Hits hit = (low[0] <= b.high[0]) & (high[0] >= b.low[0]) & (low[1] <= b.high[1]) & (high[1] >= b.low[1]) &
                      (low[2] <= b.high[2]) & (high[2] >= b.low[2]);
-    hits |= hit & (1 << bit);
+    hits |= hit & (Hits{1, 1, 1, 1, 1, 1, 1, 1} << static_cast<int>(bit));
   }
 };
 
@@ -209,7 +209,7 @@ class UniformGrid final : public BroadPhase {
     for (home.level = 0; home.level < most_levels; ++home.level) {
       home.reach = reach(box, home.level);
       const Reach& r = home.reach;
-      if ((r.high[0] - r.low[0] <= 1) & (r.high[1] - r.low[1] <= 1) & (r.high[2] - r.low[2] <= 1)) break;
+      if (broad::all(r.high[0] - r.low[0] <= 1, r.high[1] - r.low[1] <= 1, r.high[2] - r.low[2] <= 1)) break;
     }
     return home;
   }
@@ -331,7 +331,7 @@ class UniformGrid final : public BroadPhase {
       most[k] = high[k] - low[k];
       cells *= static_cast<double>(most[k] + 1);
     }
-    if ((most[0] <= 1) & (most[1] <= 1) & (most[2] <= 1)) return search_eight(body, rounded, level, low);
+    if (broad::all(most[0] <= 1, most[1] <= 1, most[2] <= 1)) return search_eight(body, rounded, level, low);
     const bool few = *std::max_element(most.begin(), most.end()) < key_mask && cells <= static_cast<double>(blocks_.size());
     if (!few) {
       for (const Block& block : blocks_) {

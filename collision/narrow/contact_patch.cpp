@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "collision/narrow/pair_order.hpp"
@@ -353,6 +354,10 @@ Manifold contact_patch(const Shape& a, const Pose& at_a, const Shape& b, const P
 }
 
 Manifold compound_patch(const NarrowPhase& phase, const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, double margin) {
+  for (const Pose* at : {&at_a, &at_b}) {
+    if (at->position.allFinite() && at->rotation.allFinite()) continue;
+    throw std::invalid_argument("the manifold of a compound needs poses that are finite");
+  }
   if (!exchanged(a, at_a, b, at_b)) return joined_patch(patches_of_parts(phase, a, at_a, b, at_b, margin));
   Manifold manifold = joined_patch(patches_of_parts(phase, b, at_b, a, at_a, margin));
   mirror(manifold);
