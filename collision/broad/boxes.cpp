@@ -21,13 +21,17 @@ bool good(const Bounds& b) {
 
 }  // namespace
 
-void take(std::span<const Bounds> bounds, std::vector<Box>& boxes) {
+void check(std::span<const Bounds> bounds) {
   bool none_bad = true;
   for (const Bounds& b : bounds) none_bad &= good(b);
   if (!none_bad) {
     const auto bad = std::find_if_not(bounds.begin(), bounds.end(), good);
     refuse(static_cast<std::size_t>(bad - bounds.begin()), *bad);
   }
+}
+
+void take(std::span<const Bounds> bounds, std::vector<Box>& boxes) {
+  check(bounds);
   boxes.resize(bounds.size());
   for (std::size_t i = 0; i < bounds.size(); ++i) boxes[i] = box_of(bounds[i]);
 }

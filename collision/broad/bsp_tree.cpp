@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Binary space partitioning by planes across the axes: Fuchs, Kedem and Naylor, "On Visible Surface Generation by a priori
 // Tree Structures" (1980); with planes across the axes it is the k-d tree of Bentley (1975). A box is listed in every leaf
-// that its fat box reaches, and only the boxes of one leaf are tested against each other. Of two that overlap, the lower
-// corner of what they share lies in one leaf alone, and there the pair is reported.
+// that its fat box reaches, and only the boxes of one leaf are tested against each other.
 //
-// When a body leaves its fat box, its entries in the leaves are renewed. Leaves in which many gather are split at the median
+// When a body leaves its fat box, its entries in the leaves are renewed and looked through for new pairs; all others are
+// kept. Leaves in which many gather are split at the median
 // centre, where a plane tells enough of them apart; two that have become poor are joined.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include "collision/broad/boxes.hpp"
 #include "collision/broad/fat_boxes.hpp"
-#include "collision/broad/pair_list.hpp"
+#include "collision/broad/kept_pairs.hpp"
+#include "collision/broad/rounded_box.hpp"
 #include "collision/broad_phase.hpp"
 
 namespace polhode {
 namespace {
 
 using broad::Box;
+using broad::RoundedBox;
 
 using Index = std::uint32_t;
 constexpr Index none = ~Index(0);
@@ -29,25 +30,29 @@ constexpr Index capacity = 16;         // entries of a leaf, before a plane is l
 constexpr Index poor = 8;              // entries of two leaves, to be one again
 constexpr double larger_side = 0.8;    // of the entries, at most, for a plane to be worth it
 constexpr double both_sides = 1.7;     // entries on both sides together, over those before
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Node {
   double plane = 0;
   std::uint8_t axis = 0;
   Index child = none;     // below the plane; the next one is the rest; none: a leaf
-  Index head = none;      // entries of a leaf
+  Index head = none;      // the entries of a leaf, in chunks of which only the first may have room
   Index count = 0;
   Index limit = capacity; // entries at which a plane is looked for
 };
 
-struct Entry {
-  Index body = 0, next = none;
+/// Entries of a leaf side by side in memory, which one after the other in a list would be waited for.
+struct Chunk {
+  static constexpr Index room = 8;
+  std::array<Index, room> body;
+  std::array<RoundedBox, room> box;
+  Index count = 0, next = none;
 };
 
 class BspTree final : public BroadPhase {
  public:
   void update(std::span<const Bounds> bounds) override {
     if (fat_.update(bounds)) {
+      kept_.forget();
       plant();
     } else {
       const auto left = fat_.left();
@@ -55,56 +60,98 @@ class BspTree final : public BroadPhase {
       for (std::size_t k = 0; k < left.size(); ++k) take_out(0, left[k], fat_.before(k));
       for (const Index body : left) put_in(0, body, fat_.fat(body));
     }
-    stale_ = true;
+    for (const Index body : fat_.left()) {
+      if (++question_ == 0) ask_anew();
+      search(0, body, RoundedBox(fat_.fat(body)));
+    }
+    pairs_ = kept_.renew(fat_, bounds);
+    leave_rooms();
   }
 
-  std::span<const BodyPair> pairs() override {
-    if (!stale_) return sorted_;
-    found_.clear();
-    Box all;
-    all.low.fill(-infinity);
-    all.high.fill(infinity);
-    if (!nodes_.empty()) search(0, all);
-    broad::leave_room(nodes_, 64 + 4 * fat_.size());
-    broad::leave_room(entries_, 64 + 16 * fat_.size());
-    broad::leave_room(free_nodes_, 64 + fat_.size());
-    broad::leave_room(here_, 256);
-    broad::leave_room(bodies_here_, 256);
-    broad::leave_room(centres_, 256);
-    sorted_ = found_.sorted(fat_.size());
-    stale_ = false;
-    return sorted_;
-  }
+  std::span<const BodyPair> pairs() override { return pairs_; }
 
  private:
+  void leave_rooms() {
+    broad::leave_room(nodes_, 64 + 4 * fat_.size());
+    broad::leave_room(chunks_, 64 + 2 * fat_.size());
+    broad::leave_room(free_nodes_, 64 + fat_.size());
+    broad::leave_room(centres_, 256);
+  }
+
   void plant() {
     nodes_.assign(1, Node{});
     free_nodes_.clear();
-    entries_.clear();
-    free_entry_ = none;
+    chunks_.clear();
+    free_chunk_ = none;
+    ask_anew();
     for (Index body = 0; body < fat_.size(); ++body) link(0, body);
     split(0);
+  }
+
+  void ask_anew() {
+    last_question_.assign(fat_.size(), 0);
+    question_ = 1;
   }
 
   static bool reaches_below(const Node& n, const Box& b) { return b.low[n.axis] < n.plane; }
   static bool reaches_above(const Node& n, const Box& b) { return b.high[n.axis] >= n.plane; }
 
   void link(Index v, Index body) {
-    Index e = free_entry_;
-    if (e == none) {
-      e = static_cast<Index>(entries_.size());
-      entries_.emplace_back();
-    } else {
-      free_entry_ = entries_[e].next;
+    Index head = nodes_[v].head;
+    if (head == none || chunks_[head].count == Chunk::room) {
+      head = free_chunk_;
+      if (head == none) {
+        head = static_cast<Index>(chunks_.size());
+        chunks_.emplace_back();
+      } else {
+        free_chunk_ = chunks_[head].next;
+      }
+      chunks_[head].count = 0;
+      chunks_[head].next = nodes_[v].head;
+      nodes_[v].head = head;
     }
-    entries_[e] = {body, nodes_[v].head};
-    nodes_[v].head = e;
+    Chunk& chunk = chunks_[head];
+    chunk.body[chunk.count] = body;
+    chunk.box[chunk.count++] = RoundedBox(fat_.fat(body));
     ++nodes_[v].count;
   }
 
-  void release(Index e) {
-    entries_[e].next = free_entry_;
-    free_entry_ = e;
+  /// The last entry of the first chunk goes, after it has taken the place of that of a body.
+  void unlink(Index v, Index body) {
+    Node& node = nodes_[v];
+    Index c = node.head;
+    std::size_t k = place_in(chunks_[c], body);
+    while (k == chunks_[c].count) {
+      c = chunks_[c].next;
+      k = place_in(chunks_[c], body);
+    }
+    Chunk& head = chunks_[node.head];
+    --head.count;
+    chunks_[c].body[k] = head.body[head.count];
+    chunks_[c].box[k] = head.box[head.count];
+    if (head.count == 0) node.head = release(node.head);
+    --node.count;
+  }
+  static std::size_t place_in(const Chunk& chunk, Index body) {
+    std::size_t k = 0;
+    while (k < chunk.count && chunk.body[k] != body) ++k;
+    return k;
+  }
+
+  /// Returns the next one.
+  Index release(Index c) {
+    const Index next = chunks_[c].next;
+    chunks_[c].next = free_chunk_;
+    free_chunk_ = c;
+    return next;
+  }
+
+  /// Calls visit(body) for the entries of a leaf.
+  template <class Visit>
+  void for_entries(Index head, const Visit& visit) const {
+    for (Index c = head; c != none; c = chunks_[c].next) {
+      for (std::size_t k = 0; k < chunks_[c].count; ++k) visit(chunks_[c].body[k]);
+    }
   }
 
   void put_in(Index v, Index body, const Box& box) {
@@ -120,15 +167,7 @@ class BspTree final : public BroadPhase {
 
   void take_out(Index v, Index body, const Box& box) {
     const Node node = nodes_[v];
-    if (node.child == none) {
-      Index* link = &nodes_[v].head;
-      while (entries_[*link].body != body) link = &entries_[*link].next;
-      const Index e = *link;
-      *link = entries_[e].next;
-      release(e);
-      --nodes_[v].count;
-      return;
-    }
+    if (node.child == none) return unlink(v, body);
     if (reaches_below(node, box)) take_out(node.child, body, box);
     if (reaches_above(node, box)) take_out(node.child + 1, body, box);
     join(v);
@@ -142,11 +181,8 @@ class BspTree final : public BroadPhase {
     std::array<Index, poor> bodies{};
     std::size_t count = 0;
     for (const Index c : {first, first + 1}) {
-      for (Index e = nodes_[c].head, after; e != none; e = after) {
-        after = entries_[e].next;
-        bodies[count++] = entries_[e].body;
-        release(e);
-      }
+      for_entries(nodes_[c].head, [&](Index body) { bodies[count++] = body; });
+      for (Index chunk = nodes_[c].head; chunk != none;) chunk = release(chunk);
     }
     free_nodes_.push_back(first);
     nodes_[v].child = none;
@@ -171,11 +207,11 @@ class BspTree final : public BroadPhase {
       trial.plane = median(v, axis);
       if (!std::isfinite(trial.plane)) continue;
       double below = 0, above = 0;
-      for (Index e = nodes_[v].head; e != none; e = entries_[e].next) {
-        const Box& box = fat_.fat(entries_[e].body);
+      for_entries(nodes_[v].head, [&](Index body) {
+        const Box& box = fat_.fat(body);
         below += reaches_below(trial, box);
         above += reaches_above(trial, box);
-      }
+      });
       if (std::max(below, above) >= best || below + above > both_sides * count) continue;
       best = std::max(below, above);
       nodes_[v].axis = axis;
@@ -200,16 +236,17 @@ class BspTree final : public BroadPhase {
     }
     nodes_[first] = nodes_[first + 1] = Node{};
     nodes_[v].child = first;
-    Index e = nodes_[v].head;
+    Index c = nodes_[v].head;
     nodes_[v].head = none;
     nodes_[v].count = 0;
-    while (e != none) {
-      const Entry entry = entries_[e];
-      release(e);
-      const Box& box = fat_.fat(entry.body);
-      if (reaches_below(nodes_[v], box)) link(first, entry.body);
-      if (reaches_above(nodes_[v], box)) link(first + 1, entry.body);
-      e = entry.next;
+    while (c != none) {
+      const Chunk chunk = chunks_[c];
+      c = release(c);
+      for (std::size_t k = 0; k < chunk.count; ++k) {
+        const Box& box = fat_.fat(chunk.body[k]);
+        if (reaches_below(nodes_[v], box)) link(first, chunk.body[k]);
+        if (reaches_above(nodes_[v], box)) link(first + 1, chunk.body[k]);
+      }
     }
     split(first);
     split(first + 1);
@@ -217,62 +254,43 @@ class BspTree final : public BroadPhase {
 
   double median(Index v, std::size_t axis) {
     centres_.clear();
-    for (Index e = nodes_[v].head; e != none; e = entries_[e].next) {
-      centres_.push_back(centre(fat_.fat(entries_[e].body), axis));
-    }
+    for_entries(nodes_[v].head, [&](Index body) { centres_.push_back(centre(fat_.fat(body), axis)); });
     const auto middle = centres_.begin() + static_cast<std::ptrdiff_t>(centres_.size() / 2);
     std::nth_element(centres_.begin(), middle, centres_.end());
     return *middle;
   }
 
-  /// The pairs whose lower shared corner lies in the cell, which has no upper faces of its own.
-  void search(Index v, const Box& cell) {
-    const Node node = nodes_[v];
-    if (node.child == none) return search_leaf(node, cell);
-    Box part = cell;
-    part.high[node.axis] = node.plane;
-    search(node.child, part);
-    part = cell;
-    part.low[node.axis] = node.plane;
-    search(node.child + 1, part);
-  }
-
-  void search_leaf(const Node& node, const Box& cell) {
-    here_.clear();
-    bodies_here_.clear();
-    for (Index e = node.head; e != none; e = entries_[e].next) {
-      const Index body = entries_[e].body;
-      here_.push_back(fat_.box(body));
-      bodies_here_.push_back(body);
+  /// The pairs of a body that left its fat box, each once: with bodies that did not, and before it.
+  void search(Index v, Index body, const RoundedBox& rounded) {
+    const Box& box = fat_.fat(body);
+    while (nodes_[v].child != none) {
+      const Node& node = nodes_[v];
+      const bool below = reaches_below(node, box), above = reaches_above(node, box);
+      if (below && above) search(node.child, body, rounded);
+      v = node.child + Index(above);
     }
-    for (std::size_t i = 0; i < here_.size(); ++i) {
-      for (std::size_t j = i + 1; j < here_.size(); ++j) {
-        if (overlap(here_[i], here_[j]) && shared_corner_within(here_[i], here_[j], cell)) {
-          found_.add(bodies_here_[i], bodies_here_[j]);
-        }
+    for (Index c = nodes_[v].head; c != none; c = chunks_[c].next) {
+      const Chunk& chunk = chunks_[c];
+      for (std::size_t k = 0; k < chunk.count; ++k) {
+        if (!may_overlap(rounded, chunk.box[k])) continue;
+        const Index other = chunk.body[k];
+        if (other == body || last_question_[other] == question_ || (other > body && fat_.has_left(other))) continue;
+        last_question_[other] = question_;
+        if (overlap(box, fat_.fat(other))) kept_.add(body, other);
       }
     }
   }
 
-  static bool shared_corner_within(const Box& a, const Box& b, const Box& cell) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double corner = std::max(a.low[k], b.low[k]);
-      if (corner < cell.low[k] || (corner >= cell.high[k] && cell.high[k] < infinity)) return false;
-    }
-    return true;
-  }
-
   broad::FatBoxes fat_;
   std::vector<Node> nodes_;  // the root first
-  std::vector<Entry> entries_;
+  std::vector<Chunk> chunks_;
   std::vector<Index> free_nodes_;  // pairs of children that are not in use
-  Index free_entry_ = none;        // a list of entries that are not in use
+  Index free_chunk_ = none;        // a list of chunks that are not in use
   std::vector<double> centres_;
-  std::vector<Box> here_;          // the boxes of one leaf
-  std::vector<Index> bodies_here_;
-  broad::PairList found_;
-  std::span<const BodyPair> sorted_;
-  bool stale_ = false;
+  Index question_ = 0;                // the number of a search
+  std::vector<Index> last_question_;  // of each body, the one that met it last
+  broad::KeptPairs kept_;
+  std::span<const BodyPair> pairs_;
 };
 
 }  // namespace

@@ -13,7 +13,7 @@
 
 #include "collision/broad/boxes.hpp"
 #include "collision/broad/fat_boxes.hpp"
-#include "collision/broad/pair_list.hpp"
+#include "collision/broad/kept_pairs.hpp"
 #include "collision/broad_phase.hpp"
 
 namespace polhode {
@@ -40,32 +40,28 @@ struct Node {
 class Bvh final : public BroadPhase {
  public:
   void update(std::span<const Bounds> bounds) override {
-    const bool anew = fat_.update(bounds);
-    if (anew) begin_scene();
-    if (anew || jumps_ > fat_.size() / 4) return build();
-    for (const Index body : fat_.left()) follow(body);
-    if (root_ != none) refit(root_);
-    stale_ = true;
+    built_ = false;
+    if (fat_.update(bounds)) {
+      begin_scene();
+      build();
+    } else {
+      for (const Index body : fat_.left()) follow(body);
+      if (jumps_ > fat_.size() / 4) build();
+      else if (root_ != none) refit(root_);
+    }
+    if (root_ != none) traverse(root_);
+    for (std::size_t i = 0; i < outside_.size(); ++i) search_outside(i);
+    if (root_ != none) settle(root_);
+    pairs_ = kept_.renew(fat_, bounds);
   }
 
-  std::span<const BodyPair> pairs() override {
-    if (!stale_) return pairs_;
-    renew_candidates();
-    pairs_.clear();
-    for (const BodyPair& p : candidates_) {
-      if (overlap(fat_.box(p.a), fat_.box(p.b))) pairs_.push_back(p);
-    }
-    broad::leave_room(pairs_, 4 * fat_.size());
-    stale_ = false;
-    return pairs_;
-  }
+  std::span<const BodyPair> pairs() override { return pairs_; }
 
  private:
   void begin_scene() {
     leaf_.assign(fat_.size(), none);
-    changed_.assign(fat_.size(), 0);
-    candidates_.clear();
     nodes_.reserve(2 * fat_.size() + 2);
+    free_.reserve(2 * fat_.size() + 2);
     order_.reserve(fat_.size());
     outside_.reserve(fat_.size());
   }
@@ -77,15 +73,14 @@ class Bvh final : public BroadPhase {
     order_.clear();
     outside_.clear();
     jumps_ = 0;
+    built_ = true;
+    kept_.forget();
     for (Index i = 0; i < fat_.size(); ++i) {
-      changed_[i] = 1;
       leaf_[i] = none;
       if (FatBoxes::too_large(fat_.fat(i))) outside_.push_back(i);
       else order_.push_back(i);
     }
-    free_.reserve(2 * fat_.size() + 2);
     root_ = order_.empty() ? none : build(0, order_.size(), none);
-    stale_ = true;
   }
 
   Index build(std::size_t begin, std::size_t end, Index parent) {
@@ -140,7 +135,6 @@ class Bvh final : public BroadPhase {
   /// A body that left its fat box.
   void follow(Index body) {
     const Box& box = fat_.fat(body);
-    changed_[body] = 1;
     const bool fits = !FatBoxes::too_large(box);
     const Index leaf = leaf_[body];
     if (leaf == none && !fits) return;
@@ -258,24 +252,6 @@ class Bvh final : public BroadPhase {
     o.changed = true;
   }
 
-  /// Pairs of fat boxes: those that stay, and those of bodies that have changed.
-  void renew_candidates() {
-    found_.clear();
-    if (root_ != none) traverse(root_);
-    for (std::size_t i = 0; i < outside_.size(); ++i) search_outside(i);
-    if (root_ != none) settle(root_);
-    const auto fresh = found_.sorted(fat_.size());
-    std::erase_if(candidates_, [&](const BodyPair& p) { return changed_[p.a] | changed_[p.b]; });
-    if (!fresh.empty()) {
-      merged_.resize(candidates_.size() + fresh.size());
-      std::merge(candidates_.begin(), candidates_.end(), fresh.begin(), fresh.end(), merged_.begin());
-      std::swap(candidates_, merged_);
-    }
-    broad::leave_room(candidates_, 8 * fat_.size());
-    broad::leave_room(merged_, candidates_.capacity());
-    std::fill(changed_.begin(), changed_.end(), std::uint8_t(0));
-  }
-
   void traverse(Index v) {
     const Node& node = nodes_[v];
     if (!node.changed || node.leaf()) return;
@@ -287,7 +263,7 @@ class Bvh final : public BroadPhase {
   void traverse(Index u, Index v) {
     const Node &a = nodes_[u], &b = nodes_[v];
     if (!(a.changed || b.changed) || !overlap(a.box, b.box)) return;
-    if (a.leaf() && b.leaf()) return found_.add(a.right, b.right);
+    if (a.leaf() && b.leaf()) return kept_.add(a.right, b.right);
     if (b.leaf() || (!a.leaf() && area(a.box) > area(b.box))) {
       traverse(a.left, v);
       traverse(a.right, v);
@@ -310,26 +286,24 @@ class Bvh final : public BroadPhase {
   /// A body that is not in the tree, against all that are and those outside behind it.
   void search_outside(std::size_t i) {
     const Index body = outside_[i];
-    const Box& box = fat_.fat(body);
+    const auto test = [&](Index other) {
+      const bool fresh = built_ || fat_.has_left(body) || fat_.has_left(other);
+      if (fresh && overlap(fat_.fat(body), fat_.fat(other))) kept_.add(body, other);
+    };
     for (Index other = 0; other < fat_.size(); ++other) {
-      if (leaf_[other] == none || !(changed_[body] | changed_[other])) continue;
-      if (overlap(box, fat_.fat(other))) found_.add(body, other);
+      if (leaf_[other] != none) test(other);
     }
-    for (std::size_t j = i + 1; j < outside_.size(); ++j) {
-      const Index other = outside_[j];
-      if ((changed_[body] | changed_[other]) && overlap(box, fat_.fat(other))) found_.add(body, other);
-    }
+    for (std::size_t j = i + 1; j < outside_.size(); ++j) test(outside_[j]);
   }
 
   FatBoxes fat_;
   std::vector<Node> nodes_;
   std::vector<Index> free_, leaf_, order_, outside_;
-  std::vector<std::uint8_t> changed_;  // bodies, since pairs were last looked for
   Index root_ = none;
   std::size_t jumps_ = 0;  // since the tree was built
-  broad::PairList found_;
-  std::vector<BodyPair> candidates_, merged_, pairs_;  // sorted
-  bool stale_ = false;
+  bool built_ = false;     // in this step, so that all pairs are to be found
+  broad::KeptPairs kept_;
+  std::span<const BodyPair> pairs_;
 };
 
 }  // namespace

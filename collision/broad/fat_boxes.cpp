@@ -3,73 +3,100 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace polhode::broad {
 namespace {
 
-constexpr double steps_ahead = 12;      // how far a margin reaches
-constexpr double widest = 0.2;          // margin over mean edge
-constexpr double hopeless = 0.1;        // path of a step over mean edge, above which margins are of no use
-constexpr double at_first = 0.05;       // over mean edge, before any motion is seen
+constexpr double fewest_ahead = 20, most_ahead = 32;  // steps that the room is for
+constexpr double widest = 0.5;     // reach ahead over the longest edge
+constexpr double hopeless = 0.1;    // path of a step over the longest edge, above which room is of no use
+constexpr double thin = 0.01;       // margin on all sides over the edge across it
 
-Box fattened(const Box& b, double margin) {
-  Box fat;
-  for (std::size_t k = 0; k < 3; ++k) {
-    fat.low[k] = b.low[k] - margin;
-    fat.high[k] = b.high[k] + margin;
-  }
-  return fat;
+constexpr std::size_t boxes_ahead = 64, bodies_ahead = 8;  // asked of memory, which does not foresee it
+
+/// A number from 0 to 1 that looks like chance, but is the same in every run.
+double scatter(std::uint32_t body, std::uint32_t step) {
+  std::uint32_t h = body * 0x9E3779B1u ^ step * 0x85EBCA77u;
+  h = (h ^ h >> 15) * 0xC2B2AE3Du;
+  return (h >> 8) * 0x1p-24;
 }
 
 }  // namespace
 
-bool FatBoxes::too_large(const Box& b) {
-  constexpr double most = 1e75;
-  return !(std::min({b.low[0], b.low[1], b.low[2]}) > -most && std::max({b.high[0], b.high[1], b.high[2]}) < most);
-}
-
 bool FatBoxes::update(std::span<const Bounds> bounds) {
-  take(bounds, next_);
-  const bool new_scene = next_.size() != boxes_.size();
-  if (new_scene) boxes_ = next_;
-  const double margin = margin_of_motion();
-  std::swap(boxes_, next_);
-  left_.clear();
-  before_.clear();
-  if (new_scene) {
-    fat_.resize(boxes_.size());
-    left_.reserve(boxes_.size());
-    before_.reserve(boxes_.size());
-    for (std::size_t i = 0; i < boxes_.size(); ++i) fat_[i] = fattened(boxes_[i], margin);
+  const std::size_t n = bounds.size();
+  if (n != fat_.size()) {
+    check(bounds);
+    begin_scene(bounds);
     return true;
   }
-  for (std::size_t i = 0; i < boxes_.size(); ++i) {
-    if (contains(fat_[i], boxes_[i])) continue;
-    left_.push_back(static_cast<std::uint32_t>(i));
-    before_.push_back(fat_[i]);
-    fat_[i] = fattened(boxes_[i], margin);
+  for (const std::uint32_t body : left_) has_left_[body] = 0;
+  left_.resize(n);
+  std::size_t count = 0;
+  bool good = true;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t soon = std::min(i + boxes_ahead, n - 1);
+    fetch(bounds[soon]);
+    fetch(fat_[soon]);
+    const Box now = box_of(bounds[i]);
+    good &= all(now.low[0] <= now.high[0], now.low[1] <= now.high[1], now.low[2] <= now.high[2]);
+    left_[count] = static_cast<std::uint32_t>(i);
+    count += !contains(fat_[i], now);
+  }
+  left_.resize(good ? count : 0);
+  if (!good) check(bounds);
+  ++step_;
+  // Many that leave together, as when a scene begins to move, shall not do so again.
+  const double fewest = count > n / 2 ? 1 : fewest_ahead;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t body = left_[k], soon = left_[std::min(k + bodies_ahead, count - 1)];
+    fetch(origin_[soon]);
+    before_[k] = fat_[body];
+    has_left_[body] = 1;
+    renew(body, box_of(bounds[body]), fewest);
   }
   return false;
 }
 
-/// From the bodies before (boxes_) and now (next_).
-double FatBoxes::margin_of_motion() const {
-  double path = 0, edge = 0;
-  std::size_t counted = 0;
-  for (std::size_t i = 0; i < next_.size(); ++i) {
-    const Box &a = boxes_[i], &b = next_[i];
-    if (too_large(a) || too_large(b)) continue;
-    ++counted;
-    path += std::max({std::abs(b.low[0] - a.low[0]), std::abs(b.low[1] - a.low[1]), std::abs(b.low[2] - a.low[2])});
-    edge += size_of(b);
+void FatBoxes::begin_scene(std::span<const Bounds> bounds) {
+  const std::size_t n = bounds.size();
+  step_ = 0;
+  fat_.resize(n);
+  before_.resize(n);
+  origin_.resize(n);
+  left_.resize(n);
+  std::iota(left_.begin(), left_.end(), std::uint32_t(0));
+  has_left_.assign(n, 1);
+  for (const std::uint32_t body : left_) {
+    const Box now = box_of(bounds[body]);
+    origin_[body] = {now, step_};
+    renew(body, now, 1);
   }
-  if (counted == 0) return 0;
-  path /= static_cast<double>(counted);
-  edge /= static_cast<double>(counted);
-  if (path == 0) return at_first * edge;
-  if (path > hopeless * edge) return 0;
-  return std::min(steps_ahead * path, widest * edge);
+}
+
+void FatBoxes::renew(std::uint32_t body, const Box& now, double fewest_steps) {
+  const Origin last = origin_[body];
+  origin_[body] = {now, step_};
+  Box& fat = fat_[body];
+  fat = now;
+  if (too_large(now) || too_large(last.box)) return;
+  const double size = size_of(now), per_step = 1.0 / std::max(step_ - last.step, 1u);
+  std::array<double, 3> down, up;
+  double path = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    down[k] = (last.box.low[k] - now.low[k]) * per_step;
+    up[k] = (now.high[k] - last.box.high[k]) * per_step;
+    path = std::max({path, std::abs(down[k]), std::abs(up[k])});
+  }
+  if (path > hopeless * size) return;
+  const double steps = fewest_steps + (most_ahead - fewest_steps) * scatter(body, step_);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double margin = thin * (now.high[k] - now.low[k]);
+    fat.low[k] -= margin + std::clamp(steps * down[k], 0.0, widest * size);
+    fat.high[k] += margin + std::clamp(steps * up[k], 0.0, widest * size);
+  }
 }
 
 }  // namespace polhode::broad

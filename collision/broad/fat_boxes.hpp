@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boxes with a margin, which need no care while the true box stays within: what makes trees over moving bodies cheap to
-// keep (van den Bergen 1999; Bullet's and Box2D's dynamic trees). The margin follows the motion: a few steps wide while
-// bodies move by little, and none where each step carries them far.
+// Boxes with room around them, which need no care while the true box stays within: what makes structures over moving bodies
+// cheap to keep (van den Bergen 1999; Bullet's and Box2D's dynamic trees). The room reaches ahead, a number of steps of the
+// body's own mean motion since it got its last one; a thin margin on all sides is for what jitters. Bodies that each step carries far have none.
 #pragma once
 
 #include <cstdint>
@@ -14,24 +14,37 @@ namespace polhode::broad {
 
 class FatBoxes {
  public:
-  /// The bodies of a step. True where it is a new scene, and everything is to be built anew; otherwise left() are the
-  /// bodies whose true box left its fat one, and have a new one. Throws std::invalid_argument as take() does.
+  /// The bodies of a step. True where it is a new scene, and everything is to be built anew; then left() are all bodies,
+  /// otherwise those whose true box left its fat one. They have a new one. Throws std::invalid_argument as check() does.
   bool update(std::span<const Bounds> bounds);
 
-  std::size_t size() const { return boxes_.size(); }
-  const Box& box(std::uint32_t body) const { return boxes_[body]; }   ///< as it is
+  std::size_t size() const { return fat_.size(); }
   const Box& fat(std::uint32_t body) const { return fat_[body]; }
-  const Box& before(std::size_t k) const { return before_[k]; }       ///< the fat box that left()[k] had
-  std::span<const std::uint32_t> left() const { return left_; }
+  const Box& before(std::size_t k) const { return before_[k]; }      ///< the fat box that left()[k] had; of a new scene none
+  std::span<const std::uint32_t> left() const { return left_; }      ///< in order
+  bool has_left(std::uint32_t body) const { return has_left_[body] != 0; }
 
   /// Without bounds, or so far out that a surface area is no finite number: not for a tree.
-  static bool too_large(const Box& b);
+  static bool too_large(const Box& b) {
+    constexpr double most = 1e75;
+    return !all(b.low[0] > -most, b.low[1] > -most, b.low[2] > -most, b.high[0] < most, b.high[1] < most, b.high[2] < most);
+  }
 
  private:
-  double margin_of_motion() const;
+  /// Where a body was when it got its fat box.
+  struct Origin {
+    Box box;
+    std::uint32_t step;
+  };
 
-  std::vector<Box> boxes_, next_, fat_, before_;
+  void begin_scene(std::span<const Bounds> bounds);
+  void renew(std::uint32_t body, const Box& now, double fewest_steps);
+
+  std::vector<Box> fat_, before_;
+  std::vector<Origin> origin_;
   std::vector<std::uint32_t> left_;
+  std::vector<std::uint8_t> has_left_;
+  std::uint32_t step_ = 0;
 };
 
 }  // namespace polhode::broad

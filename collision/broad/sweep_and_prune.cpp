@@ -7,8 +7,10 @@
 // On the two other axes the sweep compares single-precision copies, many at a time. Rounding keeps the order of numbers, so
 // that boxes which overlap overlap also as rounded; the few that pass are tested as they are.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -100,11 +102,12 @@ class SweepAndPrune final : public BroadPhase {
   void lay_out() {
     const std::size_t n = boxes_.size(), second = (axis_ + 1) % 3, third = (axis_ + 2) % 3;
     constexpr float never = std::numeric_limits<float>::infinity();
-    for (auto* side : {&low2_, &high2_, &low3_, &high3_}) side->assign(n + block, never);
+    for (auto* side : {&low1_, &low2_, &high2_, &low3_, &high3_}) side->assign(n + block, never);
     swept_.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
       const Box& b = boxes_[order_[k]];
       swept_[k] = b;
+      low1_[k] = broad::rounded(b.low[axis_]);
       low2_[k] = broad::rounded(b.low[second]);
       high2_[k] = broad::rounded(b.high[second]);
       low3_[k] = broad::rounded(b.low[third]);
@@ -114,28 +117,44 @@ class SweepAndPrune final : public BroadPhase {
 
   void sweep(std::size_t i) {
     const Box& box = swept_[i];
-    const auto beyond = std::upper_bound(begins_.begin() + static_cast<std::ptrdiff_t>(i) + 1, begins_.end(),
-                                         box.high[axis_], [](double end, const Begin& b) { return end < b.at; });
-    const auto end = static_cast<std::size_t>(beyond - begins_.begin());
-    const float low2 = low2_[i], high2 = high2_[i], low3 = low3_[i], high3 = high3_[i];
-    for (std::size_t j = i + 1; j < end; j += block) {
-      const float *l2 = &low2_[j], *h2 = &high2_[j], *l3 = &low3_[j], *h3 = &high3_[j];
-      int any = 0;
-      for (std::size_t k = 0; k < block; ++k) {
-        any |= (l2[k] <= high2) & (low2 <= h2[k]) & (l3[k] <= high3) & (low3 <= h3[k]);
+    const float high1 = broad::rounded(box.high[axis_]), low2 = low2_[i], high2 = high2_[i], low3 = low3_[i], high3 = high3_[i];
+    for (std::size_t j = i + 1; low1_[j] <= high1; j += block) {
+      Hits hits{};
+      for (std::size_t half = 0; half < 2; ++half) {
+        const std::size_t k = j + half * lanes;
+        Lanes l2, h2, l3, h3;
+        load(low2_, k, l2);
+        load(high2_, k, h2);
+        load(low3_, k, l3);
+        load(high3_, k, h3);
+        const Hits hit = (l2 <= high2) & (h2 >= low2) & (l3 <= high3) & (h3 >= low3);
+        hits |= hit & (Hits{1, 2, 4, 8, 16, 32, 64, 128} << static_cast<int>(half * lanes));
       }
-      if (any == 0) continue;
-      for (std::size_t k = j; k < std::min(j + block, end); ++k) {
+      for (unsigned bits = all_of(hits); bits != 0; bits &= bits - 1) {
+        const std::size_t k = j + static_cast<std::size_t>(std::countr_zero(bits));
         if (overlap(box, swept_[k])) found_.add(begins_[i].body, begins_[k].body);
       }
     }
+  }
+
+  static constexpr std::size_t lanes = 8;
+  using Lanes [[gnu::vector_size(lanes * sizeof(float))]] = float;
+  using Hits [[gnu::vector_size(lanes * sizeof(float))]] = std::int32_t;
+  using Pairs [[gnu::vector_size(lanes * sizeof(float))]] = std::uint64_t;
+
+  static void load(const std::vector<float>& numbers, std::size_t k, Lanes& x) { std::memcpy(&x, &numbers[k], sizeof x); }
+
+  static unsigned all_of(const Hits& hits) {
+    const auto pairs = reinterpret_cast<Pairs>(hits);
+    const std::uint64_t two = (pairs[0] | pairs[1]) | (pairs[2] | pairs[3]);
+    return static_cast<unsigned>(two | two >> 32);
   }
 
   std::size_t axis_ = 0;
   std::vector<Box> boxes_, swept_;      // by number; by where they begin
   std::vector<std::uint32_t> order_;    // the bodies by where they begin
   std::vector<Begin> begins_;
-  std::vector<float> low2_, high2_, low3_, high3_;
+  std::vector<float> low1_, low2_, high2_, low3_, high3_;
   broad::PairList found_;
   std::span<const BodyPair> sorted_;
   bool stale_ = false;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "collision/narrow/contact_patch.hpp"
 #include "collision/narrow/epa.hpp"
 #include "collision/narrow/gjk_loop.hpp"
 #include "collision/narrow/pair_order.hpp"
@@ -164,16 +165,10 @@ class Gjk final : public NarrowPhase {
     return ordered_distance(a, at_a, b, at_b, memory, swapped);
   }
 
-  /// The deepest point alone.
   Manifold manifold(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, double margin,
                     PairMemory* memory) const override {
-    const Distance d = distance(a, at_a, b, at_b, memory);
-    Manifold m;
-    if (!(d.distance <= margin)) return m;
-    m.normal = d.normal;
-    m.points[0] = {0.5 * (d.on_a + d.on_b), -d.distance, {}};
-    m.count = 1;
-    return m;
+    if (a.tag() == ShapeTag::compound || b.tag() == ShapeTag::compound) return compound_patch(*this, a, at_a, b, at_b, margin);
+    return contact_patch(a, at_a, b, at_b, distance(a, at_a, b, at_b, memory), margin);
   }
 };
 

@@ -9,7 +9,7 @@
 namespace polhode {
 namespace {
 
-constexpr std::size_t kept = 4;
+constexpr double least_gain = 1.0 / 32;  // of the patch's area, for a point beside four others to matter
 
 /// Where the edge that leaves a corner meets a side: another side's edge (then it is a vertex of the reference face), or an
 /// edge of the incident face.
@@ -28,9 +28,9 @@ double squared_distance(const PatchCorner& a, const PatchCorner& b) {
   return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
 }
 
-/// Moves the four corners that matter to the front. Values that differ by round-off count as equal, and then the first
-/// feature is taken: a patch at rest keeps its points.
-void reduce(std::span<PatchCorner> corners) {
+/// Moves the corners that matter to the front, and returns how many they are. Values that differ by round-off count as
+/// equal, and then the first feature is taken: a patch at rest keeps its points.
+std::size_t reduce(std::span<PatchCorner> corners) {
   constexpr double equal = 1e-9;
   const auto by_feature = [](const PatchCorner& a, const PatchCorner& b) {
     return std::tie(a.feature.kind, a.feature.of_a, a.feature.of_b) < std::tie(b.feature.kind, b.feature.of_a, b.feature.of_b);
@@ -49,19 +49,43 @@ void reduce(std::span<PatchCorner> corners) {
     }
     std::rotate(corners.begin() + std::ptrdiff_t(place), corners.begin() + std::ptrdiff_t(best),
                 corners.begin() + std::ptrdiff_t(best) + 1);
+    return most;
   };
   bring(0, std::sqrt(size), [](const PatchCorner& c) { return -c.height; });
   bring(1, size, [&](const PatchCorner& c) { return squared_distance(c, corners[0]); });
   bring(2, size, [&](const PatchCorner& c) { return std::abs(area(corners[0], corners[1], c)); });
-  const double side = area(corners[0], corners[1], corners[2]) > 0 ? 1 : -1;
-  bring(3, size, [&](const PatchCorner& c) {
-    // How much a fourth corner adds to the triangle: beyond whichever of its sides it lies.
-    return std::max({-side * area(corners[0], corners[1], c), -side * area(corners[1], corners[2], c),
-                     -side * area(corners[2], corners[0], c)});
-  });
+  // The corners so far, counter-clockwise, and the side beyond which another one adds the most area.
+  std::array<std::size_t, Manifold::capacity> ring{0, 1, 2};
+  if (area(corners[0], corners[1], corners[2]) < 0) std::swap(ring[1], ring[2]);
+  double whole = std::abs(area(corners[0], corners[1], corners[2]));
+  std::size_t count = 3;
+  for (; count < std::min(corners.size(), ring.size()); ++count) {
+    const auto beyond = [&](std::size_t side, const PatchCorner& c) {
+      return -area(corners[ring[side]], corners[ring[side + 1 == count ? 0 : side + 1]], c);
+    };
+    const double gain = bring(count, size, [&](const PatchCorner& c) {
+      double most = beyond(0, c);
+      for (std::size_t side = 1; side < count; ++side) most = std::max(most, beyond(side, c));
+      return most;
+    });
+    if (count >= 4 && gain <= least_gain * whole) break;
+    std::size_t best = 0;
+    for (std::size_t side = 1; side < count; ++side) {
+      if (beyond(side, corners[count]) > beyond(best, corners[count])) best = side;
+    }
+    std::copy_backward(ring.begin() + std::ptrdiff_t(best) + 1, ring.begin() + std::ptrdiff_t(count),
+                       ring.begin() + std::ptrdiff_t(count) + 1);
+    ring[best + 1] = count;
+    whole += std::max(gain, 0.0);
+  }
+  return count;
 }
 
 }  // namespace
+
+std::span<PatchCorner> those_that_matter(std::span<PatchCorner> corners) {
+  return corners.size() > 4 ? corners.first(reduce(corners)) : corners;
+}
 
 std::span<PatchCorner> clip_patch(std::span<const PatchSide> sides, std::uint32_t incident_face, double tolerance,
                                   std::span<PatchCorner> corners, std::size_t count, std::span<PatchCorner> buffer) {
@@ -100,11 +124,7 @@ std::span<PatchCorner> clip_patch(std::span<const PatchSide> sides, std::uint32_
 
 void take_patch(const PatchFrame& frame, std::span<PatchCorner> corners, double highest, Manifold& manifold) {
   const auto end = std::remove_if(corners.begin(), corners.end(), [&](const PatchCorner& c) { return c.height > highest; });
-  std::span<PatchCorner> left(corners.begin(), end);
-  if (left.size() > kept) {
-    reduce(left);
-    left = left.first(kept);
-  }
+  const auto left = those_that_matter({corners.begin(), end});
   manifold.count = left.size();
   for (std::size_t k = 0; k < left.size(); ++k) {
     const PatchCorner& c = left[k];

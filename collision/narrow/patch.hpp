@@ -44,8 +44,11 @@ struct PatchFrame {
 std::span<PatchCorner> clip_patch(std::span<const PatchSide> sides, std::uint32_t incident_face, double tolerance,
                                   std::span<PatchCorner> corners, std::size_t count, std::span<PatchCorner> buffer);
 
-/// The points of the patch that matter: those no higher than `highest` (m), and of these at most four: the deepest, the
-/// one furthest from it, and those that span the largest area. Features are of the reference shape first.
+/// Up to four corners all of them; of more the deepest, the one furthest from it and the two that span the largest area with
+/// them; and up to the capacity of a manifold others that add to it by more than 1/32. Changes their order.
+std::span<PatchCorner> those_that_matter(std::span<PatchCorner> corners);
+
+/// The points of the patch that matter, of those no higher than `highest` (m). Features are of the reference shape first.
 void take_patch(const PatchFrame& frame, std::span<PatchCorner> corners, double highest, Manifold& manifold);
 
 /// The manifold with A and B exchanged.

@@ -52,11 +52,11 @@ TEST(BoxManifold, TiltedCubesKeepAFourPointFaceContact) {
   }
 }
 
-TEST(BoxManifold, AFaceTurnedBy45DegreesIsAnOctagonCutToFour) {
+TEST(BoxManifold, AFaceTurnedBy45DegreesIsAnOctagon) {
   const Manifold m = manifold(cube(1, {0, 0, 0}), cube(1, {0, 0, 1.999}, {0, 0, std::numbers::pi / 4}));
-  ASSERT_EQ(m.count, 4u);
+  ASSERT_EQ(m.count, 8u);
   EXPECT_NEAR((m.normal - Vector(0, 0, -1)).norm(), 0, 1e-15);
-  for (std::size_t k = 0; k < 4; ++k) {
+  for (std::size_t k = 0; k < 8; ++k) {
     const ContactPoint& p = m.points[k];
     EXPECT_EQ(p.feature.kind, Kind::edge_edge);
     EXPECT_NEAR(p.depth, 0.001, 1e-12);
@@ -65,7 +65,7 @@ TEST(BoxManifold, AFaceTurnedBy45DegreesIsAnOctagonCutToFour) {
     EXPECT_NEAR(large, 1, 1e-12);
     EXPECT_NEAR(small, std::numbers::sqrt2 - 1, 1e-12);
   }
-  EXPECT_EQ(names(m).size(), 4u);
+  EXPECT_EQ(names(m).size(), 8u);
 }
 
 TEST(BoxManifold, EachKindOfContactHasItsName) {
@@ -149,7 +149,7 @@ TEST(BoxManifold, EveryOverlappingPairHasOneAndItIsAsDeepAsTheyAre) {
     ASSERT_EQ(m.count > 0, d.distance <= margin) << pair.what << k;
     if (m.count == 0) continue;
     ++contacts;
-    ASSERT_LE(m.count, 4u);
+    ASSERT_LE(m.count, Manifold::capacity);
     ASSERT_EQ(names(m).size(), m.count) << pair.what << k;
     ASSERT_NEAR(m.normal.norm(), 1, 1e-14);
     // An axis with a little less depth may give way to a face that is almost as good.
