@@ -129,27 +129,10 @@ class Expansion {
     Penetration result;
     result.normal = -best_normal_;
     result.distance = -best_reach_;
-    polish(result);
+    polish(pair_, best_face_, result);
     witness(result);
     if (pair_.smooth()) descend(result);
     return result;
-  }
-
-  /// The best face found is that of a feature of the shapes, whose normal they know to the last digit: a face of either,
-  /// or the product of two edges.
-  void polish(Penetration& result) const {
-    const auto consider = [&](const Vector3<double>& n) {
-      if (n.isZero(0)) return;
-      const double here = separation(pair_, n);
-      if (here > result.distance) {
-        result.distance = here;
-        result.normal = n;
-      }
-    };
-    const Vector3<double> n = result.normal;
-    if (pair_.a.has_faces()) consider(-nearest_face_normal(pair_.a, -n));
-    if (pair_.b.has_faces()) consider(pair_.rotation * nearest_face_normal(pair_.b, pair_.rotation.transpose() * n));
-    consider(nearest_edge_product(best_face_[0], best_face_[1], best_face_[2], n));
   }
 
   /// Where a surface bends, an inscribed polytope comes near to it only slowly. The point a little further out than the
@@ -162,6 +145,8 @@ class Expansion {
       GjkResult r;
       gjk_loop<false>(shifted, r);
       if (r.state != GjkResult::State::apart) return;
+      result.on_a = r.simplex.on_a();
+      result.on_b = pair_.in_b(r.simplex.turned_on_b());
       const Vector3<double> step = r.v / r.distance - result.normal;
       const double before = result.distance;
       // Where depth and radius are nearly the same the steps are short: longer ones as long as they gain.
@@ -174,10 +159,6 @@ class Expansion {
         result.normal = n;
       }
       if (!(result.distance > before)) return;
-      const MinkowskiCorner end = pair_.support(-result.normal);
-      result.on_a = end.a;
-      result.on_b = pair_.in_b(end.turned_b);
-      if (result.distance - before <= stop_share * scale) return;
     }
   }
 
@@ -226,6 +207,21 @@ double separation(const MinkowskiPair& pair, const Vector3<double>& n) {
   MinkowskiCorner c;
   pair.support_against(n, c);
   return n.dot(c.w);
+}
+
+void polish(const MinkowskiPair& pair, const std::array<MinkowskiCorner, 3>& corners, Penetration& p) {
+  const auto consider = [&](const Vector3<double>& n) {
+    if (n.isZero(0)) return;
+    const double here = separation(pair, n);
+    if (here > p.distance) {
+      p.distance = here;
+      p.normal = n;
+    }
+  };
+  const Vector3<double> n = p.normal;
+  if (pair.a.has_faces()) consider(-nearest_face_normal(pair.a, -n));
+  if (pair.b.has_faces()) consider(pair.rotation * nearest_face_normal(pair.b, pair.in_b(n)));
+  consider(nearest_edge_product(corners[0], corners[1], corners[2], n));
 }
 
 Penetration epa(const MinkowskiPair& pair, const GjkResult& start, PairMemory::Shell* shell) {

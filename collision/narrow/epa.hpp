@@ -23,6 +23,10 @@ struct Penetration {
   Vector3<double> on_b = Vector3<double>::Zero();
 };
 
+/// What touches are features of the shapes, whose normal they know to the last digit: a face of either, or the product of two
+/// edges between the corners. Takes the normal and its separation where that is larger than p.distance.
+void polish(const MinkowskiPair& pair, const std::array<MinkowskiCorner, 3>& corners, Penetration& p);
+
 /// `start` says `inside` or `near`. What is left in `shell`, unless that is null,
 /// serves `epa_again`.
 Penetration epa(const MinkowskiPair& pair, const GjkResult& start, PairMemory::Shell* shell);

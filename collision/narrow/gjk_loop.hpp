@@ -22,6 +22,8 @@ struct GjkResult {
   State state = State::near;
   Vector3<double> v = Vector3<double>::Zero();
   double distance = 0;  ///< |v|
+  double gap = 0;       ///< by how much less the shapes are apart along v
+  double scale = 0;     ///< the largest number that a corner is made of, what round-off is measured by
   Simplex simplex;
 };
 
@@ -49,7 +51,7 @@ void gjk_loop(const MinkowskiPair& pair, GjkResult& r) {
   }
   solve(s, newest, nearest);
   s.used = nearest.used;
-  double square = nearest.square;
+  double square = nearest.square, gap = 0;
   int stalls = 0;
 
   const double radius = early ? pair.radius() : 0;
@@ -59,7 +61,8 @@ void gjk_loop(const MinkowskiPair& pair, GjkResult& r) {
     MinkowskiCorner& next = s.corners[newest];
     pair.support_against(nearest.v, next);
     scale2 = std::max(scale2, next.w.squaredNorm());
-    const double reach = nearest.v.dot(next.w), gap = square - reach;
+    const double reach = nearest.v.dot(next.w);
+    gap = square - reach;
     const double rounding = stop_share * stop_share * square * scale2;  // its square
     if constexpr (early) {
       const bool apart = radius > 0 ? reach > std::sqrt(square) * radius + std::sqrt(rounding) : reach * reach > rounding;
@@ -87,6 +90,8 @@ void gjk_loop(const MinkowskiPair& pair, GjkResult& r) {
   }
   r.v = nearest.v;
   r.distance = r.v.norm();
+  r.gap = gap / r.distance;
+  r.scale = std::sqrt(scale2);
   if (nearest.inside) r.state = nearest.sure ? GjkResult::State::inside : GjkResult::State::near;
   else if (square <= near_share * near_share * scale2) r.state = GjkResult::State::near;
   else r.state = GjkResult::State::apart;
