@@ -20,7 +20,13 @@ namespace polhode {
 namespace {
 
 /// The same answer with A and B exchanged.
-Distance mirrored(const Distance& d) { return {d.distance, -d.normal, d.on_b, d.on_a}; }
+Distance mirrored(Distance d) {
+  for (int i = 0; i < 3; ++i) {
+    d.normal[i] = -d.normal[i];
+    std::swap(d.on_a[i], d.on_b[i]);
+  }
+  return d;
+}
 
 Distance outside_half_space(const Shape& a, const Pose& at_a, const HalfSpace& b, const Pose& at_b) {
   const Vector3<double> n = at_b.rotation * b.normal();
@@ -135,8 +141,9 @@ Penetration signed_distance(const MinkowskiPair& pair, PairMemory* memory, bool 
   }
   GjkResult r;
   recall(memory, swapped, pair, r.simplex);
+  const unsigned recalled = r.simplex.used;
   gjk_loop<false>(pair, r);
-  remember(memory, swapped, pair, r.simplex);
+  if (r.steps > 0 || r.simplex.used != recalled) remember(memory, swapped, pair, r.simplex);
   if (r.state != GjkResult::State::apart) return epa(pair, r, shell);
   refine(pair, r);
   const Penetration p = {r.distance, r.v / r.distance, r.simplex.on_a(), pair.in_b(r.simplex.turned_on_b())};
@@ -147,9 +154,12 @@ Distance convex_distance(const Shape& a, const Pose& at_a, const Shape& b, const
   const MinkowskiPair pair(a, at_a, b, at_b);
   check(pair);
   const Penetration p = signed_distance(pair, memory, swapped);
-  const Vector3<double> n = at_a.rotation * p.normal;
-  return {p.distance - pair.radius(), n, at_a.to_world(p.on_a) - pair.a.radius * n,
-          at_b.to_world(p.on_b) + pair.b.radius * n};
+  Distance d;
+  d.distance = p.distance - pair.radius();
+  d.normal.noalias() = at_a.rotation * p.normal;
+  d.on_a.noalias() = at_a.to_world(p.on_a) - pair.a.radius * d.normal;
+  d.on_b.noalias() = at_b.to_world(p.on_b) + pair.b.radius * d.normal;
+  return d;
 }
 
 bool convex_overlap(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory, bool swapped) {
@@ -158,7 +168,7 @@ bool convex_overlap(const Shape& a, const Pose& at_a, const Shape& b, const Pose
   GjkResult r;
   recall(memory, swapped, pair, r.simplex);
   gjk_loop<true>(pair, r);
-  remember(memory, swapped, pair, r.simplex);
+  if (r.steps > 0) remember(memory, swapped, pair, r.simplex);
   if (r.state == GjkResult::State::separated) return false;
   if (r.state == GjkResult::State::inside) return true;
   return convex_distance(a, at_a, b, at_b, memory, swapped).distance <= 0;
