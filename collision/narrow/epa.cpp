@@ -25,7 +25,7 @@ class Expansion {
   Penetration run(const Simplex& start, bool certain, PairMemory::Shell* shell) {
     if (!span_space(start, certain)) {
       if (shell) shell->corner_count = 0;
-      return {separation(pair_, flat_normal_), flat_normal_, start.on_a(), pair_.in_b(start.turned_on_b())};
+      return {separation(pair_, flat_normal_), flat_normal_, start.on_a(), start.turned_on_b() + pair_.offset};
     }
     polytope_.close_tetrahedron();
     expand(-std::numeric_limits<double>::infinity());
@@ -146,7 +146,7 @@ class Expansion {
       gjk_loop<false>(shifted, r);
       if (r.state != GjkResult::State::apart) return;
       result.on_a = r.simplex.on_a();
-      result.on_b = pair_.in_b(r.simplex.turned_on_b());
+      result.on_b = r.simplex.turned_on_b() + pair_.offset;
       const Vector3<double> step = r.v / r.distance - result.normal;
       const double before = result.distance;
       // Where depth and radius are nearly the same the steps are short: longer ones as long as they gain.
@@ -191,7 +191,7 @@ class Expansion {
       result.on_a += share[i] * holder[i].a;
       turned += share[i] * holder[i].turned_b;
     }
-    result.on_b = pair_.in_b(turned);
+    result.on_b = turned + pair_.offset;
   }
 
   const MinkowskiPair& pair_;

@@ -124,8 +124,13 @@ Penetration with_sure_normal(const MinkowskiPair& pair, const GjkResult& r, cons
     if (again.state == GjkResult::State::apart) break;
     Penetration p = epa(touching, again, nullptr);
     p.distance = separation(pair, p.normal);
+    p.on_b -= touching.offset - pair.offset;
     if (!(p.distance >= best.distance - rounding)) break;
     best = p;
+  }
+  if (best.distance < r.distance - rounding) {  // not even sure that they are apart
+    const Penetration p = epa(pair, r, nullptr);
+    if (p.distance >= best.distance - rounding) return p;
   }
   best.distance = r.distance;
   return best;
@@ -146,7 +151,11 @@ Penetration signed_distance(const MinkowskiPair& pair, PairMemory* memory, bool 
   if (r.steps > 0 || r.simplex.used != recalled) remember(memory, swapped, pair, r.simplex);
   if (r.state != GjkResult::State::apart) return epa(pair, r, shell);
   refine(pair, r);
-  const Penetration p = {r.distance, r.v / r.distance, r.simplex.on_a(), pair.in_b(r.simplex.turned_on_b())};
+  Penetration p;
+  p.distance = r.distance;
+  p.normal = r.v / r.distance;
+  p.on_a = r.simplex.on_a();
+  p.on_b = p.on_a - r.v;
   return r.gap > near_share * r.scale ? with_sure_normal(pair, r, p) : p;
 }
 
@@ -158,7 +167,7 @@ Distance convex_distance(const Shape& a, const Pose& at_a, const Shape& b, const
   d.distance = p.distance - pair.radius();
   d.normal.noalias() = at_a.rotation * p.normal;
   d.on_a.noalias() = at_a.to_world(p.on_a) - pair.a.radius * d.normal;
-  d.on_b.noalias() = at_b.to_world(p.on_b) + pair.b.radius * d.normal;
+  d.on_b.noalias() = at_a.to_world(p.on_b) + pair.b.radius * d.normal;
   return d;
 }
 
