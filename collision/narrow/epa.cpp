@@ -116,10 +116,12 @@ class Expansion {
         best_normal_ = face.normal;
         for (std::size_t k = 0; k < 3; ++k) best_face_[k] = polytope_.corner(face.corner[k]);
       }
-      if (reach - offset <= rounding || polytope_.has_corner(next)) {
+      const bool met = polytope_.has_corner(next);
+      if (reach - offset <= rounding || (met && least < 0)) {
         polytope_.retire(*at);
         continue;
       }
+      if (met) return least < 0;
       if (polytope_.full() || !polytope_.grow(*at, next)) return least < 0;
     }
     return true;
