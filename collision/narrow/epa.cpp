@@ -121,7 +121,7 @@ class Expansion {
         polytope_.retire(*at);
         continue;
       }
-      if (met) return least < 0;
+      if (met) return false;  // what was remembered is not convex here any more
       if (polytope_.full() || !polytope_.grow(*at, next)) return least < 0;
     }
     return true;
