@@ -25,12 +25,12 @@ struct PairMemory {
     std::array<std::array<std::uint8_t, 3>, face_room> faces;
   };
 
-  std::uint32_t count = 0;                                   ///< corners of the last simplex
-  bool swapped = false;                                      ///< all this was made with A and B exchanged
-  std::array<Vector3<double>, 4> corners_a, corners_b;       ///< points of the two solids, each in its own axes
-  std::array<std::array<std::uint32_t, 2>, 4> vertices;      ///< their numbers, where they are vertices
+  std::uint32_t count = 0;                               ///< corners of the last simplex
+  bool swapped = false;                                  ///< all this was made with A and B exchanged
+  std::array<std::array<std::uint32_t, 2>, 4> vertices;  ///< their numbers of vertices of A and B
   Shell shell;
-  std::uint32_t axis = 0;                                    ///< the axis or feature that told last
+  std::array<Vector3<double>, 4> corners_a, corners_b;   ///< where a surface bends: points, each in its shape's axes
+  std::uint32_t axis = 0;                                ///< the axis or feature that told last
 };
 
 class NarrowPhase {

@@ -25,7 +25,7 @@ class Expansion {
   Penetration run(const Simplex& start, bool certain, PairMemory::Shell* shell) {
     if (!span_space(start, certain)) {
       if (shell) shell->corner_count = 0;
-      return {separation(pair_, flat_normal_), flat_normal_, start.on_a(), pair_.in_b(start.turned_on_b())};
+      return {separation(pair_, flat_normal_), flat_normal_, start.on_a(), start.turned_on_b() + pair_.offset};
     }
     polytope_.close_tetrahedron();
     expand(-std::numeric_limits<double>::infinity());
@@ -116,10 +116,12 @@ class Expansion {
         best_normal_ = face.normal;
         for (std::size_t k = 0; k < 3; ++k) best_face_[k] = polytope_.corner(face.corner[k]);
       }
-      if (reach - offset <= rounding || polytope_.has_corner(next)) {
+      const bool met = polytope_.has_corner(next);
+      if (reach - offset <= rounding || (met && least < 0)) {
         polytope_.retire(*at);
         continue;
       }
+      if (met) return false;  // what was remembered is not convex here any more
       if (polytope_.full() || !polytope_.grow(*at, next)) return least < 0;
     }
     return true;
@@ -129,27 +131,10 @@ class Expansion {
     Penetration result;
     result.normal = -best_normal_;
     result.distance = -best_reach_;
-    polish(result);
+    polish(pair_, best_face_, result);
     witness(result);
     if (pair_.smooth()) descend(result);
     return result;
-  }
-
-  /// The best face found is that of a feature of the shapes, whose normal they know to the last digit: a face of either,
-  /// or the product of two edges.
-  void polish(Penetration& result) const {
-    const auto consider = [&](const Vector3<double>& n) {
-      if (n.isZero(0)) return;
-      const double here = separation(pair_, n);
-      if (here > result.distance) {
-        result.distance = here;
-        result.normal = n;
-      }
-    };
-    const Vector3<double> n = result.normal;
-    if (pair_.a.has_faces()) consider(-nearest_face_normal(pair_.a, -n));
-    if (pair_.b.has_faces()) consider(pair_.rotation * nearest_face_normal(pair_.b, pair_.rotation.transpose() * n));
-    consider(nearest_edge_product(best_face_[0], best_face_[1], best_face_[2], n));
   }
 
   /// Where a surface bends, an inscribed polytope comes near to it only slowly. The point a little further out than the
@@ -162,6 +147,8 @@ class Expansion {
       GjkResult r;
       gjk_loop<false>(shifted, r);
       if (r.state != GjkResult::State::apart) return;
+      result.on_a = r.simplex.on_a();
+      result.on_b = r.simplex.turned_on_b() + pair_.offset;
       const Vector3<double> step = r.v / r.distance - result.normal;
       const double before = result.distance;
       // Where depth and radius are nearly the same the steps are short: longer ones as long as they gain.
@@ -174,10 +161,6 @@ class Expansion {
         result.normal = n;
       }
       if (!(result.distance > before)) return;
-      const MinkowskiCorner end = pair_.support(-result.normal);
-      result.on_a = end.a;
-      result.on_b = pair_.in_b(end.turned_b);
-      if (result.distance - before <= stop_share * scale) return;
     }
   }
 
@@ -210,7 +193,7 @@ class Expansion {
       result.on_a += share[i] * holder[i].a;
       turned += share[i] * holder[i].turned_b;
     }
-    result.on_b = pair_.in_b(turned);
+    result.on_b = turned + pair_.offset;
   }
 
   const MinkowskiPair& pair_;
@@ -226,6 +209,21 @@ double separation(const MinkowskiPair& pair, const Vector3<double>& n) {
   MinkowskiCorner c;
   pair.support_against(n, c);
   return n.dot(c.w);
+}
+
+void polish(const MinkowskiPair& pair, const std::array<MinkowskiCorner, 3>& corners, Penetration& p) {
+  const auto consider = [&](const Vector3<double>& n) {
+    if (n.isZero(0)) return;
+    const double here = separation(pair, n);
+    if (here > p.distance) {
+      p.distance = here;
+      p.normal = n;
+    }
+  };
+  const Vector3<double> n = p.normal;
+  if (pair.a.has_faces()) consider(-nearest_face_normal(pair.a, -n));
+  if (pair.b.has_faces()) consider(pair.rotation * nearest_face_normal(pair.b, pair.in_b(n)));
+  consider(nearest_edge_product(corners[0], corners[1], corners[2], n));
 }
 
 Penetration epa(const MinkowskiPair& pair, const GjkResult& start, PairMemory::Shell* shell) {

@@ -138,16 +138,15 @@ bool EpaPolytope::save(PairMemory::Shell& shell) const {
 
 bool EpaPolytope::load(const MinkowskiPair& pair, const PairMemory::Shell& shell) {
   clear();
+  double square = 0;
   for (int i = 0; i < shell.corner_count; ++i) {
     const auto [of_a, of_b] = shell.corners[std::size_t(i)];
     if (of_a >= pair.a.vertex_count() || of_b >= pair.b.vertex_count()) return false;
     MinkowskiCorner& c = corners_[std::size_t(i)];
-    c.a = pair.a.vertex(of_a);
-    pair.complete(c, pair.b.vertex(of_b));
-    c.vertex_a = of_a;
-    c.vertex_b = of_b;
-    met(c.w.norm());
+    pair.corner(of_a, of_b, c);
+    square = std::max(square, c.w.squaredNorm());
   }
+  met(std::sqrt(square));
   corner_count_ = shell.corner_count;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < shell.face_count; ++i) {

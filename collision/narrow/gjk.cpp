@@ -21,7 +21,13 @@ namespace polhode {
 namespace {
 
 /// The same answer with A and B exchanged.
-Distance mirrored(const Distance& d) { return {d.distance, -d.normal, d.on_b, d.on_a}; }
+Distance mirrored(Distance d) {
+  for (int i = 0; i < 3; ++i) {
+    d.normal[i] = -d.normal[i];
+    std::swap(d.on_a[i], d.on_b[i]);
+  }
+  return d;
+}
 
 Distance outside_half_space(const Shape& a, const Pose& at_a, const HalfSpace& b, const Pose& at_b) {
   const Vector3<double> n = at_b.rotation * b.normal();
@@ -41,15 +47,22 @@ Distance between_half_spaces(const HalfSpace& a, const Pose& at_a, const HalfSpa
 }
 
 void recall(const PairMemory* memory, bool swapped, const MinkowskiPair& pair, Simplex& s) {
+  s.used = 0;
   if (!memory || memory->swapped != swapped) return;
-  s.used = (1u << memory->count) - 1;
   for (std::size_t i = 0; i < memory->count; ++i) {
+    const auto [of_a, of_b] = memory->vertices[i];
     MinkowskiCorner& c = s.corners[i];
-    c.a = memory->corners_a[i];
-    pair.complete(c, memory->corners_b[i]);
-    c.vertex_a = memory->vertices[i][0];
-    c.vertex_b = memory->vertices[i][1];
+    if (!pair.smooth()) {
+      if (of_a >= pair.a.vertex_count() || of_b >= pair.b.vertex_count()) return;
+      pair.corner(of_a, of_b, c);
+    } else {
+      c.a = memory->corners_a[i];
+      pair.complete(c, memory->corners_b[i]);
+      c.vertex_a = of_a;
+      c.vertex_b = of_b;
+    }
   }
+  s.used = (1u << memory->count) - 1;
 }
 
 void remember(PairMemory* memory, bool swapped, const MinkowskiPair& pair, const Simplex& s) {
@@ -58,9 +71,11 @@ void remember(PairMemory* memory, bool swapped, const MinkowskiPair& pair, const
   memory->count = 0;
   for (unsigned left = s.used; left != 0; left &= left - 1) {
     const MinkowskiCorner& c = s.corners[std::size_t(std::countr_zero(left))];
-    memory->corners_a[memory->count] = c.a;
-    memory->corners_b[memory->count] = pair.in_b(c.turned_b);
     memory->vertices[memory->count] = {c.vertex_a, c.vertex_b};
+    if (pair.smooth()) {
+      memory->corners_a[memory->count] = c.a;
+      memory->corners_b[memory->count] = pair.in_b(c.turned_b);
+    }
     ++memory->count;
   }
 }
@@ -70,14 +85,56 @@ void check(const MinkowskiPair& pair) {
   throw std::invalid_argument("gjk: a pose is not finite, or the shapes are more than 1e100 m apart");
 }
 
-/// The shares of a triangle, to the last digit.
-void refine(Simplex& s) {
+/// The shares of a thin triangle, where rounding shows in them.
+void refine(const MinkowskiPair& pair, GjkResult& r) {
+  Simplex& s = r.simplex;
   if (s.count() != 3) return;
   const unsigned missing = ~s.used & 15;
   const auto at = [missing](unsigned k) { return std::size_t(k + (1u << k >= missing)); };
-  std::array<double, 4> share = {s.weight[at(0)], s.weight[at(1)], s.weight[at(2)], 0};
-  refine(s.corners[at(0)], s.corners[at(1)], s.corners[at(2)], Vector3<double>::Zero(), share);
-  for (unsigned k = 0; k < 3; ++k) s.weight[at(k)] = share[k];
+  const std::size_t i = at(0), j = at(1), k = at(2);
+  const Vector3<double> sum = s.weight[i] * s.corners[i].w + s.weight[j] * s.corners[j].w + s.weight[k] * s.corners[k].w;
+  const double square = std::max(r.distance * r.distance, pair.offset.squaredNorm());
+  if ((sum - r.v).squaredNorm() <= stop_share * stop_share * square) return;
+  std::array<double, 4> share = {s.weight[i], s.weight[j], s.weight[k], 0};
+  refine(s.corners[i], s.corners[j], s.corners[k], Vector3<double>::Zero(), share);
+  s.weight[i] = share[0];
+  s.weight[j] = share[1];
+  s.weight[k] = share[2];
+}
+
+/// Where v is short beside the shapes, or they have faces that are nearly parallel, rounding turns it so far that it parts
+/// the shapes less than they are apart. Then the features know the normal: those at hand, or those that EPA finds where the
+/// shapes are moved until they touch.
+Penetration with_sure_normal(const MinkowskiPair& pair, const GjkResult& r, const Penetration& unsure) {
+  std::array<MinkowskiCorner, 3> corners;
+  unsigned left = r.simplex.used;
+  for (MinkowskiCorner& c : corners) {
+    c = r.simplex.corners[std::size_t(std::countr_zero(left))];
+    if ((left & (left - 1)) != 0) left &= left - 1;
+  }
+  Penetration best = unsure;
+  best.distance -= r.gap;
+  polish(pair, corners, best);
+  const double rounding = near_share * r.scale;
+  const bool sure = best.distance >= r.distance - rounding && (r.v - r.distance * best.normal).norm() <= rounding;
+  for (int k = 0; k < 2 && !sure; ++k) {
+    MinkowskiPair touching = pair;
+    touching.offset += r.distance * best.normal;
+    GjkResult again;
+    gjk_loop<false>(touching, again);
+    if (again.state == GjkResult::State::apart) break;
+    Penetration p = epa(touching, again, nullptr);
+    p.distance = separation(pair, p.normal);
+    p.on_b -= touching.offset - pair.offset;
+    if (!(p.distance >= best.distance - rounding)) break;
+    best = p;
+  }
+  if (best.distance < r.distance - rounding) {  // not even sure that they are apart
+    const Penetration p = epa(pair, r, nullptr);
+    if (p.distance >= best.distance - rounding) return p;
+  }
+  best.distance = r.distance;
+  return best;
 }
 
 Penetration signed_distance(const MinkowskiPair& pair, PairMemory* memory, bool swapped) {
@@ -90,20 +147,29 @@ Penetration signed_distance(const MinkowskiPair& pair, PairMemory* memory, bool 
   }
   GjkResult r;
   recall(memory, swapped, pair, r.simplex);
+  const unsigned recalled = r.simplex.used;
   gjk_loop<false>(pair, r);
-  remember(memory, swapped, pair, r.simplex);
+  if (r.steps > 0 || r.simplex.used != recalled) remember(memory, swapped, pair, r.simplex);
   if (r.state != GjkResult::State::apart) return epa(pair, r, shell);
-  refine(r.simplex);
-  return {r.distance, r.v / r.distance, r.simplex.on_a(), pair.in_b(r.simplex.turned_on_b())};
+  refine(pair, r);
+  Penetration p;
+  p.distance = r.distance;
+  p.normal = r.v / r.distance;
+  p.on_a = r.simplex.on_a();
+  p.on_b = p.on_a - r.v;
+  return r.gap > near_share * r.scale ? with_sure_normal(pair, r, p) : p;
 }
 
 Distance convex_distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory, bool swapped) {
   const MinkowskiPair pair(a, at_a, b, at_b);
   check(pair);
   const Penetration p = signed_distance(pair, memory, swapped);
-  const Vector3<double> n = at_a.rotation * p.normal;
-  return {p.distance - pair.radius(), n, at_a.to_world(p.on_a) - pair.a.radius * n,
-          at_b.to_world(p.on_b) + pair.b.radius * n};
+  Distance d;
+  d.distance = p.distance - pair.radius();
+  d.normal.noalias() = at_a.rotation * p.normal;
+  d.on_a.noalias() = at_a.to_world(p.on_a) - pair.a.radius * d.normal;
+  d.on_b.noalias() = at_a.to_world(p.on_b) + pair.b.radius * d.normal;
+  return d;
 }
 
 bool convex_overlap(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory, bool swapped) {
@@ -112,7 +178,7 @@ bool convex_overlap(const Shape& a, const Pose& at_a, const Shape& b, const Pose
   GjkResult r;
   recall(memory, swapped, pair, r.simplex);
   gjk_loop<true>(pair, r);
-  remember(memory, swapped, pair, r.simplex);
+  if (r.steps > 0) remember(memory, swapped, pair, r.simplex);
   if (r.state == GjkResult::State::separated) return false;
   if (r.state == GjkResult::State::inside) return true;
   return convex_distance(a, at_a, b, at_b, memory, swapped).distance <= 0;

@@ -22,6 +22,9 @@ struct GjkResult {
   State state = State::near;
   Vector3<double> v = Vector3<double>::Zero();
   double distance = 0;  ///< |v|
+  double gap = 0;       ///< by how much less the shapes are apart along v, where that is more than round-off
+  double scale = 0;     ///< the largest number that a corner is made of, what round-off is measured by
+  int steps = 0;        ///< corners that were added
   Simplex simplex;
 };
 
@@ -36,34 +39,49 @@ template <bool early>
 void gjk_loop(const MinkowskiPair& pair, GjkResult& r) {
   NearestPoint nearest;
   Simplex& s = r.simplex;
-  unsigned newest = 0;
-  if (s.used == 0) {
-    s.used = 1;
-    pair.support_against(pair.offset.isZero(0) ? Vector3<double>(-1, 0, 0) : Vector3<double>(-pair.offset), s.corners[0]);
-  } else {
-    newest = unsigned(std::bit_width(s.used)) - 1;
-  }
   double scale2 = pair.offset.squaredNorm();  // of the largest number that a corner is made of
-  for (unsigned left = s.used; left != 0; left &= left - 1) {
-    scale2 = std::max(scale2, s.corners[std::size_t(std::countr_zero(left))].w.squaredNorm());
+  const double radius = early ? pair.radius() : 0;
+  const auto separates = [&](double reach, double square) {
+    if (!(reach > 0)) return false;
+    const double rounding = stop_share * stop_share * scale2;
+    if (radius == 0) return reach * reach > rounding * square;
+    return reach > std::sqrt(square) * (radius + std::sqrt(rounding));
+  };
+  if (s.used == 0) {
+    // From the point of the difference that the origins of the shapes make.
+    const Vector3<double> first = scale2 > 0 ? Vector3<double>(-pair.offset) : Vector3<double>(-1, 0, 0);
+    const Vector3<double>& w = s.corners[0].w;
+    pair.support_against(first, s.corners[0]);
+    scale2 = std::max(scale2, w.squaredNorm());
+    if constexpr (early) {
+      if (separates(first.dot(w), first.squaredNorm())) {
+        r.state = GjkResult::State::separated;
+        return;
+      }
+    }
+    s.used = 1;
+    SignedVolumes(nearest, s.weight).point(w, 0);
+  } else {
+    for (unsigned left = s.used; left != 0; left &= left - 1) {
+      scale2 = std::max(scale2, s.corners[std::size_t(std::countr_zero(left))].w.squaredNorm());
+    }
+    solve(s, unsigned(std::bit_width(s.used)) - 1, nearest);
+    s.used = nearest.used;
   }
-  solve(s, newest, nearest);
-  s.used = nearest.used;
-  double square = nearest.square;
+  double square = nearest.square, gap = 0;
   int stalls = 0;
 
-  const double radius = early ? pair.radius() : 0;
   for (int k = 0; !nearest.inside && k < gjk_limit; ++k) {
     if (square <= near_share * near_share * scale2) break;
-    newest = unsigned(std::countr_one(s.used));
+    const auto newest = unsigned(std::countr_one(s.used));
     MinkowskiCorner& next = s.corners[newest];
     pair.support_against(nearest.v, next);
     scale2 = std::max(scale2, next.w.squaredNorm());
-    const double reach = nearest.v.dot(next.w), gap = square - reach;
+    const double reach = nearest.v.dot(next.w);
+    gap = square - reach;
     const double rounding = stop_share * stop_share * square * scale2;  // its square
     if constexpr (early) {
-      const bool apart = radius > 0 ? reach > std::sqrt(square) * radius + std::sqrt(rounding) : reach * reach > rounding;
-      if (reach > 0 && apart) {
+      if (separates(reach, square)) {
         r.state = GjkResult::State::separated;
         return;
       }
@@ -73,6 +91,7 @@ void gjk_loop(const MinkowskiPair& pair, GjkResult& r) {
     if (met) break;
     const unsigned before = s.used;
     s.used |= 1u << newest;
+    ++r.steps;
     solve(s, newest, nearest);
     // A corner that lies g nearer along v brings the first step only (g/|w − v|)² nearer, which rounding may hide.
     if (nearest.square < square) {
@@ -87,6 +106,10 @@ void gjk_loop(const MinkowskiPair& pair, GjkResult& r) {
   }
   r.v = nearest.v;
   r.distance = r.v.norm();
+  if (gap * gap > near_share * near_share * square * scale2) {
+    r.gap = gap / r.distance;
+    r.scale = std::sqrt(scale2);
+  }
   if (nearest.inside) r.state = nearest.sure ? GjkResult::State::inside : GjkResult::State::near;
   else if (square <= near_share * near_share * scale2) r.state = GjkResult::State::near;
   else r.state = GjkResult::State::apart;

@@ -43,23 +43,20 @@ std::uint32_t ConvexCore::support_of_others(const Vector3<double>& d, Vector3<do
   }
 }
 
-std::uint32_t ConvexCore::vertex_count() const {
+std::uint32_t ConvexCore::vertex_count_of_others() const {
   switch (kind) {
     case Kind::point: return 1;
     case Kind::segment: return 2;
-    case Kind::box: return 8;
     case Kind::hull: return std::uint32_t(hull().polytope().vertices.size());
     default: return 0;
   }
 }
 
-Vector3<double> ConvexCore::vertex(std::uint32_t i) const {
-  const auto at = [i](unsigned axis, double x) { return i >> axis & 1 ? x : -x; };
+void ConvexCore::vertex_of_others(std::uint32_t i, Vector3<double>& x) const {
   switch (kind) {
-    case Kind::segment: return {0, 0, at(0, half[2])};
-    case Kind::box: return {at(0, half[0]), at(1, half[1]), at(2, half[2])};
-    case Kind::hull: return hull().polytope().vertices[i];
-    default: return Vector3<double>::Zero();
+    case Kind::segment: x = {0, 0, i & 1 ? half[2] : -half[2]}; break;
+    case Kind::hull: x = hull().polytope().vertices[i]; break;
+    default: x.setZero();
   }
 }
 

@@ -34,11 +34,18 @@ struct ConvexCore {
     return unsigned(!std::signbit(d[0])) | unsigned(!std::signbit(d[1])) << 1 | unsigned(!std::signbit(d[2])) << 2;
   }
 
-  std::uint32_t vertex_count() const;
-  Vector3<double> vertex(std::uint32_t i) const;  ///< numbered as a box, a hull and a segment number theirs
+  std::uint32_t vertex_count() const { return kind == Kind::box ? 8 : vertex_count_of_others(); }
+  /// x becomes vertex i, in the order of `Box` and `ConvexHull`.
+  void vertex(std::uint32_t i, Vector3<double>& x) const {
+    if (kind != Kind::box) return vertex_of_others(i, x);
+    constexpr double sign[2] = {-1, 1};
+    for (unsigned k = 0; k < 3; ++k) x[k] = sign[i >> k & 1] * half[k];
+  }
 
  private:
   std::uint32_t support_of_others(const Vector3<double>& d, Vector3<double>& x) const;
+  std::uint32_t vertex_count_of_others() const;
+  void vertex_of_others(std::uint32_t i, Vector3<double>& x) const;
 };
 
 /// A corner w = a − (R b + p) of the difference. The edges between corners are differences of a and of R b, which keeps
@@ -46,7 +53,7 @@ struct ConvexCore {
 struct MinkowskiCorner {
   Vector3<double> w;
   Vector3<double> a, turned_b;            ///< in A's axes, each about its own origin
-  std::uint32_t vertex_a = 0, vertex_b = 0;
+  std::uint32_t vertex_a, vertex_b;
 
   bool operator==(const MinkowskiCorner& o) const { return vertex_a == o.vertex_a && vertex_b == o.vertex_b && w == o.w; }
 };
@@ -77,6 +84,15 @@ struct MinkowskiPair {
       c.turned_b[i] = turned;
       c.w[i] = c.a[i] - (turned + offset[i]);
     }
+  }
+  /// c becomes the corner of a vertex of A and one of B.
+  void corner(std::uint32_t of_a, std::uint32_t of_b, MinkowskiCorner& c) const {
+    Vector3<double> x;
+    a.vertex(of_a, c.a);
+    b.vertex(of_b, x);
+    complete(c, x);
+    c.vertex_a = of_a;
+    c.vertex_b = of_b;
   }
   /// c becomes the corner furthest along −d.
   void support_against(const Vector3<double>& d, MinkowskiCorner& c) const {

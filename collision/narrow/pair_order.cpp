@@ -31,7 +31,7 @@ int compare_shapes(const Shape& a, const Shape& b) {
 
 }  // namespace
 
-bool exchanged(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b) {
+bool exchanged_at_equal_x(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b) {
   int c = compare(at_a.position, at_b.position);
   if (c == 0) c = compare(at_a.rotation, at_b.rotation);
   if (c == 0) c = compare_shapes(a, b);

@@ -7,7 +7,12 @@
 
 namespace polhode {
 
+bool exchanged_at_equal_x(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b);
+
 /// True if B goes first. Only shapes that are the same, at the same pose, have no order.
-bool exchanged(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b);
+inline bool exchanged(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b) {
+  const double here = at_a.position[0], there = at_b.position[0];
+  return here == there ? exchanged_at_equal_x(a, at_a, b, at_b) : here > there;
+}
 
 }  // namespace polhode

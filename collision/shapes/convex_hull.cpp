@@ -18,6 +18,23 @@ namespace {
 constexpr double flat = 1e-10;          // of the spread
 constexpr std::size_t scan_limit = 256;  // vertices; with more of them climbing is faster than looking at all
 
+/// f over all lanes, halves against halves.
+template <class F>
+double tree(const Lanes& lanes, const F& f) {
+  std::array<double, lane_count> x;
+  for (int i = 0; i < lane_count; ++i) x[std::size_t(i)] = lanes[i];
+  for (std::size_t half = lane_count / 2; half > 0; half /= 2) {
+    for (std::size_t i = 0; i < half; ++i) x[i] = f(x[i], x[i + half]);
+  }
+  return x[0];
+}
+
+Lanes lane_numbers() {
+  Lanes numbers;
+  for (int i = 0; i < lane_count; ++i) numbers.set(i, i);
+  return numbers;
+}
+
 /// The number of the point for which f is largest, the first of equals.
 template <class F>
 std::size_t furthest(std::span<const Vector3<double>> points, const F& f) {
@@ -120,21 +137,11 @@ std::uint32_t ConvexHull::support_vertex(const Vector3<double>& d) const {
     best = select(further, along, best);
     where = select(further, Lanes(double(k)), where);
   }
-  // Halves against halves.
-  std::array<double, lane_count> most, number;
-  for (int lane = 0; lane < lane_count; ++lane) {
-    most[std::size_t(lane)] = best[lane];
-    number[std::size_t(lane)] = where[lane] * lane_count + lane;
-  }
-  for (std::size_t half = std::size_t(lane_count) / 2; half > 0; half /= 2) {
-    for (std::size_t i = 0; i < half; ++i) {
-      const double m = most[i + half], n = number[i + half];
-      const bool take = m > most[i] || (m == most[i] && n < number[i]);
-      most[i] = take ? m : most[i];
-      number[i] = take ? n : number[i];
-    }
-  }
-  const auto vertex = std::uint32_t(number[0]);
+  // The largest of the lanes, then the smallest number of those that reach it.
+  const Lanes none = std::numeric_limits<double>::infinity();
+  const double most = tree(best, [](double a, double b) { return a < b ? b : a; });
+  const Lanes number = select(best >= Lanes(most), where * Lanes(lane_count) + lane_numbers(), none);
+  const auto vertex = std::uint32_t(tree(number, [](double a, double b) { return b < a ? b : a; }));
   return vertex < polytope_.vertices.size() ? vertex : 0;  // a repeated vertex 0 in the last pack
 }
 

@@ -17,6 +17,7 @@
 #include "collision/shapes/sphere.hpp"
 #include "experiments/study/dice.hpp"
 #include "tests/collision/box_judge.hpp"
+#include "tests/collision/placed_pairs.hpp"
 
 namespace polhode {
 namespace {
@@ -132,6 +133,31 @@ TEST(Gjk, NeverDropsATouchingContact) {
       EXPECT_NEAR(gjk_phase().distance(box, at, box, at).distance, -size, 4e-15 * size);
     }
   }
+}
+
+// Deep pairs that move a little, and now and then further: the polytope that is remembered loses its convexity, and its origin.
+TEST(Gjk, WarmDepthIsColdDepth) {
+  const Box box({0.7, 0.5, 0.9}), other({0.4, 1.1, 0.6});
+  const ShapePointer hull = hull_pair(3).a;
+  const double size = hull_pair(3).size_a;
+  int together = 0;
+  for (std::uint64_t k = 0; k < 300; ++k) {
+    PairMemory memory;
+    const Shape& a = k % 2 ? static_cast<const Shape&>(box) : *hull;
+    const double unit = k % 2 ? 1 : size;
+    const Pose at_a = random_pose(k, unit);
+    Pose at_b = {at_a.position + 0.3 * random_pose(k + 1, unit).position, random_pose(k + 2, 1).rotation};
+    for (std::uint64_t step = 0; step < 30; ++step) {
+      const double far = step % 7 == 3 ? 0.1 : 0.01;
+      at_b.position += far * random_pose(1000 * k + step, unit).position;
+      at_b.rotation = turned(Vector::Zero(), far * random_pose(step, 1).position).rotation * at_b.rotation;
+      const Distance warm = gjk_phase().distance(a, at_a, k % 2 ? static_cast<const Shape&>(other) : *hull, at_b, &memory);
+      const Distance cold = gjk_phase().distance(a, at_a, k % 2 ? static_cast<const Shape&>(other) : *hull, at_b);
+      ASSERT_NEAR(warm.distance, cold.distance, 1e-13 * unit) << k << ", step " << step;
+      together += cold.distance < 0;
+    }
+  }
+  EXPECT_GT(together, 3000);
 }
 
 }  // namespace
