@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -68,6 +70,10 @@ void compare_narrow_phases(const std::vector<const NarrowPhaseEntry*>& entries, 
                       {{"class", "", Column::Kind::text}, {"narrow phase", "", Column::Kind::name}, {"pairs"}, {"wrong"},
                        {"missed"}, {"difference"}},
                       {}};
+  report::Table cost_table{"Cost of one question, the best of five rounds over all pairs of the class.",
+                           {{"class", "", Column::Kind::text}, {"narrow phase", "", Column::Kind::name}, {"overlap", "ns"},
+                            {"distance", "ns"}, {"contacts", "ns"}},
+                           {}};
   std::map<std::string, std::array<Range, 3>> ranges;
   BoxPairs make(seed);
   const std::size_t classes = box_pair_classes().size();
@@ -97,6 +103,7 @@ void compare_narrow_phases(const std::vector<const NarrowPhaseEntry*>& entries, 
       const double distance_ns = cost_ns(pairs, [&](const Placed& p) { phase->distance(p.a, p.at_a, p.b, p.at_b); });
       const double manifold_ns = cost_ns(pairs, [&](const Placed& p) { phase->manifold(p.a, p.at_a, p.b, p.at_b); });
       costs += csv_row({name, entry->name, number(overlap_ns, 4), number(distance_ns, 4), number(manifold_ns, 4)});
+      cost_table.rows.push_back({name, entry->name, number(overlap_ns, 3), number(distance_ns, 3), number(manifold_ns, 3)});
       auto& range = ranges[entry->name];
       range[0].take(overlap_ns), range[1].take(distance_ns), range[2].take(manifold_ns);
     }
@@ -112,6 +119,8 @@ void compare_narrow_phases(const std::vector<const NarrowPhaseEntry*>& entries, 
   analysis.tables.push_back({"agreement", table});
   analysis.files.push_back({"comparison.csv", csv});
   analysis.timed.files.push_back({"costs.csv", costs});
+  analysis.timed.files.push_back({"costs.md", report::markdown(cost_table)});
+  analysis.timed.files.push_back({"costs.tex", report::latex(cost_table)});
 }
 
 void measure_course_report(std::size_t count, std::uint64_t seed, Analysis& analysis) {

@@ -103,7 +103,7 @@ class NarrowPhase(unittest.TestCase):
         made = {str(p.relative_to(self.folder / "out")) for p in (self.folder / "out").rglob("*") if p.is_file()}
         drawn = {f"figures/course_report_errors.{ending}" for ending in ("dat", "gp", "pdf", "svg", "tex")}
         self.assertEqual(made - drawn, {"report.html", "comparison.csv", "course_report.csv", "figures/style.gnuplot",
-                                        "tables/agreement.md", "tables/agreement.tex", "timings/costs.csv"})
+                                        "tables/agreement.md", "tables/agreement.tex", "timings/costs.csv", "timings/costs.md", "timings/costs.tex"})
         page = (self.folder / "out/report.html").read_text(encoding="utf-8")
         for word in ("vertex to vertex", "data:image/svg+xml", "narrow_phase --count 200 --out out"):
             self.assertIn(word, page)
