@@ -4,15 +4,19 @@
 // that overlap.
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <utility>
 
+#include "collision/narrow/box_sat.hpp"
 #include "collision/narrow/contact_patch.hpp"
 #include "collision/narrow/epa.hpp"
 #include "collision/narrow/gjk_loop.hpp"
+#include "collision/narrow/hull_sat.hpp"
 #include "collision/narrow/pair_order.hpp"
 #include "collision/narrow_phase.hpp"
+#include "collision/shapes/box.hpp"
 #include "collision/shapes/compound.hpp"
 #include "collision/shapes/half_space.hpp"
 
@@ -27,14 +31,6 @@ Distance mirrored(Distance d) {
     std::swap(d.on_a[i], d.on_b[i]);
   }
   return d;
-}
-
-Distance outside_half_space(const Shape& a, const Pose& at_a, const HalfSpace& b, const Pose& at_b) {
-  const Vector3<double> n = at_b.rotation * b.normal();
-  const Vector3<double> lowest = at_a.rotation * a.support(-(at_a.rotation.transpose() * n));
-  const double distance = n.dot(at_a.position - at_b.position) + n.dot(lowest) - b.offset();
-  const Vector3<double> on_a = at_a.position + lowest;
-  return {distance, n, on_a, on_a - distance * n};
 }
 
 /// Two of them overlap without end, but for floor and ceiling.
@@ -137,11 +133,12 @@ Penetration with_sure_normal(const MinkowskiPair& pair, const GjkResult& r, cons
   return best;
 }
 
-Penetration signed_distance(const MinkowskiPair& pair, PairMemory* memory, bool swapped) {
+/// Absent where rounding hides which features of two polytopes are nearest.
+std::optional<Penetration> signed_distance(const MinkowskiPair& pair, PairMemory* memory, bool swapped) {
   PairMemory::Shell* const shell = memory ? &memory->shell : nullptr;
   if (shell && shell->corner_count > 0) {
     if (memory->swapped == swapped) {
-      if (const auto p = epa_again(pair, *shell)) return *p;
+      if (const auto p = epa_again(pair, *shell)) return p;
     }
     shell->corner_count = 0;
   }
@@ -157,18 +154,26 @@ Penetration signed_distance(const MinkowskiPair& pair, PairMemory* memory, bool 
   p.normal = r.v / r.distance;
   p.on_a = r.simplex.on_a();
   p.on_b = p.on_a - r.v;
+  if (r.gap > 0 && !pair.smooth()) return std::nullopt;
   return r.gap > near_share * r.scale ? with_sure_normal(pair, r, p) : p;
+}
+
+/// Where rounding hides from the simplices which features are nearest, all of them are looked at.
+Distance by_features(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b) {
+  if (a.tag() != ShapeTag::box || b.tag() != ShapeTag::box) return hulls_distance(a, at_a, b, at_b);
+  return boxes_distance({static_cast<const Box&>(a).half_extents(), at_a}, {static_cast<const Box&>(b).half_extents(), at_b});
 }
 
 Distance convex_distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory, bool swapped) {
   const MinkowskiPair pair(a, at_a, b, at_b);
   check(pair);
-  const Penetration p = signed_distance(pair, memory, swapped);
+  const auto p = signed_distance(pair, memory, swapped);
+  if (!p) return by_features(a, at_a, b, at_b);
   Distance d;
-  d.distance = p.distance - pair.radius();
-  d.normal.noalias() = at_a.rotation * p.normal;
-  d.on_a.noalias() = at_a.to_world(p.on_a) - pair.a.radius * d.normal;
-  d.on_b.noalias() = at_a.to_world(p.on_b) + pair.b.radius * d.normal;
+  d.distance = p->distance - pair.radius();
+  d.normal.noalias() = at_a.rotation * p->normal;
+  d.on_a.noalias() = at_a.to_world(p->on_a) - pair.a.radius * d.normal;
+  d.on_b.noalias() = at_a.to_world(p->on_b) + pair.b.radius * d.normal;
   return d;
 }
 
@@ -191,14 +196,11 @@ std::span<const Compound::Part> parts_of(const Shape& shape) {
 
 /// In the order of `exchanged`.
 Distance ordered_distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory, bool swapped) {
-  if (b.tag() == ShapeTag::half_space) {
-    const auto& floor = static_cast<const HalfSpace&>(b);
-    if (a.tag() != ShapeTag::half_space) return outside_half_space(a, at_a, floor, at_b);
-    return between_half_spaces(static_cast<const HalfSpace&>(a), at_a, floor, at_b);
+  if (a.tag() == ShapeTag::half_space && b.tag() == ShapeTag::half_space) {
+    return between_half_spaces(static_cast<const HalfSpace&>(a), at_a, static_cast<const HalfSpace&>(b), at_b);
   }
-  if (a.tag() == ShapeTag::half_space) {
-    return mirrored(outside_half_space(b, at_b, static_cast<const HalfSpace&>(a), at_a));
-  }
+  if (b.tag() == ShapeTag::half_space) return above_half_space(a, at_a, b, at_b);
+  if (a.tag() == ShapeTag::half_space) return mirrored(above_half_space(b, at_b, a, at_a));
   if (a.tag() != ShapeTag::compound && b.tag() != ShapeTag::compound) {
     return convex_distance(a, at_a, b, at_b, memory, swapped);
   }
@@ -216,16 +218,28 @@ Distance ordered_distance(const Shape& a, const Pose& at_a, const Shape& b, cons
   return least;
 }
 
+/// Shapes without a core of their own; true of either.
+bool special(const Shape& a, const Shape& b) {
+  const auto is = [](const Shape& s) { return s.tag() == ShapeTag::half_space || s.tag() == ShapeTag::compound; };
+  return is(a) || is(b);
+}
+
+void check(const Pose& at_a, const Pose& at_b) {
+  for (const Pose* at : {&at_a, &at_b}) {
+    if (!at->position.allFinite() || !at->rotation.allFinite()) throw std::invalid_argument("gjk: a pose is not finite");
+  }
+}
+
 class Gjk final : public NarrowPhase {
  public:
   bool overlap(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory) const override {
+    if (special(a, b)) return distance(a, at_a, b, at_b, memory).distance <= 0;
     const bool swapped = exchanged(a, at_a, b, at_b);
-    const auto special = [](const Shape& s) { return s.tag() == ShapeTag::half_space || s.tag() == ShapeTag::compound; };
-    if (special(a) || special(b)) return distance(a, at_a, b, at_b, memory).distance <= 0;
     return swapped ? convex_overlap(b, at_b, a, at_a, memory, swapped) : convex_overlap(a, at_a, b, at_b, memory, swapped);
   }
 
   Distance distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory) const override {
+    if (special(a, b)) check(at_a, at_b);
     const bool swapped = exchanged(a, at_a, b, at_b);
     if (swapped) return mirrored(ordered_distance(b, at_b, a, at_a, memory, swapped));
     return ordered_distance(a, at_a, b, at_b, memory, swapped);
@@ -233,6 +247,7 @@ class Gjk final : public NarrowPhase {
 
   Manifold manifold(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, double margin,
                     PairMemory* memory) const override {
+    if (special(a, b)) check(at_a, at_b);
     if (a.tag() == ShapeTag::compound || b.tag() == ShapeTag::compound) return compound_patch(*this, a, at_a, b, at_b, margin);
     return contact_patch(a, at_a, b, at_b, distance(a, at_a, b, at_b, memory), margin);
   }

@@ -31,6 +31,7 @@ struct GjkResult {
 /// Round-off of a corner, as a share of the largest: below `near_share` of it the sign of a distance is not trusted.
 inline constexpr double near_share = 1e-13;
 inline constexpr double stop_share = 16 * std::numeric_limits<double>::epsilon();
+inline constexpr double sure_share = 4 * stop_share;  ///< a wider gap between the bounds is more than round-off
 inline constexpr int gjk_limit = 100, stall_limit = 10;
 
 /// From the simplex in `r`, which may be empty. With `early` it stops at the first direction along which the shapes, with
@@ -106,7 +107,7 @@ void gjk_loop(const MinkowskiPair& pair, GjkResult& r) {
   }
   r.v = nearest.v;
   r.distance = r.v.norm();
-  if (gap * gap > near_share * near_share * square * scale2) {
+  if (gap * gap > sure_share * sure_share * square * scale2) {
     r.gap = gap / r.distance;
     r.scale = std::sqrt(scale2);
   }

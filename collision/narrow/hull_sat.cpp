@@ -366,7 +366,7 @@ Distance above_half_space(const Shape& a, const Pose& at_a, const Shape& half_sp
   const Vector n = at_half_space.rotation * b.normal();
   const Vector lowest = at_a.rotation * a.support(-(at_a.rotation.transpose() * n));
   const double distance = n.dot(at_a.position - at_half_space.position) + n.dot(lowest) - b.offset();
-  if (!std::isfinite(distance)) throw std::invalid_argument("sat: a pose is not finite");
+  if (!std::isfinite(distance)) throw std::invalid_argument("narrow phase: a pose is not finite");
   const Vector on_a = at_a.position + lowest;
   return {distance, n, on_a, on_a - distance * n};
 }

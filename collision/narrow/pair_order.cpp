@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "collision/shapes/half_space.hpp"
+
 namespace polhode {
 
 namespace {
@@ -23,6 +25,11 @@ int compare_shapes(const Shape& a, const Shape& b) {
   const Bounds box_a = a.bounds({}), box_b = b.bounds({});
   if (const int c = compare(box_a.min(), box_b.min()); c != 0) return c;
   if (const int c = compare(box_a.max(), box_b.max()); c != 0) return c;
+  if (a.tag() == ShapeTag::half_space && b.tag() == ShapeTag::half_space) {
+    const auto &floor_a = static_cast<const HalfSpace&>(a), &floor_b = static_cast<const HalfSpace&>(b);
+    if (const int c = compare(floor_a.normal(), floor_b.normal()); c != 0) return c;
+    return floor_a.offset() < floor_b.offset() ? -1 : floor_a.offset() > floor_b.offset();
+  }
   if (!a.finite() || !b.finite()) return 0;
   const MassProperties mass_a = a.mass_properties(), mass_b = b.mass_properties();
   if (const int c = compare(mass_a.centroid, mass_b.centroid); c != 0) return c;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "collision/narrow/box_manifold.hpp"
+#include "collision/narrow/contact_patch.hpp"
 #include "collision/narrow/hull_sat.hpp"
 #include "collision/narrow_phase.hpp"
 #include "collision/shapes/box.hpp"
@@ -23,6 +24,14 @@ BoxAt box_at(const Shape& shape, const Pose& pose) { return {static_cast<const B
 [[noreturn]] void refuse(const Shape& a, const Shape& b) {
   throw std::invalid_argument("sat: it has no separating axes for " + std::string(a.kind()) + " and " + std::string(b.kind()) +
                               "; take gjk");
+}
+
+bool has_polytopes(const Shape& s) { return has_separating_axes(s) || s.tag() == ShapeTag::compound; }
+
+/// Two of them, or one and a half-space.
+void check(const Shape& a, const Shape& b) {
+  if (has_polytopes(a) && (has_polytopes(b) || b.tag() == ShapeTag::half_space)) return;
+  if (!has_polytopes(b) || a.tag() != ShapeTag::half_space) refuse(a, b);
 }
 
 Distance mirrored(const Distance& d) { return {d.distance, -d.normal, d.on_b, d.on_a}; }
@@ -55,17 +64,12 @@ class Sat final : public NarrowPhase {
     return signed_distance(a, at_a, b, at_b);
   }
 
-  /// Of boxes the whole patch, of other shapes the deepest point.
   Manifold manifold(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, double margin,
                     PairMemory*) const override {
     if (both_boxes(a, b)) return boxes_manifold(box_at(a, at_a), box_at(b, at_b), margin);
-    const Distance d = signed_distance(a, at_a, b, at_b);
-    Manifold one;
-    if (!(d.distance <= margin)) return one;
-    one.normal = d.normal;
-    one.points[0] = {0.5 * (d.on_a + d.on_b), -d.distance, {}};
-    one.count = 1;
-    return one;
+    check(a, b);
+    if (a.tag() == ShapeTag::compound || b.tag() == ShapeTag::compound) return compound_patch(*this, a, at_a, b, at_b, margin);
+    return contact_patch(a, at_a, b, at_b, signed_distance(a, at_a, b, at_b), margin);
   }
 };
 

@@ -29,6 +29,10 @@ class SatCourseReport final : public NarrowPhase {
 
   Distance distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory*) const override {
     const Vector3<double>&half_a = box(a).half_extents(), &half_b = box(b).half_extents();
+    for (const Pose* at : {&at_a, &at_b}) {
+      if (at->position.allFinite() && at->rotation.allFinite()) continue;
+      throw std::invalid_argument("sat_course_report: the pose of a box is not finite");
+    }
     Distance most;
     most.distance = -std::numeric_limits<double>::infinity();
     for (int face = 0; face < 6; ++face) {
@@ -49,7 +53,6 @@ class SatCourseReport final : public NarrowPhase {
       }
       if (least > most.distance) most = {least, -normal, nearest - least * normal, nearest};
     }
-    if (!std::isfinite(most.distance)) throw std::invalid_argument("sat_course_report: the pose of a box is not finite");
     return most;
   }
 

@@ -166,7 +166,7 @@ TEST_F(Curved, NeverDropsATouchingContact) {
         expect_distance(*a, {}, *b, {{1 + gap, 0, 0}}, gap, 1);
         if (HasFatalFailure()) return;
         if (gap < -1e-6) {
-          EXPECT_EQ(gjk_phase().manifold(*a, {}, *b, {{1 + gap, 0, 0}}).count, 1u);
+          EXPECT_GE(gjk_phase().manifold(*a, {}, *b, {{1 + gap, 0, 0}}).count, 1u);
         }
       }
     }
