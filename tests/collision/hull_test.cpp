@@ -8,6 +8,7 @@
 
 #include "collision/shapes/box.hpp"
 #include "collision/shapes/compound.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace polhode {
 namespace {
@@ -157,12 +158,13 @@ TEST(ConvexHull, RefusesWithTheReason) {
 }
 
 std::string compound_fault(const std::string& text) {
-  const std::string path = testing::TempDir() + "piece.obj";
+  const TemporaryFolder folder;
+  const std::string path = (folder.path() / "piece.obj").string();
   std::ofstream(path) << text;
   try {
     Compound compound(Compound::parts_of_obj(path));
   } catch (const std::invalid_argument& fault) {
-    return std::string(fault.what()).substr(testing::TempDir().size());
+    return std::string(fault.what()).substr(path.size() - std::string("piece.obj").size());
   }
   return "";
 }

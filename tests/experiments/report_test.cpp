@@ -3,7 +3,6 @@
 // runs that diverged, names that need escaping.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +23,7 @@
 #include "experiments/study/report/study_figures.hpp"
 #include "experiments/study/report/tex_values.hpp"
 #include "experiments/study/study_view.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace polhode::study {
 namespace {
@@ -109,15 +109,9 @@ Scenario fake_scenario(const std::string& name) {
 }
 
 /// A folder of the test's own, gone with it; its name needs quoting wherever it is not.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / fmt::format("polhode it's ü \"{}\"", ::getpid());
-  Folder() {
-    fs::remove_all(path);
-    fs::create_directories(path);
-  }
-  ~Folder() { fs::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
+struct Folder : TemporaryFolder {
+  fs::path path = TemporaryFolder::path() / "it's ü \"quoted\"";
+  Folder() { fs::create_directory(path); }
 };
 
 StudyView empty_study(const fs::path& folder) {

@@ -21,6 +21,7 @@
 #include "experiments/study/builtin_scenarios.hpp"
 #include "experiments/study/input_error.hpp"
 #include "experiments/study/scenario_keys.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace polhode::study {
 namespace {
@@ -627,16 +628,14 @@ TEST(ScenarioOpen, UnknownNames) {
 }
 
 TEST(ScenarioOpen, FilesByPath) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "polhode_scenario_test";
-  std::filesystem::create_directories(folder);
-  const std::string path = (folder / "my top.toml").string();
+  const TemporaryFolder folder;
+  const std::string path = (folder.path() / "my top.toml").string();
   std::ofstream(path) << base;
   const ScenarioSource source = ScenarioSource::open(path);
   EXPECT_EQ(source.name(), "my top");
   EXPECT_EQ(source.resolve().canonical, resolved(base).canonical);
   std::ofstream(path) << changed("mass = 2.0", "mass = 0");
   EXPECT_THAT(open_error(path), StartsWith(path + ":7:8: body.0.mass: 0 is not a valid mass"));
-  std::filesystem::remove_all(folder);
 }
 
 // The built-in ones.

@@ -11,6 +11,7 @@
 #include "collision/shapes/compound.hpp"
 #include "collision/shapes/half_space.hpp"
 #include "core/inertia.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace polhode::laws {
 namespace {
@@ -27,7 +28,8 @@ struct Sample {
 
 /// Written where the test runs: an L of two cuboids, 3 × 1 × 1 and 1 × 1 × 2 above its end; and a pyramid.
 std::string obj_file(bool pyramid) {
-  const std::string path = testing::TempDir() + (pyramid ? "pyramid.obj" : "corner.obj");
+  static const TemporaryFolder folder;
+  const std::string path = (folder.path() / (pyramid ? "pyramid.obj" : "corner.obj")).string();
   std::ofstream file(path);
   if (pyramid) {
     file << "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 0 0 3\nv 0 0 1 # inside\n";
