@@ -170,13 +170,15 @@ void for_each_edge_axis(const RelativeBoxes& boxes, const Sides& sides, double w
   }
 }
 
-/// The distance of boxes that the axis separates, or just touches after `offset` was moved so that they do.
-Nearest nearest_points(const RelativeBoxes& boxes, const Vector3<double>& offset, double separation) {
+/// The distance of boxes that the axis `best` separates, or just touches after `offset` was moved so that they do.
+Nearest nearest_points(const RelativeBoxes& boxes, const Vector3<double>& offset, const BoxAxis& best) {
   Nearest nearest{boxes, offset};
-  const double wanted = separation - nearly_best * boxes.scale;
+  const double wanted = best.separation - nearly_best * boxes.scale;
   for_each_edge_axis(boxes, Sides(boxes.b_in_a), wanted, [&](const BoxAxis& axis) {
     if (axis.separation < wanted) return;
-    offer_edge_pairs(boxes, offset, (axis.index - 6) / 3, (axis.index - 6) % 3, axis.normal, nearest);
+    // Of boxes with one centre a product may point either way; they were moved apart along `best`.
+    const Vector3<double> normal = axis.normal.dot(best.normal) < 0 ? Vector3<double>(-axis.normal) : axis.normal;
+    offer_edge_pairs(boxes, offset, (axis.index - 6) / 3, (axis.index - 6) % 3, normal, nearest);
   });
   offer_vertices(boxes, offset, nearest);
   return nearest;
@@ -191,7 +193,7 @@ Distance ordered_distance(const BoxAt& a, const BoxAt& b) {
   const bool apart = axis.separation > 0;
   const Vector3<double> shift = apart ? Vector3<double>::Zero() : Vector3<double>(-axis.separation * axis.normal);
   const Vector3<double> offset = boxes.offset + shift;
-  const Nearest nearest = nearest_points(boxes, offset, axis.separation);
+  const Nearest nearest = nearest_points(boxes, offset, axis);
   if (apart) {
     result.distance = std::max(axis.separation, nearest.distance);
     // Where they touch but for round-off, the axis knows the direction better.

@@ -2,11 +2,7 @@
 #include "tests/collision/placed_pairs.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
-#include <numbers>
-#include <random>
 #include <vector>
 
 #include "collision/shapes/box.hpp"
@@ -15,6 +11,7 @@
 #include "collision/shapes/cylinder.hpp"
 #include "collision/shapes/ellipsoid.hpp"
 #include "collision/shapes/sphere.hpp"
+#include "experiments/study/dice.hpp"
 
 namespace polhode {
 
@@ -24,25 +21,16 @@ using Real = long double;
 using Vector = Vector3<Real>;
 using Matrix = Matrix3<Real>;
 
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : random_(seed) {}
-  double uniform(double low, double high) { return low + (high - low) * (double(random_() >> 11) * 0x1p-53); }
-  int whole(int n) { return int(random_() % std::uint64_t(n)); }
-  Vector3<double> bell() { return {normal_(random_), normal_(random_), normal_(random_)}; }
-  Matrix3<double> rotation() {
-    return rotation_matrix(Quaternion<double>(normal_(random_), normal_(random_), normal_(random_), normal_(random_)));
-  }
-  Vector3<double> sizes(double scale) { return scale * Vector3<double>(uniform(0.1, 1), uniform(0.1, 1), uniform(0.1, 1)); }
+using study::Dice;
 
- private:
-  std::mt19937_64 random_;
-  std::normal_distribution<double> normal_;
-};
+Vector3<double> bell_vector(Dice& dice) {
+  const double x = dice.bell(), y = dice.bell();
+  return {x, y, dice.bell()};
+}
 
 ShapePointer sphere_hull(Dice& dice, int n, double scale) {
   std::vector<Vector3<double>> points;
-  for (int i = 0; i < n; ++i) points.push_back(scale * dice.bell().normalized());
+  for (int i = 0; i < n; ++i) points.push_back(scale * dice.direction());
   return std::make_shared<ConvexHull>(points);
 }
 
@@ -50,17 +38,17 @@ ShapePointer sphere_hull(Dice& dice, int n, double scale) {
 
 Pose random_pose(std::uint64_t seed, double spread) {
   Dice dice(seed);
-  return {spread * dice.bell(), dice.rotation()};
+  return {spread * bell_vector(dice), dice.rotation()};
 }
 
 PlacedPair hull_pair(std::uint64_t k) {
   Dice dice(k);
-  const double scale = std::pow(10, dice.uniform(-3, 3)), ratio = std::pow(10, dice.whole(2) ? 0 : dice.uniform(-2, 0));
-  const auto count = [&] { return k % 10 == 0 ? 128 : 4 + dice.whole(28); };
+  const double scale = dice.power_of_ten(-3, 3), ratio = dice.below(2) ? 1 : dice.power_of_ten(-2, 0);
+  const auto count = [&] { return k % 10 == 0 ? 128 : 4 + dice.below(28); };
   const double size_a = scale, size_b = scale * ratio;
   PlacedPair p = {sphere_hull(dice, count(), size_a), sphere_hull(dice, count(), size_b),
-                  {scale * dice.bell(), dice.rotation()}, {}, size_a, size_b, true};
-  p.at_b = {p.at_a.position + dice.uniform(0, 1) * (size_a + size_b) * dice.bell().normalized(), dice.rotation()};
+                  {scale * bell_vector(dice), dice.rotation()}, {}, size_a, size_b, true};
+  p.at_b = {p.at_a.position + dice.uniform(0, 1) * (size_a + size_b) * dice.direction(), dice.rotation()};
   return p;
 }
 
@@ -68,23 +56,23 @@ PlacedPair any_pair(std::uint64_t seed) {
   Dice dice(seed);
   PlacedPair p;
   const auto shape = [&](double scale) -> ShapePointer {
-    const Vector3<double> s = dice.sizes(scale);
-    switch (dice.whole(7)) {
+    const Vector3<double> s = scale * dice.uniform_vector(0.1, 1);
+    switch (dice.below(7)) {
       case 0: return std::make_shared<Sphere>(s[0]);
       case 1: return std::make_shared<Capsule>(s[0], s[1]);
       case 2: p.polytopes = false; return std::make_shared<Cylinder>(s[0], s[1]);
       case 3: p.polytopes = false; return std::make_shared<Ellipsoid>(s);
-      case 4: return sphere_hull(dice, 4 + dice.whole(30), scale);
+      case 4: return sphere_hull(dice, 4 + dice.below(30), scale);
       default: return std::make_shared<Box>(s);
     }
   };
   p.size_a = 1;
-  p.size_b = dice.whole(2) ? 1 : std::pow(10, dice.uniform(-2, 0));
+  p.size_b = dice.below(2) ? 1 : dice.power_of_ten(-2, 0);
   p.a = shape(p.size_a);
   p.b = shape(p.size_b);
-  p.at_a = {dice.bell(), dice.rotation()};
-  p.at_b = {p.at_a.position + dice.uniform(0, 2) * dice.bell(), dice.whole(3) ? dice.rotation() : p.at_a.rotation};
-  if (dice.whole(8) == 0) p.at_b.position = p.at_a.position;
+  p.at_a = {bell_vector(dice), dice.rotation()};
+  p.at_b = {p.at_a.position + dice.uniform(0, 2) * bell_vector(dice), dice.below(3) ? dice.rotation() : p.at_a.rotation};
+  if (dice.below(8) == 0) p.at_b.position = p.at_a.position;
   return p;
 }
 
