@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "experiments/study/axes.hpp"
+#include "experiments/study/command_line.hpp"
 #include "experiments/study/input_error.hpp"
 #include "experiments/study/suggestion.hpp"
 
@@ -76,22 +77,14 @@ BroadPhaseOptions parse_broad_phase_options(int argc, const char* const* argv) {
                      "leave out what is expected to take longer for a step, in s (default: 0.5)")
           ->type_name("S"),
       app.add_option("--seed", options.seed, "of the random boxes (default: 1)")->type_name("N"),
-      app.add_flag("!--no-figures", options.figures, "no figures")};
+      add_no_figures(app, options.figures)};
   const CLI::Option* list_option =
       app.add_option("--list", list, "print the catalogue: broad-phases, or what else the experiments list")
           ->type_name("[WHAT]")
           ->expected(0, 1);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    options.exit_status = app.exit(help);
-    return options;
-  } catch (const CLI::ParseError& error) {
-    const std::string text = error.what();
-    throw InputError(text.substr(0, text.find('\n')) + "; see --help");
-  }
-  options.command = "broad_phase";
-  for (int i = 1; i < argc; ++i) options.command += std::string(" ") + argv[i];
+  options.exit_status = parse_command_line(app, argc, argv);
+  if (options.exit_status) return options;
+  options.command = command_text("broad_phase", argc, argv);
   if (*list_option) options.list = list;
   if (options.list) return options;
   if (*boxes) {

@@ -5,20 +5,10 @@
 #include <algorithm>
 
 #include "experiments/study/axes.hpp"
+#include "experiments/study/command_line.hpp"
 #include "experiments/study/input_error.hpp"
 
 namespace polhode::study {
-namespace {
-
-std::string quoted(const std::string& word) {
-  if (!word.empty() && word.find_first_of(" \t\n'\"\\$`&|;<>()*?[]#~!{}") == std::string::npos) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
-}  // namespace
-
 JudgeOptions parse_judge_options(int argc, const char* const* argv) {
   JudgeOptions options;
   CLI::App app{std::string(judge_question) +
@@ -41,16 +31,9 @@ JudgeOptions parse_judge_options(int argc, const char* const* argv) {
   app.add_option("--out", options.out, "folder of the results (default: results/judge-<scenario>-<hash>)")
       ->type_name("FOLDER");
   app.add_flag("--force", options.force, "overwrite other results in that folder");
-  app.add_flag("!--no-figures", options.figures, "no figures");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    options.exit_status = app.exit(help);
-    return options;
-  } catch (const CLI::ParseError& error) {
-    const std::string text = error.what();
-    throw InputError(text.substr(0, text.find('\n')) + "; see --help");
-  }
+  add_no_figures(app, options.figures);
+  options.exit_status = parse_command_line(app, argc, argv);
+  if (options.exit_status) return options;
   options.rotation_from = rotation == "stored" ? RotationFrom::stored : RotationFrom::normalised;
   for (const std::string& list : lists) {
     for (const std::string& file : split_list(list, ',', "--trajectory-file")) options.files.push_back(file);
@@ -63,8 +46,7 @@ JudgeOptions parse_judge_options(int argc, const char* const* argv) {
       throw InputError(options.files[i] + " is named twice; leave one out");
     }
   }
-  options.command = "judge";
-  for (int i = 1; i < argc; ++i) options.command += " " + quoted(argv[i]);
+  options.command = command_text("judge", argc, argv);
   return options;
 }
 

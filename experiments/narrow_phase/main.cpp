@@ -9,6 +9,7 @@
 #include "experiments/narrow_phase/comparison.hpp"
 #include "experiments/narrow_phase/options.hpp"
 #include "experiments/narrow_phase/pairs.hpp"
+#include "experiments/study/command_line.hpp"
 #include "experiments/study/input_error.hpp"
 #include "experiments/study/listing.hpp"
 #include "experiments/study/study_view.hpp"
@@ -68,9 +69,7 @@ int run(int argc, char** argv) {
     return 0;
   }
   if (options.pairs.empty()) {
-    std::string command = "narrow_phase";
-    for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
-    compare(options, question, command);
+    compare(options, question, command_text("narrow_phase", argc, argv));
   } else {
     answer_pairs(options);
   }

@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "experiments/study/input_error.hpp"
+#include "experiments/study/command_line.hpp"
 
 namespace polhode::study {
 
@@ -23,20 +23,13 @@ NarrowPhaseOptions parse_narrow_phase_options(const std::string& question, int a
       ->type_name("N")
       ->check(CLI::Range(std::size_t{1}, std::size_t{10000000}).description(""));
   app.add_option("--seed", options.seed, "of the random pairs (default: 1)")->type_name("N");
-  app.add_flag("!--no-figures", options.figures, "no figures");
+  add_no_figures(app, options.figures);
   std::string list;
   CLI::Option* list_option = app.add_option("--list", list, "print the catalogue, for example narrow-phases (default: all)")
                                  ->type_name("[WHAT]")
                                  ->expected(0, 1);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    options.exit_status = app.exit(help);
-    return options;
-  } catch (const CLI::ParseError& error) {
-    const std::string text = error.what();
-    throw InputError(text.substr(0, text.find('\n')) + "; see --help");
-  }
+  options.exit_status = parse_command_line(app, argc, argv);
+  if (options.exit_status) return options;
   if (*list_option) options.list = list;
   return options;
 }

@@ -3,20 +3,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "experiments/study/command_line.hpp"
 #include "experiments/study/input_error.hpp"
 
 namespace polhode::study {
 namespace {
-
-std::string quoted(const std::string& word) {
-  if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%") ==
-                           std::string::npos) {
-    return word;
-  }
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
 
 struct AxisHelp {
   const char* name;
@@ -44,12 +35,6 @@ constexpr AxisHelp axis_help[] = {
     {"response", "NAME", "contact response (none in this version)"},
     {"impact-timing", "NAME", "timing of impacts (none in this version)"},
 };
-
-/// A complaint of CLI11 as one line.
-std::string one_line(const std::string& text) {
-  std::string line = text.substr(0, text.find('\n'));
-  return line + "; see --help";
-}
 
 }  // namespace
 
@@ -107,7 +92,7 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
                "where no exact solution is known, measure errors against a motion in extended precision that proves its "
                "digits by halving its step")
       ->group("Results");
-  app.add_flag("!--no-figures", options.figures, "no figures")->group("Results");
+  add_no_figures(app, options.figures)->group("Results");
   app.add_option("--jobs", options.jobs, "runs at a time (default: one for each core)")
       ->type_name("N")
       ->check(CLI::Range(1, 4096).description(""))
@@ -121,20 +106,13 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
           ->type_name("[WHAT]")
           ->expected(0, 1)
           ->group("Running");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    parsed.exit_status = app.exit(help);
-    return parsed;
-  } catch (const CLI::ParseError& error) {
-    throw InputError(one_line(error.what()));
-  }
+  parsed.exit_status = parse_command_line(app, argc, argv);
+  if (parsed.exit_status) return parsed;
   if (*list_option) options.list = list;
   options.trajectory = trajectory == "csv"    ? TrajectoryFormat::csv
                        : trajectory == "hdf5" ? TrajectoryFormat::hdf5
                                               : TrajectoryFormat::none;
-  options.command = experiment.name;
-  for (int i = 1; i < argc; ++i) options.command += " " + quoted(argv[i]);
+  options.command = command_text(experiment.name, argc, argv);
   options.axes = experiment.defaults;
   if (study_file.empty() && !given.contains("scenario")) options.vary = experiment.vary;
   options.plain = given.empty() && vary.empty() && study_file.empty();

@@ -1,32 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The experiment `broad_phase` as a user meets it: recorded motion answered, bad files refused, costs measured.
-
-POLHODE_BIN_DIR is the folder of the program.
-"""
+"""The experiment `broad_phase` as a user meets it: recorded motion answered, bad files refused, costs measured."""
 import csv
-import os
-import pathlib
 import random
-import subprocess
-import tempfile
 import unittest
 
-PROGRAM = pathlib.Path(os.environ.get("POLHODE_BIN_DIR", ".")) / "broad_phase"
+from programs import call, read, temporary_folder
+
 PHASES = ["all_pairs", "sweep_and_prune", "uniform_grid", "quadtree", "octree", "bsp_tree", "bvh"]
 HEADER = "step,id,hx,hy,hz,px,py,pz\n"
 
 
 class BroadPhaseTest(unittest.TestCase):
     def setUp(self):
-        holder = tempfile.TemporaryDirectory(prefix="polhode_broad_phase_")
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
+        self.folder = temporary_folder(self.addCleanup)
 
     def call(self, *arguments, status=0):
-        done = subprocess.run([str(PROGRAM), *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
-                              timeout=120, stdin=subprocess.DEVNULL)
-        self.assertEqual(done.returncode, status, done.stderr[-1500:])
-        return done
+        return call("broad_phase", *arguments, folder=self.folder, status=status)
 
     def write(self, text):
         (self.folder / "boxes.csv").write_text(text, encoding="utf-8")
@@ -121,8 +110,7 @@ class Costs(BroadPhaseTest):
     def test_every_broad_phase_is_measured_at_every_number_of_bodies(self):
         done = self.call("--bodies", "50,200,800", "--out", "out", "--no-figures")
         self.assertIn("same pairs", done.stdout)
-        with open(self.folder / "out" / "cost.csv", newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
+        rows = read(self.folder / "out" / "cost.csv")
         self.assertEqual({(r["broad_phase"], r["bodies"]) for r in rows},
                          {(p, n) for p in PHASES for n in ("50", "200", "800")})
         for row in rows:

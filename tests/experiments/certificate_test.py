@@ -1,17 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The experiment `certificate` as a user meets it: certificate.csv, its tables, its report.
-
-POLHODE_BIN_DIR is the folder of the program.
-"""
-import csv
-import os
-import pathlib
+"""The experiment `certificate` as a user meets it: certificate.csv, its tables, its report."""
 import re
-import subprocess
-import tempfile
 import unittest
 
-PROGRAM = pathlib.Path(os.environ.get("POLHODE_BIN_DIR", ".")) / "certificate"
+from programs import call, read, temporary_folder
 
 SMALL = ["--integrator", "explicit_euler,rk4,dmv,cvode_adams,recipe_ode", "--orientation", "quaternion",
          "--angular-state", "velocity_world,velocity_body,momentum_world", "--gyroscopic", "on"]
@@ -24,25 +16,14 @@ VERDICTS = {"holds", "does not hold", "holds, not declared", "not declared", "un
 class Certificate(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        holder = tempfile.TemporaryDirectory(prefix="polhode_certificate_")
-        cls.addClassCleanup(holder.cleanup)
-        cls.folder = pathlib.Path(holder.name)
+        cls.folder = temporary_folder(cls.addClassCleanup)
         cls.out = cls.folder / "out"
         cls.printed = cls.run_program(*SMALL, "--out", cls.out).stdout
-        cls.rows = cls.read(cls.out)
-
-    @staticmethod
-    def read(folder):
-        with open(folder / "certificate.csv", newline="", encoding="utf-8") as file:
-            return list(csv.DictReader(file))
+        cls.rows = read(cls.out / "certificate.csv")
 
     @classmethod
     def run_program(cls, *arguments, status=0):
-        done = subprocess.run([str(PROGRAM), *map(str, arguments)], cwd=cls.folder, capture_output=True, text=True,
-                              timeout=120, stdin=subprocess.DEVNULL)
-        if done.returncode != status:
-            raise AssertionError(f"exit status {done.returncode}, not {status}: {done.stderr[-1500:]}")
-        return done
+        return call("certificate", *arguments, folder=cls.folder, status=status)
 
     def row(self, method, trait, state="velocity_body"):
         found = [r for r in self.rows if r["integrator"] == method and r["trait"] == trait
@@ -96,8 +77,7 @@ class Certificate(unittest.TestCase):
         self.assertIn("In the table: yes", self.printed)
 
     def test_the_cost_of_a_step_stands_apart(self):
-        with open(self.out / "timings/cost.csv", newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
+        rows = read(self.out / "timings/cost.csv")
         self.assertEqual(len(rows), 15)
         for row in rows:
             if row["integrator"] != "recipe_ode":
@@ -116,7 +96,7 @@ class Certificate(unittest.TestCase):
                        encoding="utf-8")
         self.run_program("--scenario", own, "--integrator", "rk4", "--orientation", "matrix", "--angular-state",
                          "velocity_world", "--out", out)
-        rows = {r["trait"]: r for r in self.read(out)}
+        rows = {r["trait"]: r for r in read(out / "certificate.csv")}
         self.assertEqual(rows["order_free"]["verdict"], "holds")
         self.assertEqual(rows["order_forced"]["verdict"], "not applicable")
         self.assertEqual(rows["order_time_dependent"]["verdict"], "holds")
@@ -126,7 +106,7 @@ class Certificate(unittest.TestCase):
         out = self.folder / "without"
         self.run_program("--integrator", "rk4", "--orientation", "quaternion", "--angular-state", "velocity_body",
                          "--gyroscopic", "off", "--out", out)
-        rows = {r["trait"]: r for r in self.read(out)}
+        rows = {r["trait"]: r for r in read(out / "certificate.csv")}
         self.assertEqual(rows["symplecticity"]["verdict"], "not applicable")
         self.assertIn("gyroscopic", rows["symplecticity"]["note"])
 

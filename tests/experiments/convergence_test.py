@@ -1,17 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The experiment `convergence` as a user meets it: a small study, its orders.csv, its tables and its report.
-
-POLHODE_BIN_DIR is the folder of the program.
-"""
-import csv
-import os
-import pathlib
+"""The experiment `convergence` as a user meets it: a small study, its orders.csv, its tables and its report."""
 import re
-import subprocess
-import tempfile
 import unittest
 
-PROGRAM = pathlib.Path(os.environ.get("POLHODE_BIN_DIR", ".")) / "convergence"
+from programs import call, read, temporary_folder
 
 SMALL = ["--scenario", "hairer_vilmart,peters_hsu,kovalevskaya_top", "--integrator", "explicit_euler,rk4,cvode_adams",
          "--dt", "0.1,0.05,0.025,0.0125,0.00625,0.003125,0.0015625,0.00078125", "--tolerance", "1e-4,1e-6,1e-8,1e-10",
@@ -21,21 +13,14 @@ SMALL = ["--scenario", "hairer_vilmart,peters_hsu,kovalevskaya_top", "--integrat
 class Convergence(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        holder = tempfile.TemporaryDirectory(prefix="polhode_convergence_")
-        cls.addClassCleanup(holder.cleanup)
-        cls.folder = pathlib.Path(holder.name)
+        cls.folder = temporary_folder(cls.addClassCleanup)
         cls.out = cls.folder / "out"
         cls.printed = cls.run_program(*SMALL, "--out", cls.out).stdout
-        with open(cls.out / "orders.csv", newline="", encoding="utf-8") as file:
-            cls.rows = list(csv.DictReader(file))
+        cls.rows = read(cls.out / "orders.csv")
 
     @classmethod
     def run_program(cls, *arguments, status=0):
-        done = subprocess.run([str(PROGRAM), *map(str, arguments)], cwd=cls.folder, capture_output=True, text=True,
-                              timeout=120, stdin=subprocess.DEVNULL)
-        if done.returncode != status:
-            raise AssertionError(f"exit status {done.returncode}, not {status}: {done.stderr[-1500:]}")
-        return done
+        return call("convergence", *arguments, folder=cls.folder, status=status)
 
     def row(self, method, scenario, error="attitude_error_max_rad", state="velocity_body"):
         found = [r for r in self.rows if r["integrator"] == method and r["scenario"] == scenario

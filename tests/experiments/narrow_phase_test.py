@@ -1,17 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The experiment `narrow_phase --pairs` as a user meets it: published cases, other headers, and what it refuses.
-
-POLHODE_BIN_DIR is the folder of the program.
-"""
+"""The experiment `narrow_phase --pairs` as a user meets it: published cases, other headers, and what it refuses."""
 import csv
 import math
-import os
 import pathlib
-import subprocess
-import tempfile
 import unittest
 
-PROGRAM = pathlib.Path(os.environ.get("POLHODE_BIN_DIR", ".")) / "narrow_phase"
+from programs import call, read, temporary_folder
+
 CASES = pathlib.Path(__file__).resolve().parents[1] / "collision" / "collision_cases.csv"
 NAMES = "id,class,ahx,ahy,ahz,apx,apy,apz,aqw,aqx,aqy,aqz,bhx,bhy,bhz,bpx,bpy,bpz,bqw,bqx,bqy,bqz"
 ROW = "7,kissing,1,1,1,0,0,0,1,0,0,0,1,1,1,3,0,0,2,0,0,0"
@@ -19,14 +14,10 @@ ROW = "7,kissing,1,1,1,0,0,0,1,0,0,0,1,1,1,3,0,0,2,0,0,0"
 
 class NarrowPhase(unittest.TestCase):
     def setUp(self):
-        holder = tempfile.TemporaryDirectory(prefix="polhode_narrow_phase_")
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
+        self.folder = temporary_folder(self.addCleanup)
 
     def run_program(self, *arguments, status=0):
-        done = subprocess.run([str(PROGRAM), *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
-                              timeout=120, stdin=subprocess.DEVNULL)
-        self.assertEqual(done.returncode, status, done.stderr)
+        done = call("narrow_phase", *arguments, folder=self.folder, status=status)
         return done.stderr if status else done.stdout
 
     def answer(self, text, *arguments, status=0):
@@ -36,16 +27,14 @@ class NarrowPhase(unittest.TestCase):
             self.assertEqual(said.count("\n"), 1, said)
             self.assertFalse((self.folder / "results.csv").exists())
             return said
-        with open(self.folder / "results.csv", newline="", encoding="utf-8") as file:
-            return list(csv.DictReader(file))
+        return read(self.folder / "results.csv")
 
     def test_published_cases(self):
         lines = [line for line in CASES.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
         cases = list(csv.DictReader(lines))
         for name, at_least in (("sat", 0), ("gjk", 1e-8)):
             self.run_program("--pairs", CASES, "--narrow-phase", name, "--out", "results.csv")
-            with open(self.folder / "results.csv", newline="", encoding="utf-8") as file:
-                results = list(csv.DictReader(file))
+            results = read(self.folder / "results.csv")
             self.assertEqual([r["id"] for r in results], [c["id"] for c in cases])
             for case, result in zip(cases, results):
                 self.assertEqual(list(result), ["id", "overlap", "sdist", "nx", "ny", "nz"])
@@ -86,8 +75,7 @@ class NarrowPhase(unittest.TestCase):
     def test_side_by_side(self):
         said = self.run_program("--count", 200, "--out", "out")
         self.assertIn("sat_course_report calls up to", said)
-        with open(self.folder / "out/comparison.csv", newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
+        rows = read(self.folder / "out/comparison.csv")
         for row in rows:
             if row["narrow_phase"] == "sat":
                 self.assertEqual((row["wrong_overlaps"], row["missed_overlaps"]), ("0", "0"))

@@ -1,17 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The experiment `precision` as a user meets it: rounding told from truncation, compensated summation, Brouwer's law.
-
-POLHODE_BIN_DIR is the folder of the program.
-"""
-import csv
-import os
-import pathlib
+"""The experiment `precision` as a user meets it: rounding told from truncation, compensated summation, Brouwer's law."""
 import re
-import subprocess
-import tempfile
 import unittest
 
-PROGRAM = pathlib.Path(os.environ.get("POLHODE_BIN_DIR", ".")) / "precision"
+from programs import BIN, call, read, temporary_folder
 
 STEPS = "0.125,0.0625,0.03125,0.015625,0.0078125,0.00390625"
 SMALL = ["--integrator", "rk4", "--dt", STEPS, "--t-end", "128"]
@@ -22,25 +14,14 @@ TINY = ["--scenario", "dyadic_top", "--integrator", "odeint_rk4,odeint_adams_bas
 class Precision(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        holder = tempfile.TemporaryDirectory(prefix="polhode_precision_")
-        cls.addClassCleanup(holder.cleanup)
-        cls.folder = pathlib.Path(holder.name)
+        cls.folder = temporary_folder(cls.addClassCleanup)
         cls.out = cls.folder / "out"
         cls.printed = cls.run_program(*SMALL, "--out", cls.out).stdout
-        cls.runs, cls.rounding, cls.growth = (cls.table(cls.out / name) for name in ("runs.csv", "rounding.csv", "growth.csv"))
-
-    @staticmethod
-    def table(path):
-        with open(path, newline="", encoding="utf-8") as file:
-            return list(csv.DictReader(file))
+        cls.runs, cls.rounding, cls.growth = (read(cls.out / name) for name in ("runs.csv", "rounding.csv", "growth.csv"))
 
     @classmethod
     def run_program(cls, *arguments, status=0):
-        done = subprocess.run([str(PROGRAM), *map(str, arguments)], cwd=cls.folder, capture_output=True, text=True,
-                              timeout=120, stdin=subprocess.DEVNULL)
-        if done.returncode != status:
-            raise AssertionError(f"exit status {done.returncode}, not {status}: {done.stderr[-1500:]}")
-        return done
+        return call("precision", *arguments, folder=cls.folder, status=status)
 
     @staticmethod
     def one(rows, **wanted):
@@ -129,7 +110,7 @@ class Precision(unittest.TestCase):
         self.run_program(*TINY, "--no-figures", "--out", first)  # from its store
         for name in names:
             self.assertEqual((first / name).read_bytes(), kept[name], name)
-        growth = self.table(first / "growth.csv")
+        growth = read(first / "growth.csv")
         for method in ("odeint_rk4", "odeint_adams_bashforth_moulton"):
             self.one(growth, integrator=method, precision="float", summation="plain", growth_of="attitude_error_rad")
 
@@ -138,15 +119,13 @@ class Precision(unittest.TestCase):
                "10", "--t-end", "1", "--no-figures"]
         study = self.folder / "energy_drift"
         self.run_program(*one, "--out", study)
-        rows = self.table(study / "runs.csv")
+        rows = read(study / "runs.csv")
         self.assertEqual([r["summation"] for r in rows], ["compensated", "plain"])
-        other = PROGRAM.with_name("energy_drift")
-        if not other.exists():
+        if not (BIN / "energy_drift").exists():
             self.skipTest("energy_drift is not built")
         unnamed = self.folder / "unnamed"
-        subprocess.run([str(other), *one, "--angular-state", "velocity_body", "--out", str(unnamed)], check=True,
-                       capture_output=True, cwd=self.folder, timeout=60)
-        row, = self.table(unnamed / "runs.csv")
+        call("energy_drift", *one, "--angular-state", "velocity_body", "--out", unnamed, folder=self.folder)
+        row, = read(unnamed / "runs.csv")
         self.assertNotIn("summation", row, "no column where nobody asks")
         self.assertEqual(row["run"], rows[1]["run"])
         self.assertNotEqual(row["run"], rows[0]["run"])
@@ -164,7 +143,7 @@ class Precision(unittest.TestCase):
         out = self.folder / "controlled"
         self.run_program("--integrator", "odeint_dopri5,odeint_fehlberg78", "--tolerance", "1e-3,1e-4,1e-5,1e-6", "--summation",
                          "plain", "--t-end", "16", "--samples", "16", "--no-figures", "--out", out)
-        runs = self.table(out / "runs.csv")
+        runs = read(out / "runs.csv")
         self.assertEqual({r["status"] for r in runs}, {"ok"})
         self.assertEqual({r["precision"] for r in runs}, {"float", "double", "long_double"})
         low = self.run_program("--integrator", "odeint_dopri5", "--tolerance", "1e-9", "--precision", "float", "--summation",

@@ -3,16 +3,12 @@
 
 POLHODE_BIN_DIR is the folder of energy_drift. Every test works in its own temporary folder.
 """
-import csv
 import json
 import math
-import os
-import pathlib
-import subprocess
-import tempfile
 import unittest
 
-BIN = pathlib.Path(os.environ.get("POLHODE_BIN_DIR", "."))
+from programs import call, read, temporary_folder
+
 SPRING = ["--scenario", "spring_box", "--integrator", "rk4", "--t-end", "2"]
 ERRORS = ["position_error_max_m", "attitude_error_max_rad", "angular_velocity_error_max_rel"]
 REFERENCES = ["position_reference_m", "attitude_reference_rad", "angular_velocity_reference_rel"]
@@ -20,24 +16,18 @@ REFERENCES = ["position_reference_m", "attitude_reference_rad", "angular_velocit
 
 class ReferenceTest(unittest.TestCase):
     def setUp(self):
-        holder = tempfile.TemporaryDirectory(prefix="polhode_reference_")
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
+        self.folder = temporary_folder(self.addCleanup)
         self.count = 0
 
     def run_drift(self, *arguments, status=0):
-        done = subprocess.run([str(BIN / "energy_drift"), *arguments], cwd=self.folder, capture_output=True, text=True,
-                              timeout=120, stdin=subprocess.DEVNULL)
-        self.assertEqual(done.returncode, status, done.stderr)
-        return done
+        return call("energy_drift", *arguments, folder=self.folder, status=status)
 
     def study(self, *arguments):
         """The rows of runs.csv, and the folder."""
         self.count += 1
         out = self.folder / f"out{self.count}"
         self.run_drift(*arguments, "--no-figures", "--out", str(out))
-        with open(out / "runs.csv", newline="", encoding="utf-8") as file:
-            return list(csv.DictReader(file)), out
+        return read(out / "runs.csv"), out
 
     def test_runs_without_it_are_as_ever(self):
         rows, out = self.study(*SPRING, "--dt", "0.01")

@@ -1,36 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The experiment `stability` as a user meets it: the limits that linear theory knows, measured on the runs, and resuming.
-
-POLHODE_BIN_DIR is the folder of the program.
-"""
-import csv
+"""The experiment `stability` as a user meets it: the limits that linear theory knows, measured on the runs, and resuming."""
 import math
-import os
-import pathlib
 import re
 import sqlite3
-import subprocess
-import tempfile
 import unittest
 
-PROGRAM = pathlib.Path(os.environ.get("POLHODE_BIN_DIR", ".")) / "stability"
+from programs import call, read, temporary_folder
 
 METHODS = "explicit_euler,semi_implicit_euler,velocity_verlet,rk4,implicit_midpoint,odeint_adams_bashforth_moulton"
 SMALL = ["--scenario", "oscillator", "--integrator", METHODS, "--dt", "0.002,0.05:100:20:log"]
 LIMITS = {"semi_implicit_euler": 2, "velocity_verlet": 2, "rk4": 2 * math.sqrt(2)}
 
 
-def read(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
 class Stability(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        holder = tempfile.TemporaryDirectory(prefix="polhode_stability_")
-        cls.addClassCleanup(holder.cleanup)
-        cls.folder = pathlib.Path(holder.name)
+        cls.folder = temporary_folder(cls.addClassCleanup)
         cls.out = cls.folder / "out"
         cls.printed = cls.run_program(*SMALL, "--out", cls.out)
         cls.runs = read(cls.out / "runs.csv")
@@ -39,10 +24,7 @@ class Stability(unittest.TestCase):
 
     @classmethod
     def run_program(cls, *arguments, status=0):
-        done = subprocess.run([str(PROGRAM), *map(str, arguments)], cwd=cls.folder, capture_output=True, text=True,
-                              timeout=120, stdin=subprocess.DEVNULL)
-        if done.returncode != status:
-            raise AssertionError(f"exit status {done.returncode}, not {status}: {done.stderr[-1500:]}")
+        done = call("stability", *arguments, folder=cls.folder, status=status)
         return done.stderr if status else done.stdout
 
     def steps_of(self, method):

@@ -1,26 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The experiment `work_precision` as a user meets it: its envelope against the runs, and times kept apart.
-
-POLHODE_BIN_DIR is the folder of the program.
-"""
-import csv
+"""The experiment `work_precision` as a user meets it: its envelope against the runs, and times kept apart."""
 import math
-import os
-import pathlib
 import re
-import subprocess
-import tempfile
 import unittest
 
-PROGRAM = pathlib.Path(os.environ.get("POLHODE_BIN_DIR", ".")) / "work_precision"
+from programs import call, read, temporary_folder
 
 SMALL = ["--scenario", "hairer_vilmart,detest_b5", "--integrator", "explicit_euler,explicit_midpoint,rk4,cvode_adams",
          "--dt", "0.2,0.1,0.05,0.025,0.0125", "--tolerance", "1e-3,1e-6,1e-9"]
-
-
-def read(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def cost_to_reach(error, runs, column):
@@ -39,9 +26,7 @@ def cost_to_reach(error, runs, column):
 class WorkPrecision(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        holder = tempfile.TemporaryDirectory(prefix="polhode_work_")
-        cls.addClassCleanup(holder.cleanup)
-        cls.folder = pathlib.Path(holder.name)
+        cls.folder = temporary_folder(cls.addClassCleanup)
         cls.out, cls.again = cls.folder / "out", cls.folder / "again"
         cls.printed = cls.run_program(*SMALL, "--out", cls.out)
         cls.run_program(*SMALL, "--jobs", "1", "--out", cls.again)
@@ -49,11 +34,7 @@ class WorkPrecision(unittest.TestCase):
 
     @classmethod
     def run_program(cls, *arguments, status=0):
-        done = subprocess.run([str(PROGRAM), *map(str, arguments)], cwd=cls.folder, capture_output=True, text=True,
-                              timeout=120, stdin=subprocess.DEVNULL)
-        if done.returncode != status:
-            raise AssertionError(f"exit status {done.returncode}, not {status}: {done.stderr[-1500:]}")
-        return done.stdout
+        return call("work_precision", *arguments, folder=cls.folder, status=status).stdout
 
     def check_envelope(self, envelope, runs, column):
         for row in envelope:

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of the programs share. POLHODE_BIN_DIR is the folder of the programs."""
+import csv
+import os
+import pathlib
+import subprocess
+import tempfile
+
+BIN = pathlib.Path(os.environ.get("POLHODE_BIN_DIR", "."))
+PATIENCE = 120  # s; a loaded machine is slow, a hanging program is not waited for longer
+
+
+def temporary_folder(add_cleanup):
+    """A new folder, which is removed by what add_cleanup (addCleanup or addClassCleanup) registers."""
+    holder = tempfile.TemporaryDirectory(prefix="polhode_test_")
+    add_cleanup(holder.cleanup)
+    return pathlib.Path(holder.name)
+
+
+def call(program, *arguments, folder, status=0):
+    """Runs a program in a folder; raises AssertionError where its exit status is another one."""
+    done = subprocess.run([str(BIN / program), *map(str, arguments)], cwd=folder, capture_output=True, text=True,
+                          timeout=PATIENCE, stdin=subprocess.DEVNULL)
+    if done.returncode != status:
+        raise AssertionError(f"exit status {done.returncode}, not {status}: {done.stderr[-1500:]}")
+    return done
+
+
+def read(path):
+    """The rows of a CSV file, by the names of its columns."""
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
