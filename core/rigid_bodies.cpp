@@ -184,6 +184,39 @@ BodySnapshot<S> RigidBodies<S, O, A, N>::snapshot(const VectorX<S>& flat, std::s
 }
 
 template <class S, Orientation O, AngularState A, BodyCount N>
+BodyMotion<S> RigidBodies<S, O, A, N>::motion_of(const VectorX<S>& y, std::size_t i) const {
+  return i < count() ? motion(y.data(), i) : motions_[i];
+}
+
+template <class S, Orientation O, AngularState A, BodyCount N>
+void RigidBodies<S, O, A, N>::apply_impulse(VectorX<S>& flat, std::size_t i, const Vector& impulse,
+                                            const Vector& angular_impulse) const {
+  S* y = flat.data();
+  const Layout::Slot s = slot(i);
+  const Matrix r = rotation(ChartOf::load(y + s.orientation));
+  store(load(y + s.angular) + angular_state(body(i), r, angular_impulse), y + s.angular);
+  if (!pinned(i)) store(load(y + s.velocity) + body(i).inverse_mass * impulse, y + s.velocity);
+}
+
+template <class S, Orientation O, AngularState A, BodyCount N>
+void RigidBodies<S, O, A, N>::displace(VectorX<S>& flat, std::size_t i, const Vector& shift, const Vector& turn) const {
+  S* y = flat.data();
+  const Layout::Slot s = slot(i);
+  const ChartValue c = ChartOf::load(y + s.orientation);
+  const Quaternion<S> q = quaternion_from_rotation_vector<S>(turn);
+  const Matrix before = rotation(c);
+  const Vector w = angular_velocity_world(body(i), before, load(y + s.angular));
+  const ChartValue turned = ChartOf::turned_in_world(c, q);
+  ChartOf::store(turned, y + s.orientation);
+  if constexpr (A != AngularState::velocity_world) {
+    const Matrix after = rotation(turned);
+    const Vector in_body = after.transpose() * w;
+    store(A == AngularState::velocity_body ? in_body : Vector(after * body(i).momentum(in_body)), y + s.angular);
+  }
+  if (!pinned(i)) store(load(y + s.position) + shift, y + s.position);
+}
+
+template <class S, Orientation O, AngularState A, BodyCount N>
 void RigidBodies<S, O, A, N>::project(VectorX<S>& y) const {
   project_flat(y.data());
 }

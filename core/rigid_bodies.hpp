@@ -247,6 +247,10 @@ class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<
   State<S> start() const;
   Measurement<S> measure(const VectorX<S>& y) const;
   BodySnapshot<S> snapshot(const VectorX<S>& y, std::size_t body) const;
+  BodyMotion<S> motion_of(const VectorX<S>& y, std::size_t body) const;
+  const Matrix3<S>& inverse_inertia(std::size_t i) const { return body(i).inverse_inertia; }
+  void apply_impulse(VectorX<S>& y, std::size_t body, const Vector3<S>& impulse, const Vector3<S>& angular_impulse) const;
+  void displace(VectorX<S>& y, std::size_t body, const Vector3<S>& shift, const Vector3<S>& turn) const;
   void project(VectorX<S>& y) const;
 
   /// What measure() and project() do, on the bare numbers, for callers that know the concrete type.

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <limits>
 #include <stdexcept>
+#include <type_traits>
 
 #include "core/run_samples.hpp"
 
@@ -54,7 +55,7 @@ template <class S>
 class Loop {
  public:
   Loop(const System<S>& system, const System<double>& truth, Integrator<S>& integrator, State<S>& state,
-       const Schedule& schedule, Observer& observer, const std::atomic<bool>* stop)
+       const Schedule& schedule, Observer& observer, const std::atomic<bool>* stop, ContactModel* contact)
       : system_(system),
         truth_(truth),
         integrator_(integrator),
@@ -62,9 +63,15 @@ class Loop {
         schedule_(schedule),
         observer_(observer),
         stop_(stop),
+        contact_(contact),
         account_(schedule.normalise && system.projection_changes_energy()) {}
 
   RunOutcome run() {
+    if constexpr (std::is_same_v<S, double>) {
+      if (contact_) contact_->begin(integrator_, state_);
+    } else if (contact_) {
+      throw std::invalid_argument("contact works in double only");
+    }
     integrator_.begin(state_);
     const Sample start = measure(state_);
     observer_.look(view_.of(state_), start);
@@ -82,7 +89,8 @@ class Loop {
  private:
   Sample measure(const State<S>& state) {
     const State<double>& seen = view_.of(state);
-    return {seen.t, truth_.measure(seen.y), seen.y[seen.y.size() - 1], projection_energy_};
+    return {seen.t, truth_.measure(seen.y), seen.y[seen.y.size() - 1], projection_energy_,
+            contact_ ? contact_->losses() : ContactLosses{}};
   }
 
   /// Hands samples to the observer; false ends the run as diverged.
@@ -108,10 +116,17 @@ class Loop {
     return true;
   }
 
+  StepResult step(double h) {
+    if constexpr (std::is_same_v<S, double>) {
+      if (contact_) return contact_->step(integrator_, state_, h);
+    }
+    return integrator_.step(state_, h);
+  }
+
   /// One step by the method, then projection and the check for NaN; false ends the run.
   bool take_step(double h, std::optional<double> t_after) {
     const double before_step = state_.t;
-    const StepResult result = integrator_.step(state_, h);
+    const StepResult result = step(h);
     if (!result.ok()) {
       outcome_.status = RunStatus::failed;
       outcome_.message = at_time(result.failure, state_.t);
@@ -162,7 +177,7 @@ class Loop {
     const std::int64_t stride = schedule_.samples ? steps / *schedule_.samples : 1;
     std::int64_t k = 0;
     // All whole steps but the last of the run go by stretches where the method takes them and every step is seen.
-    if (integrator_.takes_stretches() && stride == 1) {
+    if (integrator_.takes_stretches() && stride == 1 && !contact_) {
       const std::int64_t until = plan.last > 0 ? plan.whole : plan.whole - 1;
       while (k < until) {
         const std::int64_t n = std::min(longest_stretch, std::min(until, step_of_next_look(observer_, schedule_.dt, k)) - k);
@@ -202,7 +217,7 @@ class Loop {
     State<S> between = state_;
     std::int64_t next = 1;
     // A method that is projected, or has no dense output, must end its steps on the samples themselves.
-    const bool shorten = schedule_.samples && (schedule_.normalise || !integrator_.has_dense_output());
+    const bool shorten = schedule_.samples && (schedule_.normalise || contact_ || !integrator_.has_dense_output());
     while (state_.t < schedule_.t_end) {
       const double target = shorten ? sample_time(next) : schedule_.t_end;
       if (!take_step(target - state_.t, std::nullopt)) return;
@@ -231,6 +246,7 @@ class Loop {
   const Schedule& schedule_;
   Observer& observer_;
   const std::atomic<bool>* stop_;
+  ContactModel* contact_;
   const bool account_;  ///< projections can change the energy, so it is measured around them
   View<S> view_;
   double projection_energy_ = 0;
@@ -271,15 +287,15 @@ std::string sampling_problem(const Schedule& schedule) {
 
 template <class S>
 RunOutcome simulate(const System<S>& system, const System<double>& truth, Integrator<S>& integrator, State<S>& state,
-                    const Schedule& schedule, Observer& observer, const std::atomic<bool>* stop) {
-  return Loop<S>(system, truth, integrator, state, schedule, observer, stop).run();
+                    const Schedule& schedule, Observer& observer, const std::atomic<bool>* stop, ContactModel* contact) {
+  return Loop<S>(system, truth, integrator, state, schedule, observer, stop, contact).run();
 }
 
 template RunOutcome simulate(const System<float>&, const System<double>&, Integrator<float>&, State<float>&,
-                             const Schedule&, Observer&, const std::atomic<bool>*);
+                             const Schedule&, Observer&, const std::atomic<bool>*, ContactModel*);
 template RunOutcome simulate(const System<double>&, const System<double>&, Integrator<double>&, State<double>&,
-                             const Schedule&, Observer&, const std::atomic<bool>*);
+                             const Schedule&, Observer&, const std::atomic<bool>*, ContactModel*);
 template RunOutcome simulate(const System<long double>&, const System<double>&, Integrator<long double>&,
-                             State<long double>&, const Schedule&, Observer&, const std::atomic<bool>*);
+                             State<long double>&, const Schedule&, Observer&, const std::atomic<bool>*, ContactModel*);
 
 }  // namespace polhode

@@ -82,6 +82,18 @@ class System {
   virtual Measurement<S> measure(const VectorX<S>& y) const = 0;
   virtual BodySnapshot<S> snapshot(const VectorX<S>& y, std::size_t body) const = 0;
 
+  /// Where a body is and how it moves, static ones too, as forces see it.
+  virtual BodyMotion<S> motion_of(const VectorX<S>& y, std::size_t body) const = 0;
+  /// 1/(kg m²), body axes, about the reference point; of a moving body.
+  virtual const Matrix3<S>& inverse_inertia(std::size_t body) const = 0;
+  /// An impulse (N s) at the reference point and an angular one about it (N m s), both in world axes: what a contact does
+  /// at an instant. A pinned body takes the angular part alone.
+  virtual void apply_impulse(VectorX<S>& y, std::size_t body, const Vector3<S>& impulse,
+                             const Vector3<S>& angular_impulse) const = 0;
+  /// Moves a body by `shift` (m) and the rotation vector `turn` (rad, world axes), and leaves its velocity and angular
+  /// velocity in the world as they are.
+  virtual void displace(VectorX<S>& y, std::size_t body, const Vector3<S>& shift, const Vector3<S>& turn) const = 0;
+
   /// Moves every orientation to the nearest one on its manifold: q/|q|, or the polar factor of R.
   virtual void project(VectorX<S>& y) const = 0;
 

@@ -47,6 +47,10 @@ class ShiftedSystem final : public ManyBodies<S> {
   Measurement<S> measure(const Flat& z) const override { return system_.measure(from_ + z); }
   Measurement<S> measure_flat(const S* z) const override { return measure(Eigen::Map<const Flat>(z, from_.size())); }
   BodySnapshot<S> snapshot(const Flat& z, std::size_t body) const override { return system_.snapshot(from_ + z, body); }
+  BodyMotion<S> motion_of(const Flat& z, std::size_t body) const override { return system_.motion_of(from_ + z, body); }
+  const Matrix3<S>& inverse_inertia(std::size_t body) const override { return system_.inverse_inertia(body); }
+  void apply_impulse(Flat&, std::size_t, const Vector3<S>&, const Vector3<S>&) const override { refuse(); }
+  void displace(Flat&, std::size_t, const Vector3<S>&, const Vector3<S>&) const override { refuse(); }
   void project(Flat& z) const override { project_flat(z.data()); }
   void project_flat(S* z) const override {
     Eigen::Map<Flat> change(z, from_.size());

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What of the bodies can touch, and the way from where they stand to the points where they do: broad phase, narrow phase,
+// and what a pair remembers from one step to the next.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "collision/broad_phase.hpp"
+#include "collision/narrow_phase.hpp"
+#include "collision/response.hpp"
+#include "core/system.hpp"
+
+namespace polhode {
+
+/// The shape of a body and its surface; without a shape the body touches nothing.
+struct Collider {
+  ShapePointer shape;
+  double restitution = 0;  ///< Newton's, of a pair the larger
+  double friction = 0;     ///< Coulomb's, of a pair the geometric mean
+};
+
+class ContactScene {
+ public:
+  /// One collider for each body of the problem. Throws std::invalid_argument for names that the catalogues do not have,
+  /// and for another number of colliders.
+  ContactScene(const Problem& problem, std::vector<Collider> colliders, std::string_view broad_phase,
+               std::string_view narrow_phase);
+
+  /// The pairs with a moving body of which some two points may come closer than `margin` (m) while each body goes from one
+  /// of its poses to the other, on a path that leaves the chord by at most `bulge` (m); sorted.
+  std::span<const BodyPair> near_pairs(std::span<const Pose> from, std::span<const Pose> to, std::span<const double> bulge,
+                                       double margin);
+
+  /// The points of the near pairs that were found last where surfaces are no further apart than `margin`; sorted by pairs.
+  /// Depth, point, normal, feature and the pair's surface are filled in; approach and wanted are left to the caller.
+  std::span<ImpulseContact> contacts(std::span<const Pose> poses, double margin);
+
+  /// Of the near pair number k.
+  Distance distance(std::size_t k, std::span<const Pose> poses);
+
+  std::size_t size() const { return colliders_.size(); }
+  /// m, the radius about the mass centre that holds the body; 0 without a shape and of what has no end.
+  double radius(std::size_t body) const { return radii_[body]; }
+
+ private:
+  struct NearPair {
+    BodyPair pair;
+    PairMemory memory;
+  };
+
+  std::size_t moving_;
+  std::vector<Collider> colliders_;
+  std::vector<double> radii_;
+  std::unique_ptr<BroadPhase> broad_;
+  std::unique_ptr<NarrowPhase> narrow_;
+  std::vector<Bounds> bounds_;
+  std::vector<BodyPair> pairs_;
+  std::vector<NearPair> near_, before_;
+  std::vector<ImpulseContact> contacts_;
+};
+
+/// The poses of the shapes in a state: at the mass centre.
+void shape_poses(const System<double>& system, const VectorX<double>& y, std::vector<Pose>& poses);
+
+/// The bodies as impulses see them.
+void impulse_bodies(const System<double>& system, const VectorX<double>& y, std::vector<ImpulseBody>& bodies);
+
+}  // namespace polhode

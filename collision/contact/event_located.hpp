@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contact as events: between impacts the bodies fly as the method makes them, and an impact is found where a signed distance
+// crosses zero. A method with roots of its own (CVODE) finds it by these, one with dense output on that, any other by a
+// bracketing search over re-taken steps (TOMS 748: Alefeld, Potra & Shi, Algorithm 748, 1995). So the flight keeps the order
+// of the method, and the error of an event's time falls with it.
+//
+// Policies. Several impacts at one instant go to the response together. A distance that may have dipped below zero between
+// two instants, by the speeds of the bodies, is looked at between them, until the dip is shorter than 1e-6 of the step. A
+// bounce that would rise by less than a hop, 1e-11 of the largest body, is not flown: the contact rests (Zeno). A contact that rests is held through the step by the impulses that the response asks for, as in time stepping; one that
+// slides or rolls may sink by `sink` before it counts as an impact again. After 10000 impacts in one step the run fails and
+// says so: it never hangs.
+#pragma once
+
+#include "collision/contact/contact_scene.hpp"
+#include "collision/contact/held_impulses.hpp"
+#include "core/contact_model.hpp"
+
+namespace polhode {
+
+class EventLocated final : public ContactModel {
+ public:
+  /// Registers the held impulses with the system as a force. All must outlive it but the response.
+  EventLocated(System<double>& system, ContactScene& scene, std::unique_ptr<Response> response);
+
+  void begin(Integrator<double>& method, const State<double>& state) override;
+  StepResult step(Integrator<double>& method, State<double>& state, double h) override;
+  const ContactLosses& losses() const override { return losses_; }
+  std::span<const Impact> impacts() const override { return impacts_; }
+
+ private:
+  /// One near pair as a guard: its distance, from which an allowance is taken.
+  struct Guard {
+    double allowance = 0;  ///< m: the pair may be as deep before it counts
+    double speed = 0;      ///< m/s, at most, at which its distance changes
+    bool leaving = false;  ///< it touches and comes apart where the flight starts
+  };
+  struct Flight {
+    double length = 0;     ///< s
+    bool impact = false;   ///< ends where two bodies meet
+  };
+
+  std::span<ImpulseContact> touching(const State<double>& state);
+  bool take_impacts(Integrator<double>& method, State<double>& state);
+  bool hold_resting(Integrator<double>& method, const State<double>& state, double h);
+  void measure_accelerations(const State<double>& state);
+  double normal_acceleration(const ImpulseContact& c) const;
+  double slow(const ImpulseContact& c) const;
+  StepResult fly(Integrator<double>& method, State<double>& state, double h, Flight& flight);
+  void foresee(const State<double>& state, double h);
+  void watch(const State<double>& from, const State<double>& to);
+  double least_guard(const State<double>& state);
+  bool go_to(Integrator<double>& method, const State<double>& start, double s, State<double>& there);
+  double first_below(Integrator<double>& method, const State<double>& start, double from, double value_from, double to,
+                     double value_to, int depth);
+  void account_held(const State<double>& end);
+
+  System<double>& system_;
+  ContactScene& scene_;
+  std::unique_ptr<Response> response_;
+  HeldImpulses* held_;
+  ContactLosses losses_;
+  std::vector<Impact> impacts_;
+  double touch_ = 0, sink_ = 0, hop_ = 0;  ///< m
+  bool all_rest_ = false;  ///< what touches did not come apart in the flight before
+  bool sinking_ = false;   ///< a held pair reached its allowance, and it was no impact
+  bool one_step_ = true;   ///< the flight is a step of the method, not several that hold contacts
+  bool searched_ = false;  ///< the method was stepped elsewhere than along the flight
+  std::vector<Pose> poses_, end_poses_;
+  std::vector<double> bulge_, speed_;
+  std::vector<Guard> guards_;
+  std::vector<ImpulseBody> bodies_, later_, end_;
+  std::vector<ImpulseContact> resting_;
+  VectorX<double> rate_;
+  State<double> free_, start_, there_;
+  double whole_ = 0;  ///< s, of the flight that is searched
+};
+
+}  // namespace polhode

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "collision/contact/time_stepping.hpp"
+
+#include <algorithm>
+
+#include "collision/contact/contact_losses.hpp"
+
+namespace polhode {
+
+TimeStepping::TimeStepping(System<double>& system, ContactScene& scene, std::unique_ptr<Response> response, Reflected reflected)
+    : system_(system), scene_(scene), response_(std::move(response)), reflected_(reflected) {
+  auto held = std::make_unique<HeldImpulses>(system.problem().bodies.size());
+  held_ = held.get();
+  system.add_force(std::move(held));
+}
+
+void TimeStepping::begin(Integrator<double>&, const State<double>&) {
+  response_->forget();
+  held_->release();
+  losses_ = {};
+  impacts_.clear();
+}
+
+/// The contacts where the step starts, and those that it may reach: a surface that is apart lets the bodies come as close
+/// as they are in the step. Only an impact that bounces waits until the surfaces have met.
+std::span<ImpulseContact> TimeStepping::find_contacts(const State<double>& start, const State<double>& free, double h) {
+  shape_poses(system_, start.y, poses_);
+  shape_poses(system_, free.y, free_poses_);
+  double margin = 0;
+  impulse_bodies(system_, start.y, start_);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    bodies_[i].position = start_[i].position;  // velocities of the free end, where the step starts
+    bodies_[i].inverse_inertia = start_[i].inverse_inertia;
+    margin = std::max(margin, h * (bodies_[i].velocity.norm() + bodies_[i].angular_velocity.norm() * scene_.radius(i)));
+  }
+  scene_.near_pairs(poses_, poses_, {}, margin);
+  const std::span<ImpulseContact> all = scene_.contacts(poses_, 2 * margin);
+  const auto normal_speed = [&](const std::vector<ImpulseBody>& bodies, const ImpulseContact& c) {
+    return (bodies[c.a].velocity_at(c.point) - bodies[c.b].velocity_at(c.point)).dot(c.normal);
+  };
+  std::size_t count = 0;
+  for (ImpulseContact c : all) {
+    const double at_start = normal_speed(start_, c), at_end = normal_speed(bodies_, c);
+    c.approach = reflected_ == Reflected::at_start ? at_start : at_end;
+    // What one step of the forces makes of a contact at rest is no impact.
+    const double slow = 2 * std::abs(at_end - at_start);
+    if (!(c.approach < -slow)) c.restitution = 0;
+    if (c.depth < 0) {
+      if (c.restitution > 0 || at_end >= c.depth / h) continue;
+      c.wanted = c.depth / h;
+    } else {
+      c.wanted = -c.restitution * std::min(c.approach, 0.0);
+    }
+    all[count++] = c;
+  }
+  return all.first(count);
+}
+
+StepResult TimeStepping::step(Integrator<double>& method, State<double>& state, double h) {
+  impacts_.clear();
+  held_->release();
+  free_ = state;
+  StepResult result = method.step(free_, h);
+  if (!result.ok()) return result;
+  impulse_bodies(system_, free_.y, bodies_);
+  const std::span<ImpulseContact> contacts = find_contacts(state, free_, h);
+  if (contacts.empty()) {
+    std::swap(state.y, free_.y);
+    state.t = free_.t;
+    return result;
+  }
+  response_->resolve(bodies_, contacts, h);
+  held_->hold(contacts, h);
+  before_ = state;
+  method.discard_history(state);
+  result = method.step(state, h);
+  held_->release();
+  if (!result.ok()) {
+    state = before_;
+    return result;
+  }
+  account(state, contacts);
+  undo_penetration(state);
+  method.discard_history(state);
+  return result;
+}
+
+/// The work of the held forces by the trapezoidal rule, along the normals and against the slip.
+void TimeStepping::account(const State<double>& end, std::span<const ImpulseContact> contacts) {
+  impulse_bodies(system_, end.y, end_);
+  for (const ImpulseContact& c : contacts) {
+    const Vector3<double> mean = 0.5 * (start_[c.a].velocity_at(c.point) - start_[c.b].velocity_at(c.point)) +
+                                 0.5 * (end_[c.a].velocity_at(c.point) - end_[c.b].velocity_at(c.point));
+    const ContactWork work = work_of(c, mean);
+    losses_.impact -= work.normal;
+    losses_.friction -= work.tangential;
+    if (c.approach < 0 && c.restitution > 0 && !c.impulse.isZero(0)) {
+      impacts_.push_back({end.t, c.a, c.b, c.point, c.normal, c.impulse, -work.normal - work.tangential});
+    }
+  }
+}
+
+void TimeStepping::undo_penetration(State<double>& state) {
+  double before = 0;
+  bool moved = false;
+  for (std::size_t i = 0; i < system_.moving(); ++i) {
+    if (bodies_[i].shift.isZero(0) && bodies_[i].turn.isZero(0)) continue;
+    if (!moved) before = system_.measure(state.y).energy();
+    moved = true;
+    system_.displace(state.y, i, bodies_[i].shift, bodies_[i].turn);
+  }
+  if (moved) losses_.penetration += system_.measure(state.y).energy() - before;
+}
+
+}  // namespace polhode

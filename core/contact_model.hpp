@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The port of contact: what the loop asks of bodies that meet. It takes a step in the method's place, with the method, and
+// says where energy went. Methods know nothing of it.
+#pragma once
+
+#include <cstdint>
+
+#include "core/integrator.hpp"
+
+namespace polhode {
+
+/// An impact, as events.csv shows it.
+struct Impact {
+  double t = 0;                                       ///< s
+  std::size_t a = 0, b = 0;                           ///< bodies, a < b, in the problem's order
+  Vector3<double> point = Vector3<double>::Zero();    ///< m, world
+  Vector3<double> normal = Vector3<double>::Zero();   ///< unit, world, from B to A
+  Vector3<double> impulse = Vector3<double>::Zero();  ///< N s, on A
+  double energy_lost = 0;                             ///< J
+};
+
+class ContactModel {
+ public:
+  ContactModel() = default;
+  ContactModel(const ContactModel&) = delete;
+  ContactModel& operator=(const ContactModel&) = delete;
+  virtual ~ContactModel() = default;
+
+  /// Prepares a run that starts at this state; called once, before the method's begin(), which may get events to look for.
+  virtual void begin(Integrator<double>& method, const State<double>& state) = 0;
+
+  /// A step of the method in which bodies do not pass through each other: by h, or by at most h of a method that chooses
+  /// its steps. A failed step leaves the state as it was.
+  virtual StepResult step(Integrator<double>& method, State<double>& state, double h) = 0;
+
+  /// Where energy went since begin().
+  virtual const ContactLosses& losses() const = 0;
+
+  /// The impacts of the last step.
+  virtual std::span<const Impact> impacts() const = 0;
+};
+
+}  // namespace polhode
