@@ -166,37 +166,49 @@ class SequentialImpulses final : public Response {
     return w;
   }
 
+  /// Over all patches, until hardly anything changes. Within a patch from the first point to the last and back, then the
+  /// other way round: in one direction alone it would turn towards the last, and a stack would lean.
   void sweep(int iterations) {
     for (int n = 0; n < iterations; ++n) {
-      Lanes change(0), most(0);
+      Extent extent;
       for (std::size_t i = 0; i < batches_.patches().size(); ++i) {
         const PatchBatch& patch = batches_.patches()[i];
         PairMotion motion(patch, motions_.data());
-        for (std::uint32_t k = patch.first_point; k < patch.first_point + patch.point_count; ++k) {
-          const PointBatch& at = batches_.points()[k];
-          Point& p = points_[k];
-          const Vector3<Lanes> v = motion.at(at);
-          const Lanes raised = p.normal + at.normal_mass * (p.wanted - dot(patch.normal, v));
-          const Lanes normal = select(raised > Lanes(0), raised, Lanes(0)), more = normal - p.normal;
-          Vector3<Lanes> added = more * patch.normal;
-          change = larger(change, abs(more));
-          most = larger(most, normal);
-          p.normal = normal;
-          if (rough_[i]) {
-            const Tangential<Lanes> slip{dot(patch.tangent, v) + p.mobility_tn * more,
-                                         dot(patch.bitangent, v) + p.mobility_bn * more};
-            const Tangential<Lanes> next = p.cone.step(p.tangential, slip, p.friction * normal);
-            const Lanes t = next.t - p.tangential.t, b = next.b - p.tangential.b;
-            added += t * patch.tangent + b * patch.bitangent;
-            change = larger(change, larger(abs(t), abs(b)));
-            p.tangential = next;
-          }
-          motion.push(patch, at, added);
+        const std::uint32_t first = patch.first_point, count = patch.point_count;
+        for (std::uint32_t k = 0; k < 2 * count; ++k) {
+          const bool back = (k < count) == (n % 2 == 1);
+          visit(patch, first + (back ? count - 1 - k % count : k % count), rough_[i], motion, extent);
         }
         motion.store(patch, motions_.data());
       }
-      if (largest(change) <= settings_.tolerance * largest(most)) break;
+      if (largest(extent.change) <= settings_.tolerance * largest(extent.impulse)) break;
     }
+  }
+
+  /// The largest of a sweep.
+  struct Extent {
+    Lanes change = 0, impulse = 0;
+  };
+
+  void visit(const PatchBatch& patch, std::uint32_t k, bool rough, PairMotion& motion, Extent& extent) {
+    const PointBatch& at = batches_.points()[k];
+    Point& p = points_[k];
+    const Vector3<Lanes> v = motion.at(at);
+    const Lanes raised = p.normal + at.normal_mass * (p.wanted - dot(patch.normal, v));
+    const Lanes normal = select(raised > Lanes(0), raised, Lanes(0)), more = normal - p.normal;
+    Vector3<Lanes> added = more * patch.normal;
+    extent.change = larger(extent.change, abs(more));
+    extent.impulse = larger(extent.impulse, normal);
+    p.normal = normal;
+    if (rough) {
+      const Tangential<Lanes> slip{dot(patch.tangent, v) + p.mobility_tn * more, dot(patch.bitangent, v) + p.mobility_bn * more};
+      const Tangential<Lanes> next = p.cone.step(p.tangential, slip, p.friction * normal);
+      const Lanes t = next.t - p.tangential.t, b = next.b - p.tangential.b;
+      added += t * patch.tangent + b * patch.bitangent;
+      extent.change = larger(extent.change, larger(abs(t), abs(b)));
+      p.tangential = next;
+    }
+    motion.push(patch, at, added);
   }
 
   /// The impulses, as the contacts tell them.
