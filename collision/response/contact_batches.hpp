@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contacts in lanes: patches that share no moving body stand side by side, one a lane, so that a sweep of Gauss–Seidel treats
+// as many at once as a register has numbers. Which patches may stand together, colours tell (Fratarcangeli, Tibaldi &
+// Pellacini, "Vivace", 2016); the order of the colours is the order of the sweep, and does not depend on the registers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "collision/response.hpp"
+#include "core/lanes.hpp"
+
+namespace polhode {
+
+/// A velocity, or a displacement: what a sweep changes of a body. One line of the cache.
+struct alignas(64) BodyMotion {
+  std::array<double, 3> linear{}, angular{};
+};
+
+inline Vector3<Lanes> zero_lanes() { return {Lanes(0), Lanes(0), Lanes(0)}; }
+
+/// An inverse inertia in lanes.
+struct SymmetricLanes {
+  Lanes xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+  Vector3<Lanes> operator*(const Vector3<Lanes>& v) const {
+    return {xx * v[0] + xy * v[1] + xz * v[2], xy * v[0] + yy * v[1] + yz * v[2], xz * v[0] + yz * v[1] + zz * v[2]};
+  }
+};
+
+inline Vector3<Lanes> cross(const Vector3<Lanes>& a, const Vector3<Lanes>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline Lanes dot(const Vector3<Lanes>& a, const Vector3<Lanes>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Patches of different bodies, one a lane.
+struct PatchBatch {
+  std::array<std::uint32_t, lane_count> a{}, b{};  ///< the bodies; past the last body where a lane is empty
+  std::uint32_t first_point = 0, point_count = 0;  ///< of the largest patch; the others have points without effect
+  Vector3<Lanes> normal = zero_lanes(), tangent = zero_lanes(), bitangent = zero_lanes();
+  Lanes inverse_mass_a = 0, inverse_mass_b = 0;
+  SymmetricLanes inverse_inertia_a, inverse_inertia_b;
+};
+
+/// A point of each patch of a batch. Without effect: at the mass centres, with no mass.
+struct PointBatch {
+  Vector3<Lanes> lever_a = zero_lanes(), lever_b = zero_lanes();  ///< m, from the bodies' positions
+  Lanes normal_mass = 0;                                          ///< 1/K_nn, 0 where no impulse can change anything
+};
+
+/// The velocity of A relative to B at a point that an impulse there gives: K j.
+inline Vector3<Lanes> mobility_along(const PatchBatch& patch, const PointBatch& point, const Vector3<Lanes>& j) {
+  return (patch.inverse_mass_a + patch.inverse_mass_b) * j +
+         cross(patch.inverse_inertia_a * cross(point.lever_a, j), point.lever_a) +
+         cross(patch.inverse_inertia_b * cross(point.lever_b, j), point.lever_b);
+}
+
+class ContactBatches {
+ public:
+  static constexpr std::uint32_t none = 0xffffffff;
+
+  void build(std::span<const ImpulseBody> bodies, std::span<const ImpulseContact> contacts);
+
+  std::span<const PatchBatch> patches() const { return patches_; }
+  std::span<const PointBatch> points() const { return points_; }
+  /// Which contact is in each lane of a point; none, where it has no effect.
+  std::span<const std::array<std::uint32_t, lane_count>> contacts() const { return contacts_; }
+
+ private:
+  struct Patch {
+    std::uint32_t first, count, colour;
+  };
+
+  void find_patches(std::span<const ImpulseBody> bodies, std::span<const ImpulseContact> contacts);
+  void sort_patches();
+  void add_batch(std::span<const ImpulseBody> bodies, std::span<const ImpulseContact> contacts, std::span<const Patch> lanes);
+
+  std::vector<Patch> found_, sorted_;
+  std::vector<std::uint32_t> starts_;       ///< of the groups that are sorted
+  std::vector<std::uint64_t> colours_of_;   ///< of each body: which it has
+  std::vector<PatchBatch> patches_;
+  std::vector<PointBatch> points_;
+  std::vector<std::array<std::uint32_t, lane_count>> contacts_;
+};
+
+/// The motions of the two bodies of each lane.
+struct PairMotion {
+  Vector3<Lanes> va, wa, vb, wb;
+
+  PairMotion(const PatchBatch& patch, const BodyMotion* motions)
+      : va(lanes(patch.a, motions, &BodyMotion::linear)),
+        wa(lanes(patch.a, motions, &BodyMotion::angular)),
+        vb(lanes(patch.b, motions, &BodyMotion::linear)),
+        wb(lanes(patch.b, motions, &BodyMotion::angular)) {}
+  void store(const PatchBatch& patch, BodyMotion* motions) const {
+    for (int i = 0; i < lane_count; ++i) {
+      BodyMotion &a = motions[patch.a[std::size_t(i)]], &b = motions[patch.b[std::size_t(i)]];
+      for (int k = 0; k < 3; ++k) {
+        a.linear[std::size_t(k)] = va[k][i];
+        a.angular[std::size_t(k)] = wa[k][i];
+        b.linear[std::size_t(k)] = vb[k][i];
+        b.angular[std::size_t(k)] = wb[k][i];
+      }
+    }
+  }
+  /// Of A relative to B.
+  Vector3<Lanes> at(const PointBatch& point) const {
+    return (va + cross(wa, point.lever_a)) - (vb + cross(wb, point.lever_b));
+  }
+  /// An impulse on A, and its reaction on B.
+  void push(const PatchBatch& patch, const PointBatch& point, const Vector3<Lanes>& impulse) {
+    va += patch.inverse_mass_a * impulse;
+    wa += patch.inverse_inertia_a * cross(point.lever_a, impulse);
+    vb -= patch.inverse_mass_b * impulse;
+    wb -= patch.inverse_inertia_b * cross(point.lever_b, impulse);
+  }
+
+ private:
+  using Numbers = std::array<std::uint32_t, lane_count>;
+  using Part = std::array<double, 3> BodyMotion::*;
+
+  static Vector3<Lanes> lanes(const Numbers& bodies, const BodyMotion* motions, Part part) {
+    return lanes(bodies, motions, part, std::make_index_sequence<lane_count>());
+  }
+  template <std::size_t... I>
+  static Vector3<Lanes> lanes(const Numbers& bodies, const BodyMotion* motions, Part part, std::index_sequence<I...>) {
+    return {Lanes(Lanes::Pack{(motions[bodies[I]].*part)[0]...}), Lanes(Lanes::Pack{(motions[bodies[I]].*part)[1]...}),
+            Lanes(Lanes::Pack{(motions[bodies[I]].*part)[2]...})};
+  }
+};
+
+}  // namespace polhode

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The axes of a contact, and how easily it gives way.
+#pragma once
+
+#include "collision/response.hpp"
+
+namespace polhode {
+
+struct ContactFrame {
+  Vector3<double> normal, tangent, bitangent;
+};
+
+/// Right-handed. A normal that is none gives zeros: nothing acts there.
+inline ContactFrame contact_frame(const Vector3<double>& normal) {
+  const double length = normal.norm();
+  if (!(length > 0.5 && length < 2)) return {Vector3<double>::Zero(), Vector3<double>::Zero(), Vector3<double>::Zero()};
+  const Vector3<double> n = normal / length, t = n.unitOrthogonal();
+  return {n, t, n.cross(t)};
+}
+
+/// The velocity of A relative to B at a point that an impulse there gives: K j.
+inline Vector3<double> mobility_along(const ImpulseBody& a, const ImpulseBody& b, const Vector3<double>& point,
+                                      const Vector3<double>& impulse) {
+  const Vector3<double> ra = point - a.position, rb = point - b.position;
+  return (a.inverse_mass + b.inverse_mass) * impulse + (a.inverse_inertia * ra.cross(impulse)).cross(ra) +
+         (b.inverse_inertia * rb.cross(impulse)).cross(rb);
+}
+
+}  // namespace polhode

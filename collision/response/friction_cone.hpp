@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Coulomb's cone at one point: the tangential impulse in the disc of radius μ j_n that opposes the slip. On any scalar.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "core/lanes.hpp"
+
+namespace polhode {
+
+/// The tangential impulse of one point, two components.
+template <class S>
+struct Tangential {
+  S t, b;
+};
+
+/// How a point slips under a tangential impulse: s' = s + K j with K symmetric, 2 by 2.
+template <class S>
+class FrictionCone {
+ public:
+  FrictionCone() : tt_(0), tb_(0), bb_(0), least_(0) {}
+  FrictionCone(S k_tt, S k_tb, S k_bb) {
+    using std::sqrt;
+    const S half = S(0.5) * (k_tt - k_bb);
+    const S largest = S(0.5) * (k_tt + k_bb) + sqrt(half * half + k_tb * k_tb);
+    const S determinant = k_tt * k_bb - k_tb * k_tb;
+    least_ = select(largest > S(0), S(1) / largest, S(0));
+    // Of a matrix that is singular but for rounding, what its largest value alone gives.
+    const auto regular = determinant > S(1e-12) * largest * largest;
+    tt_ = select(regular, k_bb / determinant, least_);
+    bb_ = select(regular, k_tt / determinant, least_);
+    tb_ = select(regular, -k_tb / determinant, S(0));
+  }
+
+  /// A step from impulse j at slip s. Where the disc holds the impulse that stops the slip, that one. Elsewhere a step of
+  /// steepest descent, projected onto the disc: the same length in all directions, so that where it comes to rest the
+  /// impulse opposes the slip.
+  Tangential<S> step(const Tangential<S>& j, const Tangential<S>& s, S radius) const {
+    using std::sqrt;
+    const Tangential<S> stop{j.t - (tt_ * s.t + tb_ * s.b), j.b - (tb_ * s.t + bb_ * s.b)};
+    const Tangential<S> slide{j.t - least_ * s.t, j.b - least_ * s.b};
+    const S square = radius * radius, length = slide.t * slide.t + slide.b * slide.b;
+    const S shrink = select(length > square, radius / sqrt(length), S(1));
+    const auto stops = stop.t * stop.t + stop.b * stop.b <= square;
+    return {select(stops, stop.t, shrink * slide.t), select(stops, stop.b, shrink * slide.b)};
+  }
+
+ private:
+  S tt_, tb_, bb_;  ///< K⁻¹
+  S least_;         ///< the reciprocal of K's largest eigenvalue
+};
+
+}  // namespace polhode

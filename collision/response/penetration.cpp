@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "collision/response/penetration.hpp"
+
+#include <algorithm>
+
+namespace polhode {
+namespace {
+
+double largest(const Lanes& x) {
+  double most = x[0];
+  for (int i = 1; i < lane_count; ++i) most = std::max(most, x[i]);
+  return most;
+}
+
+}  // namespace
+
+void Penetration::undo(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts) {
+  if (!too_deep(bodies, contacts)) return;
+  own_.build(bodies, contacts);
+  solve(bodies, contacts, own_);
+}
+
+void Penetration::undo(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts, const ContactBatches& batches) {
+  if (too_deep(bodies, contacts)) solve(bodies, contacts, batches);
+}
+
+bool Penetration::too_deep(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts) const {
+  for (ImpulseBody& b : bodies) {
+    b.shift.setZero();
+    b.turn.setZero();
+  }
+  return std::any_of(contacts.begin(), contacts.end(), [&](const ImpulseContact& c) { return c.depth > settings_.slop; });
+}
+
+void Penetration::solve(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts,
+                        const ContactBatches& batches) {
+  points_.assign(batches.points().size(), Point{Lanes(0), Lanes(0)});
+  motions_.assign(bodies.size() + 1, BodyMotion{});
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    for (std::size_t i = 0; i < lane_count; ++i) {
+      const std::uint32_t number = batches.contacts()[k][i];
+      if (number == ContactBatches::none) continue;
+      const double beyond = contacts[number].depth - settings_.slop;
+      points_[k].wanted.set(int(i), beyond > 0 ? settings_.share * beyond : beyond);
+    }
+  }
+  for (int iteration = 0; iteration < settings_.iterations; ++iteration) {
+    Lanes change(0), most(0);
+    for (const PatchBatch& patch : batches.patches()) {
+      PairMotion motion(patch, motions_.data());
+      for (std::uint32_t k = patch.first_point; k < patch.first_point + patch.point_count; ++k) {
+        const PointBatch& point = batches.points()[k];
+        Point& p = points_[k];
+        const Lanes raised = p.impulse + point.normal_mass * (p.wanted - dot(patch.normal, motion.at(point)));
+        const Lanes impulse = select(raised > Lanes(0), raised, Lanes(0)), more = impulse - p.impulse;
+        motion.push(patch, point, more * patch.normal);
+        p.impulse = impulse;
+        change = select(abs(more) > change, abs(more), change);
+        most = select(impulse > most, impulse, most);
+      }
+      motion.store(patch, motions_.data());
+    }
+    if (largest(change) <= settings_.tolerance * largest(most)) break;
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    bodies[i].shift = Eigen::Map<const Vector3<double>>(motions_[i].linear.data());
+    bodies[i].turn = Eigen::Map<const Vector3<double>>(motions_[i].angular.data());
+  }
+}
+
+}  // namespace polhode

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How bodies that overlap are moved apart: by displacements that know nothing of the velocities ("split impulses"; after the
+// pseudo-velocities of Guendelman, Bridson & Fedkiw, "Nonconvex rigid bodies with stacking", 2003). No velocity changes.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "collision/response/contact_batches.hpp"
+
+namespace polhode {
+
+struct PenetrationSettings {
+  double slop = 1e-3;     ///< m of depth that stay, so that resting contacts last
+  double share = 0.2;     ///< of the depth beyond it that a step undoes
+  int iterations = 10;    ///< at most
+  double tolerance = 1e-3;  ///< of the largest displacement: when to stop
+};
+
+class Penetration {
+ public:
+  explicit Penetration(const PenetrationSettings& settings = {}) : settings_(settings) {}
+
+  /// Sets shift and turn of all bodies.
+  void undo(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts);
+  /// The same, with the batches of these contacts.
+  void undo(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts, const ContactBatches& batches);
+
+ private:
+  bool too_deep(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts) const;
+  void solve(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts, const ContactBatches& batches);
+
+  struct Point {
+    Lanes wanted;   ///< m that the two are to move apart
+    Lanes impulse;  ///< kg m
+  };
+
+  PenetrationSettings settings_;
+  ContactBatches own_;
+  std::vector<Point> points_;
+  std::vector<BodyMotion> motions_;
+};
+
+}  // namespace polhode
