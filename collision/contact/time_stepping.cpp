@@ -50,6 +50,7 @@ std::span<ImpulseContact> TimeStepping::find_contacts(const State<double>& start
       c.wanted = c.depth / h;
     } else {
       c.wanted = -c.restitution * std::min(c.approach, 0.0);
+      if (c.wanted > 0 || at_start > slow) c.depth = 0;  // they come apart by themselves: no push out of each other
     }
     all[count++] = c;
   }
