@@ -213,6 +213,7 @@ class SequentialImpulses final : public Response {
 
   /// The impulses, as the contacts tell them.
   void write(std::span<ImpulseContact> contacts) const {
+    for (ImpulseContact& c : contacts) c.impulse.setZero();
     for (const PatchBatch& patch : batches_.patches()) {
       for (std::uint32_t k = patch.first_point; k < patch.first_point + patch.point_count; ++k) {
         const Vector3<Lanes> j = impulse(patch, points_[k]);

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What every response must do where the answer is known.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/laws/response_trials.hpp"
+
+namespace polhode::laws {
+namespace {
+
+using study::Dice;
+using Vector = Vector3<double>;
+using Matrix = Matrix3<double>;
+
+class ResponseCase : public ResponseTrial {};
+
+ImpulseContact touch(std::uint32_t a, std::uint32_t b, const Vector& normal, const Vector& point, double restitution,
+                     double friction = 0) {
+  ImpulseContact c;
+  c.a = a;
+  c.b = b;
+  c.normal = normal;
+  c.point = point;
+  c.restitution = restitution;
+  c.friction = friction;
+  return c;
+}
+
+/// Two cubes, one on the other and aside of it, the upper one falling with v.
+ImpulseScene two_cubes(double mass, double side, double aside, double v, double restitution) {
+  ImpulseScene s;
+  s.bodies = {cube(mass, side, {-0.5 * aside, 0, 0.5 * side}, Matrix::Identity()),
+              cube(mass, side, {0.5 * aside, 0, -0.5 * side}, Matrix::Identity())};
+  s.bodies[0].velocity = {0, 0, -v};
+  for (int k = 0; k < 4; ++k) {
+    const Vector corner((k % 2 ? 0.5 : -0.5) * (side - aside), (k / 2 ? 0.5 : -0.5) * side, 0);
+    s.contacts.push_back(touch(0, 1, {0, 0, 1}, corner, restitution));
+  }
+  s.meet();
+  return s;
+}
+
+/// A cube on a floor that cannot move, on its four corners.
+ImpulseScene cube_on_floor(double friction) {
+  ImpulseScene s;
+  s.bodies = {ImpulseBody{}, cube(2, 1, {0.3, -0.2, 0.5}, Matrix::Identity())};
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    const Vector corner(k % 2 ? 0.5 : -0.5, k / 2 ? 0.5 : -0.5, 0);
+    s.contacts.push_back(touch(0, 1, {0, 0, -1}, corner + Vector(0.3, -0.2, 0), 0, friction));
+    s.contacts.back().feature = {Feature::Kind::face_vertex, 0, k};
+  }
+  return s;
+}
+
+ImpulseScene cradle(int balls, bool from_the_left) {
+  ImpulseScene s;
+  for (int i = 0; i < balls; ++i) s.bodies.push_back(ball(0.3, 0.5, {double(i), 0, 0}));
+  for (std::uint32_t i = 0; i + 1 < std::uint32_t(balls); ++i) s.contacts.push_back(touch(i, i + 1, {-1, 0, 0}, {i + 0.5, 0, 0}, 1));
+  if (from_the_left) {
+    s.bodies.front().velocity = {1, 0, 0};
+  } else {
+    s.bodies.back().velocity = {-1, 0, 0};
+  }
+  s.meet();
+  return s;
+}
+
+TEST_P(ResponseCase, TwoCubesFaceParallelGetTheClosedForm) {
+  const double tolerance = GetParam().name == "single_impulse" ? 1e-15 : 1e-10;
+  for (const double restitution : {0.0, 0.4, 1.0}) {
+    for (const double aside : {0.0, 0.3, 0.9}) {
+      const double m = 2.5, side = 1.3, v = 1.7, arm = 0.5 * aside;
+      const ImpulseScene s = two_cubes(m, side, aside, v, restitution), t = after(s);
+      const double expected = (1 + restitution) * v / (2 / m + 6 * (2 * arm * arm) / (m * side * side));
+      double j = 0;
+      for (const ImpulseContact& c : t.contacts) j += c.impulse[2];
+      EXPECT_NEAR(j / expected, 1, tolerance) << "aside by " << aside;
+      if (restitution == 1) {
+        EXPECT_NEAR(kinetic_energy(t.bodies) / kinetic_energy(s.bodies), 1, 1e-12);
+      }
+    }
+    // At one point, with different arms.
+    const double m = 0.7, side = 0.4, v = 3, arm_a = 0.15, arm_b = 0.05;
+    ImpulseScene s;
+    s.bodies = {cube(m, side, {-arm_a, 0, 0.5 * side}, Matrix::Identity()),
+                cube(m, side, {0, arm_b, -0.5 * side}, Matrix::Identity())};
+    s.bodies[0].velocity = {0, 0, -v};
+    s.contacts = {touch(0, 1, {0, 0, 1}, Vector::Zero(), restitution)};
+    s.meet();
+    const double expected = (1 + restitution) * v / (2 / m + 6 * (arm_a * arm_a + arm_b * arm_b) / (m * side * side));
+    EXPECT_NEAR(after(s).contacts[0].impulse[2] / expected, 1, tolerance);
+  }
+}
+
+TEST_P(ResponseCase, NewtonsCradleHasItsStatedOutcome) {
+  for (const int balls : {3, 5}) {
+    for (const bool left : {true, false}) {
+      const ImpulseScene s = after(cradle(balls, left));
+      for (int i = 0; i < balls; ++i) {
+        const bool first = i == (left ? 0 : balls - 1), last = i == (left ? balls - 1 : 0);
+        // One out, or all at once: the first rebounds with 1 − 2 (n − 1)/n, the others go with 2/n.
+        const double together = first ? 1 - 2 * (balls - 1) / double(balls) : 2 / double(balls);
+        const double speed = GetParam().name == "single_impulse" ? (last ? 1 : 0) : together;
+        EXPECT_NEAR(s.bodies[std::size_t(i)].velocity[0], left ? speed : -speed, 1e-10) << "ball " << i << " of " << balls;
+      }
+    }
+  }
+}
+
+TEST_P(ResponseCase, ABoxOnFourCornersComesToRest) {
+  for (const double step : {0.0, 1 / 60.0}) {
+    ImpulseScene s = cube_on_floor(0.5);
+    for (int k = 0; k < 10; ++k) {
+      s.bodies[1].velocity += Vector(0, 0, -9.81 / 60);
+      s = after(s, step);
+      EXPECT_LE(s.bodies[1].velocity.norm(), 1e-10) << "step " << k;
+      EXPECT_LE(s.bodies[1].angular_velocity.norm(), 1e-10) << "step " << k;
+    }
+  }
+}
+
+TEST_P(ResponseCase, ABoxSlidesAndSticks) {
+  if (!has_friction()) GTEST_SKIP() << "it has none";
+  // A push aside within the cone stops, however it points; one beyond it leaves what the cone cannot take.
+  for (const double angle : {0.0, 0.4, 0.8, 2.5}) {
+    const Vector aside(std::cos(angle), std::sin(angle), 0);
+    for (const double pushed : {0.3, 0.7}) {
+      ImpulseScene s = cube_on_floor(0.5);
+      for (ImpulseContact& c : s.contacts) c.point[2] = s.bodies[1].position[2];  // no arm: it does not tip
+      s.bodies[1].velocity = Vector(0, 0, -1) + pushed * aside;
+      s = after(s);
+      const Vector expected = std::max(0.0, pushed - 0.5) * aside;
+      EXPECT_LE((s.bodies[1].velocity - expected).norm(), 1e-10) << "towards " << angle << " rad with " << pushed;
+    }
+  }
+}
+
+TEST_P(ResponseCase, ABouncingBallSlipsOrRolls) {
+  if (!has_friction()) GTEST_SKIP() << "it has none";
+  for (const double friction : {0.1, 2.0}) {
+    const double m = 0.4, r = 0.3, e = 0.6;
+    ImpulseScene s;
+    s.bodies = {ImpulseBody{}, ball(m, r, {0, 0, r})};
+    s.bodies[1].velocity = {1.5, -2, -3};
+    s.contacts = {touch(0, 1, {0, 0, -1}, Vector::Zero(), e, friction)};
+    s.meet();
+    s = after(s);
+    // The slip loses μ (1 + e) v_n (1 + m r²/I), and no more than there is.
+    const double lost = std::min(1.0, friction * (1 + e) * 3 * 3.5 / 2.5);
+    EXPECT_NEAR(s.bodies[1].velocity[2], e * 3, 1e-11);
+    EXPECT_LE((s.bodies[1].velocity_at(Vector::Zero()) - Vector(1.5, -2, 1.8) * 1 - lost * Vector(-1.5, 2, 0)).norm(), 1e-10);
+  }
+}
+
+TEST_P(ResponseCase, PenetrationIsUndoneApartFromTheVelocities) {
+  for_scenes(60, {.bodies = 5, .statics = 0.3, .friction = 1, .restitution = 0.5}, [&](ImpulseScene s) {
+    response->forget();
+    const ImpulseScene touching = after(s, 0.01);
+    Dice dice(4);
+    for (ImpulseContact& c : s.contacts) c.depth = dice.uniform(-0.01, 0.1);
+    response->forget();
+    const ImpulseScene deep = after(s, 0.01);
+    ASSERT_EQ(difference(touching, deep), 0);
+    for (const ImpulseBody& b : touching.bodies) ASSERT_TRUE(b.shift.isZero(0) && b.turn.isZero(0));
+  });
+  // A cube that is 5 cm deep rises by a share of that in a step, and ends a little deep.
+  ImpulseScene s = cube_on_floor(0.5);
+  double depth = 0.05, before = depth;
+  for (int k = 0; k < 60; ++k) {
+    for (ImpulseContact& c : s.contacts) c.depth = depth;
+    s = after(s, 0.01);
+    before = depth;
+    depth -= s.bodies[1].shift[2];
+    ASSERT_LE(before - depth, 0.21 * before);
+    ASSERT_LE(s.bodies[1].turn.norm(), 1e-3 * before);
+  }
+  EXPECT_LE(depth, 2e-3);
+  EXPECT_GT(depth, 0);
+}
+
+TEST_P(ResponseCase, DegenerateScenesGiveNumbers) {
+  for (const double step : {0.0, 1e-300, 0.01}) {
+    response->forget();
+    EXPECT_TRUE(finite(after({}, step)));
+    ImpulseScene none;
+    none.bodies = {ball(1, 1, Vector::Zero())};
+    EXPECT_TRUE(finite(after(none, step)));
+    // Coincident centres, and a point at both; then without a normal; then two that cannot move.
+    ImpulseScene s;
+    s.bodies = {ball(1, 1, Vector::Zero()), ball(2, 1, Vector::Zero())};
+    s.bodies[0].velocity = {0, 0, -1};
+    s.contacts = {touch(0, 1, {0, 0, 1}, Vector::Zero(), 0.5, 0.5)};
+    s.contacts[0].depth = 2;
+    s.meet();
+    const ImpulseScene together = after(s, step);
+    EXPECT_TRUE(finite(together));
+    EXPECT_GT(together.contacts[0].impulse[2], 0);
+    s.contacts[0].normal.setZero();
+    EXPECT_TRUE(finite(after(s, step)));
+    EXPECT_EQ(difference(after(s, step), s), 0);
+    s.contacts[0].normal = {0, 0, 1};
+    s.bodies[0].inverse_mass = s.bodies[1].inverse_mass = 0;
+    s.bodies[0].inverse_inertia = s.bodies[1].inverse_inertia = Matrix::Zero();
+    EXPECT_TRUE(finite(after(s, step)));
+    EXPECT_EQ(difference(after(s, step), s), 0);
+  }
+}
+
+TEST_P(ResponseCase, ABodyOnAPivotOnlyTurns) {
+  ImpulseScene s;
+  s.bodies = {cube(1, 1, Vector::Zero(), Matrix::Identity()), ball(1, 0.2, {1, 0, 0.2})};
+  s.bodies[0].inverse_mass = 0;
+  s.bodies[1].velocity = {0, 0, -1};
+  s.contacts = {touch(0, 1, {0, 0, -1}, {1, 0, 0}, 1)};
+  s.meet();
+  const double before = kinetic_energy(s.bodies);
+  s = after(s);
+  EXPECT_EQ(s.bodies[0].velocity, Vector(Vector::Zero()));
+  EXPECT_GT(s.bodies[0].angular_velocity[1], 0.1);
+  EXPECT_NEAR(kinetic_energy(s.bodies), before, 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, ResponseCase, testing::ValuesIn(response_catalogue()),
+                         [](const auto& response) { return response.param.name; });
+
+}  // namespace
+}  // namespace polhode::laws
