@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "core/integrator.hpp"
 
@@ -17,6 +18,9 @@ struct Impact {
   Vector3<double> normal = Vector3<double>::Zero();   ///< unit, world, from B to A
   Vector3<double> impulse = Vector3<double>::Zero();  ///< N s, on A
   double energy_lost = 0;                             ///< J
+  /// s: where the bounces that follow are too low to be flown, when the last of them would end if nothing else happened; else
+  /// infinite.
+  double rests_from = std::numeric_limits<double>::infinity();
 };
 
 class ContactModel {

@@ -46,6 +46,7 @@ EventLocated::EventLocated(System<double>& system, ContactScene& scene, std::uni
   touch_ = touch_share * largest;
   sink_ = sink_share * largest;
   hop_ = hop_share * largest;
+  met_ = 0.1 * hop_;
 }
 
 void EventLocated::begin(Integrator<double>& method, const State<double>& state) {
@@ -68,6 +69,7 @@ void EventLocated::begin(Integrator<double>& method, const State<double>& state)
 /// The contact points where surfaces touch, with the speed at which they approach.
 std::span<ImpulseContact> EventLocated::touching(const State<double>& state) {
   shape_poses(system_, state.y, poses_);
+  guards_.clear();  // they are numbered as the near pairs are
   scene_.near_pairs(poses_, poses_, {}, touch_ + sink_);
   impulse_bodies(system_, state.y, bodies_);
   const std::span<ImpulseContact> all = scene_.contacts(poses_, touch_ + sink_);
@@ -104,28 +106,38 @@ double EventLocated::slow(const ImpulseContact& c) const {
 
 /// Impacts at this instant, all together. True if there was one.
 bool EventLocated::take_impacts(Integrator<double>& method, State<double>& state) {
-  const std::span<ImpulseContact> contacts = touching(state);
+  std::span<ImpulseContact> contacts = touching(state);
   if (contacts.empty()) return false;
   measure_accelerations(state);
+  // What still approaches is left to fly; what rests takes its part in an impact.
+  const auto apart = [&](const ImpulseContact& c) { return c.depth < -met_ && std::abs(c.approach) > slow(c); };
+  contacts = contacts.first(std::size_t(std::remove_if(contacts.begin(), contacts.end(), apart) - contacts.begin()));
   bool any = false;
-  for (ImpulseContact& c : contacts) {
-    const double limit = slow(c);
+  rests_from_.assign(contacts.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    ImpulseContact& c = contacts[k];
+    const double limit = slow(c), bounce = -c.approach * c.restitution;
     any = any || c.approach < -limit;
-    if (c.approach * c.restitution >= -limit) c.restitution = 0;  // its flight would be too low
+    if (bounce <= limit || no_bounce_) {  // its flight would be too low: the series of 2 v eⁿ / a, all at once
+      const double pull = -normal_acceleration(c);
+      if (bounce > 0 && pull > 0 && c.restitution < 1) rests_from_[k] = state.t + 2 * bounce / pull / (1 - c.restitution);
+      c.restitution = 0;
+    }
     c.wanted = -c.restitution * std::min(c.approach, 0.0);
   }
   if (!any) return false;
   end_ = bodies_;
   response_->forget();
   response_->resolve(end_, contacts, 0);
-  for (const ImpulseContact& c : contacts) {
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const ImpulseContact& c = contacts[k];
     if (c.impulse.isZero(0)) continue;
     const Vector3<double> mean = 0.5 * (bodies_[c.a].velocity_at(c.point) - bodies_[c.b].velocity_at(c.point)) +
                                  0.5 * (end_[c.a].velocity_at(c.point) - end_[c.b].velocity_at(c.point));
     const ContactWork work = work_of(c, mean);
     losses_.impact -= work.normal;
     losses_.friction -= work.tangential;
-    impacts_.push_back({state.t, c.a, c.b, c.point, c.normal, c.impulse, -work.normal - work.tangential});
+    impacts_.push_back({state.t, c.a, c.b, c.point, c.normal, c.impulse, -work.normal - work.tangential, rests_from_[k]});
     const auto push = [&](std::uint32_t i, const Vector3<double>& j) {
       if (i < system_.moving()) system_.apply_impulse(state.y, i, j, (c.point - bodies_[i].position).cross(j));
     };
@@ -139,11 +151,14 @@ bool EventLocated::take_impacts(Integrator<double>& method, State<double>& state
 /// Holds the contacts that rest or slide through the next h seconds; false where there is none.
 bool EventLocated::hold_resting(Integrator<double>& method, const State<double>& state, double h) {
   const std::span<ImpulseContact> contacts = touching(state);
+  std::swap(resting_, rested_);
   resting_.clear();
   if (contacts.empty()) return false;
   measure_accelerations(state);
   for (ImpulseContact& c : contacts) {
-    if (!all_rest_ && std::abs(c.approach) > slow(c)) continue;
+    // A low flight is slow at its apex: only a contact that rested before may be so far apart.
+    const bool rested = std::any_of(rested_.begin(), rested_.end(), [&](const ImpulseContact& r) { return r.a == c.a && r.b == c.b; });
+    if (!all_rest_ && (std::abs(c.approach) > slow(c) || (!rested && c.depth < -hop_))) continue;
     c.restitution = 0;
     c.wanted = 0;
     resting_.push_back(c);
@@ -160,7 +175,7 @@ bool EventLocated::hold_resting(Integrator<double>& method, const State<double>&
   }
   response_->forget();
   response_->resolve(end_, resting_, 0);
-  held_->hold(resting_, h);
+  held_->hold(resting_, bodies_, state.t, h);
   whole_ = h;
   all_rest_ = false;
   return true;
@@ -193,7 +208,7 @@ void EventLocated::watch(const State<double>& from, const State<double>& to) {
       g.allowance = std::max(sink_, (sinking_ ? sink_ : 0.01 * hop_) - d.distance);
       g.speed = 0;
       g.leaving = g.allowance > sink_;
-    } else if (d.distance <= touch_) {
+    } else if (d.distance <= met_) {
       g.leaving = true;  // it was no impact, so it comes apart
     }
   }
@@ -272,7 +287,7 @@ StepResult EventLocated::fly(Integrator<double>& method, State<double>& state, d
   if (value_to <= 0 && (leaving || !(value_from > 0))) {
     from = flight.length;
     value_from = value_to;
-    for (int halvings = 0; halvings < 60 && !(value_from > 0.1 * hop_); ++halvings) {
+    for (int halvings = 0; halvings < 60 && !(value_from > met_); ++halvings) {
       from *= 0.5;
       if (!go_to(method, start_, from, there_)) break;
       value_from = least_guard(there_);
@@ -321,15 +336,21 @@ StepResult EventLocated::step(Integrator<double>& method, State<double>& state, 
   const double target = state.t + h;
   // A method that chooses its steps ends its step where it likes, any other where it was told to.
   bool adaptive = false, ended_in_impact = false;
+  State<double> before_impacts;
   for (int count = 0;; ++count) {
     if (count > most_impacts) {
       state = whole_start;
       losses_ = losses_before;
       return {"more than " + std::to_string(most_impacts) + " impacts in one step; take --impact-timing time_stepping"};
     }
-    sinking_ = !take_impacts(method, state) && ended_in_impact;
+    before_impacts = state;
+    const ContactLosses losses_before_impacts = losses_;
+    const std::size_t impacts_before = impacts_.size();
+    const bool met = take_impacts(method, state);
+    sinking_ = !met && ended_in_impact;
     double left = target - state.t;
     if (!(left > 0)) break;
+    no_bounce_ = false;
     const bool held = hold_resting(method, state, method.has_dense_output() ? std::min(left, resting_step) : left);
     if (held) left = whole_;
     Flight flight;
@@ -342,6 +363,14 @@ StepResult EventLocated::step(Integrator<double>& method, State<double>& state, 
       return result;
     }
     if (flight.impact || held) method.discard_history(state);
+    if (flight.impact && flight.length == 0 && met) {  // a bounce that the method cannot resolve: none, then
+      state = before_impacts;
+      losses_ = losses_before_impacts;
+      impacts_.resize(impacts_before);
+      method.discard_history(state);
+      no_bounce_ = true;
+      all_rest_ = false;
+    }
     ended_in_impact = flight.impact;
     if (flight.impact) continue;
     adaptive = state.t < target;

@@ -6,7 +6,7 @@
 //
 // Policies. Several impacts at one instant go to the response together. A distance that may have dipped below zero between
 // two instants, by the speeds of the bodies, is looked at between them, until the dip is shorter than 1e-6 of the step. A
-// bounce that would rise by less than a hop, 1e-11 of the largest body, is not flown: the contact rests (Zeno). A contact that rests is held through the step by the impulses that the response asks for, as in time stepping; one that
+// bounce that would rise by less than a hop, 1e-11 of the largest body, or too low for the accuracy of the method, is not flown: the contact rests (Zeno). A contact that rests is held through the step by the impulses that the response asks for, as in time stepping; one that
 // slides or rolls may sink by `sink` before it counts as an impact again. After 10000 impacts in one step the run fails and
 // says so: it never hangs.
 #pragma once
@@ -60,7 +60,8 @@ class EventLocated final : public ContactModel {
   HeldImpulses* held_;
   ContactLosses losses_;
   std::vector<Impact> impacts_;
-  double touch_ = 0, sink_ = 0, hop_ = 0;  ///< m
+  double touch_ = 0, sink_ = 0, hop_ = 0, met_ = 0;  ///< m
+  bool no_bounce_ = false; ///< the impacts at this instant were tried, and did not lead apart
   bool all_rest_ = false;  ///< what touches did not come apart in the flight before
   bool sinking_ = false;   ///< a held pair reached its allowance, and it was no impact
   bool one_step_ = true;   ///< the flight is a step of the method, not several that hold contacts
@@ -69,7 +70,8 @@ class EventLocated final : public ContactModel {
   std::vector<double> bulge_, speed_;
   std::vector<Guard> guards_;
   std::vector<ImpulseBody> bodies_, later_, end_;
-  std::vector<ImpulseContact> resting_;
+  std::vector<ImpulseContact> resting_, rested_;  ///< held now, and in the flight before
+  std::vector<double> rests_from_;
   VectorX<double> rate_;
   State<double> free_, start_, there_;
   double whole_ = 0;  ///< s, of the flight that is searched

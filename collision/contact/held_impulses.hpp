@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The impulses of a step as forces that are held through it: each body feels, along lines that stand still in the world, the
-// force whose time integral is its impulse. Equal and opposite ones leave momentum and angular momentum alone, and a body
-// at rest stays at rest under any method, which a jump of its velocity before or after the step would not let it.
+// The impulses of a step as forces that are held through it: both bodies feel, equal and opposite and along one line, the force
+// whose time integral is the impulse, so that momentum and angular momentum are left alone. The line goes with the mass centre
+// of the two, and with a body that touches what cannot move: a ball that rolls keeps its arm. A body at rest stays at rest
+// under any method, which a jump of its velocity before or after the step would not let it.
 #pragma once
 
 #include <algorithm>
@@ -14,31 +15,38 @@ namespace polhode {
 
 class HeldImpulses final : public ForceModel<double> {
  public:
-  explicit HeldImpulses(std::size_t bodies) : wrenches_(bodies) {}
+  explicit HeldImpulses(std::size_t bodies) : wrenches_(bodies), changes_(bodies, Vector3<double>::Zero()) {}
 
   void release() {
-    if (held_) std::fill(wrenches_.begin(), wrenches_.end(), Wrench<double>{});
+    if (held_) {
+      std::fill(wrenches_.begin(), wrenches_.end(), Wrench<double>{});
+      std::fill(changes_.begin(), changes_.end(), Vector3<double>::Zero());
+    }
     held_ = false;
   }
 
-  /// Through a step of `h` seconds.
-  void hold(std::span<const ImpulseContact> contacts, double h) {
+  /// From t (s) through a step of h (s); the bodies are where the step starts.
+  void hold(std::span<const ImpulseContact> contacts, std::span<const ImpulseBody> bodies, double t, double h) {
     release();
     held_ = !contacts.empty();
+    since_ = t;
     for (const ImpulseContact& c : contacts) {
-      const Vector3<double> f = c.impulse / h, torque = c.point.cross(f);
+      const Vector3<double> f = c.impulse / h;
+      const Vector3<double> torque = c.point.cross(f), change = line_velocity(bodies[c.a], bodies[c.b]).cross(f);
       wrenches_[c.a].force += f;
       wrenches_[c.a].torque += torque;
+      changes_[c.a] += change;
       wrenches_[c.b].force -= f;
       wrenches_[c.b].torque -= torque;
+      changes_[c.b] -= change;
     }
   }
 
-  void add_wrench(double, std::span<const BodyMotion<double>> bodies, std::span<Wrench<double>> wrenches) const override {
+  void add_wrench(double t, std::span<const BodyMotion<double>> bodies, std::span<Wrench<double>> wrenches) const override {
     if (!held_) return;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       wrenches[i].force += wrenches_[i].force;
-      wrenches[i].torque += wrenches_[i].torque - bodies[i].position.cross(wrenches_[i].force);
+      wrenches[i].torque += wrenches_[i].torque + (t - since_) * changes_[i] - bodies[i].position.cross(wrenches_[i].force);
     }
   }
 
@@ -46,7 +54,14 @@ class HeldImpulses final : public ForceModel<double> {
   Effect effect_on(std::size_t) const override { return {true, std::nullopt}; }
 
  private:
-  std::vector<Wrench<double>> wrenches_;  ///< torque about the world's origin
+  static Vector3<double> line_velocity(const ImpulseBody& a, const ImpulseBody& b) {
+    if (!(a.inverse_mass > 0) || !(b.inverse_mass > 0)) return a.inverse_mass > 0 ? a.velocity : b.velocity;
+    return (b.inverse_mass * a.velocity + a.inverse_mass * b.velocity) / (a.inverse_mass + b.inverse_mass);
+  }
+
+  std::vector<Wrench<double>> wrenches_;   ///< torque about the world's origin, at `since`
+  std::vector<Vector3<double>> changes_;   ///< N m/s, of these torques
+  double since_ = 0;                       ///< s
   bool held_ = false;
 };
 

@@ -2,6 +2,7 @@
 #include "collision/contact/time_stepping.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "collision/contact/contact_losses.hpp"
 
@@ -71,7 +72,7 @@ StepResult TimeStepping::step(Integrator<double>& method, State<double>& state, 
     return result;
   }
   response_->resolve(bodies_, contacts, h);
-  held_->hold(contacts, h);
+  held_->hold(contacts, start_, state.t, h);
   before_ = state;
   method.discard_history(state);
   result = method.step(state, h);
@@ -96,7 +97,7 @@ void TimeStepping::account(const State<double>& end, std::span<const ImpulseCont
     losses_.impact -= work.normal;
     losses_.friction -= work.tangential;
     if (c.approach < 0 && c.restitution > 0 && !c.impulse.isZero(0)) {
-      impacts_.push_back({end.t, c.a, c.b, c.point, c.normal, c.impulse, -work.normal - work.tangential});
+      impacts_.push_back({end.t, c.a, c.b, c.point, c.normal, c.impulse, -work.normal - work.tangential, {}});
     }
   }
 }

@@ -37,12 +37,14 @@ std::vector<double> trajectory_row(const System<double>& system, const State<dou
 }
 
 std::vector<std::string> energy_columns() {
-  return {"t_s", "kinetic_J", "potential_J", "work_J", "impact_loss_J", "friction_loss_J", "projection_J", "drift_J"};
+  return {"t_s", "kinetic_J", "potential_J", "work_J", "impact_loss_J", "friction_loss_J", "penetration_J",
+          "projection_J", "drift_J"};
 }
 
 std::vector<double> energy_row(const Sample& sample, double energy_start) {
   const Measurement<double>& m = sample.seen;
-  return {sample.t, m.kinetic, m.potential, sample.work, 0, 0, sample.projection, ledger(sample) - energy_start};
+  return {sample.t,  m.kinetic, m.potential, sample.work, sample.contact.impact, sample.contact.friction,
+          sample.contact.penetration, sample.projection, ledger(sample) - energy_start};
 }
 
 }  // namespace polhode::study

@@ -33,7 +33,8 @@ TRAJECTORY = ["t_s", "body", "px_m", "py_m", "pz_m", "qw", "qx", "qy", "qz", "vx
               "wx_rad_per_s", "wy_rad_per_s", "wz_rad_per_s", "lx_kg_m2_per_s", "ly_kg_m2_per_s", "lz_kg_m2_per_s",
               "energy_J"]
 MATRIX = [f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)]
-ENERGY = ["t_s", "kinetic_J", "potential_J", "work_J", "impact_loss_J", "friction_loss_J", "projection_J", "drift_J"]
+ENERGY = ["t_s", "kinetic_J", "potential_J", "work_J", "impact_loss_J", "friction_loss_J", "penetration_J",
+          "projection_J", "drift_J"]
 EVENTS = ["t_s", "kind", "body_a", "body_b", "px_m", "py_m", "pz_m", "nx", "ny", "nz", "impulse_N_s", "energy_lost_J"]
 
 # 240 runs of some 10 ms of one core each, in ensembles: long enough to be stopped half-way.
