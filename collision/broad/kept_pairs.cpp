@@ -7,6 +7,8 @@
 namespace polhode::broad {
 namespace {
 
+constexpr std::ptrdiff_t pairs_ahead = 16;  // when memory is asked for the bounds of a second body
+
 std::uint64_t key(const BodyPair& p) { return std::uint64_t(p.a) << 32 | p.b; }
 
 /// Room for `count`, and for the pairs of a scene that goes on as it began.
@@ -30,6 +32,7 @@ std::span<const BodyPair> KeptPairs::renew(const FatBoxes& boxes, std::span<cons
     pairs_end += all(stays, overlap(box_of(bounds[p.a]), box_of(bounds[p.b])));
   };
   const auto take_old = [&] {
+    fetch(bounds[old[std::min(pairs_ahead, old_end - old - 1)].b]);
     const BodyPair p = *old++;
     take(p, all(!boxes.has_left(p.a), !boxes.has_left(p.b)));
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pairs as a broad phase finds them, in any order but none twice, and sorted in the end: counted by their first body, which
-// takes linear time, and the few of each body by their second.
+// takes linear time, and the few of each body as they come. Where pairs are few, bodies are counted together, so that the
+// time goes with the pairs, not with the bodies.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +23,7 @@ class PairList {
 
  private:
   std::vector<BodyPair> found_, sorted_;
-  std::vector<std::uint32_t> place_;  // of each first body, where its next pair goes
+  std::vector<std::uint32_t> place_;  // of each first body, or of a few, where the next pair goes
 };
 
 }  // namespace polhode::broad

@@ -6,86 +6,37 @@
 // The grid holds fat boxes, and only a body that left its own is looked up again; pairs of fat boxes are kept. A box stands
 // in the cell of its lower corner, on the first level on which it reaches no further than the next half cell. What
 // overlaps a box stands in two cells along each axis at most; this needs no more than that rounding keeps the order of
-// numbers. The boxes of a cell stand side by side in blocks of eight, so that all are compared at once.
+// numbers. The boxes of a cell are asked all at once, seven bits for a side (broad/cell_block.hpp); what is hit is then asked
+// of the boxes themselves.
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include "collision/broad/boxes.hpp"
+#include "collision/broad/cell_block.hpp"
 #include "collision/broad/fat_boxes.hpp"
 #include "collision/broad/kept_pairs.hpp"
-#include "collision/broad/rounded_box.hpp"
 #include "collision/broad_phase.hpp"
 
 namespace polhode {
 namespace {
 
+using namespace broad::cells;
 using broad::Box;
 using broad::FatBoxes;
-using broad::RoundedBox;
 
-using Index = std::uint32_t;
 constexpr Index none = ~Index(0), on_no_level = none - 1;
-constexpr Index no_block = 0;  // stands for all that are not there, and stays empty
 constexpr std::size_t most_levels = 16;
 constexpr double coarser = 4;               // cells of the next level
 constexpr double common = 2;                // times the median size: still a common box
-constexpr double half_cell_of_size = 1.02;  // half the edge of a cell over the largest common size
-constexpr std::size_t slots_per_body = 2;
-constexpr std::size_t ahead = 2;  // bodies, when memory is asked for their blocks
-constexpr std::uint32_t steps_between_looks = 64;  // at the sizes of boxes
-
-/// The half cells that a box reaches.
-struct Reach {
-  std::array<std::int64_t, 3> low, high;
-};
-
-/// A cell's level and its numbers along the axes, of which 20 bits count: cells of one key are far apart.
-using Key = std::uint64_t;
-constexpr int key_bits = 20;
-constexpr std::int64_t key_mask = (1 << key_bits) - 1;
-Key key_part(std::int64_t number, std::size_t axis) {
-  return static_cast<Key>(number & key_mask) << (key_bits * static_cast<int>(axis));
-}
-Key key_part(std::size_t level) { return Key(level) << (3 * key_bits); }
-
-/// Up to eight fat boxes of one cell; a cell that holds more has several blocks.
-struct alignas(64) Block {
-  static constexpr std::size_t lanes = 8;
-  static constexpr unsigned full = (1u << lanes) - 1;
-  static constexpr float nowhere = std::numeric_limits<float>::infinity();
-  using Lanes [[gnu::vector_size(lanes * sizeof(float))]] = float;
-  using Hits [[gnu::vector_size(lanes * sizeof(float))]] = std::int32_t;
-
-  Lanes low[3], high[3];
-  std::array<Index, lanes> body;
-  Key key;
-  Index hash;
-  Index next;     // of those with the same hash
-  unsigned used;  // bit k: lane k
-
-  std::size_t level() const { return static_cast<std::size_t>(key >> (3 * key_bits)); }
-
-  void set(std::size_t lane, const RoundedBox& b) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k][lane] = b.low[k];
-      high[k][lane] = b.high[k];
-    }
-  }
-  /// An empty lane overlaps nothing.
-  void hide(std::size_t lane) { low[0][lane] = nowhere; }
-
-  /// Sets a bit in those lanes that overlap the box.
-  void overlapping(const RoundedBox& b, unsigned bit, Hits& hits) const {
-    const Hits hit = (low[0] <= b.high[0]) & (high[0] >= b.low[0]) & (low[1] <= b.high[1]) & (high[1] >= b.low[1]) &
-                     (low[2] <= b.high[2]) & (high[2] >= b.low[2]);
-    hits |= hit & (Hits{1, 1, 1, 1, 1, 1, 1, 1} << static_cast<int>(bit));
-  }
-};
+constexpr double half_cell_of_size = 1.05;  // half the edge of a cell over the largest common size
+constexpr double still_right = 1.3;         // half a cell over what it would be now, or the other way round
+constexpr std::size_t slots_per_body = 1;
+constexpr std::size_t ahead = 3;  // bodies, when memory is asked for their blocks
+constexpr std::uint32_t steps_between_looks = 32;  // at the sizes of boxes
 
 class UniformGrid final : public BroadPhase {
  public:
@@ -105,13 +56,14 @@ class UniformGrid final : public BroadPhase {
       broad::fetch(place_[left[k]]);
     }
     for (std::size_t k = 0; k < count; ++k) {
-      if (k + ahead < count && place_[left[k + ahead]] < on_no_level) broad::fetch(blocks_[place_[left[k + ahead]] / Block::lanes]);
+      if (k + ahead < count && place_[left[k + ahead]] < on_no_level) broad::fetch(blocks_[place_[left[k + ahead]] / lanes]);
       place(left[k], homes_[k]);
     }
     for (std::size_t k = 0; k < count; ++k) {
       if (k + ahead < count) fetch_blocks(homes_[k + ahead]);
       search(left[k], homes_[k]);
     }
+    settle_hits();
     pairs_ = kept_.renew(fat_, bounds);
   }
 
@@ -119,16 +71,17 @@ class UniformGrid final : public BroadPhase {
 
  private:
   void begin_scene() {
-    median_ = -1;
+    half_cell_ = -1;
     steps_ = 0;
     choose_cells();
-    std::size_t slots = 64;
-    while (slots < slots_per_body * fat_.size()) slots *= 2;
-    slots_.resize(slots);
-    // Far from all fractions with small denominators (Roberts' R2 sequence, after the plastic number).
-    step_y_ = static_cast<Index>(0.7548776662466927 * double(slots)) | 1u;
-    step_z_ = static_cast<Index>(0.5698402909980532 * double(slots)) | 1u;
+    int bits = 6;
+    while (std::size_t(1) << bits < slots_per_body * fat_.size()) ++bits;
+    slots_.resize(std::size_t(1) << bits);
+    // In a cube of about as many cells as there are slots no two share one; the odd steps fill all slots from any row of cells.
+    step_y_ = (Index(1) << (bits + 2) / 3) + 1;
+    step_z_ = (Index(1) << (2 * bits + 2) / 3) + 1;
     blocks_.reserve(fat_.size() + 1);  // each but the first holds a body
+    bodies_in_.reserve(lanes * blocks_.capacity());
     large_.reserve(fat_.size());
     homes_.reserve(fat_.size());
     clear();
@@ -138,16 +91,38 @@ class UniformGrid final : public BroadPhase {
   void clear() {
     std::fill(slots_.begin(), slots_.end(), no_block);
     blocks_.clear();
+    bodies_in_.clear();
     free_block_ = no_block;
-    blocks_[new_block()].key = ~Key(0);
+    new_block(no_key);
     place_.assign(fat_.size(), none);
     large_.clear();
     bodies_.fill(0);
     levels_ = 0;
   }
 
-  /// So that most bodies are on the first level. False where cells stay, as they do while sizes are more or less the same.
+  /// So that all common boxes are on the first level, for each further one is searched too. False where cells stay, as they
+  /// do while the largest of these needs no others.
   bool choose_cells() {
+    const double most = common * median_size();
+    double largest_size = -1;
+    for (Index i = 0; i < fat_.size(); ++i) {
+      const double size = FatBoxes::too_large(fat_.fat(i)) ? -1 : size_of(fat_.fat(i));
+      if (size <= most) largest_size = std::max(largest_size, size);
+    }
+    if (largest_size < 0) return false;
+    double edge = half_cell_of_size * largest_size;
+    if (!(edge >= smallest_edge)) edge = edge_for_points();
+    if (largest_size <= half_cell_ && edge <= still_right * half_cell_ && half_cell_ <= still_right * edge) return false;
+    half_cell_ = edge;
+    for (double& per_metre : per_metre_) {
+      per_metre = (1 << half_cell_bits) / edge;
+      edge *= coarser;
+    }
+    return true;
+  }
+
+  /// Of a sample; negative where there is none.
+  double median_size() {
     constexpr std::size_t most_samples = 512;
     sample_.clear();
     sample_.reserve(most_samples + 1);
@@ -156,19 +131,10 @@ class UniformGrid final : public BroadPhase {
       const Box& b = fat_.fat(static_cast<Index>(i));
       if (!FatBoxes::too_large(b)) sample_.push_back(size_of(b));
     }
-    if (sample_.empty()) return false;
-    std::sort(sample_.begin(), sample_.end());
-    const double median = sample_[sample_.size() / 2];
-    if (median >= 0.8 * median_ && median <= 1.25 * median_) return false;
-    median_ = median;
-    const double largest = *(std::upper_bound(sample_.begin(), sample_.end(), common * median) - 1);
-    double edge = half_cell_of_size * largest;
-    if (!(edge >= smallest_edge)) edge = edge_for_points();
-    for (double& per_metre : per_metre_) {
-      per_metre = 1 / edge;
-      edge *= coarser;
-    }
-    return true;
+    if (sample_.empty()) return -1;
+    const auto middle = sample_.begin() + static_cast<std::ptrdiff_t>(sample_.size() / 2);
+    std::nth_element(sample_.begin(), middle, sample_.end());
+    return *middle;
   }
 
   /// Boxes without any size: cells by how far apart they are.
@@ -181,9 +147,9 @@ class UniformGrid final : public BroadPhase {
     return std::max(reach / std::cbrt(double(fat_.size())), smallest_edge);
   }
 
-  /// Beyond so many cells, where numbers are further apart than these, all is one cell.
-  static std::int64_t half_cell(double x, double per_metre) {
-    constexpr double most = 0x1p51;
+  /// Beyond so many units, where numbers are further apart than cells, all is one cell.
+  static std::int64_t units(double x, double per_metre) {
+    constexpr double most = 0x1p56;
     return static_cast<std::int64_t>(std::floor(std::clamp(x * per_metre, -most, most)));
   }
 
@@ -191,8 +157,8 @@ class UniformGrid final : public BroadPhase {
     const double per_metre = per_metre_[level];
     Reach r;
     for (std::size_t k = 0; k < 3; ++k) {
-      r.low[k] = half_cell(b.low[k], per_metre);
-      r.high[k] = half_cell(b.high[k], per_metre);
+      r.low[k] = units(b.low[k], per_metre);
+      r.high[k] = units(b.high[k], per_metre);
     }
     return r;
   }
@@ -208,17 +174,22 @@ class UniformGrid final : public BroadPhase {
     if (FatBoxes::too_large(box)) return home;
     for (home.level = 0; home.level < most_levels; ++home.level) {
       home.reach = reach(box, home.level);
-      const Reach& r = home.reach;
-      if (broad::all(r.high[0] - r.low[0] <= 1, r.high[1] - r.low[1] <= 1, r.high[2] - r.low[2] <= 1)) break;
+      const auto fits = [&r = home.reach](std::size_t k) {
+        return (r.high[k] >> half_cell_bits) - (r.low[k] >> half_cell_bits) <= 1;
+      };
+      if (broad::all(fits(0), fits(1), fits(2))) break;
     }
     return home;
   }
 
-  Index hash(std::int64_t x, std::int64_t y, std::int64_t z) const { return Index(x) + step_y_ * Index(y) + step_z_ * Index(z); }
-  Index& slot(Index hash) { return slots_[hash & (slots_.size() - 1)]; }
+  Index hash(Key key) const {
+    const auto part = [&](int axis) { return static_cast<Index>(key >> (axis * key_bits)) & Index(key_mask); };
+    return part(0) + step_y_ * part(1) + step_z_ * part(2);
+  }
+  Index& slot(Key key) { return slots_[hash(key) & (slots_.size() - 1)]; }
 
-  /// From one on, the first block of a cell.
-  Index block_of(Index b, Key key) const {
+  /// The first block of a cell, from one of its chain on.
+  Index cell_in(Index b, Key key) const {
     while (b != no_block && blocks_[b].key != key) b = blocks_[b].next;
     return b;
   }
@@ -232,71 +203,86 @@ class UniformGrid final : public BroadPhase {
       large_.push_back(body);
       return;
     }
-    const RoundedBox box(fat_.fat(body));
-    const std::int64_t x = home.reach.low[0] >> 1, y = home.reach.low[1] >> 1, z = home.reach.low[2] >> 1;
-    const Key key = key_part(home.level) | key_part(x, 0) | key_part(y, 1) | key_part(z, 2);
+    Key key = key_part(home.level);
+    for (std::size_t k = 0; k < 3; ++k) key |= key_part(home.reach.low[k] >> cell_bits, k);
     if (old == on_no_level) {
       std::erase(large_, body);
     } else if (old != none) {
-      Block& block = blocks_[old / Block::lanes];
-      if (block.key == key) return block.set(old % Block::lanes, box);
+      Block& block = blocks_[old / lanes];
+      if (block.key == key) return block.set(old % lanes, home.reach);
       take_out(body);
     }
-    Index& head = slot(hash(x, y, z));
-    Index b = block_of(head, key);
-    while (b != no_block && blocks_[b].used == Block::full) b = block_of(blocks_[b].next, key);
+    Index& chain = slot(key);
+    const Index head = cell_in(chain, key);
+    Index b = head;
+    while (b != no_block && blocks_[b].full()) b = blocks_[b].more;
     if (b == no_block) {
-      b = new_block();
-      blocks_[b].key = key;
-      blocks_[b].hash = hash(x, y, z);
-      blocks_[b].next = head;
-      head = b;
+      b = new_block(key);
+      if (head == no_block) {
+        blocks_[b].next = chain;
+        chain = b;
+      } else {
+        blocks_[b].more = blocks_[head].more;
+        blocks_[head].more = b;
+      }
     }
     Block& block = blocks_[b];
-    const auto lane = static_cast<std::size_t>(std::countr_one(block.used));
-    block.used |= 1u << lane;
-    block.body[lane] = body;
-    block.set(lane, box);
-    place_[body] = b * Index(Block::lanes) + static_cast<Index>(lane);
+    const std::size_t lane = block.free_lane();
+    block.set(lane, home.reach);
+    place_[body] = b * Index(lanes) + static_cast<Index>(lane);
+    bodies_in_[place_[body]] = body;
     ++bodies_[home.level];
     levels_ = std::max(levels_, home.level + 1);
   }
 
   void take_out(Index body) {
-    const Index b = place_[body] / Index(Block::lanes), lane = place_[body] % Index(Block::lanes);
+    const Index b = place_[body] / Index(lanes), lane = place_[body] % Index(lanes);
     place_[body] = none;
     Block& block = blocks_[b];
     --bodies_[block.level()];
-    block.used &= ~(1u << lane);
     block.hide(lane);
-    if (block.used != 0) return;
-    Index* link = &slot(block.hash);
-    while (*link != b) link = &blocks_[*link].next;
-    *link = block.next;
-    block.key = ~Key(0);
+    if (!block.empty()) return;
+    Index* link = &slot(block.key);
+    while (blocks_[*link].key != block.key) link = &blocks_[*link].next;
+    if (*link != b) {
+      link = &blocks_[*link].more;
+      while (*link != b) link = &blocks_[*link].more;
+      *link = block.more;
+    } else if (block.more != no_block) {
+      blocks_[block.more].next = block.next;
+      *link = block.more;
+    } else {
+      *link = block.next;
+    }
+    block.key = no_key;
     block.next = free_block_;
     free_block_ = b;
   }
 
-  Index new_block() {
+  Index new_block(Key key) {
     Index b = free_block_;
     if (b == no_block) {
       b = static_cast<Index>(blocks_.size());
       blocks_.emplace_back();
+      bodies_in_.resize(lanes * blocks_.size());
     } else {
       free_block_ = blocks_[b].next;
     }
     Block& block = blocks_[b];
-    block.used = 0;
-    block.next = no_block;
-    for (std::size_t lane = 0; lane < Block::lanes; ++lane) block.hide(lane);
+    block.key = key;
+    block.next = block.more = no_block;
+    block.hide_all();
     return b;
   }
 
+  /// The lowest of the cells that may hold what overlaps a box.
+  static std::int64_t first_cell(std::int64_t low) { return ((low >> half_cell_bits) - 1) >> 1; }
+
   /// The rows of two cells each that are searched first.
   std::array<Index, 4> rows(const Home& home) const {
-    const Reach& r = home.reach;
-    const Index first = hash((r.low[0] - 1) >> 1, (r.low[1] - 1) >> 1, (r.low[2] - 1) >> 1);
+    Key key = 0;
+    for (std::size_t k = 0; k < 3; ++k) key |= key_part(first_cell(home.reach.low[k]), k);
+    const Index first = hash(key);
     return {first, first + step_y_, first + step_z_, first + step_y_ + step_z_};
   }
   void fetch_slots(const Home& home) const {
@@ -322,78 +308,110 @@ class UniformGrid final : public BroadPhase {
   }
 
   void search_level(Index body, std::size_t level, const Reach& r) {
-    const RoundedBox rounded(fat_.fat(body));
     std::array<std::int64_t, 3> low, high, most{};
     double cells = 1;
     for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = (r.low[k] - 1) >> 1;
-      high[k] = r.high[k] >> 1;
+      low[k] = first_cell(r.low[k]);
+      high[k] = r.high[k] >> cell_bits;
       most[k] = high[k] - low[k];
       cells *= static_cast<double>(most[k] + 1);
     }
-    if (broad::all(most[0] <= 1, most[1] <= 1, most[2] <= 1)) return search_eight(body, rounded, level, low);
+    if (broad::all(most[0] <= 1, most[1] <= 1, most[2] <= 1)) return search_eight(body, r, level, low);
     const bool few = *std::max_element(most.begin(), most.end()) < key_mask && cells <= static_cast<double>(blocks_.size());
     if (!few) {
-      for (const Block& block : blocks_) {
-        if (block.level() == level) search_block(body, rounded, block);
+      for (Index other = 0; other < fat_.size(); ++other) {
+        if (place_[other] < on_no_level && blocks_[place_[other] / lanes].level() == level) found(body, other);
       }
       return;
     }
     for (std::int64_t z = low[2]; z <= high[2]; ++z) {
+      const Limits in_z(r.low[2], r.high[2], z);
       for (std::int64_t y = low[1]; y <= high[1]; ++y) {
-        const Key key = key_part(level) | key_part(y, 1) | key_part(z, 2);
+        const Limits in_y(r.low[1], r.high[1], y);
         for (std::int64_t x = low[0]; x <= high[0]; ++x) {
-          search_cell(body, rounded, slot(hash(x, y, z)), key | key_part(x, 0));
+          const Limits in_x(r.low[0], r.high[0], x);
+          const Key key = key_part(level) | key_part(x, 0) | key_part(y, 1) | key_part(z, 2);
+          for (Index b = cell_in(slot(key), key); b != no_block; b = blocks_[b].more) {
+            hit_lanes(body, b, blocks_[b].overlapping(in_x, in_y, in_z));
+          }
         }
       }
     }
   }
 
-  void search_cell(Index body, const RoundedBox& rounded, Index first, Key key) {
-    for (Index b = block_of(first, key); b != no_block; b = block_of(blocks_[b].next, key)) {
-      search_block(body, rounded, blocks_[b]);
-    }
-  }
-
-  void search_block(Index body, const RoundedBox& rounded, const Block& block) {
-    Block::Hits hits{};
-    block.overlapping(rounded, 0, hits);
-    for (std::size_t lane = 0; lane < Block::lanes; ++lane) {
-      if (hits[lane] != 0) found(body, block.body[lane]);
-    }
+  void hit_lanes(Index body, Index b, Words in_lanes) {
+    for_lanes(in_lanes, [&](std::size_t lane) { hit(body, b * Index(lanes) + static_cast<Index>(lane)); });
   }
 
   /// A cell and its upper neighbours: what nearly all questions come to. Without branches until something is hit.
-  void search_eight(Index body, const RoundedBox& rounded, std::size_t level, const std::array<std::int64_t, 3>& low) {
+  void search_eight(Index body, const Reach& r, std::size_t level, const std::array<std::int64_t, 3>& low) {
+    std::array<std::array<Limits, 2>, 3> limits;
+    std::array<std::array<Key, 2>, 3> part;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t side = 0; side < 2; ++side) {
+        const std::int64_t cell = low[k] + static_cast<std::int64_t>(side);
+        limits[k][side] = Limits(r.low[k], r.high[k], cell);
+        part[k][side] = key_part(cell, k);
+      }
+    }
     std::array<Index, 8> block;
     std::array<Key, 8> keys;
-    Index more = no_block;
     for (std::size_t c = 0; c < 8; ++c) {
-      const std::int64_t x = low[0] + std::int64_t(c & 1), y = low[1] + std::int64_t(c >> 1 & 1), z = low[2] + std::int64_t(c >> 2);
-      keys[c] = key_part(level) | key_part(x, 0) | key_part(y, 1) | key_part(z, 2);
-      block[c] = slot(hash(x, y, z));
+      keys[c] = key_part(level) | part[0][c & 1] | part[1][c >> 1 & 1] | part[2][c >> 2];
+      block[c] = slot(keys[c]);
     }
-    Block::Hits in_lane{};
+    Words hits{};
+    unsigned rest = 0;  // bit c: the cell is not the first in its chain, or has another block
     for (std::size_t c = 0; c < 8; ++c) {
-      block[c] = block_of(block[c], keys[c]);
       const Block& b = blocks_[block[c]];
-      b.overlapping(rounded, unsigned(c), in_lane);
-      more |= b.next;
+      const Word here = Word(0) - Word(b.key == keys[c]);  // all bits or none, instead of a branch
+      const Words in_lanes = b.overlapping(limits[0][c & 1], limits[1][c >> 1 & 1], limits[2][c >> 2]);
+      hits |= (in_lanes & both(here)) >> static_cast<int>(7 - c);
+      const Index onward = (b.more & static_cast<Index>(here)) | (b.next & ~static_cast<Index>(here));
+      rest |= unsigned(onward != no_block) << c;
     }
-    std::uint64_t hits = 0;
-    for (std::size_t lane = 0; lane < Block::lanes; ++lane) hits |= std::uint64_t(std::uint32_t(in_lane[lane])) << (8 * lane);
-    for (; hits != 0; hits &= hits - 1) {
-      const auto bit = static_cast<std::size_t>(std::countr_zero(hits));
-      found(body, blocks_[block[bit % 8]].body[bit / 8]);
+    for (std::size_t half = 0; half < 2; ++half) {
+      for (Word word = hits[half]; word != 0; word &= word - 1) {
+        const auto bit = static_cast<std::size_t>(std::countr_zero(word));
+        hit(body, block[bit % 8] * Index(lanes) + static_cast<Index>(lanes_of_word * half + bit / 8));
+      }
     }
-    if (more == no_block) return;
-    for (std::size_t c = 0; c < 8; ++c) search_cell(body, rounded, blocks_[block[c]].next, keys[c]);
+    for (; rest != 0; rest &= rest - 1) {
+      const auto c = static_cast<std::size_t>(std::countr_zero(rest));
+      const Block& first = blocks_[block[c]];
+      for (Index b = first.key == keys[c] ? first.more : cell_in(first.next, keys[c]); b != no_block; b = blocks_[b].more) {
+        hit_lanes(body, b, blocks_[b].overlapping(limits[0][c & 1], limits[1][c >> 1 & 1], limits[2][c >> 2]));
+      }
+    }
+  }
+
+  /// What a question met is looked at later, many together, so that memory is not waited for each time.
+  void hit(Index body, Index place) {
+    broad::fetch(bodies_in_[place]);
+    hits_[hit_count_++] = {body, place};
+    if (hit_count_ == hits_.size()) settle_hits();
+  }
+
+  void settle_hits() {
+    std::size_t fresh = 0;
+    for (std::size_t k = 0; k < hit_count_; ++k) {
+      const Index body = hits_[k].body, other = bodies_in_[hits_[k].other];
+      broad::fetch(fat_.fat(other));
+      hits_[fresh] = {body, other};
+      fresh += is_fresh(body, other);
+    }
+    for (std::size_t k = 0; k < fresh; ++k) {
+      if (overlap(fat_.fat(hits_[k].body), fat_.fat(hits_[k].other))) kept_.add(hits_[k].body, hits_[k].other);
+    }
+    hit_count_ = 0;
   }
 
   /// Of two that both left their fat boxes, the later one finds the pair.
+  bool is_fresh(Index body, Index other) const {
+    return (int(other < body) | (int(other > body) & int(!fat_.has_left(other)))) != 0;
+  }
   void found(Index body, Index other) {
-    const bool fresh = other < body || (other > body && !fat_.has_left(other));
-    if (fresh && overlap(fat_.fat(body), fat_.fat(other))) kept_.add(body, other);
+    if (is_fresh(body, other) && overlap(fat_.fat(body), fat_.fat(other))) kept_.add(body, other);
   }
 
   /// A body too large for any grid, a half-space above all.
@@ -405,17 +423,23 @@ class UniformGrid final : public BroadPhase {
 
   FatBoxes fat_;
   broad::KeptPairs kept_;
-  std::array<double, most_levels> per_metre_{};  // half cells
+  std::array<double, most_levels> per_metre_{};  // units
   std::array<Index, most_levels> bodies_{};      // how many on each level
+  struct Hit {
+    Index body, other;  // or the other one's place
+  };
+  std::array<Hit, 1024> hits_;
+  std::size_t hit_count_ = 0;
   std::size_t levels_ = 0;                       // that have ever held one
   std::vector<Index> slots_;                     // the first block of each hash
   Index step_y_ = 1, step_z_ = 1;                // of the hash, from a cell to the next
   std::vector<Block> blocks_;
+  std::vector<Index> bodies_in_;                 // the lanes of the blocks
   Index free_block_ = no_block;                      // a list of those not in use
   std::vector<Home> homes_;                      // of those that left their fat boxes
   std::vector<Index> place_;                     // of each body: its block and lane
   std::vector<Index> large_;                     // on no level
-  double median_ = -1;
+  double half_cell_ = -1;  // of the first level, m
   std::vector<double> sample_;
   std::uint32_t steps_ = 0;
   std::span<const BodyPair> pairs_;

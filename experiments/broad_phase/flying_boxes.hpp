@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boxes of edges from 0.5 to 1 m that fly straight in a cube and bounce off its walls; the same ones for the same seed.
+// Their speeds are spread evenly from none to twice the mean: at one speed for all, boxes leave the margins that a broad
+// phase gives them together, and its work comes in bursts.
 #pragma once
 
 #include <cmath>
@@ -14,7 +16,7 @@ namespace polhode::study {
 
 class FlyingBoxes {
  public:
-  /// `filling` is the part of the cube that is within boxes, `motion` a step's path over the mean edge.
+  /// `filling` is the part of the cube that is within boxes, `motion` a step's mean path over the mean edge.
   FlyingBoxes(std::size_t n, double filling, double motion, std::uint64_t seed) : dice_(seed), bounds_(n) {
     double volume = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -25,7 +27,7 @@ class FlyingBoxes {
     for (std::size_t i = 0; i < n; ++i) {
       centre_.push_back(dice_.uniform_vector(0, edge_));
       const Vector3<double> way = dice_.uniform_vector(-1, 1);
-      path_.push_back(way * (0.75 * motion / std::max(way.norm(), 1e-3)));
+      path_.push_back(way * (dice_.uniform(0, 2) * mean_edge * motion / std::max(way.norm(), 1e-3)));
     }
     place();
   }
@@ -46,6 +48,8 @@ class FlyingBoxes {
   const std::vector<Vector3<double>>& centre() const { return centre_; }
 
  private:
+  static constexpr double mean_edge = 0.75;
+
   void place() {
     for (std::size_t i = 0; i < centre_.size(); ++i) bounds_[i] = Bounds(centre_[i] - half_[i], centre_[i] + half_[i]);
   }
