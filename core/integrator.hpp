@@ -75,6 +75,9 @@ struct Sample {
   double work = 0;             ///< J, done by non-conservative forces since the start
   double projection = 0;       ///< J, that the projection after this step injected
   ContactLosses contact{};
+
+  /// J, what a ledger without errors keeps: kinetic + potential − work + lost in contact − injected by projection.
+  double ledger() const { return seen.energy() - work - projection + contact.total(); }
 };
 
 /// A stretch of steps of one size, taken in one call: the k-th ends at t = t0 + (first + k) h, k from 1 to count.

@@ -49,6 +49,8 @@ class Observer {
   /// The whole state at the sample seen last. Called for the start, before observe(), and for the first sample at or
   /// after next_look().
   virtual void look(const State<double>&, const Sample&) {}
+  /// The impacts of a step, before its sample.
+  virtual void meet(std::span<const Impact>) {}
   /// s; 0 for every sample. A method may take many steps in one call up to then.
   virtual double next_look() const { return std::numeric_limits<double>::infinity(); }
 };

@@ -39,6 +39,9 @@ ContactScene::ContactScene(const Problem& problem, std::vector<Collider> collide
     if (!(c.friction >= 0) || !std::isfinite(c.friction)) throw std::invalid_argument("a friction must not be negative");
     radii_.push_back(radius_of(c));
   }
+  for (std::size_t i = 0; i < colliders_.size(); ++i) {
+    if (colliders_[i].shape && (i >= moving_ || problem.bodies[i].pinned)) all_free_ = false;
+  }
   for (std::size_t i = 0; i < moving_; ++i) {
     if (colliders_[i].shape && !colliders_[i].shape->finite()) {
       throw std::invalid_argument("the body '" + problem.bodies[i].name + "' has a shape without end and must be static");

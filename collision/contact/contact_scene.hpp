@@ -9,18 +9,12 @@
 #include <vector>
 
 #include "collision/broad_phase.hpp"
+#include "collision/contact/collider.hpp"
 #include "collision/narrow_phase.hpp"
 #include "collision/response.hpp"
 #include "core/system.hpp"
 
 namespace polhode {
-
-/// The shape of a body and its surface; without a shape the body touches nothing.
-struct Collider {
-  ShapePointer shape;
-  double restitution = 0;  ///< Newton's, of a pair the larger
-  double friction = 0;     ///< Coulomb's, of a pair the geometric mean
-};
 
 class ContactScene {
  public:
@@ -42,6 +36,8 @@ class ContactScene {
   Distance distance(std::size_t k, std::span<const Pose> poses);
 
   std::size_t size() const { return colliders_.size(); }
+  /// True where everything that can touch is a body that moves freely.
+  bool all_free() const { return all_free_; }
   /// m, the radius about the mass centre that holds the body; 0 without a shape and of what has no end.
   double radius(std::size_t body) const { return radii_[body]; }
 
@@ -52,6 +48,7 @@ class ContactScene {
   };
 
   std::size_t moving_;
+  bool all_free_ = true;
   std::vector<Collider> colliders_;
   std::vector<double> radii_;
   std::unique_ptr<BroadPhase> broad_;

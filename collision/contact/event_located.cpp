@@ -38,7 +38,7 @@ double normal_speed(const std::vector<ImpulseBody>& bodies, const ImpulseContact
 
 EventLocated::EventLocated(System<double>& system, ContactScene& scene, std::unique_ptr<Response> response)
     : system_(system), scene_(scene), response_(std::move(response)) {
-  auto held = std::make_unique<HeldImpulses>(system.problem().bodies.size());
+  auto held = std::make_unique<HeldImpulses>(system.problem().bodies.size(), scene.all_free());
   held_ = held.get();
   system.add_force(std::move(held));
   double largest = 0;
@@ -132,12 +132,8 @@ bool EventLocated::take_impacts(Integrator<double>& method, State<double>& state
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const ImpulseContact& c = contacts[k];
     if (c.impulse.isZero(0)) continue;
-    const Vector3<double> mean = 0.5 * (bodies_[c.a].velocity_at(c.point) - bodies_[c.b].velocity_at(c.point)) +
-                                 0.5 * (end_[c.a].velocity_at(c.point) - end_[c.b].velocity_at(c.point));
-    const ContactWork work = work_of(c, mean);
-    losses_.impact -= work.normal;
-    losses_.friction -= work.tangential;
-    impacts_.push_back({state.t, c.a, c.b, c.point, c.normal, c.impulse, -work.normal - work.tangential, rests_from_[k]});
+    const double lost = book(c, bodies_, end_, 0, losses_);
+    impacts_.push_back({state.t, c.a, c.b, c.point, c.normal, c.impulse, lost, rests_from_[k]});
     const auto push = [&](std::uint32_t i, const Vector3<double>& j) {
       if (i < system_.moving()) system_.apply_impulse(state.y, i, j, (c.point - bodies_[i].position).cross(j));
     };
@@ -321,11 +317,7 @@ void EventLocated::account_held(const State<double>& end) {
   const double share = (end.t - start_.t) / whole_;
   for (ImpulseContact& c : resting_) {
     c.impulse *= share;
-    const Vector3<double> mean = 0.5 * (bodies_[c.a].velocity_at(c.point) - bodies_[c.b].velocity_at(c.point)) +
-                                 0.5 * (end_[c.a].velocity_at(c.point) - end_[c.b].velocity_at(c.point));
-    const ContactWork work = work_of(c, mean);
-    losses_.impact -= work.normal;
-    losses_.friction -= work.tangential;
+    book(c, bodies_, end_, end.t - start_.t, losses_);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "collision/contact/contact_losses.hpp"
 #include "collision/response.hpp"
 #include "core/force.hpp"
 
@@ -15,7 +16,8 @@ namespace polhode {
 
 class HeldImpulses final : public ForceModel<double> {
  public:
-  explicit HeldImpulses(std::size_t bodies) : wrenches_(bodies), changes_(bodies, Vector3<double>::Zero()) {}
+  /// `internal`: every body that can touch moves freely, so that total momenta are conserved.
+  HeldImpulses(std::size_t bodies, bool internal) : internal_(internal), wrenches_(bodies), changes_(bodies, Vector3<double>::Zero()) {}
 
   void release() {
     if (held_) {
@@ -51,14 +53,11 @@ class HeldImpulses final : public ForceModel<double> {
   }
 
   bool reads_velocity() const override { return false; }
+  bool internal() const override { return internal_; }
   Effect effect_on(std::size_t) const override { return {true, std::nullopt}; }
 
  private:
-  static Vector3<double> line_velocity(const ImpulseBody& a, const ImpulseBody& b) {
-    if (!(a.inverse_mass > 0) || !(b.inverse_mass > 0)) return a.inverse_mass > 0 ? a.velocity : b.velocity;
-    return (b.inverse_mass * a.velocity + a.inverse_mass * b.velocity) / (a.inverse_mass + b.inverse_mass);
-  }
-
+  bool internal_;
   std::vector<Wrench<double>> wrenches_;   ///< torque about the world's origin, at `since`
   std::vector<Vector3<double>> changes_;   ///< N m/s, of these torques
   double since_ = 0;                       ///< s

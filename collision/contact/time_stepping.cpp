@@ -10,7 +10,7 @@ namespace polhode {
 
 TimeStepping::TimeStepping(System<double>& system, ContactScene& scene, std::unique_ptr<Response> response, Reflected reflected)
     : system_(system), scene_(scene), response_(std::move(response)), reflected_(reflected) {
-  auto held = std::make_unique<HeldImpulses>(system.problem().bodies.size());
+  auto held = std::make_unique<HeldImpulses>(system.problem().bodies.size(), scene.all_free());
   held_ = held.get();
   system.add_force(std::move(held));
 }
@@ -91,13 +91,9 @@ StepResult TimeStepping::step(Integrator<double>& method, State<double>& state, 
 void TimeStepping::account(const State<double>& end, std::span<const ImpulseContact> contacts) {
   impulse_bodies(system_, end.y, end_);
   for (const ImpulseContact& c : contacts) {
-    const Vector3<double> mean = 0.5 * (start_[c.a].velocity_at(c.point) - start_[c.b].velocity_at(c.point)) +
-                                 0.5 * (end_[c.a].velocity_at(c.point) - end_[c.b].velocity_at(c.point));
-    const ContactWork work = work_of(c, mean);
-    losses_.impact -= work.normal;
-    losses_.friction -= work.tangential;
+    const double lost = book(c, start_, end_, end.t - before_.t, losses_);
     if (c.approach < 0 && c.restitution > 0 && !c.impulse.isZero(0)) {
-      impacts_.push_back({end.t, c.a, c.b, c.point, c.normal, c.impulse, -work.normal - work.tangential, {}});
+      impacts_.push_back({end.t, c.a, c.b, c.point, c.normal, c.impulse, lost, {}});
     }
   }
 }

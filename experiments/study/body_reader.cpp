@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/shape_catalogue.hpp"
 #include "core/inertia.hpp"
 #include "core/shape_inertia.hpp"
 #include "experiments/study/axes.hpp"
+#include "experiments/study/canonical_text.hpp"
 #include "experiments/study/parameter_reader.hpp"
 #include "experiments/study/scenario_keys.hpp"
 
@@ -52,14 +54,40 @@ Matrix3<double> read_inertia(const TomlCursor& inertia) {
   return rows;
 }
 
-Vector3<double> read_shape(const TomlCursor& shape, double mass) {
+/// "[0.1, 0, 0]"
+std::string text(const Vector3<double>& v) { return "[" + exact(v[0]) + ", " + exact(v[1]) + ", " + exact(v[2]) + "]"; }
+
+/// A shape that touches, built from its sizes.
+ShapePointer build_shape(const TomlCursor& shape, ShapeParameters& sizes) {
   std::vector<std::string_view> known;
-  for (const ShapeKind& kind : shape_catalogue()) known.push_back(kind.name);
+  for (const ShapeEntry& entry : collision_shape_catalogue()) known.push_back(entry.name);
+  const TomlCursor name = shape.at("kind", "the name of a shape");
+  const ShapeEntry* entry = find_collision_shape(name.text("the name of a shape"));
+  if (!entry) name.unknown("shape", "There are", known);
+  sizes.values = read_parameters(shape, entry->parameters, {"kind"}, "A " + entry->name + " has");
+  try {
+    return entry->make(sizes);
+  } catch (const std::invalid_argument& error) {
+    shape.fail(error.what());
+  }
+}
+
+Matrix3<double> read_shape(const TomlCursor& shape, double mass) {
+  std::vector<std::string_view> known;
+  for (const ShapeEntry& entry : collision_shape_catalogue()) known.push_back(entry.name);
   if (shape.value().type != TomlValue::Type::table) shape.refuse("a table such as { kind = \"sphere\", radius = 0.1 }");
   const TomlCursor name = shape.at("kind", "the name of a shape");
   const ShapeKind* kind = find_shape(name.text("the name of a shape"));
-  if (!kind) name.unknown("shape", "There are", known);
-  return kind->moments(mass, read_parameters(shape, kind->parameters, {"kind"}, "A " + kind->name + " has"));
+  if (!kind && !find_collision_shape(name.value().text)) name.unknown("shape", "There are", known);
+  if (kind) return kind->moments(mass, read_parameters(shape, kind->parameters, {"kind"}, "A " + kind->name + " has")).asDiagonal();
+  ShapeParameters sizes;
+  const ShapePointer built = build_shape(shape, sizes);
+  if (!built->finite()) shape.fail("a " + std::string(built->kind()) + " has no end and no inertia; its body must be static");
+  const MassProperties matter = built->mass_properties();
+  if (!(matter.centroid.norm() <= 1e-9 * std::cbrt(matter.volume))) {
+    shape.fail("has its mass centre at " + text(matter.centroid) + " m; it must be at the origin of the body's axes");
+  }
+  return mass / matter.volume * matter.inertia;
 }
 
 std::vector<PointMass> read_point_masses(const TomlCursor& list) {
@@ -73,9 +101,6 @@ std::vector<PointMass> read_point_masses(const TomlCursor& list) {
   }
   return points;
 }
-
-/// "[0.1, 0, 0]"
-std::string text(const Vector3<double>& v) { return "[" + exact(v[0]) + ", " + exact(v[1]) + ", " + exact(v[2]) + "]"; }
 
 /// Mass, mass centre and inertia from the points, about the origin of their positions.
 void take_point_masses(const TomlCursor& table, Body& body) {
@@ -109,17 +134,25 @@ void check_inertia(const TomlCursor& table, std::string_view source, const Body&
   if (!impossible.empty()) cursor.fail("the inertia " + impossible + "; unphysical_inertia = true lets it pass");
 }
 
+/// Of those shapes whose inertia is a formula.
+bool known_in_core(const TomlCursor& shape) {
+  return shape.value().type != TomlValue::Type::table || !shape.has("kind") ||
+         !find_collision_shape(shape.at("kind", "").text("the name of a shape")) ||
+         find_shape(shape.at("kind", "").text("the name of a shape"));
+}
+
 /// With `mass` and `center_of_mass` known: the key `inertia`, or that of the shape.
 void take_inertia(const TomlCursor& table, Body& body) {
-  const Vector3<double> moments =
-      table.has("shape") ? read_shape(table.at("shape", ""), body.mass) : Vector3<double>(1, 1, 1);
+  // A static body needs no inertia, and some shapes have none.
+  const bool needed = table.has("shape") && (!body.fixed || known_in_core(table.at("shape", "")));
+  const Matrix3<double> of_shape = needed ? read_shape(table.at("shape", ""), body.mass) : Matrix3<double>(Matrix3<double>::Identity());
   if (table.has("inertia")) {
     body.inertia = read_inertia(table.at("inertia", ""));
     check_inertia(table, "inertia", body);
     // Symmetric to 1e-9 is what was checked; the equations take it to be exact.
     body.inertia = (0.5 * body.inertia + 0.5 * body.inertia.transpose()).eval();
-  } else if (table.has("shape")) {
-    body.inertia = inertia_about_point(moments.asDiagonal(), body.mass, body.center_of_mass);
+  } else if (needed) {
+    body.inertia = inertia_about_point(of_shape, body.mass, body.center_of_mass);
     check_inertia(table, "shape", body);
   } else if (!body.fixed) {
     table.at("inertia", "3 principal moments of kg m^2; or give a shape or point_masses, of which it follows");
@@ -194,22 +227,31 @@ BodyStart read_start(const TomlCursor& table, const Body& body) {
   return start;
 }
 
-/// Read and checked, but used by collisions only.
-void check_contact_keys(const TomlCursor& table) {
+void read_collider(const TomlCursor& table, bool contact, ReadBody& read) {
   const TomlCursor restitution = key(table, "restitution");
-  if (restitution.number("", Range::non_negative) > 1) restitution.refuse("a number from 0 to 1");
-  key(table, "friction").number("", Range::non_negative);
+  Collider& collider = read.collider;
+  collider.restitution = restitution.number("", Range::non_negative);
+  if (collider.restitution > 1) restitution.refuse("a number from 0 to 1");
+  collider.friction = key(table, "friction").number("", Range::non_negative);
+  if (!contact || !table.has("shape")) return;
+  const TomlCursor shape = table.at("shape", "");
+  ShapeParameters sizes;
+  collider.shape = build_shape(shape, sizes);
+  if (!collider.shape->finite() && !read.body.fixed) {
+    shape.fail("a " + std::string(collider.shape->kind()) + " has no end; its body must be static");
+  }
+  read.canonical_collider = canonical_collider(collider, sizes.values);
 }
 
 }  // namespace
 
-ReadBody read_body(const TomlCursor& table, std::size_t index) {
+ReadBody read_body(const TomlCursor& table, std::size_t index, bool contact) {
   table.table("A body has", names(body_keys()));
   ReadBody read;
   read.body = read_matter(table, index);
   read.start = read_start(table, read.body);
   read.has_mass = table.has("mass") || table.has("point_masses");
-  check_contact_keys(table);
+  read_collider(table, contact, read);
   return read;
 }
 

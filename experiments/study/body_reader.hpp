@@ -2,6 +2,7 @@
 // Reads one [[body]] of a scenario: its matter (mass, inertia, mass centre) and how it starts.
 #pragma once
 
+#include "collision/contact/collider.hpp"
 #include "core/body.hpp"
 #include "experiments/study/toml_cursor.hpp"
 
@@ -11,9 +12,11 @@ struct ReadBody {
   Body body;
   BodyStart start;
   bool has_mass = false;  ///< false of a static body that is given none
+  Collider collider;      ///< without a shape where the scenario has no contact
+  std::string canonical_collider{};
 };
 
-/// `index` gives the name of a body that has none: body0, body1, … Throws a Fault.
-ReadBody read_body(const TomlCursor& table, std::size_t index);
+/// `index` gives the name of a body that has none: body0, body1, … With `contact` a shape is one that touches. Throws a Fault.
+ReadBody read_body(const TomlCursor& table, std::size_t index, bool contact);
 
 }  // namespace polhode::study

@@ -60,6 +60,17 @@ void write_force(const ForceParameters& force, std::string& out) {
 
 }  // namespace
 
+std::string canonical_collider(const Collider& collider, const std::map<std::string, ParameterValue>& sizes) {
+  std::string out;
+  {
+    Line line(out, collider.shape->kind());
+    for (const auto& size : sizes) std::visit([&](const auto& value) { line.add(size.first, value); }, size.second);
+    line.add("restitution", collider.restitution);
+    line.add("friction", collider.friction);
+  }
+  return out;
+}
+
 std::string canonical_text(const Problem& problem, const std::vector<std::string>& invariants) {
   std::string out;
   for (std::size_t i = 0; i < problem.bodies.size(); ++i) write_body(problem.bodies[i], problem.starts[i], out);

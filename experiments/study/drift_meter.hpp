@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Watches a run and measures how far its invariants drift and how far it is from the exact motion.
 //
-// Energy is a ledger: E = kinetic + potential − work of non-conservative forces − energy injected by projection. Its
-// drift is what the ledger cannot explain. Each relative drift is taken against a scale that is never zero.
+// Energy is a ledger: E = kinetic + potential − work of non-conservative forces + energy lost in contact − energy injected
+// by projection. Its drift is what the ledger cannot explain. Each relative drift is taken against a scale that is never
+// zero.
 #pragma once
 
 #include <memory>

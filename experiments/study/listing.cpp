@@ -6,7 +6,9 @@
 #include <algorithm>
 
 #include "collision/broad_phase.hpp"
+#include "collision/contact/impact_timing.hpp"
 #include "collision/narrow_phase.hpp"
+#include "collision/shape_catalogue.hpp"
 #include "core/forces/catalogue.hpp"
 #include "core/invariants.hpp"
 #include "core/shape_inertia.hpp"
@@ -61,7 +63,10 @@ std::string forces() {
 
 std::string shapes() {
   std::string text;
-  for (const ShapeKind& s : shape_catalogue()) text += line(s.name, s.summary + "; keys: " + keys(s.parameters));
+  for (const ShapeEntry& s : collision_shape_catalogue()) {
+    const ShapeKind* core = find_shape(s.name);
+    text += line(s.name, (core ? core->summary : s.summary) + "; keys: " + keys(s.parameters));
+  }
   return text;
 }
 
@@ -83,10 +88,20 @@ std::string narrow_phases() {
   return text;
 }
 
-std::string nothing() { return "  none in this version\n"; }
+std::string responses() {
+  std::string text;
+  for (const ResponseEntry& e : response_catalogue()) text += line(e.name, e.summary);
+  return text;
+}
+
+std::string impact_timings() {
+  std::string text;
+  for (const ImpactTimingEntry& e : impact_timing_catalogue()) text += line(e.name, e.summary);
+  return text;
+}
 
 std::string metrics() {
-  return line("energy_drift_*", "ledger: kinetic + potential - work of non-conservative forces - energy injected by projection") +
+  return line("energy_drift_*", "ledger: kinetic + potential - work of non-conservative forces + energy lost in contact - energy injected by projection") +
          line("linear_momentum_*", "|P - P0| over |P0|, where the forces conserve it") +
          line("angular_momentum_*", "|L - L0| over |L0|: one body about its mass centre or pivot, several about the origin") +
          line("<invariant>_*", "each further invariant that a scenario declares, over its scale") +
@@ -109,7 +124,7 @@ constexpr Section sections[] = {{"integrators", integrators},   {"scenarios", sc
                                 {"forces", forces},             {"shapes", shapes},
                                 {"invariants", invariants},     {"metrics", metrics},
                                 {"broad-phases", broad_phases}, {"narrow-phases", narrow_phases},
-                                {"responses", nothing}};
+                                {"responses", responses},       {"impact-timings", impact_timings}};
 
 }  // namespace
 

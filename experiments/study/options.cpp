@@ -30,10 +30,10 @@ constexpr AxisHelp axis_help[] = {
     {"tolerance", "X", "relative and absolute tolerance of adaptive methods"},
     {"t-end", "S", "duration in s (default: the scenario's)"},
     {"samples", "N", "measure at k t_end/N only (default: after every step)"},
-    {"broad-phase", "NAME", "broad phase of collisions (none in this version)"},
-    {"narrow-phase", "NAME", "narrow phase of collisions (none in this version)"},
-    {"response", "NAME", "contact response (none in this version)"},
-    {"impact-timing", "NAME", "timing of impacts (none in this version)"},
+    {"broad-phase", "NAME", "broad phase of scenarios with contact, a list or all (default: sweep_and_prune)"},
+    {"narrow-phase", "NAME", "narrow phase of them (default: sat)"},
+    {"response", "NAME", "contact response (default: sequential_impulses)"},
+    {"impact-timing", "NAME", "when impacts are answered (default: time_stepping)"},
 };
 
 }  // namespace
@@ -102,7 +102,7 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   std::string list;
   CLI::Option* list_option =
       app.add_option("--list", list, "print the catalogue: integrators, scenarios, forces, shapes, invariants, "
-                                     "broad-phases, narrow-phases, responses or metrics (default: all)")
+                                     "broad-phases, narrow-phases, responses, impact-timings or metrics (default: all)")
           ->type_name("[WHAT]")
           ->expected(0, 1)
           ->group("Running");

@@ -10,6 +10,9 @@
 #include <set>
 #include <stdexcept>
 
+#include "collision/broad_phase.hpp"
+#include "collision/contact/impact_timing.hpp"
+#include "collision/narrow_phase.hpp"
 #include "experiments/study/axes.hpp"
 #include "experiments/study/input_error.hpp"
 #include "experiments/study/run.hpp"
@@ -80,7 +83,19 @@ struct Axes {
   std::vector<std::optional<Summation>> summations;
   std::vector<double> steps, tolerances, durations;
   std::vector<std::optional<std::int64_t>> samples;
+  std::vector<std::string> broad_phases, narrow_phases, responses, impact_timings;
 };
+
+/// The names of an axis, among those of a catalogue; `otherwise` where the study does not speak of it.
+template <class Entry>
+std::vector<std::string> catalogue_names(const Options& options, const char* axis, const std::vector<Entry>& catalogue,
+                                         const char* otherwise) {
+  std::vector<std::string> known;
+  for (const Entry& entry : catalogue) known.push_back(entry.name);
+  const auto found = options.axes.find(axis);
+  if (found == options.axes.end()) return {otherwise};
+  return found->second == "all" ? known : names(options, axis, known);
+}
 
 std::vector<std::string> integrator_names(const Experiment& experiment, const Options& options) {
   std::vector<std::string> known, fitting;
@@ -145,7 +160,10 @@ Axes read_axes(const Experiment& experiment, const Options& options) {
                                  experiment.name));
   }
   if (axes.samples.empty()) axes.samples.emplace_back(std::nullopt);
-  for (const char* none : {"broad-phase", "narrow-phase", "response", "impact-timing"}) names(options, none, {});
+  axes.broad_phases = catalogue_names(options, "broad-phase", broad_phase_catalogue(), "sweep_and_prune");
+  axes.narrow_phases = catalogue_names(options, "narrow-phase", narrow_phase_catalogue(), "sat");
+  axes.responses = catalogue_names(options, "response", response_catalogue(), "sequential_impulses");
+  axes.impact_timings = catalogue_names(options, "impact-timing", impact_timing_catalogue(), "time_stepping");
   return axes;
 }
 
@@ -314,7 +332,21 @@ class Planner {
     }
   }
 
-  void add_run(const RunConfig& config, const std::shared_ptr<const Scenario>& scenario) {
+  void add_run(RunConfig config, const std::shared_ptr<const Scenario>& scenario) {
+    if (scenario->colliders.empty()) return add_planned(config, scenario);
+    for (const std::string& broad : axes_.broad_phases) {
+      for (const std::string& narrow : axes_.narrow_phases) {
+        for (const std::string& response : axes_.responses) {
+          for (const std::string& timing : axes_.impact_timings) {
+            config.contact = ContactConfig{broad, narrow, response, timing};
+            add_planned(config, scenario);
+          }
+        }
+      }
+    }
+  }
+
+  void add_planned(const RunConfig& config, const std::shared_ptr<const Scenario>& scenario) {
     try {
       plan_.runs.push_back(planned(config, scenario));
     } catch (const std::invalid_argument& error) {
@@ -438,11 +470,9 @@ std::vector<std::string> config_cells(const RunConfig& config) {
                                     std::string(name(config.precision)),
                                     config.dt ? exact(*config.dt) : "",
                                     config.tolerance ? exact(*config.tolerance) : "",
-                                    exact(config.t_end),
-                                    "",
-                                    "",
-                                    "",
-                                    ""};
+                                    exact(config.t_end)};
+  const ContactConfig contact = config.contact.value_or(ContactConfig{});
+  cells.insert(cells.end(), {contact.broad_phase, contact.narrow_phase, contact.response, contact.impact_timing});
   if (config.order) cells.push_back(*config.order == 0 ? "" : std::to_string(*config.order));
   if (config.summation) cells.emplace_back(name(*config.summation));
   for (const Override& o : config.varied) cells.push_back(o.value);

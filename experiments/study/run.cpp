@@ -6,6 +6,7 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "collision/contact/impact_timing.hpp"
 #include "core/simulate_ensemble.hpp"
 #include "experiments/study/drift_meter.hpp"
 #include "experiments/study/report/curves.hpp"
@@ -60,19 +61,29 @@ RunResult result_of(const RunOutcome& outcome, DriftMeter& meter, double seconds
 /// `seconds`: of the way from the start to the end, without what is made before it.
 template <class S>
 RunOutcome run_in(const System<S>& system, const System<double>& truth, const RunConfig& config, Observer& observer,
-                  const std::atomic<bool>* stop, double& seconds) {
+                  const std::atomic<bool>* stop, double& seconds, ContactModel* contact = nullptr) {
   const IntegratorEntry& entry = *find_integrator(config.integrator);
   const auto integrator = is_compensated(config) ? make_compensated<S>(entry, system, settings_of(config))
                                                  : entry.maker<S>()(system, settings_of(config));
   State<S> state = system.start();
   const auto started = Clock::now();
-  RunOutcome outcome = simulate(system, truth, *integrator, state, schedule_of(config), observer, stop);
+  RunOutcome outcome = simulate(system, truth, *integrator, state, schedule_of(config), observer, stop, contact);
   seconds = seconds_since(started);
   return outcome;
 }
 
+/// The bodies that can touch, and how it is answered.
+struct Contact {
+  Contact(System<double>& system, const Scenario& scenario, const ContactConfig& config)
+      : scene(scenario.problem, scenario.colliders, config.broad_phase, config.narrow_phase),
+        model(find_impact_timing(config.impact_timing)->make(system, scene, find_response(config.response)->make())) {}
+
+  ContactScene scene;
+  std::unique_ptr<ContactModel> model;
+};
+
 RunOutcome run_on(const System<double>& truth, const RunConfig& config, Observer& observer,
-                  const std::atomic<bool>* stop, double& seconds) {
+                  const std::atomic<bool>* stop, double& seconds, ContactModel* contact) {
   const auto other = [&]<class S>() {
     const auto system = make_system<S>(truth.problem(), truth.formulation());
     return run_in<S>(*system, truth, config, observer, stop, seconds);
@@ -80,7 +91,7 @@ RunOutcome run_on(const System<double>& truth, const RunConfig& config, Observer
   switch (config.precision) {
     case Precision::single: return other.operator()<float>();
     case Precision::extended: return other.operator()<long double>();
-    default: return run_in<double>(truth, truth, config, observer, stop, seconds);
+    default: return run_in<double>(truth, truth, config, observer, stop, seconds, contact);
   }
 }
 
@@ -117,6 +128,14 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
                                     : ": compensated summation makes no sense: its step is not the sum of the state "
                                       "and an increment");
   }
+  if (config.contact) {
+    if (config.precision != Precision::dual) return "contact works in double only, not in " + std::string(name(config.precision));
+    if (config.reference) return "no reference can be made of a motion with contact; leave --reference out";
+    if (declared.adaptive && find_impact_timing(config.contact->impact_timing)->fixed_steps_only) {
+      return config.integrator + " chooses its own steps, and " + config.contact->impact_timing +
+             " is about steps; take --impact-timing event_located";
+    }
+  }
   if (entry->refusal) {
     if (std::string reason = entry->refusal(scenario.problem, config.formulation); !reason.empty()) {
       return config.integrator + ": " + reason;
@@ -130,6 +149,8 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
 RunResult carry_out(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory,
                     const std::atomic<bool>* stop, References* references) {
   const auto truth = make_system<double>(scenario.problem, config.formulation);
+  std::optional<Contact> contact;
+  if (config.contact) contact.emplace(*truth, scenario, *config.contact);
   DriftMeter meter(*truth, scenario.invariants, config.t_end, config.samples.has_value(),
                    reference_of(config, scenario, *truth, stop, references));
   const auto writer = open_trajectory(trajectory.format, trajectory.folder, *truth, meter);
@@ -137,7 +158,7 @@ RunResult carry_out(const RunConfig& config, const Scenario& scenario, const Tra
   RunOutcome outcome;
   double seconds = 0;
   try {
-    outcome = run_on(*truth, config, observer, stop, seconds);
+    outcome = run_on(*truth, config, observer, stop, seconds, contact ? contact->model.get() : nullptr);
   } catch (const std::bad_alloc&) {
     outcome.status = RunStatus::failed;
     outcome.message = "out of memory";
@@ -147,7 +168,7 @@ RunResult carry_out(const RunConfig& config, const Scenario& scenario, const Tra
 }
 
 std::string ensemble_key(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory) {
-  const bool plain = config.dt && !config.samples && config.precision == Precision::dual &&
+  const bool plain = config.dt && !config.contact && !config.samples && config.precision == Precision::dual &&
                      !is_compensated(config) && trajectory.format == TrajectoryFormat::none;
   if (!plain || !find_integrator(config.integrator)->make_lanes) return {};
   const std::string key = lane_key(*make_system<double>(scenario.problem, config.formulation));

@@ -28,6 +28,11 @@ struct NamedOptions {
   bool order = false, summation = false;
 };
 
+/// How contact is found and answered, by the names of the catalogues.
+struct ContactConfig {
+  std::string broad_phase, narrow_phase, response, impact_timing;
+};
+
 struct RunConfig {
   std::string scenario;             ///< name
   /// The varied keys of the scenario with this run's values, in the axes' order; an empty value leaves the key as it is.
@@ -38,6 +43,7 @@ struct RunConfig {
   Precision precision = Precision::dual;
   std::optional<int> order;            ///< absent: the study does not speak of it; 0: means nothing to this method
   std::optional<Summation> summation;  ///< absent: plain, and the study does not speak of it
+  std::optional<ContactConfig> contact;  ///< absent: the scenario has none
   std::optional<double> dt;         ///< s; fixed-step methods only
   std::optional<double> tolerance;  ///< adaptive methods only
   double t_end = 1;                 ///< s

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "collision/contact/collider.hpp"
 #include "core/problem.hpp"
 
 namespace polhode::study {
@@ -29,6 +30,7 @@ struct Scenario {
   std::string description;  ///< one line of physics; may be empty
   double t_end = 1;         ///< s
   Problem problem;          ///< moving bodies first, in the scenario's order
+  std::vector<Collider> colliders;      ///< of each body where the scenario has contact; else empty
   std::vector<std::string> invariants;  ///< declared beyond energy and momenta; names of core/invariants
   /// Everything that decides how a run goes, and nothing else, as text with every default filled in and numbers that
   /// read back exactly; t_end is not in it, since it is an option of the run. Part of a run's identity.

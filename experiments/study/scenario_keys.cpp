@@ -19,6 +19,7 @@ const std::vector<ScenarioKey>& root_keys() {
       {"gravity", zero()},
       {"t_end", std::nullopt},
       {"invariants", empty_list()},
+      {"contact", TomlValue::of(false), false},  // which nothing is that has always been
       {"body", std::nullopt},
       {"force", empty_list()},
   };
@@ -41,7 +42,7 @@ const std::vector<ScenarioKey>& body_keys() {
       {"pinned", TomlValue::of(false)},
       {"center_of_mass", zero()},
       {"static", TomlValue::of(false)},
-      {"restitution", TomlValue::of(0.0), false},  // as long as there are no collisions
+      {"restitution", TomlValue::of(0.0), false},  // of bodies that touch
       {"friction", TomlValue::of(0.0), false},
   };
   return keys;

@@ -27,11 +27,11 @@ TomlCursor key(const TomlCursor& root, std::string_view name) { return root.at(n
 
 // Bodies.
 
-std::vector<ReadBody> read_all_bodies(const TomlCursor& list) {
+std::vector<ReadBody> read_all_bodies(const TomlCursor& list, bool contact) {
   std::vector<ReadBody> bodies(list.list("a list of tables, each under its own [[body]]"));
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const TomlCursor table = list.item(i);
-    bodies[i] = read_body(table, i);
+    bodies[i] = read_body(table, i, contact);
     for (std::size_t j = 0; j < i; ++j) {
       if (bodies[j].body.name != bodies[i].body.name) continue;
       const TomlCursor name = table.at("name", table.value());
@@ -41,9 +41,12 @@ std::vector<ReadBody> read_all_bodies(const TomlCursor& list) {
   return bodies;
 }
 
-BodyIndex read_bodies(const TomlCursor& root, Problem& problem) {
+/// With contact, what can touch goes into the scenario too, and its lines into `canonical`.
+BodyIndex read_bodies(const TomlCursor& root, Scenario& scenario, std::string& canonical) {
+  Problem& problem = scenario.problem;
+  const TomlCursor contact = key(root, "contact");
   const TomlCursor list = root.at("body", "a list of tables, each under its own [[body]]");
-  std::vector<ReadBody> bodies = read_all_bodies(list);
+  std::vector<ReadBody> bodies = read_all_bodies(list, contact.boolean());
   std::stable_partition(bodies.begin(), bodies.end(), [](const ReadBody& b) { return !b.body.fixed; });
   if (bodies.front().body.fixed) list.fail("every body is static; at least one must move");
   BodyIndex index;
@@ -51,6 +54,13 @@ BodyIndex read_bodies(const TomlCursor& root, Problem& problem) {
     index.emplace(b.body.name, Standing{problem.bodies.size(), b.has_mass});
     problem.bodies.push_back(std::move(b.body));
     problem.starts.push_back(b.start);
+    if (!contact.value().boolean) continue;
+    canonical += "contact " + (b.collider.shape ? b.canonical_collider : std::string("none\n"));
+    scenario.colliders.push_back(std::move(b.collider));
+  }
+  const auto touches = [](const Collider& c) { return c.shape != nullptr; };
+  if (contact.value().boolean && std::count_if(scenario.colliders.begin(), scenario.colliders.end(), touches) < 2) {
+    contact.fail("needs two bodies with a shape");
   }
   return index;
 }
@@ -184,11 +194,12 @@ Scenario read_scenario(const TomlValue& tree, const std::string& name) {
   scenario.title = root.has("title") ? root.at("title", "").text("a text of one line") : name;
   scenario.description = key(root, "description").text("a text of one line");
   scenario.t_end = root.at("t_end", "a positive number of s").number("s", Parameter::Range::positive);
-  const BodyIndex index = read_bodies(root, scenario.problem);
+  std::string contact;
+  const BodyIndex index = read_bodies(root, scenario, contact);
   read_gravity(root, scenario.problem);
   read_forces(root, index, scenario.problem);
   scenario.invariants = read_invariants(root, scenario.problem);
-  scenario.canonical = canonical_text(scenario.problem, scenario.invariants);
+  scenario.canonical = canonical_text(scenario.problem, scenario.invariants) + contact;
   return scenario;
 }
 

@@ -34,10 +34,12 @@ class CsvTable {
     if (file_) std::fclose(file_);
   }
 
-  void add(const std::vector<double>& row) {
+  /// `word`: a text that stands in the second column, between the numbers.
+  void add(const std::vector<double>& row, std::string_view word = {}) {
     line_.clear();
     for (std::size_t i = 0; i < row.size(); ++i) {
       if (i > 0) line_.push_back(',');
+      if (i == 1 && !word.empty()) fmt::format_to(std::back_inserter(line_), "{},", word);
       fmt::format_to(std::back_inserter(line_), FMT_COMPILE("{}"), row[i]);
     }
     line_.push_back('\n');
@@ -122,10 +124,22 @@ class Hdf5Table {
   std::vector<double> pending_;
 };
 
-const std::vector<std::string> event_columns = {"t_s", "kind", "body_a", "body_b", "px_m",        "py_m",         "pz_m",
-                                                "nx",  "ny",   "nz",     "impulse_N_s", "energy_lost_J"};
+/// `kind`: the column of words, which only a table of text has.
+std::vector<std::string> event_columns(bool kind) {
+  std::vector<std::string> names = {"t_s"};
+  if (kind) names.emplace_back("kind");
+  for (const char* n : {"body_a", "body_b", "px_m", "py_m", "pz_m", "nx", "ny", "nz", "impulse_N_s", "energy_lost_J"}) {
+    names.emplace_back(n);
+  }
+  return names;
+}
 
-/// What both formats share: the rows of a sample. Tables has trajectory(row), energy(row), close().
+std::vector<double> event_row(const Impact& i) {
+  return {i.t,         static_cast<double>(i.a), static_cast<double>(i.b), i.point[0],  i.point[1],       i.point[2],
+          i.normal[0], i.normal[1],              i.normal[2],              i.impulse.norm(), i.energy_lost};
+}
+
+/// What both formats share: the rows of a sample. Tables has trajectory(row), energy(row), impact(row), close().
 template <class Tables>
 class Writer final : public TrajectoryWriter {
  public:
@@ -133,10 +147,14 @@ class Writer final : public TrajectoryWriter {
       : system_(system), next_(next), tables_(folder, trajectory_columns(system)) {}
 
   std::size_t observe(std::span<const Sample> samples) override { return next_.observe(samples); }
+  void meet(std::span<const Impact> impacts) override {
+    for (const Impact& impact : impacts) tables_.impact(event_row(impact));
+    next_.meet(impacts);
+  }
   double next_look() const override { return 0; }
 
   void look(const State<double>& state, const Sample& sample) override {
-    const double energy = ledger(sample);
+    const double energy = sample.ledger();
     if (first_) energy_start_ = energy;
     first_ = false;
     for (std::size_t i = 0; i < system_.moving(); ++i) {
@@ -161,9 +179,10 @@ class CsvTables {
   CsvTables(const std::filesystem::path& folder, const std::vector<std::string>& columns)
       : trajectory_(folder / "trajectory.csv", columns),
         energy_(folder / "energy.csv", energy_columns()),
-        events_(folder / "events.csv", event_columns) {}
+        events_(folder / "events.csv", event_columns(true)) {}
   void trajectory(const std::vector<double>& row) { trajectory_.add(row); }
   void energy(const std::vector<double>& row) { energy_.add(row); }
+  void impact(const std::vector<double>& row) { events_.add(row, "impact"); }
   void close() {
     trajectory_.close();
     energy_.close();
@@ -200,18 +219,21 @@ class Hdf5Tables {
   Hdf5Tables(const std::filesystem::path& folder, const std::vector<std::string>& columns)
       : file_(folder / "trajectory.h5"),
         trajectory_(file_.id, "trajectory", columns),
-        energy_(file_.id, "energy", energy_columns()) {}
+        energy_(file_.id, "energy", energy_columns()),
+        impacts_(file_.id, "impacts", event_columns(false)) {}
   void trajectory(const std::vector<double>& row) { trajectory_.add(row); }
   void energy(const std::vector<double>& row) { energy_.add(row); }
+  void impact(const std::vector<double>& row) { impacts_.add(row); }
   void close() {
     trajectory_.flush();
     energy_.flush();
+    impacts_.flush();
     file_.finish();
   }
 
  private:
   Hdf5File file_;
-  Hdf5Table trajectory_, energy_;
+  Hdf5Table trajectory_, energy_, impacts_;
 };
 
 }  // namespace

@@ -44,7 +44,7 @@ std::vector<std::string> energy_columns() {
 std::vector<double> energy_row(const Sample& sample, double energy_start) {
   const Measurement<double>& m = sample.seen;
   return {sample.t,  m.kinetic, m.potential, sample.work, sample.contact.impact, sample.contact.friction,
-          sample.contact.penetration, sample.projection, ledger(sample) - energy_start};
+          sample.contact.penetration, sample.projection, sample.ledger() - energy_start};
 }
 
 }  // namespace polhode::study

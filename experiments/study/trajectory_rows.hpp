@@ -21,6 +21,5 @@ std::vector<std::string> energy_columns();
 /// The ledger; energy_start is what it showed at the start.
 std::vector<double> energy_row(const Sample& sample, double energy_start);
 
-inline double ledger(const Sample& s) { return s.seen.energy() - s.work - s.projection + s.contact.total(); }
 
 }  // namespace polhode::study

@@ -10,7 +10,7 @@ inline constexpr std::string_view how_to_read = R"html(<aside class="box" aria-l
 <h2 id="reading">How to read this</h2>
 <dl>
 <dt>Energy drift</dt>
-<dd>Energy is a ledger: kinetic + potential − work of non-conservative forces − energy injected by projection.
+<dd>Energy is a ledger: kinetic + potential − work of non-conservative forces + energy lost in contact − energy injected by projection.
 Its drift is what the ledger cannot explain, relative to the energy at the start (to the larger of kinetic and
 potential energy where they cancel). A positive drift is energy that the method made.</dd>
 <dt>Drift rate, growth of the drift</dt>
