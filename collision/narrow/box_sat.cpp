@@ -126,23 +126,35 @@ struct Sides {
   }
 };
 
-/// The products of edges along which the separation may be `wanted` or more, bit 3i + j for edge i of A and edge j of B. The
-/// separation times the length of the product is compared, squared with its sign, three products at a time.
-std::uint32_t possible_edges(const RelativeBoxes& boxes, const Sides& sides, double wanted) {
-  const Four half_b = three(boxes.half_b), half_next = next(half_b), half_after = after_next(half_b);
-  std::uint32_t possible = 0;
-  for (int i = 0; i < 3; ++i) {
-    const int y = (i + 1) % 3, z = (i + 2) % 3;
-    const Four along = absolute(all(boxes.offset[z]) * sides.row[y] - all(boxes.offset[y]) * sides.row[z]);
-    const Four reach_a = all(boxes.half_a[y]) * sides.magnitude[z] + all(boxes.half_a[z]) * sides.magnitude[y];
-    const Four reach_b = half_next * after_next(sides.magnitude[i]) + half_after * next(sides.magnitude[i]);
-    const Four squared = sides.row[y] * sides.row[y] + sides.row[z] * sides.row[z];
-    const Four most = along - (reach_a + reach_b) + all(12 * round_off * boxes.scale);
-    const auto short_of = most * absolute(most) < all(wanted * std::abs(wanted)) * squared;
-    for (int j = 0; j < 3; ++j) possible |= std::uint32_t(short_of[j] + 1) << (3 * i + j);
+/// Upper bounds of the separations along the products of edges, times the length of the product and squared with their
+/// signs; of edge i of A those with the three of B side by side.
+struct EdgeBounds {
+  Four most[3], squared_length[3];
+
+  EdgeBounds(const RelativeBoxes& boxes, const Sides& sides) {
+    const Four half_b = three(boxes.half_b), half_next = next(half_b), half_after = after_next(half_b);
+    for (int i = 0; i < 3; ++i) {
+      const int y = (i + 1) % 3, z = (i + 2) % 3;
+      const Four along = absolute(all(boxes.offset[z]) * sides.row[y] - all(boxes.offset[y]) * sides.row[z]);
+      const Four reach_a = all(boxes.half_a[y]) * sides.magnitude[z] + all(boxes.half_a[z]) * sides.magnitude[y];
+      const Four reach_b = half_next * after_next(sides.magnitude[i]) + half_after * next(sides.magnitude[i]);
+      const Four bound = along - (reach_a + reach_b) + all(12 * round_off * boxes.scale);
+      most[i] = bound * absolute(bound);
+      squared_length[i] = sides.row[y] * sides.row[y] + sides.row[z] * sides.row[z];
+    }
   }
-  return possible;
-}
+
+  /// Those that are not parallel, and along which the separation may be `wanted` or more: bit 3i + j for edge i of A and edge
+  /// j of B.
+  std::uint32_t possible(double wanted) const {
+    std::uint32_t found = 0;
+    for (int i = 0; i < 3; ++i) {
+      const FourBits enough = FourBits(most[i] >= all(wanted * std::abs(wanted)) * squared_length[i]);
+      found |= (bits(enough & FourBits(squared_length[i] >= all(parallel * parallel))) & 7) << 3 * i;
+    }
+    return found;
+  }
+};
 
 BoxAxis edge_axis(const RelativeBoxes& boxes, int i, int j, double length) {
   const Matrix3<double>& c = boxes.b_in_a;
@@ -159,27 +171,23 @@ BoxAxis edge_axis(const RelativeBoxes& boxes, int i, int j, double length) {
   return axis;
 }
 
-/// Calls take(axis) for the products of edges that are not parallel, where the separation may be `wanted` or more.
-template <class Take>
-void for_each_edge_axis(const RelativeBoxes& boxes, const Sides& sides, double wanted, const Take& take) {
-  for (std::uint32_t left = possible_edges(boxes, sides, wanted); left != 0; left &= left - 1) {
-    const int k = std::countr_zero(left), i = k / 3, j = k % 3;
-    const double y = boxes.b_in_a((i + 1) % 3, j), z = boxes.b_in_a((i + 2) % 3, j);
-    const double length = std::sqrt(y * y + z * z);
-    if (length >= parallel) take(edge_axis(boxes, i, j, length));
-  }
+BoxAxis edge_axis(const RelativeBoxes& boxes, int k) {
+  const int i = k / 3, j = k % 3;
+  const double y = boxes.b_in_a((i + 1) % 3, j), z = boxes.b_in_a((i + 2) % 3, j);
+  return edge_axis(boxes, i, j, std::sqrt(y * y + z * z));
 }
 
 /// The distance of boxes that the axis `best` separates, or just touches after `offset` was moved so that they do.
 Nearest nearest_points(const RelativeBoxes& boxes, const Vector3<double>& offset, const BoxAxis& best) {
   Nearest nearest{boxes, offset};
   const double wanted = best.separation - nearly_best * boxes.scale;
-  for_each_edge_axis(boxes, Sides(boxes.b_in_a), wanted, [&](const BoxAxis& axis) {
-    if (axis.separation < wanted) return;
+  for (std::uint32_t left = EdgeBounds(boxes, Sides(boxes.b_in_a)).possible(wanted); left != 0; left &= left - 1) {
+    const BoxAxis axis = edge_axis(boxes, std::countr_zero(left));
+    if (axis.separation < wanted) continue;
     // Of boxes with one centre a product may point either way; they were moved apart along `best`.
     const Vector3<double> normal = axis.normal.dot(best.normal) < 0 ? Vector3<double>(-axis.normal) : axis.normal;
     offer_edge_pairs(boxes, offset, (axis.index - 6) / 3, (axis.index - 6) % 3, normal, nearest);
-  });
+  }
   offer_vertices(boxes, offset, nearest);
   return nearest;
 }
@@ -243,23 +251,20 @@ BoxAxis best_axis(const RelativeBoxes& boxes, double enough) {
     reach_b += sides.magnitude[k] * all(boxes.half_a[k]);
     along_b += sides.row[k] * all(t[k]);
   }
+  static constexpr double unit[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const Four of_a = absolute(three(t)) - reach_a, of_b = absolute(along_b) - reach_b;
-  BoxAxis best{0, of_a[0], {}};
-  for (int k = 1; k < 6; ++k) {
-    const double separation = k < 3 ? of_a[k] : of_b[k - 3];
-    best.index = separation > best.separation ? k : best.index;
-    best.separation = std::max(best.separation, separation);
-  }
-  if (best.index < 3) {
-    best.normal = Vector3<double>::Unit(best.index) * std::copysign(1.0, t[best.index]);
-  } else {
-    best.normal = c.col(best.index - 3) * std::copysign(1.0, c.col(best.index - 3).dot(t));
-  }
+  const double separation = std::max(largest(of_a), largest(of_b));
+  const std::uint32_t of_faces_a = bits(FourBits(of_a == all(separation))) & 7, of_faces_b = bits(FourBits(of_b == all(separation)));
+  const int k = std::countr_zero(of_faces_a | of_faces_b << 3);
+  const bool a_face = k < 3;
+  const Vector3<double> axis(a_face ? unit[k] : c.data() + 3 * (k - 3));
+  BoxAxis best{k, separation, axis * std::copysign(1.0, a_face ? t[k] : along_b[k - 3])};
   if (best.separation > enough) return best;
   // An edge axis that is a face normal but for round-off does not take its place.
-  for_each_edge_axis(boxes, sides, best.separation, [&](const BoxAxis& axis) {
-    if (axis.separation > best.separation + round_off * boxes.scale) best = axis;
-  });
+  for (std::uint32_t left = EdgeBounds(boxes, sides).possible(best.separation); left != 0; left &= left - 1) {
+    const BoxAxis edges = edge_axis(boxes, std::countr_zero(left));
+    if (edges.separation > best.separation + round_off * boxes.scale) best = edges;
+  }
   return best;
 }
 
