@@ -72,7 +72,7 @@ struct Part {
 /// Where neither faces nor edges that cross meet: the nearest points. An edge beside an edge is nearest at an end of one.
 void nearest_point(const BoxAt& a, const BoxAt& b, const Distance& d, Manifold& manifold) {
   const Part of_a(a, d.on_a), of_b(b, d.on_b);
-  Feature feature;
+  Feature feature{Feature::Kind::other, 0, 0};
   if (of_a.faces == 3 && of_b.faces == 1) feature = {Feature::Kind::vertex_face, of_a.vertex, of_b.face()};
   if (of_a.faces == 1 && of_b.faces == 3) feature = {Feature::Kind::face_vertex, of_a.face(), of_b.vertex};
   if (std::min(of_a.faces, of_b.faces) == 2) {

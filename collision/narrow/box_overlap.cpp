@@ -120,14 +120,13 @@ inline Answer QuickBoxes::by_axes() const {
 }
 
 inline Lanes larger(Lanes a, Lanes b) { return select(a > b, a, b); }
-inline Lanes smaller(Lanes a, Lanes b) { return select(a < b, a, b); }
 
 /// Of both signs the number nearest to x that is no larger than `most`.
 inline Lanes clamped(Lanes x, Lanes most) {
 #ifdef __AVX512DQ__
   return Lanes(Lanes::Pack(_mm512_range_pd(std::bit_cast<Lanes::Pack>(x), std::bit_cast<Lanes::Pack>(most), 0b0010)));  // the smaller magnitude, the sign of x
 #else
-  return larger(smaller(x, most), -most);
+  return larger(select(x < most, x, most), -most);
 #endif
 }
 
