@@ -2,7 +2,6 @@
 #include "collision/narrow/box_manifold.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "collision/narrow/box_faces.hpp"

@@ -126,62 +126,48 @@ struct Sides {
   }
 };
 
-/// Upper bounds of the separations along the products of edges, times the length of the product and squared with their
-/// signs; of edge i of A those with the three of B side by side.
-struct EdgeBounds {
-  Four most[3], squared_length[3];
-
-  EdgeBounds(const RelativeBoxes& boxes, const Sides& sides) {
-    const Four half_b = three(boxes.half_b), half_next = next(half_b), half_after = after_next(half_b);
-    for (int i = 0; i < 3; ++i) {
-      const int y = (i + 1) % 3, z = (i + 2) % 3;
-      const Four along = absolute(all(boxes.offset[z]) * sides.row[y] - all(boxes.offset[y]) * sides.row[z]);
-      const Four reach_a = all(boxes.half_a[y]) * sides.magnitude[z] + all(boxes.half_a[z]) * sides.magnitude[y];
-      const Four reach_b = half_next * after_next(sides.magnitude[i]) + half_after * next(sides.magnitude[i]);
-      const Four bound = along - (reach_a + reach_b) + all(12 * round_off * boxes.scale);
-      most[i] = bound * absolute(bound);
-      squared_length[i] = sides.row[y] * sides.row[y] + sides.row[z] * sides.row[z];
-    }
+/// The products of edges that are not parallel, and along which the separation may be `wanted` or more: bit 3i + j for edge i of
+/// A and edge j of B. The separation times the length of the product is compared, squared with its sign, three products at a
+/// time.
+std::uint32_t possible_edges(const RelativeBoxes& boxes, const Sides& sides, double wanted) {
+  const Four half_b = three(boxes.half_b), half_next = next(half_b), half_after = after_next(half_b);
+  std::uint32_t possible = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int y = (i + 1) % 3, z = (i + 2) % 3;
+    const Four along = absolute(all(boxes.offset[z]) * sides.row[y] - all(boxes.offset[y]) * sides.row[z]);
+    const Four reach_a = all(boxes.half_a[y]) * sides.magnitude[z] + all(boxes.half_a[z]) * sides.magnitude[y];
+    const Four reach_b = half_next * after_next(sides.magnitude[i]) + half_after * next(sides.magnitude[i]);
+    const Four squared = sides.row[y] * sides.row[y] + sides.row[z] * sides.row[z];
+    const Four most = along - (reach_a + reach_b) + all(12 * round_off * boxes.scale);
+    const FourBits enough = FourBits(most * absolute(most) >= all(wanted * std::abs(wanted)) * squared);
+    possible |= (bits(enough & FourBits(squared >= all(parallel * parallel))) & 7) << 3 * i;
   }
+  return possible;
+}
 
-  /// Those that are not parallel, and along which the separation may be `wanted` or more: bit 3i + j for edge i of A and edge
-  /// j of B.
-  std::uint32_t possible(double wanted) const {
-    std::uint32_t found = 0;
-    for (int i = 0; i < 3; ++i) {
-      const FourBits enough = FourBits(most[i] >= all(wanted * std::abs(wanted)) * squared_length[i]);
-      found |= (bits(enough & FourBits(squared_length[i] >= all(parallel * parallel))) & 7) << 3 * i;
-    }
-    return found;
-  }
-};
-
-BoxAxis edge_axis(const RelativeBoxes& boxes, int i, int j, double length) {
+/// The product of edge i of A and edge j of B is number 3i + j.
+BoxAxis edge_axis(const RelativeBoxes& boxes, int number) {
   const Matrix3<double>& c = boxes.b_in_a;
+  const int i = number / 3, j = number % 3;
   const int y = (i + 1) % 3, z = (i + 2) % 3, v = (j + 1) % 3, w = (j + 2) % 3;
+  const double length = std::sqrt(c(y, j) * c(y, j) + c(z, j) * c(z, j));
   const double ny = -c(z, j) / length, nz = c(y, j) / length;
   const double along = boxes.offset[y] * ny + boxes.offset[z] * nz;
   const double reach_a = boxes.half_a[y] * std::abs(ny) + boxes.half_a[z] * std::abs(nz);
   const double reach_b = boxes.half_b[v] * std::abs(c(y, v) * ny + c(z, v) * nz) +
                          boxes.half_b[w] * std::abs(c(y, w) * ny + c(z, w) * nz);
   const double sign = std::copysign(1.0, along);
-  BoxAxis axis{6 + 3 * i + j, std::abs(along) - reach_a - reach_b, Vector3<double>::Zero()};
+  BoxAxis axis{6 + number, std::abs(along) - reach_a - reach_b, Vector3<double>::Zero()};
   axis.normal[y] = sign * ny;
   axis.normal[z] = sign * nz;
   return axis;
-}
-
-BoxAxis edge_axis(const RelativeBoxes& boxes, int k) {
-  const int i = k / 3, j = k % 3;
-  const double y = boxes.b_in_a((i + 1) % 3, j), z = boxes.b_in_a((i + 2) % 3, j);
-  return edge_axis(boxes, i, j, std::sqrt(y * y + z * z));
 }
 
 /// The distance of boxes that the axis `best` separates, or just touches after `offset` was moved so that they do.
 Nearest nearest_points(const RelativeBoxes& boxes, const Vector3<double>& offset, const BoxAxis& best) {
   Nearest nearest{boxes, offset};
   const double wanted = best.separation - nearly_best * boxes.scale;
-  for (std::uint32_t left = EdgeBounds(boxes, Sides(boxes.b_in_a)).possible(wanted); left != 0; left &= left - 1) {
+  for (std::uint32_t left = possible_edges(boxes, Sides(boxes.b_in_a), wanted); left != 0; left &= left - 1) {
     const BoxAxis axis = edge_axis(boxes, std::countr_zero(left));
     if (axis.separation < wanted) continue;
     // Of boxes with one centre a product may point either way; they were moved apart along `best`.
@@ -261,7 +247,7 @@ BoxAxis best_axis(const RelativeBoxes& boxes, double enough) {
   BoxAxis best{k, separation, axis * std::copysign(1.0, a_face ? t[k] : along_b[k - 3])};
   if (best.separation > enough) return best;
   // An edge axis that is a face normal but for round-off does not take its place.
-  for (std::uint32_t left = EdgeBounds(boxes, sides).possible(best.separation); left != 0; left &= left - 1) {
+  for (std::uint32_t left = possible_edges(boxes, sides, best.separation); left != 0; left &= left - 1) {
     const BoxAxis edges = edge_axis(boxes, std::countr_zero(left));
     if (edges.separation > best.separation + round_off * boxes.scale) best = edges;
   }
