@@ -15,16 +15,16 @@ namespace polhode {
 struct Feature {
   /// A vertex of A and a face of B, a face of A and a vertex of B, an edge of each, anything else.
   enum class Kind : std::uint8_t { vertex_face, face_vertex, edge_edge, other };
-  Kind kind = Kind::other;
-  std::uint32_t of_a = 0, of_b = 0;
+  Kind kind;
+  std::uint32_t of_a, of_b;
   bool operator==(const Feature&) const = default;
 };
 
-/// One point of a contact patch.
+/// One point of a contact patch. Without values of its own, so that a manifold without contact costs next to nothing.
 struct ContactPoint {
-  Vector3<double> point = Vector3<double>::Zero();  ///< m, world, half way between the two surfaces
-  double depth = 0;                                 ///< m along the normal, positive when overlapping
-  Feature feature{};
+  Vector3<double> point;  ///< m, world, half way between the two surfaces
+  double depth;           ///< m along the normal, positive when overlapping
+  Feature feature;
 };
 
 /// The contact patch of two convex shapes: one normal, and the points that matter.

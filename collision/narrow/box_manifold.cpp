@@ -2,68 +2,16 @@
 #include "collision/narrow/box_manifold.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "collision/narrow/box_faces.hpp"
 #include "collision/narrow/patch.hpp"
 
 namespace polhode {
 namespace {
 
-/// Number of the edge that starts at a vertex along an axis upwards: edges are sorted by their two vertices.
-constexpr std::uint32_t edge_from[8][3] = {{0, 1, 2}, {0, 3, 4}, {5, 1, 6}, {5, 3, 7}, {8, 9, 2}, {8, 10, 4}, {11, 9, 6}, {11, 10, 7}};
-
-/// The corners of each face counter-clockwise seen from outside, and the axis along which the edge from each of them runs.
-constexpr std::uint32_t face_corner[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-constexpr std::uint32_t edge_axis[6][4] = {{2, 1, 2, 1}, {1, 2, 1, 2}, {0, 2, 0, 2}, {2, 0, 2, 0}, {1, 0, 1, 0}, {0, 1, 0, 1}};
-
 Vector3<double> corner(const Vector3<double>& half, std::uint32_t k) {
   return {k & 1 ? half[0] : -half[0], k & 2 ? half[1] : -half[1], k & 4 ? half[2] : -half[2]};
-}
-
-/// The axis of the largest component.
-int largest(const Vector3<double>& n) {
-  const Vector3<double> m = n.cwiseAbs();
-  return m[0] >= m[1] && m[0] >= m[2] ? 0 : m[1] >= m[2] ? 1 : 2;
-}
-
-std::uint32_t face_along(const Vector3<double>& n, int axis) { return std::uint32_t(2 * axis) + (n[axis] > 0 ? 1 : 0); }
-
-/// The reference box's face `face` against what of the incident box looks at it. `turn` and `offset` are the incident
-/// box's in the reference box's axes.
-bool face_patch(const Vector3<double>& half, const Pose& pose, std::uint32_t face, const Vector3<double>& incident_half,
-                const Matrix3<double>& turn, const Vector3<double>& offset, double margin, Manifold& manifold) {
-  const int k = int(face / 2), u = (k + 1) % 3, v = (k + 2) % 3;
-  const double sign = face % 2 == 1 ? 1 : -1;
-  const Vector3<double> towards = -sign * turn.row(k).transpose();  // into the reference box, in the incident box's axes
-  const int incident_axis = largest(towards);
-  const std::uint32_t incident_face = face_along(towards, incident_axis);
-  // x along axis u, y along sign · axis v: right-handed with the outward normal.
-  std::array<PatchSide, 4> sides;
-  for (std::uint32_t s = 0; s < 4; ++s) {
-    const std::uint32_t from = face_corner[face][s], to = face_corner[face][(s + 1) % 4];
-    const int across = edge_axis[face][s] == std::uint32_t(u) ? v : u;
-    const double outwards = (from & to) >> across & 1 ? 1 : -1;
-    sides[s] = {across == u ? outwards : 0, across == v ? outwards * sign : 0, half[across], edge_from[from][edge_axis[face][s]], from};
-  }
-  std::array<PatchCorner, 8> corners, buffer;
-  for (std::uint32_t c = 0; c < 4; ++c) {
-    const std::uint32_t vertex = face_corner[incident_face][c];
-    const Vector3<double> at = offset + turn * corner(incident_half, vertex);
-    corners[c] = {at[u], sign * at[v], sign * at[k] - half[k], {Feature::Kind::face_vertex, face, vertex}, false,
-                  edge_from[vertex][edge_axis[incident_face][c]]};
-  }
-  constexpr double tolerance = 1e-6;
-  const auto patch = clip_patch(sides, incident_face, tolerance * (half[u] + half[v]), corners, 4, buffer);
-  const Vector3<double> normal = sign * pose.rotation.col(k);
-  const PatchFrame frame{pose.position + half[k] * normal, pose.rotation.col(u), sign * pose.rotation.col(v), normal};
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const PatchCorner& c : patch) lowest = std::min(lowest, c.height);
-  if (!(lowest <= margin)) return false;
-  const bool rocking = std::abs(towards[incident_axis]) >= cosine_of_rocking;
-  take_patch(frame, patch, rocking ? std::numeric_limits<double>::infinity() : margin, manifold);
-  manifold.normal = -normal;
-  return true;
 }
 
 /// Two edges that cross: of each box the one that is furthest along the normal.
@@ -116,14 +64,14 @@ struct Part {
 
  private:
   int axis(const BoxAt& box, const Vector3<double>& d) const {
-    return faces == 2 ? along : largest(box.pose.rotation.transpose() * d);
+    return faces == 2 ? along : largest_component(box.pose.rotation.transpose() * d);
   }
 };
 
 /// Where neither faces nor edges that cross meet: the nearest points. An edge beside an edge is nearest at an end of one.
 void nearest_point(const BoxAt& a, const BoxAt& b, const Distance& d, Manifold& manifold) {
   const Part of_a(a, d.on_a), of_b(b, d.on_b);
-  Feature feature;
+  Feature feature{Feature::Kind::other, 0, 0};
   if (of_a.faces == 3 && of_b.faces == 1) feature = {Feature::Kind::vertex_face, of_a.vertex, of_b.face()};
   if (of_a.faces == 1 && of_b.faces == 3) feature = {Feature::Kind::face_vertex, of_a.face(), of_b.vertex};
   if (std::min(of_a.faces, of_b.faces) == 2) {
@@ -148,16 +96,19 @@ Manifold ordered_manifold(const BoxAt& a, const BoxAt& b, double margin) {
   const BoxAxis axis = best_axis(boxes, margin);
   if (axis.separation > margin) return manifold;
   const Vector3<double> in_b = boxes.b_in_a.transpose() * axis.normal;
-  const int of_a = largest(axis.normal), of_b = largest(in_b);
+  const int of_a = largest_component(axis.normal), of_b = largest_component(in_b);
   const bool faces = std::abs(axis.normal[of_a]) >= cosine_of_rocking && std::abs(in_b[of_b]) >= cosine_of_rocking;
+  // Faces that touch, but for round-off, are near.
+  constexpr double round_off = 2e-15;
+  const double near = margin + round_off * boxes.scale;
   bool found = false;
   if (axis.index < 3 || (axis.index >= 6 && faces && separation_of_face_of_a(boxes, of_a) >= separation_of_face_of_b(boxes, of_b))) {
-    found = face_patch(boxes.half_a, a.pose, face_along(axis.normal, of_a), boxes.half_b, boxes.b_in_a, boxes.offset, margin,
-                       manifold);
+    found = faces_patch({boxes.half_a, a.pose, face_along(axis.normal, of_a), false}, {boxes.half_b, boxes.b_in_a, boxes.offset},
+                        near, manifold);
   } else if (axis.index < 6 || faces) {
-    found = face_patch(boxes.half_b, b.pose, face_along(-in_b, of_b), boxes.half_a, boxes.b_in_a.transpose(),
-                       -(boxes.b_in_a.transpose() * boxes.offset), margin, manifold);
-    mirror(manifold);
+    const Matrix3<double> turn = boxes.b_in_a.transpose();
+    const Vector3<double> offset = -(turn * boxes.offset);
+    found = faces_patch({boxes.half_b, b.pose, face_along(-in_b, of_b), true}, {boxes.half_a, turn, offset}, near, manifold);
   } else if (axis.separation <= 0) {
     edge_point(boxes, a.pose, axis, manifold);
     return manifold;

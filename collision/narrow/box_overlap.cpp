@@ -120,7 +120,15 @@ inline Answer QuickBoxes::by_axes() const {
 }
 
 inline Lanes larger(Lanes a, Lanes b) { return select(a > b, a, b); }
-inline Lanes smaller(Lanes a, Lanes b) { return select(a < b, a, b); }
+
+/// Of both signs the number nearest to x that is no larger than `most`.
+inline Lanes clamped(Lanes x, Lanes most) {
+#ifdef __AVX512DQ__
+  return Lanes(Lanes::Pack(_mm512_range_pd(std::bit_cast<Lanes::Pack>(x), std::bit_cast<Lanes::Pack>(most), 0b0010)));  // the smaller magnitude, the sign of x
+#else
+  return larger(select(x < most, x, most), -most);
+#endif
+}
 
 /// a b + c, rounded once where the processor can. No answer depends on it: the bound on the round-off decides what is sure.
 inline Lanes sum(Lanes::Pack a, Lanes::Pack b, Lanes::Pack c) {
@@ -131,6 +139,44 @@ inline Lanes sum(Lanes::Pack a, Lanes::Pack b, Lanes::Pack c) {
 #else
   return Lanes(Lanes::Pack(a * b + c));
 #endif
+}
+
+constexpr std::uint32_t every_lane = (1u << lane_count) - 1;
+
+/// Bit k of lane k.
+inline std::uint32_t bits(Lanes::Mask truth) {
+#if defined(__AVX512F__)
+  return _mm512_cmplt_epi64_mask(__m512i(truth.bits), _mm512_setzero_si512());
+#elif defined(__AVX__)
+  return std::uint32_t(_mm256_movemask_pd(__m256d(truth.bits)));
+#else
+  return std::uint32_t((truth.bits[0] & 1) | (truth.bits[1] & 2));
+#endif
+}
+
+/// Writes `first`, `first` + 1 and so on for the lanes that are not in `left_out` to `numbers`, where there is room for all of
+/// them. Returns how many there are.
+inline std::size_t pick(std::size_t first, std::uint32_t left_out, std::size_t* numbers) {
+  const std::uint32_t picked = every_lane & ~left_out;
+#if defined(__AVX512F__)
+  const __m512i all = _mm512_add_epi64(_mm512_set1_epi64(std::int64_t(first)), _mm512_setr_epi64(0, 1, 2, 3, 4, 5, 6, 7));
+  _mm512_storeu_si512(numbers, _mm512_maskz_compress_epi64(__mmask8(picked), all));
+#else
+  std::size_t count = 0;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    numbers[count] = first + lane;
+    count += picked >> lane & 1;
+  }
+#endif
+  return std::size_t(std::popcount(picked));
+}
+
+/// Bit k of the truths in byte k.
+inline void write(std::uint32_t truths, std::uint8_t* bytes) {
+  // The bits are copied 7 places apart, so that bit k comes to the lowest place of byte k.
+  const std::uint64_t low = std::uint64_t(truths & 0x7f) * 0x0002040810204081u & 0x0101010101010101u;
+  const std::uint64_t spread = low | std::uint64_t(truths >> 7) << 56;
+  std::memcpy(bytes, &spread, lane_count);
 }
 
 /// Some numbers of a box, as they lie in memory.
@@ -228,18 +274,14 @@ struct LanedPairs {
 
   Lanes::Mask have_a_common_point() const {
     Lanes beyond[3], offset[3];
-    for (int k = 0; k < 3; ++k) beyond[k] = in_a[k] - larger(smaller(in_a[k], a.half()[k]), -a.half()[k]);
+    for (int k = 0; k < 3; ++k) beyond[k] = in_a[k] - clamped(in_a[k], a.half()[k]);
     for (int k = 0; k < 3; ++k) {
       offset[k] = sum(beyond[0], a.axis(0)[k], sum(beyond[1], a.axis(1)[k], beyond[2] * a.axis(2)[k]));
     }
-    Lanes most(-std::numeric_limits<double>::infinity()), any(0.0);
-    for (int k = 0; k < 3; ++k) {
-      const Lanes along = dot(b.axis(k), offset);
-      most = larger(most, abs(along) - b.half()[k]);
-      any += along;
-    }
-    // Nothing times any of them: not below a NaN.
-    return most < sum(any, Lanes(0.0), (halves + 2 * total(between)) * -undecided);
+    // Written so that nothing is below a NaN.
+    const Lanes enough = (halves + 2 * total(between)) * -undecided;
+    const auto within = [&](int k) { return abs(dot(b.axis(k), offset)) - b.half()[k] < enough; };
+    return within(0) & within(1) & within(2);
   }
 
   /// The largest separation, of an edge product times its length.
@@ -264,7 +306,8 @@ struct LanedPairs {
       for (int j = 0; j < 3; ++j) {
         const int v = (j + 1) % 3, w = (j + 2) % 3;
         const Lanes product = abs(sum(in_a[z], c[y][j], -in_a[y] * c[z][j]));
-        most = larger(most, sum(less_a[y], m[z][j], sum(less_a[z], m[y][j], product)) + sum(less_b[v], m[i][w], less_b[w] * m[i][v]));
+        const Lanes beyond_a = sum(less_a[y], m[z][j], sum(less_a[z], m[y][j], product));
+        most = larger(most, sum(less_b[v], m[i][w], sum(less_b[w], m[i][v], beyond_a)));
       }
     }
     return most;
@@ -301,14 +344,9 @@ void boxes_overlap(std::span<const PosedBox> boxes, std::span<const BodyPair> pa
         a[lane] = all + pair[k + lane].a;
         b[lane] = all + pair[k + lane].b;
       }
-      const Lanes::Mask mask = LanedPairs(a, b).have_a_common_point();
-      std::int64_t together[lanes];
-      std::memcpy(together, &mask.bits, sizeof together);
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
-        answer[k + lane] = together[lane] & 1;
-        waiting[count] = k + lane;
-        count += std::size_t(together[lane] + 1);
-      }
+      const std::uint32_t together = bits(LanedPairs(a, b).have_a_common_point());
+      write(together, answer + k);
+      count += pick(k, together, waiting + count);
     }
     while (count >= lanes) {
       count -= lanes;
@@ -319,13 +357,11 @@ void boxes_overlap(std::span<const PosedBox> boxes, std::span<const BodyPair> pa
       }
       const LanedPairs laned(a, b);
       const Lanes most = laned.by_axes();
-      const Lanes::Mask sure = abs(most) > laned.bound(), touch = most < Lanes(0.0);
-      std::int64_t decided[lanes], together[lanes];
-      std::memcpy(decided, &sure.bits, sizeof decided);
-      std::memcpy(together, &touch.bits, sizeof together);
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
-        answer[these[lane]] = together[lane] & 1;
-        if (decided[lane] == 0) answer[these[lane]] = overlap_alone(*a[lane], *b[lane]);
+      const std::uint32_t sure = bits(abs(most) > laned.bound()), together = bits(most < Lanes(0.0));
+      for (std::size_t lane = 0; lane < lanes; ++lane) answer[these[lane]] = together >> lane & 1;
+      for (std::uint32_t left = ~sure & every_lane; left != 0; left &= left - 1) {
+        const int lane = std::countr_zero(left);
+        answer[these[lane]] = overlap_alone(*a[lane], *b[lane]);
       }
     }
   }

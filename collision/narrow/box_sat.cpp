@@ -126,8 +126,9 @@ struct Sides {
   }
 };
 
-/// The products of edges along which the separation may be `wanted` or more, bit 3i + j for edge i of A and edge j of B. The
-/// separation times the length of the product is compared, squared with its sign, three products at a time.
+/// The products of edges that are not parallel, and along which the separation may be `wanted` or more: bit 3i + j for edge i of
+/// A and edge j of B. The separation times the length of the product is compared, squared with its sign, three products at a
+/// time.
 std::uint32_t possible_edges(const RelativeBoxes& boxes, const Sides& sides, double wanted) {
   const Four half_b = three(boxes.half_b), half_next = next(half_b), half_after = after_next(half_b);
   std::uint32_t possible = 0;
@@ -138,48 +139,41 @@ std::uint32_t possible_edges(const RelativeBoxes& boxes, const Sides& sides, dou
     const Four reach_b = half_next * after_next(sides.magnitude[i]) + half_after * next(sides.magnitude[i]);
     const Four squared = sides.row[y] * sides.row[y] + sides.row[z] * sides.row[z];
     const Four most = along - (reach_a + reach_b) + all(12 * round_off * boxes.scale);
-    const auto short_of = most * absolute(most) < all(wanted * std::abs(wanted)) * squared;
-    for (int j = 0; j < 3; ++j) possible |= std::uint32_t(short_of[j] + 1) << (3 * i + j);
+    const FourBits enough = FourBits(most * absolute(most) >= all(wanted * std::abs(wanted)) * squared);
+    possible |= (bits(enough & FourBits(squared >= all(parallel * parallel))) & 7) << 3 * i;
   }
   return possible;
 }
 
-BoxAxis edge_axis(const RelativeBoxes& boxes, int i, int j, double length) {
+/// The product of edge i of A and edge j of B is number 3i + j.
+BoxAxis edge_axis(const RelativeBoxes& boxes, int number) {
   const Matrix3<double>& c = boxes.b_in_a;
+  const int i = number / 3, j = number % 3;
   const int y = (i + 1) % 3, z = (i + 2) % 3, v = (j + 1) % 3, w = (j + 2) % 3;
+  const double length = std::sqrt(c(y, j) * c(y, j) + c(z, j) * c(z, j));
   const double ny = -c(z, j) / length, nz = c(y, j) / length;
   const double along = boxes.offset[y] * ny + boxes.offset[z] * nz;
   const double reach_a = boxes.half_a[y] * std::abs(ny) + boxes.half_a[z] * std::abs(nz);
   const double reach_b = boxes.half_b[v] * std::abs(c(y, v) * ny + c(z, v) * nz) +
                          boxes.half_b[w] * std::abs(c(y, w) * ny + c(z, w) * nz);
   const double sign = std::copysign(1.0, along);
-  BoxAxis axis{6 + 3 * i + j, std::abs(along) - reach_a - reach_b, Vector3<double>::Zero()};
+  BoxAxis axis{6 + number, std::abs(along) - reach_a - reach_b, Vector3<double>::Zero()};
   axis.normal[y] = sign * ny;
   axis.normal[z] = sign * nz;
   return axis;
-}
-
-/// Calls take(axis) for the products of edges that are not parallel, where the separation may be `wanted` or more.
-template <class Take>
-void for_each_edge_axis(const RelativeBoxes& boxes, const Sides& sides, double wanted, const Take& take) {
-  for (std::uint32_t left = possible_edges(boxes, sides, wanted); left != 0; left &= left - 1) {
-    const int k = std::countr_zero(left), i = k / 3, j = k % 3;
-    const double y = boxes.b_in_a((i + 1) % 3, j), z = boxes.b_in_a((i + 2) % 3, j);
-    const double length = std::sqrt(y * y + z * z);
-    if (length >= parallel) take(edge_axis(boxes, i, j, length));
-  }
 }
 
 /// The distance of boxes that the axis `best` separates, or just touches after `offset` was moved so that they do.
 Nearest nearest_points(const RelativeBoxes& boxes, const Vector3<double>& offset, const BoxAxis& best) {
   Nearest nearest{boxes, offset};
   const double wanted = best.separation - nearly_best * boxes.scale;
-  for_each_edge_axis(boxes, Sides(boxes.b_in_a), wanted, [&](const BoxAxis& axis) {
-    if (axis.separation < wanted) return;
+  for (std::uint32_t left = possible_edges(boxes, Sides(boxes.b_in_a), wanted); left != 0; left &= left - 1) {
+    const BoxAxis axis = edge_axis(boxes, std::countr_zero(left));
+    if (axis.separation < wanted) continue;
     // Of boxes with one centre a product may point either way; they were moved apart along `best`.
     const Vector3<double> normal = axis.normal.dot(best.normal) < 0 ? Vector3<double>(-axis.normal) : axis.normal;
     offer_edge_pairs(boxes, offset, (axis.index - 6) / 3, (axis.index - 6) % 3, normal, nearest);
-  });
+  }
   offer_vertices(boxes, offset, nearest);
   return nearest;
 }
@@ -243,23 +237,20 @@ BoxAxis best_axis(const RelativeBoxes& boxes, double enough) {
     reach_b += sides.magnitude[k] * all(boxes.half_a[k]);
     along_b += sides.row[k] * all(t[k]);
   }
+  static constexpr double unit[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const Four of_a = absolute(three(t)) - reach_a, of_b = absolute(along_b) - reach_b;
-  BoxAxis best{0, of_a[0], {}};
-  for (int k = 1; k < 6; ++k) {
-    const double separation = k < 3 ? of_a[k] : of_b[k - 3];
-    best.index = separation > best.separation ? k : best.index;
-    best.separation = std::max(best.separation, separation);
-  }
-  if (best.index < 3) {
-    best.normal = Vector3<double>::Unit(best.index) * std::copysign(1.0, t[best.index]);
-  } else {
-    best.normal = c.col(best.index - 3) * std::copysign(1.0, c.col(best.index - 3).dot(t));
-  }
+  const double separation = std::max(largest(of_a), largest(of_b));
+  const std::uint32_t of_faces_a = bits(FourBits(of_a == all(separation))) & 7, of_faces_b = bits(FourBits(of_b == all(separation)));
+  const int k = std::countr_zero(of_faces_a | of_faces_b << 3);
+  const bool a_face = k < 3;
+  const Vector3<double> axis(a_face ? unit[k] : c.data() + 3 * (k - 3));
+  BoxAxis best{k, separation, axis * std::copysign(1.0, a_face ? t[k] : along_b[k - 3])};
   if (best.separation > enough) return best;
   // An edge axis that is a face normal but for round-off does not take its place.
-  for_each_edge_axis(boxes, sides, best.separation, [&](const BoxAxis& axis) {
-    if (axis.separation > best.separation + round_off * boxes.scale) best = axis;
-  });
+  for (std::uint32_t left = possible_edges(boxes, sides, best.separation); left != 0; left &= left - 1) {
+    const BoxAxis edges = edge_axis(boxes, std::countr_zero(left));
+    if (edges.separation > best.separation + round_off * boxes.scale) best = edges;
+  }
   return best;
 }
 

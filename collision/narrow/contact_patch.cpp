@@ -134,7 +134,7 @@ bool against_face(const Reference& reference, const Pose& pose, const Shape& inc
   if (!(lowest <= margin) || (depth >= 0 && -lowest < depth - round_off * (reference.size + depth))) return false;
   const PatchFrame in_world{pose.to_world(frame.origin), pose.rotation * frame.x, pose.rotation * frame.y,
                             pose.rotation * frame.normal};
-  take_patch(in_world, patch, std::numeric_limits<double>::infinity(), manifold);
+  take_patch(in_world, patch, manifold);
   manifold.normal = -in_world.normal;
   return true;
 }

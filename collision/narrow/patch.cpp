@@ -2,9 +2,13 @@
 #include "collision/narrow/patch.hpp"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <tuple>
+#include <vector>
+
+#include "collision/narrow/four.hpp"
 
 namespace polhode {
 namespace {
@@ -20,71 +24,109 @@ Feature crossing(const PatchCorner& from, std::span<const PatchSide> sides, std:
   return {Feature::Kind::other, sides[side].edge, sides[from.edge].edge};
 }
 
-double area(const PatchCorner& a, const PatchCorner& b, const PatchCorner& c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+/// Of four corners from number k on: how far from corner `from` they are, squared.
+[[gnu::always_inline]] inline Four squared_distances(const CornersInLanes& c, std::size_t from, std::size_t k) {
+  const Four dx = four(c.x + k) - all(c.x[from]), dy = four(c.y + k) - all(c.y[from]);
+  return dx * dx + dy * dy;
 }
 
-double squared_distance(const PatchCorner& a, const PatchCorner& b) {
-  return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
+/// Twice the areas of the triangles that they make with corners a and b, positive where counter-clockwise.
+[[gnu::always_inline]] inline Four areas(const CornersInLanes& c, std::size_t a, std::size_t b, std::size_t k) {
+  return all(c.x[b] - c.x[a]) * (four(c.y + k) - all(c.y[a])) - all(c.y[b] - c.y[a]) * (four(c.x + k) - all(c.x[a]));
+}
+double area(const CornersInLanes& c, std::size_t a, std::size_t b, std::size_t k) {
+  return (c.x[b] - c.x[a]) * (c.y[k] - c.y[a]) - (c.y[b] - c.y[a]) * (c.x[k] - c.x[a]);
 }
 
-/// Moves the corners that matter to the front, and returns how many they are. Values that differ by round-off count as
-/// equal, and then the first feature is taken: a patch at rest keeps its points.
-std::size_t reduce(std::span<PatchCorner> corners) {
-  constexpr double equal = 1e-9;
-  const auto by_feature = [](const PatchCorner& a, const PatchCorner& b) {
-    return std::tie(a.feature.kind, a.feature.of_a, a.feature.of_b) < std::tie(b.feature.kind, b.feature.of_a, b.feature.of_b);
-  };
-  std::sort(corners.begin(), corners.end(), by_feature);
-  double size = 0;
-  for (const PatchCorner& c : corners) size = std::max(size, squared_distance(c, corners[0]));
-  const auto bring = [&](std::size_t place, double scale, const auto& value) {
-    std::size_t best = place;
-    double most = value(corners[place]);
-    for (std::size_t k = place + 1; k < corners.size(); ++k) {
-      const double v = value(corners[k]);
-      if (v <= most + equal * scale) continue;
-      most = v;
-      best = k;
+}  // namespace
+
+/// Values that differ by round-off count as equal, and then the first is taken: a patch at rest keeps its points.
+std::size_t choose_corners(const CornersInLanes& corners, std::array<std::uint32_t, Manifold::capacity>& chosen) {
+  constexpr double equal = 1e-9, none = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = corners.count; k % 4 != 0; ++k) {
+    for (double* const numbers : {corners.x, corners.y, corners.height}) numbers[k] = numbers[0];
+  }
+  std::size_t count = 0;
+  // Takes the next corner, which has the most of a value; four corners' values at a time.
+  const auto take = [&](double scale, const auto& value) {
+    Four most = all(none);
+    for (std::size_t k = 0; k < corners.count; k += 4) {
+      const Four number = Four{0, 1, 2, 3} + all(double(k));
+      Four v;
+      value(k, v);
+      v = number < all(double(corners.count)) ? v : all(none);
+      for (std::size_t t = 0; t < count; ++t) v = number == all(double(chosen[t])) ? all(none) : v;
+      put(v, corners.scratch + k);
+      most = larger(most, v);
     }
-    std::rotate(corners.begin() + std::ptrdiff_t(place), corners.begin() + std::ptrdiff_t(best),
-                corners.begin() + std::ptrdiff_t(best) + 1);
-    return most;
+    const double enough = highest(most) - equal * scale;
+    std::uint32_t first = 0;
+    for (std::size_t k = 0; k < corners.count; k += 4) {
+      const std::uint32_t found = bits(four(corners.scratch + k) >= all(enough));
+      if (found == 0) continue;
+      first = std::uint32_t(k) + std::uint32_t(std::countr_zero(found));
+      break;
+    }
+    chosen[count++] = first;
+    return corners.scratch[first];
   };
-  bring(0, std::sqrt(size), [](const PatchCorner& c) { return -c.height; });
-  bring(1, size, [&](const PatchCorner& c) { return squared_distance(c, corners[0]); });
-  bring(2, size, [&](const PatchCorner& c) { return std::abs(area(corners[0], corners[1], c)); });
+  Four furthest = squared_distances(corners, 0, 0);
+  for (std::size_t k = 4; k < corners.count; k += 4) furthest = larger(furthest, squared_distances(corners, 0, k));
+  const double size = highest(furthest);
+  take(std::sqrt(size), [&](std::size_t k, Four& v) { v = -four(corners.height + k); });
+  take(size, [&](std::size_t k, Four& v) { v = squared_distances(corners, chosen[0], k); });
+  take(size, [&](std::size_t k, Four& v) { v = absolute(areas(corners, chosen[0], chosen[1], k)); });
   // The corners so far, counter-clockwise, and the side beyond which another one adds the most area.
-  std::array<std::size_t, Manifold::capacity> ring{0, 1, 2};
-  if (area(corners[0], corners[1], corners[2]) < 0) std::swap(ring[1], ring[2]);
-  double whole = std::abs(area(corners[0], corners[1], corners[2]));
-  std::size_t count = 3;
-  for (; count < std::min(corners.size(), ring.size()); ++count) {
-    const auto beyond = [&](std::size_t side, const PatchCorner& c) {
-      return -area(corners[ring[side]], corners[ring[side + 1 == count ? 0 : side + 1]], c);
-    };
-    const double gain = bring(count, size, [&](const PatchCorner& c) {
-      double most = beyond(0, c);
-      for (std::size_t side = 1; side < count; ++side) most = std::max(most, beyond(side, c));
-      return most;
+  std::array<std::uint32_t, Manifold::capacity + 1> ring{chosen[0], chosen[1], chosen[2], chosen[0]};
+  double whole = area(corners, chosen[0], chosen[1], chosen[2]);
+  if (whole < 0) std::swap(ring[1], ring[2]);
+  whole = std::abs(whole);
+  const std::size_t most = std::min(corners.count, chosen.size());
+  while (count < most) {
+    const std::size_t sides = count;
+    const double gain = take(size, [&](std::size_t k, Four& beyond) {
+      beyond = -areas(corners, ring[0], ring[1], k);
+      for (std::size_t side = 1; side < sides; ++side) beyond = larger(beyond, -areas(corners, ring[side], ring[side + 1], k));
     });
-    if (count >= 4 && gain <= least_gain * whole) break;
+    if (sides >= 4 && gain <= least_gain * whole) return sides;
+    const std::uint32_t added = chosen[sides];
     std::size_t best = 0;
-    for (std::size_t side = 1; side < count; ++side) {
-      if (beyond(side, corners[count]) > beyond(best, corners[count])) best = side;
+    double beyond = -area(corners, ring[0], ring[1], added);
+    for (std::size_t side = 1; side < sides; ++side) {
+      const double b = -area(corners, ring[side], ring[side + 1], added);
+      best = b > beyond ? side : best;
+      beyond = std::max(beyond, b);
     }
-    std::copy_backward(ring.begin() + std::ptrdiff_t(best) + 1, ring.begin() + std::ptrdiff_t(count),
-                       ring.begin() + std::ptrdiff_t(count) + 1);
-    ring[best + 1] = count;
+    std::copy_backward(ring.begin() + std::ptrdiff_t(best) + 1, ring.begin() + std::ptrdiff_t(sides) + 1,
+                       ring.begin() + std::ptrdiff_t(sides) + 2);
+    ring[best + 1] = added;
     whole += std::max(gain, 0.0);
   }
   return count;
 }
 
-}  // namespace
-
 std::span<PatchCorner> those_that_matter(std::span<PatchCorner> corners) {
-  return corners.size() > 4 ? corners.first(reduce(corners)) : corners;
+  if (corners.size() <= 4) return corners;
+  const auto by_feature = [](const PatchCorner& a, const PatchCorner& b) {
+    return std::tie(a.feature.kind, a.feature.of_a, a.feature.of_b) < std::tie(b.feature.kind, b.feature.of_a, b.feature.of_b);
+  };
+  std::sort(corners.begin(), corners.end(), by_feature);
+  thread_local std::vector<double> numbers;
+  const std::size_t room = corners.size() + 3;
+  numbers.resize(4 * room);
+  double* const x = numbers.data();
+  const CornersInLanes lanes{x, x + room, x + 2 * room, x + 3 * room, corners.size()};
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    lanes.x[k] = corners[k].x;
+    lanes.y[k] = corners[k].y;
+    lanes.height[k] = corners[k].height;
+  }
+  std::array<std::uint32_t, Manifold::capacity> chosen;
+  const std::size_t count = choose_corners(lanes, chosen);
+  std::array<PatchCorner, Manifold::capacity> kept;
+  for (std::size_t k = 0; k < count; ++k) kept[k] = corners[chosen[k]];
+  std::copy_n(kept.begin(), count, corners.begin());
+  return corners.first(count);
 }
 
 std::span<PatchCorner> clip_patch(std::span<const PatchSide> sides, std::uint32_t incident_face, double tolerance,
@@ -122,9 +164,8 @@ std::span<PatchCorner> clip_patch(std::span<const PatchSide> sides, std::uint32_
   return from.first(count);
 }
 
-void take_patch(const PatchFrame& frame, std::span<PatchCorner> corners, double highest, Manifold& manifold) {
-  const auto end = std::remove_if(corners.begin(), corners.end(), [&](const PatchCorner& c) { return c.height > highest; });
-  const auto left = those_that_matter({corners.begin(), end});
+void take_patch(const PatchFrame& frame, std::span<PatchCorner> corners, Manifold& manifold) {
+  const auto left = those_that_matter(corners);
   manifold.count = left.size();
   for (std::size_t k = 0; k < left.size(); ++k) {
     const PatchCorner& c = left[k];

@@ -5,6 +5,7 @@
 // reference, so a contact keeps its name when they change places.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -44,12 +45,22 @@ struct PatchFrame {
 std::span<PatchCorner> clip_patch(std::span<const PatchSide> sides, std::uint32_t incident_face, double tolerance,
                                   std::span<PatchCorner> corners, std::size_t count, std::span<PatchCorner> buffer);
 
+/// Corners side by side, as SIMD takes them, sorted by their features. There is room for three more of each number.
+struct CornersInLanes {
+  double *x, *y, *height;  ///< m
+  double* scratch;
+  std::size_t count;
+};
+
+/// Of more than four corners the numbers of those that matter, as below; returns how many they are.
+std::size_t choose_corners(const CornersInLanes& corners, std::array<std::uint32_t, Manifold::capacity>& chosen);
+
 /// Up to four corners all of them; of more the deepest, the one furthest from it and the two that span the largest area with
-/// them; and up to the capacity of a manifold others that add to it by more than 1/32. Changes their order.
+/// them; and up to the capacity of a manifold others that add to it by more than 1/32. Moves them to the front, over the others.
 std::span<PatchCorner> those_that_matter(std::span<PatchCorner> corners);
 
-/// The points of the patch that matter, of those no higher than `highest` (m). Features are of the reference shape first.
-void take_patch(const PatchFrame& frame, std::span<PatchCorner> corners, double highest, Manifold& manifold);
+/// The points of the patch that matter. Features are of the reference shape first.
+void take_patch(const PatchFrame& frame, std::span<PatchCorner> corners, Manifold& manifold);
 
 /// The manifold with A and B exchanged.
 void mirror(Manifold& manifold);

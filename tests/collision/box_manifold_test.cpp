@@ -10,6 +10,7 @@
 
 #include "collision/shapes/box.hpp"
 #include "experiments/narrow_phase/box_pairs.hpp"
+#include "experiments/study/dice.hpp"
 
 namespace polhode {
 namespace {
@@ -133,6 +134,21 @@ TEST(BoxManifold, NumbersAreThoseOfThePolytope) {
     }
   }
   EXPECT_TRUE(seen.contains(Kind::vertex_face) && seen.contains(Kind::face_vertex) && seen.contains(Kind::edge_edge));
+}
+
+TEST(BoxManifold, FacesThatTouchButForRoundOffHaveTheWholePatch) {
+  study::Dice dice(5);
+  int touching = 0;
+  for (int k = 0; k < 1000; ++k) {
+    PosedBox a{dice.uniform_vector(0.5, 1.5), {dice.uniform_vector(-1, 1), dice.rotation()}}, b{dice.uniform_vector(0.5, 1.5), a.pose};
+    b.pose.position = a.pose.to_world({dice.uniform(-0.5, 0.5), a.half[1] + b.half[1], dice.uniform(-0.5, 0.5)});
+    const Manifold m = manifold(a, b);
+    if (m.count == 0) continue;
+    ++touching;
+    ASSERT_EQ(m.count, 4u) << k;
+    ASSERT_NEAR(deepest(m), 0, 2e-15) << k;
+  }
+  EXPECT_GT(touching, 300);
 }
 
 TEST(BoxManifold, EveryOverlappingPairHasOneAndItIsAsDeepAsTheyAre) {

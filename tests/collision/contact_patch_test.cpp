@@ -17,6 +17,7 @@
 #include "collision/shapes/cylinder.hpp"
 #include "collision/shapes/half_space.hpp"
 #include "core/quaternion.hpp"
+#include "experiments/study/dice.hpp"
 
 namespace polhode {
 namespace {
@@ -123,6 +124,32 @@ TEST(ContactPatch, BoxesHaveTheSamePointsFromGjkAndSat) {
     for (std::size_t k = 0; k < one.count; ++k) EXPECT_TRUE(has(other, one.points[k].point)) << pose.position.transpose();
     EXPECT_NEAR(deepest(one), deepest(other), 1e-12);
   }
+}
+
+/// However one face lies on the other: turned, tilted, covered in part; the one's corners within, the other's, or all cut off.
+TEST(ContactPatch, FacesOfBoxesAreClippedAlikeByGjkAndSat) {
+  study::Dice dice(3);
+  std::set<std::size_t> counts;
+  int alike = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const Box a(dice.uniform_vector(0.5, 1.5)), b(dice.uniform_vector(0.3, 1.5));
+    const int axis = dice.below(3);
+    const Vector up = (dice.chance(0.5) ? 1 : -1) * Vector::Unit(axis);
+    Pose pose = at({}, dice.uniform_vector(-0.02, 0.02));
+    pose.rotation = pose.rotation * at({}, dice.angle() * up).rotation * at({}, std::numbers::pi / 2 * dice.below(2) * Vector::Unit((axis + 1) % 3)).rotation;
+    pose.position = dice.uniform_vector(-1.5, 1.5);
+    pose.position[axis] = 0;
+    pose.position += up * (a.support(up) - pose.rotation * b.support(pose.rotation.transpose() * -up)).dot(up) - 0.01 * up;
+    const Manifold one = gjk().manifold(a, {}, b, pose), other = phase("sat").manifold(a, {}, b, pose);
+    if (one.count < 3 || !(one.normal.dot(other.normal) > 1 - 1e-15)) continue;  // an edge, or the other face, is as good
+    ++alike;
+    ASSERT_EQ(names(one), names(other)) << k;
+    for (std::size_t i = 0; i < one.count; ++i) ASSERT_TRUE(has(other, one.points[i].point)) << k;
+    ASSERT_NEAR(deepest(one), deepest(other), 1e-12) << k;
+    counts.insert(one.count);
+  }
+  EXPECT_EQ(counts, (std::set<std::size_t>{3, 4, 5, 6, 7, 8}));
+  EXPECT_GT(alike, 2000);
 }
 
 TEST(ContactPatch, TiltedCubesKeepAFourPointFaceContact) {
