@@ -175,9 +175,11 @@ class SequentialImpulses final : public Response {
         const PatchBatch& patch = batches_.patches()[i];
         PairMotion motion(patch, motions_.data());
         const std::uint32_t first = patch.first_point, count = patch.point_count;
-        for (std::uint32_t k = 0; k < 2 * count; ++k) {
-          const bool back = (k < count) == (n % 2 == 1);
-          visit(patch, first + (back ? count - 1 - k % count : k % count), rough_[i], motion, extent);
+        for (int way = 0; way < 2; ++way) {
+          const bool back = way != n % 2;
+          for (std::uint32_t k = 0; k < count; ++k) {
+            visit(patch, first + (back ? count - 1 - k : k), rough_[i], motion, extent);
+          }
         }
         motion.store(patch, motions_.data());
       }
@@ -190,7 +192,7 @@ class SequentialImpulses final : public Response {
     Lanes change = 0, impulse = 0;
   };
 
-  void visit(const PatchBatch& patch, std::uint32_t k, bool rough, PairMotion& motion, Extent& extent) {
+  [[gnu::always_inline]] void visit(const PatchBatch& patch, std::uint32_t k, bool rough, PairMotion& motion, Extent& extent) {
     const PointBatch& at = batches_.points()[k];
     Point& p = points_[k];
     const Vector3<Lanes> v = motion.at(at);
@@ -206,7 +208,8 @@ class SequentialImpulses final : public Response {
       const Lanes t = next.t - p.tangential.t, b = next.b - p.tangential.b;
       added += t * patch.tangent + b * patch.bitangent;
       extent.change = larger(extent.change, larger(abs(t), abs(b)));
-      p.tangential = next;
+      p.tangential.t = next.t;
+      p.tangential.b = next.b;
     }
     motion.push(patch, at, added);
   }
