@@ -145,23 +145,24 @@ class SequentialImpulses final : public Response {
   struct Work {
     double before, gain;
   };
-  /// What the impulses would do at the velocities before, and do to the kinetic energy: J.
+  /// What the impulses would do at the velocities before, and do to the kinetic energy: J. Summed patch by patch, so that the
+  /// digits do not depend on the registers.
   Work work_of_impulses() const {
-    Lanes sum_before(0), sum_gain(0);
+    Work w{0, 0};
     for (const PatchBatch& patch : batches_.patches()) {
       const PairMotion before(patch, before_.data()), after(patch, motions_.data());
+      Lanes of_before(0), gain(0);
       for (std::uint32_t k = patch.first_point; k < patch.first_point + patch.point_count; ++k) {
         const PointBatch& at = batches_.points()[k];
         const Vector3<Lanes> j = impulse(patch, points_[k]);
         const Lanes work = dot(j, before.at(at));
-        sum_before += work;
-        sum_gain += Lanes(0.5) * (work + dot(j, after.at(at)));
+        of_before += work;
+        gain += Lanes(0.5) * (work + dot(j, after.at(at)));
       }
-    }
-    Work w{0, 0};
-    for (int i = 0; i < lane_count; ++i) {
-      w.before += sum_before[i];
-      w.gain += sum_gain[i];
+      for (int i = 0; i < lane_count; ++i) {
+        w.before += of_before[i];
+        w.gain += gain[i];
+      }
     }
     return w;
   }
