@@ -5,12 +5,14 @@
 
 #include <cmath>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "collision/response/complementarity.hpp"
 #include "collision/response/contact_batches.hpp"
 #include "collision/response/energy_guard.hpp"
 #include "collision/response/friction_cone.hpp"
+#include "collision/response/islands.hpp"
 #include "collision/response/sequential_impulses.hpp"
 #include "collision/response/warm_start.hpp"
 #include "experiments/study/dice.hpp"
@@ -141,6 +143,27 @@ TEST(ContactBatches, ABodyWithManyNeighboursHasThemAll) {
   for (const ImpulseContact& c : s.contacts) EXPECT_GE(c.normal.dot(s.relative(c)), -1e-5);
 }
 
+TEST(Islands, EndAtWhatCannotMove) {
+  const ImpulseBody wall, moves = laws::ball(1, 1, Vector3<double>::Zero());
+  const std::vector<ImpulseBody> bodies = {wall, moves, moves, moves, moves, wall};
+  std::vector<ImpulseContact> contacts;
+  for (const auto& [a, b] : std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 1}, {0, 2}, {0, 5}, {1, 4}, {2, 3}, {3, 5}, {4, 5}}) {
+    contacts.emplace_back().a = a;
+    contacts.back().b = b;
+  }
+  Islands islands;
+  islands.build(bodies, contacts);
+  ASSERT_EQ(islands.count(), 2u);
+  const auto members = [&](std::size_t k) {
+    const auto all = islands.contacts(k);
+    return std::vector<std::uint32_t>(all.begin(), all.end());
+  };
+  EXPECT_EQ(members(0), (std::vector<std::uint32_t>{0, 3, 6}));
+  EXPECT_EQ(members(1), (std::vector<std::uint32_t>{1, 4, 5}));
+  islands.build({}, {});
+  EXPECT_EQ(islands.count(), 0u);
+}
+
 TEST(WarmStart, FindsForcesByFeatureThenByPlace) {
   const auto contact = [](std::uint32_t a, std::uint32_t b, std::uint32_t feature, double x, double force) {
     ImpulseContact c;
@@ -162,6 +185,11 @@ TEST(WarmStart, FindsForcesByFeatureThenByPlace) {
   memory.recall(bodies, after, 0.2);
   const std::vector<double> expected = {6, 2, 4, 0, 0, 10};
   for (std::size_t i = 0; i < after.size(); ++i) EXPECT_NEAR(after[i].impulse[2], expected[i], 1e-14) << i;
+  for (ImpulseContact& c : after) c.wanted = 1;  // an impact
+  memory.remember(bodies, after, 0.2);
+  memory.recall(bodies, after, 0.2);
+  for (const ImpulseContact& c : after) EXPECT_TRUE(c.impulse.isZero(0));
+  memory.remember(bodies, before, 0.1);
   memory.forget();
   memory.recall(bodies, after, 0.2);
   for (const ImpulseContact& c : after) EXPECT_TRUE(c.impulse.isZero(0));
