@@ -25,15 +25,15 @@ inline Vector3<Lanes> zero_lanes() { return {Lanes(0), Lanes(0), Lanes(0)}; }
 /// An inverse inertia in lanes.
 struct SymmetricLanes {
   Lanes xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  Vector3<Lanes> operator*(const Vector3<Lanes>& v) const {
+  [[gnu::always_inline]] Vector3<Lanes> operator*(const Vector3<Lanes>& v) const {
     return {xx * v[0] + xy * v[1] + xz * v[2], xy * v[0] + yy * v[1] + yz * v[2], xz * v[0] + yz * v[1] + zz * v[2]};
   }
 };
 
-inline Vector3<Lanes> cross(const Vector3<Lanes>& a, const Vector3<Lanes>& b) {
+[[gnu::always_inline]] inline Vector3<Lanes> cross(const Vector3<Lanes>& a, const Vector3<Lanes>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-inline Lanes dot(const Vector3<Lanes>& a, const Vector3<Lanes>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+[[gnu::always_inline]] inline Lanes dot(const Vector3<Lanes>& a, const Vector3<Lanes>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// Patches of different bodies, one a lane.
 struct PatchBatch {
@@ -106,11 +106,11 @@ struct PairMotion {
     }
   }
   /// Of A relative to B.
-  Vector3<Lanes> at(const PointBatch& point) const {
+  [[gnu::always_inline]] Vector3<Lanes> at(const PointBatch& point) const {
     return (va + cross(wa, point.lever_a)) - (vb + cross(wb, point.lever_b));
   }
   /// An impulse on A, and its reaction on B.
-  void push(const PatchBatch& patch, const PointBatch& point, const Vector3<Lanes>& impulse) {
+  [[gnu::always_inline]] void push(const PatchBatch& patch, const PointBatch& point, const Vector3<Lanes>& impulse) {
     va += patch.inverse_mass_a * impulse;
     wa += patch.inverse_inertia_a * cross(point.lever_a, impulse);
     vb -= patch.inverse_mass_b * impulse;

@@ -39,10 +39,11 @@ class FrictionCone {
   Tangential<S> step(const Tangential<S>& j, const Tangential<S>& s, S radius) const {
     using std::sqrt;
     const Tangential<S> stop{j.t - (tt_ * s.t + tb_ * s.b), j.b - (tb_ * s.t + bb_ * s.b)};
+    const auto stops = stop.t * stop.t + stop.b * stop.b <= radius * radius;
+    if (!any(!stops)) return stop;
     const Tangential<S> slide{j.t - least_ * s.t, j.b - least_ * s.b};
     const S square = radius * radius, length = slide.t * slide.t + slide.b * slide.b;
     const S shrink = select(length > square, radius / sqrt(length), S(1));
-    const auto stops = stop.t * stop.t + stop.b * stop.b <= square;
     return {select(stops, stop.t, shrink * slide.t), select(stops, stop.b, shrink * slide.b)};
   }
 

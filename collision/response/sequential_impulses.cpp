@@ -145,23 +145,24 @@ class SequentialImpulses final : public Response {
   struct Work {
     double before, gain;
   };
-  /// What the impulses would do at the velocities before, and do to the kinetic energy: J.
+  /// What the impulses would do at the velocities before, and do to the kinetic energy: J. Summed patch by patch, so that the
+  /// digits do not depend on the registers.
   Work work_of_impulses() const {
-    Lanes sum_before(0), sum_gain(0);
+    Work w{0, 0};
     for (const PatchBatch& patch : batches_.patches()) {
       const PairMotion before(patch, before_.data()), after(patch, motions_.data());
+      Lanes of_before(0), gain(0);
       for (std::uint32_t k = patch.first_point; k < patch.first_point + patch.point_count; ++k) {
         const PointBatch& at = batches_.points()[k];
         const Vector3<Lanes> j = impulse(patch, points_[k]);
         const Lanes work = dot(j, before.at(at));
-        sum_before += work;
-        sum_gain += Lanes(0.5) * (work + dot(j, after.at(at)));
+        of_before += work;
+        gain += Lanes(0.5) * (work + dot(j, after.at(at)));
       }
-    }
-    Work w{0, 0};
-    for (int i = 0; i < lane_count; ++i) {
-      w.before += sum_before[i];
-      w.gain += sum_gain[i];
+      for (int i = 0; i < lane_count; ++i) {
+        w.before += of_before[i];
+        w.gain += gain[i];
+      }
     }
     return w;
   }
@@ -175,9 +176,11 @@ class SequentialImpulses final : public Response {
         const PatchBatch& patch = batches_.patches()[i];
         PairMotion motion(patch, motions_.data());
         const std::uint32_t first = patch.first_point, count = patch.point_count;
-        for (std::uint32_t k = 0; k < 2 * count; ++k) {
-          const bool back = (k < count) == (n % 2 == 1);
-          visit(patch, first + (back ? count - 1 - k % count : k % count), rough_[i], motion, extent);
+        for (int way = 0; way < 2; ++way) {
+          const bool back = way != n % 2;
+          for (std::uint32_t k = 0; k < count; ++k) {
+            visit(patch, first + (back ? count - 1 - k : k), rough_[i], motion, extent);
+          }
         }
         motion.store(patch, motions_.data());
       }
@@ -190,7 +193,7 @@ class SequentialImpulses final : public Response {
     Lanes change = 0, impulse = 0;
   };
 
-  void visit(const PatchBatch& patch, std::uint32_t k, bool rough, PairMotion& motion, Extent& extent) {
+  [[gnu::always_inline]] void visit(const PatchBatch& patch, std::uint32_t k, bool rough, PairMotion& motion, Extent& extent) {
     const PointBatch& at = batches_.points()[k];
     Point& p = points_[k];
     const Vector3<Lanes> v = motion.at(at);
@@ -206,7 +209,8 @@ class SequentialImpulses final : public Response {
       const Lanes t = next.t - p.tangential.t, b = next.b - p.tangential.b;
       added += t * patch.tangent + b * patch.bitangent;
       extent.change = larger(extent.change, larger(abs(t), abs(b)));
-      p.tangential = next;
+      p.tangential.t = next.t;
+      p.tangential.b = next.b;
     }
     motion.push(patch, at, added);
   }

@@ -7,8 +7,8 @@
 // complementarity problem, solved to the end; friction alternates with it: given the normal impulses, the tangential ones by
 // Gauss–Seidel in Coulomb's cone, and again, until neither changes. Where 50 rounds do not settle, Gauss–Seidel goes on, normal
 // and tangents of each contact in turn; what it has not settled after 5000 sweeps is drawn towards the answer without friction
-// as far as energy demands. If contacts have different ε, expansion gives back no more
-// than compression took.
+// as far as energy demands. Without friction the two phases never give energy: the second ends no higher than the impulses
+// of the first taken twice, which give none. Where friction makes them, expansion is cut back to what gives none.
 //
 // Newton's cradle: one ball in sends all out: of three the velocities −1/3, 2/3, 2/3; of five −3/5 and four times 2/5.
 // The matrix is dense: cost and memory grow with the square of an island's contacts and more; it is for hundreds.
@@ -70,14 +70,14 @@ class Simultaneous final : public Response {
     total = x;
     for (Index i = 0; i < m; ++i) given[i] = points_[std::size_t(i)].restitution * x[i];
     if ((given.array() > 0).any()) {
+      auto between = between_.head(n);
+      between = v;
       change_.head(m).noalias() = a.topLeftCorner(m, m) * given;
-      const double slope = given.dot(v.head(m));
-      const double s = share_without_gain(std::min(taken, 0.0), slope, taken + slope + 0.5 * given.dot(change_.head(m)));
-      given *= s;
+      const double back = given.dot(v.head(m) + 0.5 * change_.head(m));
       v.noalias() += a.leftCols(m) * given;
-      total.head(m) += given;
-      solve_phase(m);
-      total += x;
+      const double gain = taken + back + solve_phase(m);
+      x.head(m) += given;
+      total += share_without_gain(std::min(taken, 0.0), x.dot(between), gain) * x;
     }
     for (Index i = 0; i < m; ++i) {
       ImpulseContact& c = contacts[members[std::size_t(i)]];
@@ -91,7 +91,7 @@ class Simultaneous final : public Response {
   void reserve(Index n) {
     if (matrix_.rows() >= n) return;
     matrix_.resize(n, n);
-    for (Eigen::VectorXd* v : {&velocity_, &phase_, &total_, &given_, &change_, &smooth_, &constant_, &last_}) v->resize(n);
+    for (Eigen::VectorXd* v : {&velocity_, &phase_, &total_, &given_, &between_, &change_, &smooth_, &constant_, &last_}) v->resize(n);
   }
 
   /// How the velocities at the contacts are, and how they answer to impulses.
@@ -231,6 +231,7 @@ class Simultaneous final : public Response {
   Eigen::VectorXd phase_;     ///< N s, of the phase
   Eigen::VectorXd total_;     ///< N s, of both
   Eigen::VectorXd given_;     ///< N s, what expansion gives back
+  Eigen::VectorXd between_;   ///< m/s, between the phases
   Eigen::VectorXd change_, smooth_, constant_, last_;
   Complementarity normals_;
   Penetration penetration_;

@@ -14,7 +14,11 @@ using study::Dice;
 using Vector = Vector3<double>;
 using Matrix = Matrix3<double>;
 
-class ResponseCase : public ResponseTrial {};
+class ResponseCase : public ResponseTrial {
+ protected:
+  /// m/s; in a step some go only so far.
+  double in_a_step() const { return GetParam().name == "sequential_impulses" ? 1e-5 : 1e-9; }
+};
 
 ImpulseContact touch(std::uint32_t a, std::uint32_t b, const Vector& normal, const Vector& point, double restitution,
                      double friction = 0) {
@@ -137,6 +141,54 @@ TEST_P(ResponseCase, ABoxSlidesAndSticks) {
   }
 }
 
+TEST_P(ResponseCase, ABlockOnAnInclineSticksOrSlides) {
+  if (!has_friction()) GTEST_SKIP() << "it has none";
+  const double g = 9.81, h = 0.01, friction = 0.5;
+  for (const double angle : {0.4, 0.6}) {  // the cone's is 0.4636
+    response->forget();
+    ImpulseScene s = cube_on_floor(friction);
+    for (int k = 1; k <= 100; ++k) {
+      s.bodies[1].velocity += g * h * Vector(std::sin(angle), 0, -std::cos(angle));
+      s = after(s, h);
+      const double expected = angle < std::atan(friction) ? 0 : g * (std::sin(angle) - friction * std::cos(angle)) * k * h;
+      ASSERT_LE((s.bodies[1].velocity - Vector(expected, 0, 0)).norm(), in_a_step()) << "step " << k << " at " << angle << " rad";
+      ASSERT_LE(s.bodies[1].angular_velocity.norm(), in_a_step());
+    }
+  }
+}
+
+TEST_P(ResponseCase, BallsRollOnABoxThatIsPushed) {
+  if (!has_friction()) GTEST_SKIP() << "it has none";
+  // SimBenchmark's "rolling" (ETH Zürich): a box of 10 kg on the ground carries 25 balls of 1 kg and is pushed by 150 N,
+  // neither along x nor along y.
+  const double mass = 10, radius = 0.1, g = 9.81, h = 0.001;
+  ImpulseScene s;
+  s.bodies = {ImpulseBody{}, cube(mass, 1, {0, 0, 0.5}, Matrix::Identity())};
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    s.contacts.push_back(touch(0, 1, {0, 0, -1}, {k % 2 ? 0.5 : -0.5, k / 2 ? 0.5 : -0.5, 0}, 0, 0.4));
+    s.contacts.back().feature = {Feature::Kind::face_vertex, 0, k};
+  }
+  for (std::uint32_t k = 0; k < 25; ++k) {
+    const Vector place(0.2 * (k % 5) - 0.4, 0.2 * (k / 5) - 0.4, 1);
+    s.bodies.push_back(ball(1, radius, place + Vector(0, 0, radius)));
+    s.contacts.push_back(touch(1, 2 + k, {0, 0, -1}, place, 0, 0.8));
+  }
+  const Vector along = Vector(0.5, 0.866, 0).normalized();
+  const double slides = 150 - 0.4 * (mass + 25) * g;  // N, of the push, after the ground's friction
+  const double a_box = slides / (mass + 25 / 3.5), a_ball = a_box / 3.5;
+  for (int k = 1; k <= 50; ++k) {
+    for (std::size_t i = 1; i < s.bodies.size(); ++i) s.bodies[i].velocity[2] -= g * h;
+    s.bodies[1].velocity += 150 / mass * h * along;
+    s = after(s, h);
+  }
+  EXPECT_NEAR(a_box, 0.7385, 1e-4);
+  EXPECT_NEAR(a_ball, 0.211, 1e-4);
+  EXPECT_LE((s.bodies[1].velocity - 50 * h * a_box * along).norm(), in_a_step());
+  for (std::size_t i = 2; i < s.bodies.size(); ++i) {
+    EXPECT_LE((s.bodies[i].velocity - 50 * h * a_ball * along).norm(), in_a_step());
+  }
+}
+
 TEST_P(ResponseCase, ABouncingBallSlipsOrRolls) {
   if (!has_friction()) GTEST_SKIP() << "it has none";
   for (const double friction : {0.1, 2.0}) {
@@ -205,6 +257,37 @@ TEST_P(ResponseCase, DegenerateScenesGiveNumbers) {
     s.bodies[0].inverse_inertia = s.bodies[1].inverse_inertia = Matrix::Zero();
     EXPECT_TRUE(finite(after(s, step)));
     EXPECT_EQ(difference(after(s, step), s), 0);
+  }
+}
+
+TEST_P(ResponseCase, RestitutionReflectsTheApproachNotWhatAForceHasAddedSince) {
+  ImpulseScene s;
+  s.bodies = {ImpulseBody{}, ball(0.4, 0.3, {0, 0, 0.3})};
+  s.bodies[1].velocity = {0, 0, -2};
+  s.contacts = {touch(0, 1, {0, 0, -1}, Vector::Zero(), 0.5)};
+  s.meet();
+  s.bodies[1].velocity[2] -= 0.3;
+  EXPECT_NEAR(after(s, 0.03).bodies[1].velocity[2], 1, 1e-12);
+}
+
+TEST_P(ResponseCase, AWedgeWithOneElasticWallGivesNoEnergy) {
+  // The walls press far harder than the ball is fast; what one alone gives back is more than there was.
+  for (const double angle : {0.01, 0.1, 0.5}) {
+    for (const double friction : {0.0, 0.5}) {
+      ImpulseScene s;
+      s.bodies = {ImpulseBody{}, ImpulseBody{}, ball(1, 0.2, Vector::Zero())};
+      s.bodies[2].velocity = {0, 0, -1};
+      const Vector left(-std::cos(angle), 0, -std::sin(angle)), right(std::cos(angle), 0, -std::sin(angle));
+      s.contacts = {touch(0, 2, left, 0.2 * left, 1, friction), touch(1, 2, right, 0.2 * right, 0, friction)};
+      s.meet();
+      const double before = kinetic_energy(s.bodies);
+      const ImpulseScene t = after(s);
+      EXPECT_LE(kinetic_energy(t.bodies), before * (1 + 1e-12)) << angle;
+      // From wall to wall it takes about 1/angle² pushes.
+      if (angle > 0.4 || GetParam().name == "simultaneous") {
+        EXPECT_GE(t.bodies[2].velocity[2], -1e-9) << angle;
+      }
+    }
   }
 }
 
