@@ -16,7 +16,7 @@
 namespace polhode {
 
 /// A velocity, or a displacement: what a sweep changes of a body. One line of the cache.
-struct alignas(64) BodyMotion {
+struct alignas(64) ImpulseMotion {
   std::array<double, 3> linear{}, angular{};
 };
 
@@ -89,14 +89,14 @@ class ContactBatches {
 struct PairMotion {
   Vector3<Lanes> va, wa, vb, wb;
 
-  PairMotion(const PatchBatch& patch, const BodyMotion* motions)
-      : va(lanes(patch.a, motions, &BodyMotion::linear)),
-        wa(lanes(patch.a, motions, &BodyMotion::angular)),
-        vb(lanes(patch.b, motions, &BodyMotion::linear)),
-        wb(lanes(patch.b, motions, &BodyMotion::angular)) {}
-  void store(const PatchBatch& patch, BodyMotion* motions) const {
+  PairMotion(const PatchBatch& patch, const ImpulseMotion* motions)
+      : va(lanes(patch.a, motions, &ImpulseMotion::linear)),
+        wa(lanes(patch.a, motions, &ImpulseMotion::angular)),
+        vb(lanes(patch.b, motions, &ImpulseMotion::linear)),
+        wb(lanes(patch.b, motions, &ImpulseMotion::angular)) {}
+  void store(const PatchBatch& patch, ImpulseMotion* motions) const {
     for (int i = 0; i < lane_count; ++i) {
-      BodyMotion &a = motions[patch.a[std::size_t(i)]], &b = motions[patch.b[std::size_t(i)]];
+      ImpulseMotion &a = motions[patch.a[std::size_t(i)]], &b = motions[patch.b[std::size_t(i)]];
       for (int k = 0; k < 3; ++k) {
         a.linear[std::size_t(k)] = va[k][i];
         a.angular[std::size_t(k)] = wa[k][i];
@@ -119,13 +119,13 @@ struct PairMotion {
 
  private:
   using Numbers = std::array<std::uint32_t, lane_count>;
-  using Part = std::array<double, 3> BodyMotion::*;
+  using Part = std::array<double, 3> ImpulseMotion::*;
 
-  static Vector3<Lanes> lanes(const Numbers& bodies, const BodyMotion* motions, Part part) {
+  static Vector3<Lanes> lanes(const Numbers& bodies, const ImpulseMotion* motions, Part part) {
     return lanes(bodies, motions, part, std::make_index_sequence<lane_count>());
   }
   template <std::size_t... I>
-  static Vector3<Lanes> lanes(const Numbers& bodies, const BodyMotion* motions, Part part, std::index_sequence<I...>) {
+  static Vector3<Lanes> lanes(const Numbers& bodies, const ImpulseMotion* motions, Part part, std::index_sequence<I...>) {
     return {Lanes(Lanes::Pack{(motions[bodies[I]].*part)[0]...}), Lanes(Lanes::Pack{(motions[bodies[I]].*part)[1]...}),
             Lanes(Lanes::Pack{(motions[bodies[I]].*part)[2]...})};
   }

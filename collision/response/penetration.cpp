@@ -35,7 +35,7 @@ bool Penetration::too_deep(std::span<ImpulseBody> bodies, std::span<const Impuls
 void Penetration::solve(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts,
                         const ContactBatches& batches) {
   points_.assign(batches.points().size(), Point{Lanes(0), Lanes(0)});
-  motions_.assign(bodies.size() + 1, BodyMotion{});
+  motions_.assign(bodies.size() + 1, ImpulseMotion{});
   for (std::size_t k = 0; k < points_.size(); ++k) {
     for (std::size_t i = 0; i < lane_count; ++i) {
       const std::uint32_t number = batches.contacts()[k][i];

@@ -38,7 +38,7 @@ class Penetration {
   PenetrationSettings settings_;
   ContactBatches own_;
   std::vector<Point> points_;
-  std::vector<BodyMotion> motions_;
+  std::vector<ImpulseMotion> motions_;
 };
 
 }  // namespace polhode

@@ -108,7 +108,7 @@ class SequentialImpulses final : public Response {
         before_[i].angular[k] = bodies[i].angular_velocity[Eigen::Index(k)];
       }
     }
-    before_.back() = BodyMotion{};
+    before_.back() = ImpulseMotion{};
     motions_.assign(before_.begin(), before_.end());
   }
 
@@ -265,7 +265,7 @@ class SequentialImpulses final : public Response {
   ContactBatches batches_;
   std::vector<Point> points_;
   std::vector<std::uint8_t> rough_;  ///< whether a batch has friction
-  std::vector<BodyMotion> before_, motions_;
+  std::vector<ImpulseMotion> before_, motions_;
   EnergyGuard guard_;
   std::vector<Vector3<double>> others_;
   Penetration penetration_;
