@@ -98,7 +98,8 @@ class Measurement {
     }
   }
 
-  static constexpr std::size_t warm = 3, fewest = 20, most = 200;  // steps
+  /// Steps; the warm ones until most boxes have left the room that a broad phase gave them at first.
+  static constexpr std::size_t warm = 40, fewest = 20, most = 200;
 
   /// As many steps as the time allows. Compares the pairs of all, and returns how many there were after the warm steps.
   double first_round(std::size_t n, std::vector<Runner>& runners) {

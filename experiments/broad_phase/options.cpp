@@ -71,7 +71,7 @@ BroadPhaseOptions parse_broad_phase_options(int argc, const char* const* argv) {
   std::vector<CLI::Option*> measuring = {
       app.add_option("--bodies", bodies, "how many boxes (default: " + bodies + ")")->type_name("N,…"),
       app.add_option("--filling", options.filling, "part of the space that is within boxes (default: 0.1)")->type_name("X"),
-      app.add_option("--motion", options.motion, "path of a box in a step, over its mean edge (default: 0.02)")
+      app.add_option("--motion", options.motion, "mean path of a box in a step, over the mean edge (default: 0.02)")
           ->type_name("X"),
       app.add_option("--patience", options.patience,
                      "leave out what is expected to take longer for a step, in s (default: 0.5)")
