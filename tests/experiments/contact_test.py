@@ -37,7 +37,7 @@ class Contact(unittest.TestCase):
                           "--out", out)
             last = read(out / "energy.csv")[-1]
             self.assertAlmostEqual(float(last["friction_loss_J"]), 1.5 * 9 / 7, delta=1e-4)  # m v0²/7
-            self.assertLess(abs(float(last["impact_loss_J"])), 1e-9)
+            self.assertLess(abs(float(last["impact_loss_J"])), 1e-4)
             self.assertLess(abs(float(last["drift_J"])), 1e-4)
             row, = read(out / "runs.csv")
             self.assertEqual([row[c] for c in ("broad_phase", "narrow_phase", "response", "impact_timing")],

@@ -343,7 +343,7 @@ TEST(ScenarioErrors, Names) {
   expect_refusals(
       {{"kind = \"spring\"", "kind = \"sprong\"", "21:8: force.0.kind: no force is called 'sprong'", "mean 'spring'?"},
        {"kind = \"sphere\"", "kind = \"cube\"", "18:18: body.2.shape.kind: no shape is called 'cube'",
-        "There are: box"},
+        "There are: sphere, box"},
        {"bodies = [\"box\"]", "bodies = [\"bix\"]", "22:11: force.0.bodies.0: no body is called 'bix'", "mean 'box'?"},
        {"title = \"Test\"", "invariants = [\"p_fi\"]", "1:15: invariants.0: no invariant is called 'p_fi'", "'p_phi'?"},
        {"name = \"ground\"", "name = \"box\"", "13:8: body.1.name: body 0 is called 'box' already", "differ"},

@@ -844,12 +844,12 @@ class Simulate(StudyTest):
                 run = read_table(out / "runs.csv").rows[0]
                 start = float(run["energy_initial_J"])
                 scale = abs(start)  # none of these cancels
-                for t, kinetic, potential, work, impact, friction, projection, drift in rows:
-                    ledger = kinetic + potential - work + impact + friction - projection - start
+                for t, kinetic, potential, work, impact, friction, penetration, projection, drift in rows:
+                    ledger = kinetic + potential - work + impact + friction - penetration - projection - start
                     self.assertAlmostEqual(ledger, drift, delta=1e-12 * max(kinetic, abs(potential), scale))
-                self.assertAlmostEqual(max(abs(r[7]) for r in rows), float(run["energy_drift_max_rel"]) * scale,
+                self.assertAlmostEqual(max(abs(r[8]) for r in rows), float(run["energy_drift_max_rel"]) * scale,
                                        delta=1e-14 * scale)
-                self.assertAlmostEqual(rows[-1][7], float(run["energy_drift_final_rel"]) * scale, delta=1e-14 * scale)
+                self.assertAlmostEqual(rows[-1][8], float(run["energy_drift_final_rel"]) * scale, delta=1e-14 * scale)
                 energies = {r[0]: r[18] for r in self.columns(out / "trajectory.csv")[1]}
                 for r in rows:
                     self.assertAlmostEqual(energies[r[0]], r[1] + r[2], delta=1e-12 * max(r[1], abs(r[2]), scale))
@@ -857,7 +857,7 @@ class Simulate(StudyTest):
     def test_hdf5(self):
         out = self.simulate("--dt", "1e-2", "--t-end", "1", "--trajectory", "hdf5")
         self.assertEqual((out / "trajectory.h5").read_bytes()[:8], b"\x89HDF\r\n\x1a\n")
-        self.assertGreater((out / "trajectory.h5").stat().st_size, 101 * (19 + 8) * 8)
+        self.assertGreater((out / "trajectory.h5").stat().st_size, 101 * (19 + 9) * 8)
         self.assertFalse((out / "trajectory.csv").exists())
 
     def test_a_study_s_trajectories_are_those_of_simulate(self):
