@@ -10,6 +10,14 @@
 
 namespace polhode {
 
+/// Where energy went in contacts, J since the start.
+struct ContactLosses {
+  double impact = 0;       ///< lost along normals: what restitution below 1 takes
+  double friction = 0;     ///< lost against slip
+  double penetration = 0;  ///< injected by pushing bodies out of each other; lifting them costs
+  double total() const { return impact + friction - penetration; }
+};
+
 /// An impact, as events.csv shows it.
 struct Impact {
   double t = 0;                                       ///< s

@@ -60,24 +60,15 @@ struct IntegratorSettings {
 template <class S>
 using EventFunction = std::function<double(const State<S>&)>;
 
-/// Where energy went in contacts, J since the start.
-struct ContactLosses {
-  double impact = 0;       ///< lost along normals: what restitution below 1 takes
-  double friction = 0;     ///< lost against slip
-  double penetration = 0;  ///< injected by pushing bodies out of each other; lifting them costs
-  double total() const { return impact + friction - penetration; }
-};
-
 /// What is seen of a state after a step: enough for every ledger, without the state itself.
 struct Sample {
   double t = 0;                ///< s
   Measurement<double> seen;
   double work = 0;             ///< J, done by non-conservative forces since the start
   double projection = 0;       ///< J, that the projection after this step injected
-  ContactLosses contact{};
 
   /// J, what a ledger without errors keeps: kinetic + potential − work + lost in contact − injected by projection.
-  double ledger() const { return seen.energy() - work - projection + contact.total(); }
+  double ledger(double lost_in_contact) const { return seen.energy() - work - projection + lost_in_contact; }
 };
 
 /// A stretch of steps of one size, taken in one call: the k-th ends at t = t0 + (first + k) h, k from 1 to count.

@@ -89,8 +89,7 @@ class Loop {
  private:
   Sample measure(const State<S>& state) {
     const State<double>& seen = view_.of(state);
-    return {seen.t, truth_.measure(seen.y), seen.y[seen.y.size() - 1], projection_energy_,
-            contact_ ? contact_->losses() : ContactLosses{}};
+    return {seen.t, truth_.measure(seen.y), seen.y[seen.y.size() - 1], projection_energy_};
   }
 
   /// Hands samples to the observer; false ends the run as diverged.
@@ -162,6 +161,7 @@ class Loop {
   bool observe_now() { return observe(state_); }
   bool observe(const State<S>& state) {
     const Sample sample = measure(state);
+    if (contact_) observer_.account(contact_->losses());
     if (!take_samples({&sample, 1})) return false;
     if (sample.t >= observer_.next_look()) observer_.look(view_.of(state), sample);
     return true;

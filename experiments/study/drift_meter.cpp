@@ -87,7 +87,7 @@ DriftMeter::DriftMeter(const System<double>& system, const std::vector<std::stri
 void DriftMeter::start(const State<double>& state, const Sample& sample) {
   const Measurement<double>& m = sample.seen;
   started_ = true;
-  energy_start_ = sample.ledger();
+  energy_start_ = sample.ledger(0);
   // Against |E0|; where kinetic and potential energy cancel in it, against the larger of the two; at rest at zero
   // potential, against 1 J.
   const double larger = std::max(std::abs(m.kinetic), std::abs(m.potential));
@@ -125,7 +125,7 @@ std::size_t DriftMeter::observe(std::span<const Sample> samples) {
   for (; taken < samples.size(); ++taken) {
     const Sample& sample = samples[taken];
     const Measurement<double>& m = sample.seen;
-    const double energy = sample.ledger() - energy_start;
+    const double energy = sample.ledger(lost_in_contact_) - energy_start;
     const double linear2 = conserved.linear ? (m.linear_momentum - linear_start_).squaredNorm() : 0.0;
     const double angular2 = conserved.angular ? (m.angular_momentum - angular_start_).squaredNorm() : 0.0;
     raise(sums.worst_energy, energy);

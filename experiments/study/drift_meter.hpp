@@ -50,6 +50,7 @@ class DriftMeter final : public Observer {
   std::size_t observe(std::span<const Sample> samples) override;
   void look(const State<double>& state, const Sample& sample) override;
   double next_look() const override;
+  void account(const ContactLosses& losses) override { lost_in_contact_ = losses.total(); }
 
   /// J, against which energy drifts are taken; after the first sample.
   double energy_scale() const { return energy_scale_; }
@@ -81,6 +82,7 @@ class DriftMeter final : public Observer {
   bool started_ = false;
 
   double energy_start_ = 0, energy_scale_ = 1;
+  double lost_in_contact_ = 0;  ///< J
   Vector3<double> linear_start_, angular_start_;
   double linear_scale_ = 1, angular_scale_ = 1;
   double next_exact_ = 0;

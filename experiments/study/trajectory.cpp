@@ -151,16 +151,20 @@ class Writer final : public TrajectoryWriter {
     for (const Impact& impact : impacts) tables_.impact(event_row(impact));
     next_.meet(impacts);
   }
+  void account(const ContactLosses& losses) override {
+    contact_ = losses;
+    next_.account(losses);
+  }
   double next_look() const override { return 0; }
 
   void look(const State<double>& state, const Sample& sample) override {
-    const double energy = sample.ledger();
+    const double energy = sample.ledger(contact_.total());
     if (first_) energy_start_ = energy;
     first_ = false;
     for (std::size_t i = 0; i < system_.moving(); ++i) {
       tables_.trajectory(trajectory_row(system_, state, i, sample.seen.energy()));
     }
-    tables_.energy(energy_row(sample, energy_start_));
+    tables_.energy(energy_row(sample, contact_, energy_start_));
     if (state.t >= next_.next_look() || state.t == 0) next_.look(state, sample);
   }
 
@@ -170,6 +174,7 @@ class Writer final : public TrajectoryWriter {
   const System<double>& system_;
   Observer& next_;
   Tables tables_;
+  ContactLosses contact_;
   bool first_ = true;
   double energy_start_ = 0;
 };

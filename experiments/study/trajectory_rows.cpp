@@ -41,10 +41,10 @@ std::vector<std::string> energy_columns() {
           "projection_J", "drift_J"};
 }
 
-std::vector<double> energy_row(const Sample& sample, double energy_start) {
+std::vector<double> energy_row(const Sample& sample, const ContactLosses& contact, double energy_start) {
   const Measurement<double>& m = sample.seen;
-  return {sample.t,  m.kinetic, m.potential, sample.work, sample.contact.impact, sample.contact.friction,
-          sample.contact.penetration, sample.projection, sample.ledger() - energy_start};
+  return {sample.t,  m.kinetic, m.potential, sample.work, contact.impact, contact.friction,
+          contact.penetration, sample.projection, sample.ledger(contact.total()) - energy_start};
 }
 
 }  // namespace polhode::study

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/contact_model.hpp"
 #include "core/integrator.hpp"
 
 namespace polhode::study {
@@ -19,7 +20,7 @@ std::vector<double> trajectory_row(const System<double>& system, const State<dou
 
 std::vector<std::string> energy_columns();
 /// The ledger; energy_start is what it showed at the start.
-std::vector<double> energy_row(const Sample& sample, double energy_start);
+std::vector<double> energy_row(const Sample& sample, const ContactLosses& contact, double energy_start);
 
 
 }  // namespace polhode::study
