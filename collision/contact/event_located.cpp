@@ -153,7 +153,8 @@ bool EventLocated::hold_resting(Integrator<double>& method, const State<double>&
   measure_accelerations(state);
   for (ImpulseContact& c : contacts) {
     // A low flight is slow at its apex: only a contact that rested before may be so far apart.
-    const bool rested = std::any_of(rested_.begin(), rested_.end(), [&](const ImpulseContact& r) { return r.a == c.a && r.b == c.b; });
+    const auto same_pair = [&](const ImpulseContact& r) { return r.a == c.a && r.b == c.b; };
+    const bool rested = std::any_of(rested_.begin(), rested_.end(), same_pair);
     if (!all_rest_ && (std::abs(c.approach) > slow(c) || (!rested && c.depth < -hop_))) continue;
     c.restitution = 0;
     c.wanted = 0;
@@ -243,7 +244,9 @@ double EventLocated::first_below(Integrator<double>& method, const State<double>
                                  double to, double value_to, int depth) {
   double fastest = 0;
   for (const Guard& g : guards_) fastest = std::max(fastest, g.speed);
-  const auto value = [&](double s) { return go_to(method, start, s, there_) ? least_guard(there_) : std::numeric_limits<double>::quiet_NaN(); };
+  const auto value = [&](double s) {
+    return go_to(method, start, s, there_) ? least_guard(there_) : std::numeric_limits<double>::quiet_NaN();
+  };
   if (value_from > 0 && value_to <= 0) {
     double root = to;
     if (value_to < 0) {

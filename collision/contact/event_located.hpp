@@ -6,9 +6,10 @@
 //
 // Policies. Several impacts at one instant go to the response together. A distance that may have dipped below zero between
 // two instants, by the speeds of the bodies, is looked at between them, until the dip is shorter than 1e-6 of the step. A
-// bounce that would rise by less than a hop, 1e-11 of the largest body, or too low for the accuracy of the method, is not flown: the contact rests (Zeno). A contact that rests is held through the step by the impulses that the response asks for, as in time stepping; one that
-// slides or rolls may sink by `sink` before it counts as an impact again. After 10000 impacts in one step the run fails and
-// says so: it never hangs.
+// bounce that would rise by less than a hop, 1e-11 of the largest body, or that the method is too inaccurate to tell from
+// rest, is not flown: the contact rests (Zeno). A contact that rests is held through the step by the impulses that the
+// response asks for, as in time stepping; a pair that is held may sink by 1e-7 of the largest body before it is looked at
+// again. After 10000 impacts in one step the run fails and says so: it never hangs.
 #pragma once
 
 #include "collision/contact/contact_scene.hpp"

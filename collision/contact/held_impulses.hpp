@@ -17,7 +17,8 @@ namespace polhode {
 class HeldImpulses final : public ForceModel<double> {
  public:
   /// `internal`: every body that can touch moves freely, so that total momenta are conserved.
-  HeldImpulses(std::size_t bodies, bool internal) : internal_(internal), wrenches_(bodies), changes_(bodies, Vector3<double>::Zero()) {}
+  HeldImpulses(std::size_t bodies, bool internal)
+      : internal_(internal), wrenches_(bodies), changes_(bodies, Vector3<double>::Zero()) {}
 
   void release() {
     if (held_) {

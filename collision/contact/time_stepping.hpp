@@ -28,7 +28,7 @@ class TimeStepping final : public ContactModel {
   std::span<const Impact> impacts() const override { return impacts_; }
 
  private:
-  std::span<ImpulseContact> find_contacts(const State<double>& start, const State<double>& free, double h);
+  std::span<ImpulseContact> find_contacts(const State<double>& start, double h);
   void account(const State<double>& end, std::span<const ImpulseContact> contacts);
   void undo_penetration(State<double>& state);
 
@@ -39,7 +39,7 @@ class TimeStepping final : public ContactModel {
   HeldImpulses* held_;
   ContactLosses losses_;
   std::vector<Impact> impacts_;
-  std::vector<Pose> poses_, free_poses_;
+  std::vector<Pose> poses_;
   std::vector<ImpulseBody> bodies_, start_, end_;
   State<double> free_, before_;
 };
