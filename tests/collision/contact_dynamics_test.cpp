@@ -230,6 +230,45 @@ TEST(Located, TimesHaveTheOrderOfTheMethod) {
   }
 }
 
+// One centre, one attitude, centres below the floor: nobody is thrown, and at the step they part.
+TEST(DegenerateStarts, GiveNoVelocity) {
+  const auto box = std::make_shared<Box>(Vector(0.5, 0.5, 0.5));
+  const auto ball = std::make_shared<Sphere>(0.5);
+  struct Start {
+    ShapePointer shape;
+    std::vector<Vector> at;
+    bool floor;
+  };
+  const std::vector<Start> starts = {{box, {{0, 0, 0}, {0, 0, 0}}, false},
+                                     {ball, {{0, 0, 0}, {0, 0, 0}}, false},
+                                     {ball, {{0, 0, -0.4}}, true},
+                                     {box, {{0, 0, 0.2}, {0.1, 0, 0.3}}, true}};
+  for (const Timing timing : {Timing::at_step, Timing::located}) {
+    for (const ResponseEntry& response : response_catalogue()) {
+      for (const char* narrow : {"sat", "gjk"}) {
+        for (const Start& start : starts) {
+          ContactRun run;
+          for (const Vector& at : start.at) run.add(1, start.shape, {.position = at}, 0.3, 0.5);
+          if (start.floor) {
+            run.add_floor(0, 0.5);
+            run.add_gravity();
+          }
+          run.timing = timing;
+          run.response = response.name;
+          run.narrow_phase = narrow;
+          run.dt = 1e-2;
+          run.run();
+          ASSERT_TRUE(run.end.y.allFinite());
+          for (const auto& body : run.path) ASSERT_LT(body.velocity.norm(), 1e-6) << response.name << " " << narrow;
+          if (timing == Timing::at_step) {
+            EXPECT_GT((run.path.back().position - start.at[0]).norm(), 0.08) << response.name << " " << narrow;
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(ContactRuns, GiveTheSameBytes) {
   for (const Timing timing : {Timing::at_step, Timing::located}) {
     VectorX<double> before;
