@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
 #include <sstream>
+#include <vector>
 
 #include "collision/shapes/box.hpp"
+#include "collision/shapes/convex_hull.hpp"
 #include "tests/collision/exact_boxes.hpp"
 
 namespace polhode {
@@ -86,6 +89,14 @@ void judge_many(const NarrowPhase& narrow, std::uint64_t seed, std::uint64_t cou
   }
 }
 
+ConvexHull hull_of(const ExactBox& box) {
+  std::vector<Vector3<double>> corners;
+  for (int k = 0; k < 8; ++k) {
+    corners.push_back(box.half.cwiseProduct(Vector3<double>(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));
+  }
+  return ConvexHull(corners);
+}
+
 void judge_published(const NarrowPhase& narrow, double share) {
   std::ifstream file(std::string(POLHODE_TESTS_DIR) + "/collision/collision_cases.csv");
   int count = 0;
@@ -104,6 +115,11 @@ void judge_published(const NarrowPhase& narrow, double share) {
                            {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7], x[8], x[9]}},
                            {{x[10], x[11], x[12]}, {x[13], x[14], x[15]}, {x[16], x[17], x[18], x[19]}}};
     judge(narrow, pair, share);
+    // The same boxes as hulls of their corners.
+    const ConvexHull hull_a = hull_of(pair.a), hull_b = hull_of(pair.b);
+    const double truth = double(exact_distance(pair.a, pair.b).distance);
+    const double smaller = std::min(pair.a.half.minCoeff(), pair.b.half.minCoeff());
+    EXPECT_NEAR(narrow.distance(hull_a, pose_of(pair.a), hull_b, pose_of(pair.b)).distance, truth, share * smaller) << name;
     if (!std::isnan(x[20])) {
       const Box a(pair.a.half), b(pair.b.half);
       EXPECT_NEAR(narrow.distance(a, pose_of(pair.a), b, pose_of(pair.b)).distance, x[20], x[21]) << name;
