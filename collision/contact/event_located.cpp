@@ -261,6 +261,7 @@ double EventLocated::first_below(Integrator<double>& method, const State<double>
   }
   if (depth == 0 || value_from + value_to > fastest * (to - from)) return std::numeric_limits<double>::infinity();
   const double middle = 0.5 * (from + to), at_middle = value(middle);
+  if (std::isnan(at_middle)) return middle;  // where the flight cannot be followed, it ends
   const double first = first_below(method, start, from, value_from, middle, at_middle, depth - 1);
   return std::isfinite(first) ? first : first_below(method, start, middle, at_middle, to, value_to, depth - 1);
 }
@@ -336,6 +337,7 @@ StepResult EventLocated::step(Integrator<double>& method, State<double>& state, 
     if (count > most_impacts) {
       state = whole_start;
       losses_ = losses_before;
+      impacts_.clear();
       return {"more than " + std::to_string(most_impacts) + " impacts in one step; take --impact-timing time_stepping"};
     }
     before_impacts = state;
@@ -355,6 +357,7 @@ StepResult EventLocated::step(Integrator<double>& method, State<double>& state, 
     if (!result.ok()) {
       state = whole_start;
       losses_ = losses_before;
+      impacts_.clear();
       return result;
     }
     if (flight.impact || held) method.discard_history(state);

@@ -4,6 +4,7 @@
 // Pellacini, "Vivace", 2016); the order of the colours is the order of the sweep, and does not depend on the registers.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -20,6 +21,12 @@ struct alignas(64) ImpulseMotion {
   std::array<double, 3> linear{}, angular{};
 };
 
+/// The largest of all lanes.
+inline double largest(const Lanes& x) {
+  double most = x[0];
+  for (int i = 1; i < lane_count; ++i) most = std::max(most, x[i]);
+  return most;
+}
 inline Vector3<Lanes> zero_lanes() { return {Lanes(0), Lanes(0), Lanes(0)}; }
 
 /// An inverse inertia in lanes.

@@ -4,15 +4,6 @@
 #include <algorithm>
 
 namespace polhode {
-namespace {
-
-double largest(const Lanes& x) {
-  double most = x[0];
-  for (int i = 1; i < lane_count; ++i) most = std::max(most, x[i]);
-  return most;
-}
-
-}  // namespace
 
 void Penetration::undo(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts) {
   if (!too_deep(bodies, contacts)) return;

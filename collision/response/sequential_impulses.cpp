@@ -18,12 +18,6 @@
 namespace polhode {
 namespace {
 
-/// The largest of all lanes.
-double largest(const Lanes& x) {
-  double most = x[0];
-  for (int i = 1; i < lane_count; ++i) most = std::max(most, x[i]);
-  return most;
-}
 Lanes larger(const Lanes& a, const Lanes& b) { return select(a > b, a, b); }
 
 class SequentialImpulses final : public Response {
