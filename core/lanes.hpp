@@ -12,6 +12,10 @@
 
 #include <Eigen/Core>
 
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
+
 namespace polhode {
 
 /// How many: the width of the registers that the program is compiled for.
@@ -37,9 +41,15 @@ class Lanes {
     friend Mask operator&(Mask a, Mask b) { return Mask(a.bits & b.bits); }
     friend Mask operator!(Mask a) { return Mask(~a.bits); }
     friend bool any(Mask a) {
+#if defined(__AVX512F__)
+      return _mm512_test_epi64_mask(__m512i(a.bits), __m512i(a.bits)) != 0;
+#elif defined(__AVX__)
+      return !_mm256_testz_si256(__m256i(a.bits), __m256i(a.bits));
+#else
       bool found = false;
       for (int i = 0; i < lane_count; ++i) found |= a.bits[i] != 0;
       return found;
+#endif
     }
   };
 
@@ -69,7 +79,13 @@ class Lanes {
     return Lanes(Pack(Bits(a.pack_) & (Bits{} + std::numeric_limits<std::int64_t>::max())));
   }
   friend Lanes sqrt(Lanes a) {
+#if defined(__AVX512F__)
+    return Lanes(Pack(_mm512_maskz_sqrt_pd(0xff, a.pack_)));
+#elif defined(__AVX__)
+    return Lanes(Pack(_mm256_sqrt_pd(a.pack_)));
+#else
     return each(a, [](double x) { return std::sqrt(x); });
+#endif
   }
   friend Lanes sin(Lanes a) {
     return each(a, [](double x) { return std::sin(x); });

@@ -72,22 +72,36 @@ std::span<const BodyPair> ContactScene::near_pairs(std::span<const Pose> from, s
   for (const BodyPair& p : broad_->pairs()) {
     if (p.a >= moving_ || !colliders_[p.a].shape || !colliders_[p.b].shape) continue;
     pairs_.push_back(p);
-    while (old != before_.end() && old->pair < p) ++old;
+    for (; old != before_.end() && old->pair < p; ++old) free_memories_.push_back(old->memory);
     if (old != before_.end() && old->pair == p) {
-      near_.push_back(*old);
+      near_.push_back(*old++);
     } else {
-      near_.push_back({p, {}});
+      near_.push_back({p, new_memory()});
     }
   }
+  for (; old != before_.end(); ++old) free_memories_.push_back(old->memory);
   return pairs_;
 }
 
-std::span<ImpulseContact> ContactScene::contacts(std::span<const Pose> poses, double margin) {
+std::uint32_t ContactScene::new_memory() {
+  if (free_memories_.empty()) {
+    memories_.emplace_back();
+    return std::uint32_t(memories_.size() - 1);
+  }
+  const std::uint32_t k = free_memories_.back();
+  free_memories_.pop_back();
+  memories_[k] = {};
+  return k;
+}
+
+std::span<ImpulseContact> ContactScene::contacts(std::span<const Pose> poses, double margin, std::span<const double> reach) {
   contacts_.clear();
-  for (NearPair& n : near_) {
+  const double least = margin;
+  for (const NearPair& n : near_) {
     const auto [a, b] = n.pair;
+    if (!reach.empty()) margin = least + reach[a] + reach[b];
     const Collider &of_a = colliders_[a], &of_b = colliders_[b];
-    const Manifold m = narrow_->manifold(*of_a.shape, poses[a], *of_b.shape, poses[b], margin, &n.memory);
+    const Manifold m = narrow_->manifold(*of_a.shape, poses[a], *of_b.shape, poses[b], margin, &memories_[n.memory]);
     for (std::size_t k = 0; k < m.count; ++k) {
       if (!(m.points[k].depth >= -margin)) continue;
       ImpulseContact c;
@@ -107,7 +121,7 @@ std::span<ImpulseContact> ContactScene::contacts(std::span<const Pose> poses, do
 
 Distance ContactScene::distance(std::size_t k, std::span<const Pose> poses) {
   const auto [a, b] = near_[k].pair;
-  return narrow_->distance(*colliders_[a].shape, poses[a], *colliders_[b].shape, poses[b], &near_[k].memory);
+  return narrow_->distance(*colliders_[a].shape, poses[a], *colliders_[b].shape, poses[b], &memories_[near_[k].memory]);
 }
 
 void shape_poses(const System<double>& system, const VectorX<double>& y, std::vector<Pose>& poses) {

@@ -28,9 +28,10 @@ class ContactScene {
   std::span<const BodyPair> near_pairs(std::span<const Pose> from, std::span<const Pose> to, std::span<const double> bulge,
                                        double margin);
 
-  /// The points of the near pairs that were found last where surfaces are no further apart than `margin`; sorted by pairs.
+  /// The points of the near pairs that were found last where surfaces are no further apart than `margin` and what both bodies
+  /// `reach` (m, by body; none: 0); sorted by pairs.
   /// Depth, point, normal, feature and the pair's surface are filled in; approach and wanted are left to the caller.
-  std::span<ImpulseContact> contacts(std::span<const Pose> poses, double margin);
+  std::span<ImpulseContact> contacts(std::span<const Pose> poses, double margin, std::span<const double> reach = {});
 
   /// Of the near pair number k.
   Distance distance(std::size_t k, std::span<const Pose> poses);
@@ -44,8 +45,10 @@ class ContactScene {
  private:
   struct NearPair {
     BodyPair pair;
-    PairMemory memory;
+    std::uint32_t memory;  ///< which of the memories is the pair's
   };
+
+  std::uint32_t new_memory();
 
   std::size_t moving_;
   bool all_free_ = true;
@@ -56,6 +59,8 @@ class ContactScene {
   std::vector<Bounds> bounds_;
   std::vector<BodyPair> pairs_;
   std::vector<NearPair> near_, before_;
+  std::vector<PairMemory> memories_;
+  std::vector<std::uint32_t> free_memories_;  ///< of pairs that are no longer near
   std::vector<ImpulseContact> contacts_;
 };
 

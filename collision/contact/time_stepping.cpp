@@ -26,15 +26,15 @@ void TimeStepping::begin(Integrator<double>&, const State<double>&) {
 /// as they are in the step. Only an impact that bounces waits until the surfaces have met.
 std::span<ImpulseContact> TimeStepping::find_contacts(const State<double>& start, double h) {
   shape_poses(system_, start.y, poses_);
-  double margin = 0;
+  reach_.assign(bodies_.size(), 0);
   impulse_bodies(system_, start.y, start_);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     bodies_[i].position = start_[i].position;  // velocities of the free end, where the step starts
     bodies_[i].inverse_inertia = start_[i].inverse_inertia;
-    margin = std::max(margin, h * (bodies_[i].velocity.norm() + bodies_[i].angular_velocity.norm() * scene_.radius(i)));
+    reach_[i] = h * (bodies_[i].velocity.norm() + bodies_[i].angular_velocity.norm() * scene_.radius(i));
   }
-  scene_.near_pairs(poses_, poses_, {}, margin);
-  const std::span<ImpulseContact> all = scene_.contacts(poses_, 2 * margin);
+  scene_.near_pairs(poses_, poses_, reach_, 0);
+  const std::span<ImpulseContact> all = scene_.contacts(poses_, 0, reach_);
   const auto normal_speed = [&](const std::vector<ImpulseBody>& bodies, const ImpulseContact& c) {
     return (bodies[c.a].velocity_at(c.point) - bodies[c.b].velocity_at(c.point)).dot(c.normal);
   };

@@ -41,6 +41,7 @@ class TimeStepping final : public ContactModel {
   std::vector<Impact> impacts_;
   std::vector<Pose> poses_;
   std::vector<ImpulseBody> bodies_, start_, end_;
+  std::vector<double> reach_;  ///< m, of each body: how far it may come in the step
   State<double> free_, before_;
 };
 

@@ -6,15 +6,16 @@
 #include <span>
 #include <vector>
 
+#include "collision/response/conjugate_course.hpp"
 #include "collision/response/contact_batches.hpp"
 
 namespace polhode {
 
 struct PenetrationSettings {
   double slop = 1e-3;     ///< m of depth that stay, so that resting contacts last
-  double share = 0.2;     ///< of the depth beyond it that a step undoes
+  double share = 0.5;     ///< of the depth beyond it that a step undoes
   int iterations = 10;    ///< at most
-  double tolerance = 1e-3;  ///< of the largest displacement: when to stop
+  double tolerance = 1e-2;  ///< of the largest displacement: when to stop
 };
 
 class Penetration {
@@ -29,16 +30,21 @@ class Penetration {
  private:
   bool too_deep(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts) const;
   void solve(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts, const ContactBatches& batches);
+  /// All points of a batch of patches, from the first to the last or back.
+  template <bool back>
+  void visit(const ContactBatches& batches, std::size_t number);
 
   struct Point {
     Lanes wanted;   ///< m that the two are to move apart
     Lanes impulse;  ///< kg m
+    Lanes change, course;  ///< of a sweep, and conjugate
   };
 
   PenetrationSettings settings_;
   ContactBatches own_;
   std::vector<Point> points_;
   std::vector<ImpulseMotion> motions_;
+  ConjugateCourse course_;
 };
 
 }  // namespace polhode

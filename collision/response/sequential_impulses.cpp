@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/response/conjugate_course.hpp"
 #include "collision/response/contact_batches.hpp"
 #include "collision/response/energy_guard.hpp"
 #include "collision/response/friction_cone.hpp"
@@ -26,7 +27,7 @@ class SequentialImpulses final : public Response {
       : settings_(settings), penetration_(settings.penetration) {}
 
   void resolve(std::span<ImpulseBody> bodies, std::span<ImpulseContact> contacts, double step) override {
-    const int iterations = step != 0 ? settings_.in_step : settings_.at_instant;
+    const Stop stop = when_to_stop(bodies, contacts, step);
     batches_.build(bodies, contacts);
     if (step != 0) {
       memory_.recall(bodies, contacts, step);
@@ -35,10 +36,10 @@ class SequentialImpulses final : public Response {
     }
     prepare(contacts);
     start(bodies);
-    if (step != 0) start_warm();
-    sweep(iterations);
+    if (step != 0) push_all();
+    sweep(stop);
     write(contacts);
-    finish(bodies, contacts, iterations);
+    finish(bodies, contacts, stop);
     if (step == 0) return;
     memory_.remember(bodies, contacts, step);
     penetration_.undo(bodies, contacts, batches_);
@@ -47,6 +48,25 @@ class SequentialImpulses final : public Response {
   void forget() override { memory_.forget(); }
 
  private:
+  /// When to stop.
+  struct Stop {
+    int iterations;    ///< at most
+    double tolerance;  ///< of the largest impulse
+  };
+
+  Stop when_to_stop(std::span<const ImpulseBody> bodies, std::span<const ImpulseContact> contacts, double step) const {
+    if (step == 0) return {settings_.at_instant, settings_.instant_tolerance};
+    // What is slower than a tenth of what a step of the forces makes of rest does not strike.
+    double fastest = 0, forced = 0;
+    for (const ImpulseContact& c : contacts) {
+      const double now = (bodies[c.a].velocity_at(c.point) - bodies[c.b].velocity_at(c.point)).dot(c.normal);
+      fastest = std::max(fastest, -c.approach);
+      forced = std::max(forced, std::abs(now - c.approach));
+    }
+    const bool strikes = fastest > 0.1 * forced;
+    return {strikes ? settings_.in_step : settings_.at_rest, settings_.step_tolerance};
+  }
+
   /// What a point of each patch of a batch needs, beside its geometry.
   struct Point {
     Lanes wanted, friction;
@@ -54,6 +74,7 @@ class SequentialImpulses final : public Response {
     FrictionCone<Lanes> cone;
     Lanes normal;                    ///< the impulse so far
     Tangential<Lanes> tangential;
+    Vector3<Lanes> change, course;   ///< of normal and tangents: what this sweep changed, and the conjugate course
   };
 
   void prepare(std::span<const ImpulseContact> contacts) {
@@ -106,22 +127,7 @@ class SequentialImpulses final : public Response {
     motions_.assign(before_.begin(), before_.end());
   }
 
-  /// Pushes by the impulses of the step before, by that share of them which takes most energy. At rest it is all.
-  void start_warm() {
-    push_all();
-    const auto [slope, curved] = work_of_impulses();
-    // Of E(s) = s slope + s² (curved − slope) the least.
-    const double share = slope < 0 ? std::min(1.0, slope / (2 * (slope - curved))) : 0;
-    if (!(share < 1)) return;
-    for (Point& p : points_) {
-      p.normal *= share;
-      p.tangential.t *= share;
-      p.tangential.b *= share;
-    }
-    motions_.assign(before_.begin(), before_.end());
-    if (share > 0) push_all();
-  }
-
+  /// Pushes by the impulses that the points have.
   void push_all() {
     for (const PatchBatch& patch : batches_.patches()) {
       PairMotion motion(patch, motions_.data());
@@ -136,56 +142,73 @@ class SequentialImpulses final : public Response {
     return p.normal * patch.normal + p.tangential.t * patch.tangent + p.tangential.b * patch.bitangent;
   }
 
-  struct Work {
-    double before, gain;
-  };
-  /// What the impulses would do at the velocities before, and do to the kinetic energy: J. Summed patch by patch, so that the
-  /// digits do not depend on the registers.
-  Work work_of_impulses() const {
-    Work w{0, 0};
+  /// J: what the impulses do to the kinetic energy. Summed patch by patch, so that the digits do not depend on the registers.
+  double work_of_impulses() const {
+    double work = 0;
     for (const PatchBatch& patch : batches_.patches()) {
       const PairMotion before(patch, before_.data()), after(patch, motions_.data());
-      Lanes of_before(0), gain(0);
+      Lanes of_patch(0);
       for (std::uint32_t k = patch.first_point; k < patch.first_point + patch.point_count; ++k) {
         const PointBatch& at = batches_.points()[k];
-        const Vector3<Lanes> j = impulse(patch, points_[k]);
-        const Lanes work = dot(j, before.at(at));
-        of_before += work;
-        gain += Lanes(0.5) * (work + dot(j, after.at(at)));
+        of_patch += Lanes(0.5) * dot(impulse(patch, points_[k]), before.at(at) + after.at(at));
       }
-      for (int i = 0; i < lane_count; ++i) {
-        w.before += of_before[i];
-        w.gain += gain[i];
-      }
+      for (int i = 0; i < lane_count; ++i) work += of_patch[i];
     }
-    return w;
+    return work;
   }
 
-  /// Over all patches, until hardly anything changes. Within a patch from the first point to the last and back, then the
-  /// other way round: in one direction alone it would turn towards the last, and a stack would lean.
-  void sweep(int iterations) {
-    for (int n = 0; n < iterations; ++n) {
+  /// Over all points to the last and back, until hardly anything changes.
+  void sweep(const Stop& stop) {
+    course_.start(motions_.size());
+    for (Point& p : points_) p.course = zero_lanes();
+    for (int n = 1;; ++n) {
       Extent extent;
-      for (std::size_t i = 0; i < batches_.patches().size(); ++i) {
-        const PatchBatch& patch = batches_.patches()[i];
-        PairMotion motion(patch, motions_.data());
-        const std::uint32_t first = patch.first_point, count = patch.point_count;
-        for (int way = 0; way < 2; ++way) {
-          const bool back = way != n % 2;
-          for (std::uint32_t k = 0; k < count; ++k) {
-            visit(patch, first + (back ? count - 1 - k : k), rough_[i], motion, extent);
-          }
-        }
-        motion.store(patch, motions_.data());
+      course_.mark(motions_);
+      for (Point& p : points_) p.change = zero_lanes();
+      const std::size_t count = batches_.patches().size();
+      for (std::size_t i = 0; i < count; ++i) visit<false>(i, extent);
+      for (std::size_t i = count; i-- > 0;) visit<true>(i, extent);
+      if (n == stop.iterations || largest(extent.change) <= stop.tolerance * largest(extent.impulse)) break;
+      const double share = course_.share(products());
+      course_.advance(motions_, share);
+      for (Point& p : points_) {
+        p.normal += share * p.course[0];
+        p.tangential.t += share * p.course[1];
+        p.tangential.b += share * p.course[2];
+        p.course = Lanes(share) * p.course + p.change;
       }
-      if (largest(extent.change) <= settings_.tolerance * largest(extent.impulse)) break;
     }
+  }
+
+  /// Of what a sweep changed.
+  ConjugateCourse::Products products() const {
+    ConjugateCourse::Products sum;
+    for (const PatchBatch& patch : batches_.patches()) {
+      Lanes size(0), along(0);
+      for (std::uint32_t k = patch.first_point; k < patch.first_point + patch.point_count; ++k) {
+        size += dot(points_[k].change, points_[k].change);
+        along += dot(points_[k].change, points_[k].course);
+      }
+      sum.add(size, along);
+    }
+    return sum;
   }
 
   /// The largest of a sweep.
   struct Extent {
     Lanes change = 0, impulse = 0;
   };
+
+  /// All points of a batch of patches, from the first to the last or back.
+  template <bool back>
+  void visit(std::size_t number, Extent& extent) {
+    const PatchBatch& patch = batches_.patches()[number];
+    PairMotion motion(patch, motions_.data());
+    for (std::uint32_t k = 0; k < patch.point_count; ++k) {
+      visit(patch, patch.first_point + (back ? patch.point_count - 1 - k : k), rough_[number], motion, extent);
+    }
+    motion.store(patch, motions_.data());
+  }
 
   [[gnu::always_inline]] void visit(const PatchBatch& patch, std::uint32_t k, bool rough, PairMotion& motion, Extent& extent) {
     const PointBatch& at = batches_.points()[k];
@@ -197,6 +220,7 @@ class SequentialImpulses final : public Response {
     extent.change = larger(extent.change, abs(more));
     extent.impulse = larger(extent.impulse, normal);
     p.normal = normal;
+    p.change[0] += more;
     if (rough) {
       const Tangential<Lanes> slip{dot(patch.tangent, v) + p.mobility_tn * more, dot(patch.bitangent, v) + p.mobility_bn * more};
       const Tangential<Lanes> next = p.cone.step(p.tangential, slip, p.friction * normal);
@@ -205,6 +229,8 @@ class SequentialImpulses final : public Response {
       extent.change = larger(extent.change, larger(abs(t), abs(b)));
       p.tangential.t = next.t;
       p.tangential.b = next.b;
+      p.change[1] += t;
+      p.change[2] += b;
     }
     motion.push(patch, at, added);
   }
@@ -225,9 +251,9 @@ class SequentialImpulses final : public Response {
   }
 
   /// The velocities after, in which no contact has given energy.
-  void finish(std::span<ImpulseBody> bodies, std::span<ImpulseContact> contacts, int iterations) {
+  void finish(std::span<ImpulseBody> bodies, std::span<ImpulseContact> contacts, const Stop& stop) {
     const bool bounces = std::any_of(contacts.begin(), contacts.end(), [](const auto& c) { return c.wanted > 0; });
-    if ((bounces || work_of_impulses().gain > 0) && guard_.gains(bodies, contacts)) {
+    if ((bounces || work_of_impulses() > 0) && guard_.gains(bodies, contacts)) {
       // Without restitution none can, once the impulses are found.
       for (Point& p : points_) {
         p.wanted = select(p.wanted > Lanes(0), Lanes(0), p.wanted);
@@ -236,7 +262,7 @@ class SequentialImpulses final : public Response {
       others_.resize(contacts.size());
       for (std::size_t i = 0; i < contacts.size(); ++i) others_[i] = contacts[i].impulse;
       start(bodies);
-      sweep(iterations);
+      sweep(stop);
       write(contacts);
       for (std::size_t i = 0; i < contacts.size(); ++i) std::swap(others_[i], contacts[i].impulse);
       guard_.limit(bodies, contacts, others_);
@@ -260,6 +286,7 @@ class SequentialImpulses final : public Response {
   std::vector<Point> points_;
   std::vector<std::uint8_t> rough_;  ///< whether a batch has friction
   std::vector<ImpulseMotion> before_, motions_;
+  ConjugateCourse course_;
   EnergyGuard guard_;
   std::vector<Vector3<double>> others_;
   Penetration penetration_;

@@ -77,7 +77,7 @@ void sequential(benchmark::State& state) {
   std::vector<ImpulseContact> contacts = pile.contacts;
   SequentialSettings settings;
   settings.in_step = iterations;
-  settings.tolerance = 0;
+  settings.step_tolerance = 0;
   const auto response = make_sequential_impulses(settings);
   for (auto _ : state) {
     bodies = pile.bodies;
