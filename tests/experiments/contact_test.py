@@ -39,6 +39,10 @@ class Contact(unittest.TestCase):
             self.assertAlmostEqual(float(last["friction_loss_J"]), 1.5 * 9 / 7, delta=1e-4)  # m v0²/7
             self.assertLess(abs(float(last["impact_loss_J"])), 1e-4)
             self.assertLess(abs(float(last["drift_J"])), 1e-4)
+            events = read(out / "events.csv")
+            self.assertEqual([e["kind"] for e in events], ["stick"] if timing == "event_located" else [])
+            for event in events:
+                self.assertAlmostEqual(float(event["t_s"]), 2 * 3 / (7 * 0.25 * 9.81), delta=1e-8)
             row, = read(out / "runs.csv")
             self.assertEqual([row[c] for c in ("broad_phase", "narrow_phase", "response", "impact_timing")],
                              ["sweep_and_prune", "sat", "sequential_impulses", timing])

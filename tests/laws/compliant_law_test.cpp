@@ -196,7 +196,8 @@ TEST_P(CompliantLaw, TheSameInputGivesTheSameBytesAndTakesNoMemory) {
   EXPECT_EQ(allocations(), before);
 }
 
-INSTANTIATE_TEST_SUITE_P(Pairs, CompliantLaw, testing::ValuesIn(pairs()), [](const auto& pair) { return std::string(pair.param.name); });
+INSTANTIATE_TEST_SUITE_P(Pairs, CompliantLaw, testing::ValuesIn(pairs()),
+                         [](const auto& pair) { return std::string(pair.param.name); });
 
 TEST(ResponseCatalogue, EachAnswersByImpulsesOrByAForce) {
   for (const ResponseEntry& e : response_catalogue()) EXPECT_NE(e.make == nullptr, e.make_force == nullptr) << e.name;
