@@ -33,6 +33,11 @@ double normal_speed(const std::vector<ImpulseBody>& bodies, const ImpulseContact
   return (bodies[c.a].velocity_at(c.point) - bodies[c.b].velocity_at(c.point)).dot(c.normal);
 }
 
+Vector3<double> slip_of(const std::vector<ImpulseBody>& bodies, const ImpulseContact& c) {
+  const Vector3<double> v = bodies[c.a].velocity_at(c.point) - bodies[c.b].velocity_at(c.point);
+  return v - v.dot(c.normal) * c.normal;
+}
+
 }  // namespace
 
 EventLocated::EventLocated(System<double>& system, ContactScene& scene, std::unique_ptr<Response> response)
@@ -49,6 +54,7 @@ void EventLocated::begin(Integrator<double>& method, const State<double>& state)
   losses_ = {};
   impacts_.clear();
   transitions_.clear();
+  stuck_.clear();
   rate_ = VectorX<double>::Zero(state.y.size());
   guards_.clear();
   if (method.has_native_roots()) {
@@ -155,6 +161,7 @@ bool EventLocated::hold_resting(Integrator<double>& method, const State<double>&
   whole_ = first_transition(method, state, h);
   if (!(whole_ > 0)) return false;
   if (whole_ < h) note_transitions(state.t + whole_);
+  note_stuck();
   held_->hold(resting_, bodies_, whole_);
   all_rest_ = false;
   return true;
@@ -183,7 +190,7 @@ double EventLocated::slip_left(std::span<const Slide> pair) const {
   double fastest = 0, spare = 0;
   for (const Slide& s : pair) {
     const ImpulseContact& c = resting_[s.contact];
-    const double slip = (end_[c.a].velocity_at(c.point) - end_[c.b].velocity_at(c.point)).dot(s.along);
+    const double slip = slip_of(end_, c).dot(s.along);
     if (slip > brief * s.slip) fastest = std::max(fastest, slip);
     spare += s.mobility * (c.friction * c.impulse.dot(c.normal) + c.impulse.dot(s.along)) - std::min(slip, 0.0);
   }
@@ -216,12 +223,9 @@ double EventLocated::first_transition(Integrator<double>& method, const State<do
   slides_.clear();
   for (std::size_t k = 0; k < resting_.size(); ++k) {
     const ImpulseContact& c = resting_[k];
-    // One transition of a pair in a step: what is left of its slip is the method's error.
-    const auto same_pair = [&](const Transition& t) { return t.a == c.a && t.b == c.b; };
-    if (std::any_of(transitions_.begin(), transitions_.end(), same_pair)) continue;
-    const Vector3<double> v = bodies_[c.a].velocity_at(c.point) - bodies_[c.b].velocity_at(c.point);
-    const Vector3<double> across = v - v.dot(c.normal) * c.normal;
-    Slide s{k, across.norm(), across.stableNormalized(), 0};
+    if (std::binary_search(stuck_.begin(), stuck_.end(), BodyPair{c.a, c.b})) continue;  // its slip is the method's error
+    const Vector3<double> slip = slip_of(bodies_, c);
+    Slide s{k, slip.norm(), slip.stableNormalized(), 0};
     s.mobility = s.along.dot(mobility_along(bodies_[c.a], bodies_[c.b], c.point, s.along));
     if (!(s.slip > quiet + brief * s.mobility * c.friction * c.impulse.dot(c.normal))) continue;
     slides_.push_back(s);
@@ -251,6 +255,21 @@ void EventLocated::note_transitions(double t) {
     const ImpulseContact& c = resting_[pair.front().contact];
     transitions_.push_back({t, c.a, c.b, c.point, c.normal});
   });
+}
+
+/// The pairs that stick or roll at the end of the hold.
+void EventLocated::note_stuck() {
+  stuck_.clear();
+  for (std::size_t k = 0; k < resting_.size();) {
+    const std::size_t first = k;
+    bool sticks = true;
+    for (; k < resting_.size() && resting_[k].a == resting_[first].a && resting_[k].b == resting_[first].b; ++k) {
+      const ImpulseContact& c = resting_[k];
+      const double could = (bodies_[c.a].inverse_mass + bodies_[c.b].inverse_mass) * c.friction * c.impulse.dot(c.normal);
+      sticks = sticks && slip_of(end_, c).norm() <= quiet + brief * (slip_of(bodies_, c).norm() + could);
+    }
+    if (sticks) stuck_.push_back({resting_[first].a, resting_[first].b});
+  }
 }
 
 /// Which pairs may meet on the way.
@@ -419,6 +438,7 @@ StepResult EventLocated::step(Integrator<double>& method, State<double>& state, 
     ended_in_impact = flight.impact;
     if (flight.impact) {
       transitions_.resize(transitions_before);  // it did not come so far
+      stuck_.clear();
       continue;
     }
     if (until_transition && state.t < target) continue;

@@ -9,10 +9,10 @@
 // bounce that would rise by less than a hop, 1e-11 of the largest body, or that the method is too inaccurate to tell from
 // rest, is not flown: the contact rests (Zeno). A contact that rests is held through the step by the impulses that the
 // response asks for, as in time stepping, but no longer than it slides: the end of a pair's slide is found by the same search,
-// over re-taken holds, where the slip that is left crosses zero; in a step the first of each pair. A pair that is held may sink
-// by 1e-7 of the largest body before it is looked at again. After 10000 impacts in one step the run fails and says so: it never
-// hangs. So it ends with single_impulse where a body settles on a face: with one impulse for a pair it rocks from side to side,
-// and no point of it comes to rest before the others.
+// over re-taken holds, where the slip that is left crosses zero. A pair that is held may sink by 1e-7 of the largest body
+// before it is looked at again. After 10000 impacts in one step the run fails and says so: it never hangs. So it ends with
+// single_impulse where a body settles on a face: with one impulse for a pair it rocks from side to side, ever faster, and no
+// point of it rests before the others.
 #pragma once
 
 #include "collision/contact/contact_scene.hpp"
@@ -57,6 +57,7 @@ class EventLocated final : public ContactModel {
   void for_sliding_pairs(const F& f) const;
   double least_slip_left() const;
   void note_transitions(double t);
+  void note_stuck();
   void measure_accelerations(const State<double>& state);
   double normal_acceleration(const ImpulseContact& c) const;
   double slow(const ImpulseContact& c) const;
@@ -87,6 +88,7 @@ class EventLocated final : public ContactModel {
   std::vector<ImpulseBody> bodies_, later_, end_;
   std::vector<ImpulseContact> resting_, rested_;  ///< held now, and in the flight before
   std::vector<Slide> slides_;
+  std::vector<BodyPair> stuck_;  ///< at the end of the last hold; sorted
   std::vector<double> rests_from_;
   VectorX<double> rate_;
   State<double> free_, start_, there_;

@@ -90,6 +90,23 @@ TEST(Slide, TheEndOfASpinningSlideConvergesWithTheStep) {
   EXPECT_LT(coarse, 1e-3);
 }
 
+// Two free plates that attract each other, one sliding and spinning on the other, until they go together: held forces are
+// equal, opposite and in line.
+TEST(HeldContacts, KeepMomentumOfFreeBodies) {
+  ContactRun run;
+  const auto plate = std::make_shared<Box>(Vector(1, 0.8, 0.2));
+  run.add(2, plate, {.position = {0, 0, 0.1}, .velocity = {0.5, 0.2, 0}, .angular_velocity = {0, 0, 2}}, 0, 0.3);
+  run.add(3, plate, {.position = {0, 0, -0.1}, .velocity = {0, -0.3, 0}}, 0, 0.3);
+  run.problem.forces.push_back({"point_gravity", {0, 1}, {{"gravitational_constant", 0.15}}});
+  run.dt = 2e-3;
+  run.t_end = 0.5;
+  run.run();
+  EXPECT_EQ(run.transitions.size(), 1u);
+  const Measurement<double>&first = run.samples.front().seen, &last = run.samples.back().seen;
+  EXPECT_LT((last.linear_momentum - first.linear_momentum).norm(), 1e-13);
+  EXPECT_LT((last.angular_momentum - first.angular_momentum).norm(), 1e-9);
+}
+
 // However fast, a body that skims past a surface costs few looks: right-hand sides of its run over those without contact.
 TEST(Skimming, CostsNextToNothing) {
   for (const double gap : {1e-4, 1e-7, 2e-9}) {
