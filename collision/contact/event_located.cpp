@@ -185,16 +185,16 @@ bool EventLocated::resolve_hold(Integrator<double>& method, const State<double>&
 }
 
 /// m/s: of a pair that slides at first, how far it is from ceasing to in the hold that was resolved last. While a point of it
-/// slides on, the fastest slip; else less than zero, by what friction has to spare.
+/// slides on, the fastest slip along what it was; else less than zero, by what friction has to spare.
 double EventLocated::slip_left(std::span<const Slide> pair) const {
-  double fastest = 0, spare = 0;
+  double fastest = -std::numeric_limits<double>::infinity(), spare = 0;
   for (const Slide& s : pair) {
     const ImpulseContact& c = resting_[s.contact];
-    const double slip = slip_of(end_, c).dot(s.along);
-    if (slip > brief * s.slip) fastest = std::max(fastest, slip);
-    spare += s.mobility * (c.friction * c.impulse.dot(c.normal) + c.impulse.dot(s.along)) - std::min(slip, 0.0);
+    const Vector3<double> slip = slip_of(end_, c);
+    if (slip.norm() > brief * s.slip) fastest = std::max(fastest, slip.dot(s.along));
+    spare += s.mobility * (c.friction * c.impulse.dot(c.normal) + c.impulse.dot(s.along));
   }
-  return fastest > 0 ? fastest : -spare;
+  return std::isfinite(fastest) ? fastest : -spare;
 }
 
 /// Calls f with the slides of each pair.
@@ -242,16 +242,30 @@ double EventLocated::first_transition(Integrator<double>& method, const State<do
   const auto value = [&](double s) {
     return resolve_hold(method, state, s) ? least_slip_left() : std::numeric_limits<double>::quiet_NaN();
   };
-  const auto close = [&](double low, double high) { return high - low <= 1e-12 * h; };
-  std::uintmax_t rounds = 100;
+  const auto close = [&](double low, double high) { return high - low <= 0.1 * brief * h; };
+  std::uintmax_t rounds = 40;
   const double end = boost::math::tools::toms748_solve(value, 0.0, h, slip_at_start, left, close, rounds).second;
-  return end > brief * h && resolve_hold(method, state, end) ? end : resolve_hold(method, state, h) ? h : 0;
+  if (end > brief * h && end < h && resolve_hold(method, state, end) && some_stop()) return end;
+  return resolve_hold(method, state, h) ? h : 0;  // a slip that turned
+}
+
+/// Whether a pair that slid at first has no slip at the end of the hold.
+bool EventLocated::stops(std::span<const Slide> pair) const {
+  return std::all_of(pair.begin(), pair.end(), [&](const Slide& s) {
+    return slip_of(end_, resting_[s.contact]).norm() <= quiet + brief * s.slip;
+  });
+}
+
+bool EventLocated::some_stop() const {
+  bool some = false;
+  for_sliding_pairs([&](std::span<const Slide> pair) { some = some || stops(pair); });
+  return some;
 }
 
 /// The pairs that cease to slide where the hold ends, at t.
 void EventLocated::note_transitions(double t) {
   for_sliding_pairs([&](std::span<const Slide> pair) {
-    if (slip_left(pair) > 0) return;
+    if (!stops(pair)) return;
     const ImpulseContact& c = resting_[pair.front().contact];
     transitions_.push_back({t, c.a, c.b, c.point, c.normal});
   });

@@ -56,6 +56,8 @@ class EventLocated final : public ContactModel {
   template <class F>
   void for_sliding_pairs(const F& f) const;
   double least_slip_left() const;
+  bool stops(std::span<const Slide> pair) const;
+  bool some_stop() const;
   void note_transitions(double t);
   void note_stuck();
   void measure_accelerations(const State<double>& state);

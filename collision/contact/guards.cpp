@@ -31,7 +31,12 @@ ContactLengths::ContactLengths(const ContactScene& scene) {
 
 Guards::Guards(const System<double>& system, ContactScene& scene)
     : system_(system), scene_(scene), lengths_(scene), bulge_(scene.size(), 0), speed_(scene.size(), 0),
-      acceleration_(scene.size(), 0) {}
+      pulls_(scene.size()) {}
+
+double Guards::Pull::along(const Vector3<double>& n) const {
+  const double across = std::max(turning[0].cross(n).norm(), turning[1].cross(n).norm()) + turned;
+  return steady + radius * rate * across;
+}
 
 void Guards::watch(const State<double>& from, const State<double>& to, std::span<const ImpulseContact> resting, double deeper) {
   shape_poses(system_, from.y, poses_);
@@ -40,13 +45,17 @@ void Guards::watch(const State<double>& from, const State<double>& to, std::span
   impulse_bodies(system_, to.y, end_);
   const double length = to.t - from.t;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const double radius = scene_.radius(i), rate = std::max(bodies_[i].angular_velocity.norm(), end_[i].angular_velocity.norm());
+    Pull& p = pulls_[i];
+    p.turning = {bodies_[i].angular_velocity, end_[i].angular_velocity};
+    p.rate = std::max(p.turning[0].norm(), p.turning[1].norm());
+    p.turned = (p.turning[1] - p.turning[0]).norm();
+    const Shape* shape = scene_.collider(i).shape.get();
+    p.radius = shape && shape->tag() == ShapeTag::sphere ? 0 : scene_.radius(i);  // a ball is the same however it turns
     const double change = (end_[i].velocity - bodies_[i].velocity).norm();
-    const double turned = (end_[i].angular_velocity - bodies_[i].angular_velocity).norm();
-    speed_[i] = 1.1 * (std::max(bodies_[i].velocity.norm(), end_[i].velocity.norm()) + change + rate * radius);
-    bulge_[i] = length * (change + rate * radius);
-    // Twice the mean change; of turning, that to the axis, and as much again, which is what a free body's rate may change by.
-    acceleration_[i] = 2 * change / length + radius * (2 * turned / length + 2 * rate * rate);
+    speed_[i] = 1.1 * (std::max(bodies_[i].velocity.norm(), end_[i].velocity.norm()) + change + p.rate * p.radius);
+    bulge_[i] = length * (change + p.rate * p.radius);
+    // Twice the mean change, and by how much that of a free body's turning may differ within the flight.
+    p.steady = 2 * change / length + p.radius * (2 * p.turned / length + p.rate * p.rate * p.rate * length);
   }
   const std::span<const BodyPair> pairs = scene_.near_pairs(poses_, end_poses_, bulge_, lengths_.touch + lengths_.sink);
   guards_.assign(pairs.size(), {});
@@ -55,7 +64,6 @@ void Guards::watch(const State<double>& from, const State<double>& to, std::span
     Guard& g = guards_[k];
     g.pair = pairs[k];
     g.speed = speed_[g.pair.a] + speed_[g.pair.b];
-    g.acceleration = acceleration_[g.pair.a] + acceleration_[g.pair.b];
     const bool held = std::any_of(resting.begin(), resting.end(), [&](const ImpulseContact& c) {
       return c.a == g.pair.a && c.b == g.pair.b;
     });
@@ -108,14 +116,18 @@ bool Guards::may_dip(const Look& from, const Look& to, double length) const {
     const Guard& g = guards_[k];
     const double first = from.values[k], last = to.values[k];
     if (!(first + last <= g.speed * length)) continue;
-    const double sag = g.acceleration * length * length / 8 - lengths_.met;
-    if (!(std::min(first, last) > sag)) return true;
-    const bool fixed = from.normals[k] == to.normals[k];  // as a half-space's is
-    const auto stays = [&](const Vector3<double>& n, double here, std::span<const Pose> there) {
-      if (n.isZero(0)) return false;
-      return std::min(here, separation(g, n, there) + g.allowance) > sag;
+    const auto stays = [&](const Vector3<double>& n, double here, double there) {
+      const double sag = (pulls_[g.pair.a].along(n) + pulls_[g.pair.b].along(n)) * length * length / 8;
+      return std::min(here, there) > sag - lengths_.met;
     };
-    if (!fixed && !stays(from.normals[k], first, to.poses) && !stays(to.normals[k], last, from.poses)) return true;
+    const Vector3<double>&n = from.normals[k], &m = to.normals[k];
+    if (n == m) {  // as a half-space's is
+      if (!n.isZero(0) && stays(n, first, last)) continue;
+    } else {
+      if (!n.isZero(0) && stays(n, first, separation(g, n, to.poses) + g.allowance)) continue;
+      if (!m.isZero(0) && stays(m, separation(g, m, from.poses) + g.allowance, last)) continue;
+    }
+    return true;
   }
   return false;
 }

@@ -4,11 +4,13 @@
 //
 // Two bounds say that a guard stays positive between two looks, h apart. The distance changes no faster than the two bodies'
 // points, at L in all: it does where the values at both ends are more than L h together. And along a fixed direction n, A is
-// beyond B by s(t) = min over A of x·n − max over B of x·n, never more than the distance; the points' accelerations are at most
-// a in all, so that s stays above the lower of its values at both ends less a h²/8. With n the normal at either end, which
-// Mirtich (Impulse-based Dynamic Simulation of Rigid Body Systems, 1996) advances along, that is next to nothing for bodies
-// that skim past each other, however fast.
+// beyond B by s(t) = min over A of x·n − max over B of x·n, never more than the distance; along n the points' accelerations are
+// at most a in all, so that s stays above the lower of its values at both ends less a h²/8. With n the normal at either end,
+// which Mirtich (Impulse-based Dynamic Simulation of Rigid Body Systems, 1996) advances along, that is next to nothing for
+// bodies that skim past each other, however fast. What turning does along n is |ω × n| |ω| times a radius; of a ball nothing.
 #pragma once
+
+#include <array>
 
 #include "collision/contact/contact_scene.hpp"
 
@@ -57,8 +59,14 @@ class Guards {
     BodyPair pair;
     double allowance = 0;     ///< m: the pair may be as deep before it counts
     double speed = 0;         ///< m/s, at most, of what its distance changes by; 0: not looked at between
-    double acceleration = 0;  ///< m/s², at most, of its points against each other
     bool leaving = false;     ///< it touches and comes apart where the flight starts
+  };
+  /// How fast a body's points are accelerated, at most.
+  struct Pull {
+    double steady = 0;                          ///< m/s²: of its centre, and by the change of its turning
+    double radius = 0, rate = 0, turned = 0;    ///< m, rad/s at most, rad/s between the ends
+    std::array<Vector3<double>, 2> turning;     ///< rad/s, at both ends
+    double along(const Vector3<double>& n) const;
   };
   double separation(const Guard& g, const Vector3<double>& normal, std::span<const Pose> poses) const;
 
@@ -68,7 +76,8 @@ class Guards {
   std::vector<Guard> guards_;
   std::vector<Pose> poses_, end_poses_;
   std::vector<ImpulseBody> bodies_, end_;
-  std::vector<double> bulge_, speed_, acceleration_;
+  std::vector<double> bulge_, speed_;
+  std::vector<Pull> pulls_;
 };
 
 }  // namespace polhode

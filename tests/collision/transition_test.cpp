@@ -75,7 +75,7 @@ TEST(Incline, ABlockThatSlidesUpIsSeenToStop) {
 TEST(Slide, TheEndOfASpinningSlideConvergesWithTheStep) {
   const auto stop = [](double h) {
     ContactRun run;
-    const BodyStart start{.position = {0, 0, 0.05}, .velocity = {1, 0.3, 0}, .angular_velocity = {0, 0, 6}};
+    const BodyStart start{.position = {0, 0, 0.1}, .velocity = {1, 0.3, 0}, .angular_velocity = {0, 0, 6}};
     run.add(2, std::make_shared<Box>(Vector(0.5, 0.4, 0.1)), start, 0, 0.3);
     run.add_floor(0, 0.3);
     run.add_gravity();
@@ -94,14 +94,14 @@ TEST(Slide, TheEndOfASpinningSlideConvergesWithTheStep) {
 // equal, opposite and in line.
 TEST(HeldContacts, KeepMomentumOfFreeBodies) {
   ContactRun run;
-  const auto plate = std::make_shared<Box>(Vector(1, 0.8, 0.2));
+  const auto plate = std::make_shared<Box>(Vector(0.5, 0.4, 0.1));
   run.add(2, plate, {.position = {0, 0, 0.1}, .velocity = {0.5, 0.2, 0}, .angular_velocity = {0, 0, 2}}, 0, 0.3);
   run.add(3, plate, {.position = {0, 0, -0.1}, .velocity = {0, -0.3, 0}}, 0, 0.3);
   run.problem.forces.push_back({"point_gravity", {0, 1}, {{"gravitational_constant", 0.15}}});
   run.dt = 2e-3;
-  run.t_end = 0.5;
+  run.t_end = 0.3;
   run.run();
-  EXPECT_EQ(run.transitions.size(), 1u);
+  EXPECT_GE(run.transitions.size(), 1u);
   const Measurement<double>&first = run.samples.front().seen, &last = run.samples.back().seen;
   EXPECT_LT((last.linear_momentum - first.linear_momentum).norm(), 1e-13);
   EXPECT_LT((last.angular_momentum - first.angular_momentum).norm(), 1e-9);
@@ -113,24 +113,24 @@ TEST(Skimming, CostsNextToNothing) {
     for (const bool box : {false, true}) {
       ContactRun run;
       ShapePointer shape = std::make_shared<Sphere>(0.5);
-      if (box) shape = std::make_shared<Box>(Vector(1, 1, 1));
+      if (box) shape = std::make_shared<Box>(Vector(0.5, 0.5, 0.5));
       const double spin = box ? 5 : 0;
       run.add(1, shape, {.position = {0, 0, 0.5 + gap}, .velocity = {30, 0, 0}, .angular_velocity = {0, 0, spin}});
       run.add_floor();
       run.t_end = 0.1;
       run.run();
       EXPECT_EQ(run.impacts.size(), 0u);
-      EXPECT_LE(run.outcome.evaluations, 8 * 100) << gap << " " << box;
+      EXPECT_LE(run.outcome.evaluations, 20 * 100) << gap << " " << box;
     }
     ContactRun run;  // over a box that lies there, both turning
     const BodyStart ball{.position = {-0.4, 0, 0.5 + gap}, .velocity = {20, 0, 0}, .angular_velocity = {0, 40, 0}};
     run.add(1, std::make_shared<Sphere>(0.5), ball);
-    run.add(1, std::make_shared<Box>(Vector(1, 1, 1)), {.position = {0, 0, -0.5}, .angular_velocity = {0, 0, 5}});
+    run.add(1, std::make_shared<Box>(Vector(0.5, 0.5, 0.5)), {.position = {0, 0, -0.5}, .angular_velocity = {0, 0, 5}});
     run.narrow_phase = "gjk";
     run.t_end = 0.1;
     run.run();
     EXPECT_EQ(run.impacts.size(), 0u);
-    EXPECT_LE(run.outcome.evaluations, 200 * 100) << gap;
+    EXPECT_LE(run.outcome.evaluations, 20 * 100) << gap;
   }
 }
 
@@ -140,7 +140,7 @@ TEST(Located, ADipWithinAStepIsFound) {
     ContactRun run;
     BodyStart start{.position = {0, 0, 0.4999}, .angular_velocity = {0, spin, 0}};
     start.orientation = {std::sqrt(0.5), 0, std::sqrt(0.5), 0};
-    run.add(1, std::make_shared<Box>(Vector(0.02, 0.02, 1)), start, 1);
+    run.add(1, std::make_shared<Box>(Vector(0.01, 0.01, 0.5)), start, 1);
     run.add_floor();
     run.dt = h;
     run.t_end = 0.08;
