@@ -387,7 +387,7 @@ StepResult EventLocated::fly(Integrator<double>& method, State<double>& state, d
   return result;
 }
 
-/// The work of what was held, as far as the flight went.
+/// The work of what was held, as far as the flight went; and where the points of transitions have gone with it.
 void EventLocated::account_held(const State<double>& end) {
   impulse_bodies(system_, start_.y, bodies_);
   impulse_bodies(system_, end.y, end_);
@@ -395,6 +395,9 @@ void EventLocated::account_held(const State<double>& end) {
   for (ImpulseContact& c : resting_) {
     c.impulse *= share;
     book(c, bodies_, end_, losses_);
+  }
+  for (Transition& t : transitions_) {
+    if (t.t == end.t) t.point += line_shift(t.a, t.b, bodies_, end_);
   }
 }
 

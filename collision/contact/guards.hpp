@@ -3,7 +3,7 @@
 // they may do between two instants at which they were looked at.
 //
 // Two bounds say that a guard stays positive between two looks, h apart. The distance changes no faster than the two bodies'
-// points, at L in all: it does where the values at both ends are more than L h together. And along a fixed direction n, A is
+// points, at L in all: it stays so where the values at both ends are more than L h together. Along a fixed direction n, A is
 // beyond B by s(t) = min over A of x·n − max over B of x·n, never more than the distance; along n the points' accelerations are
 // at most a in all, so that s stays above the lower of its values at both ends less a h²/8. With n the normal at either end,
 // which Mirtich (Impulse-based Dynamic Simulation of Rigid Body Systems, 1996) advances along, that is next to nothing for

@@ -213,6 +213,29 @@ TEST(Compliant, ABlockOnAnInclineCreepsAsItMust) {
   EXPECT_NEAR((run.path.back().position - start.position).dot(normal), -depth, 1e-3 * depth);
 }
 
+// A rod that swings about a pivot and knocks on the floor.
+TEST(Compliant, APinnedBodyKeepsItsEnergyToo) {
+  ContactRun run;
+  run.response = "compliant";
+  run.method = "odeint_dopri5";
+  run.add(2, std::make_shared<Box>(Vector(0.5, 0.05, 0.05)), {.position = {0, 0, 0.3}}, 1);
+  Body& rod = run.problem.bodies[0];
+  rod.pinned = true;
+  rod.center_of_mass = {0.4, 0, 0};
+  rod.inertia += rod.mass * 0.16 * Vector(0, 1, 1).asDiagonal().toDenseMatrix();
+  run.add_floor();
+  run.add_gravity();
+  run.t_end = 2;
+  run.run();
+  bool up = false;
+  for (std::size_t k = 0; k < run.samples.size(); ++k) {
+    ASSERT_NEAR(run.samples[k].seen.energy(), run.samples[0].seen.energy(), 1e-6) << run.samples[k].t;
+    ASSERT_GT(run.path[k].position[2], 0.05);  // the mass centre of a rod whose end is on the floor
+    up = up || (run.samples[k].t > 1 && run.path[k].position[2] > 0.29);
+  }
+  EXPECT_TRUE(up);
+}
+
 TEST(Compliant, DegenerateStartsGiveNumbers) {
   for (const char* narrow : {"sat", "gjk"}) {
     for (const double apart : {0.0, 1e-12, 0.3}) {
@@ -221,7 +244,8 @@ TEST(Compliant, DegenerateStartsGiveNumbers) {
       run.narrow_phase = narrow;
       run.dt = 1e-4;
       run.t_end = 0.1;
-      for (const double x : {0.0, apart}) run.add(1, std::make_shared<Box>(Vector(0.5, 0.5, 0.5)), {.position = {x, 0, 0}}, 0, 0.5);
+      const auto cube = std::make_shared<Box>(Vector(0.5, 0.5, 0.5));
+      for (const double x : {0.0, apart}) run.add(1, cube, {.position = {x, 0, 0}}, 0, 0.5);
       run.run();
       ASSERT_TRUE(run.end.y.allFinite());
       // No faster than springs as deep as the cubes are: √(n k/m') d.
