@@ -79,7 +79,8 @@ void EventLocated::measure_accelerations(const State<double>& state) {
   system_.rate(state.t, state.y.data(), rate_.data());
   const double fast = rate_.cwiseAbs().maxCoeff();
   const double dt = fast > 0 ? 1e-7 / std::max(1.0, fast) : 1e-7;
-  impulse_bodies(system_, state.y + dt * rate_, later_);
+  there_.y = state.y + dt * rate_;
+  impulse_bodies(system_, there_.y, later_);
   for (std::size_t i = 0; i < later_.size(); ++i) {
     later_[i].velocity = (later_[i].velocity - bodies_[i].velocity) / dt;
     later_[i].angular_velocity = (later_[i].angular_velocity - bodies_[i].angular_velocity) / dt;
@@ -404,22 +405,21 @@ void EventLocated::account_held(const State<double>& end) {
 StepResult EventLocated::step(Integrator<double>& method, State<double>& state, double h) {
   impacts_.clear();
   transitions_.clear();
-  const State<double> whole_start = state;
+  whole_start_ = state;
   const ContactLosses losses_before = losses_;
   const double target = state.t + h;
   // A method that chooses its steps ends its step where it likes, any other where it was told to.
   bool adaptive = false, ended_in_impact = false;
-  State<double> before_impacts;
   for (int count = 0;; ++count) {
     if (count > most_impacts) {
-      state = whole_start;
+      state = whole_start_;
       losses_ = losses_before;
       impacts_.clear();
       transitions_.clear();
       return {"more than " + std::to_string(most_impacts) +
               " impacts in one step; take --impact-timing time_stepping, or a response that answers all points of a face at once"};
     }
-    before_impacts = state;
+    before_impacts_ = state;
     const ContactLosses losses_before_impacts = losses_;
     const std::size_t impacts_before = impacts_.size();
     const bool met = take_impacts(method, state);
@@ -437,7 +437,7 @@ StepResult EventLocated::step(Integrator<double>& method, State<double>& state, 
     if (held) account_held(state);
     held_->release();
     if (!result.ok()) {
-      state = whole_start;
+      state = whole_start_;
       losses_ = losses_before;
       impacts_.clear();
       transitions_.clear();
@@ -445,7 +445,7 @@ StepResult EventLocated::step(Integrator<double>& method, State<double>& state, 
     }
     if (flight.impact || held) method.discard_history(state);
     if (flight.impact && flight.length == 0 && met) {  // a bounce that the method cannot resolve: none, then
-      state = before_impacts;
+      state = before_impacts_;
       losses_ = losses_before_impacts;
       impacts_.resize(impacts_before);
       method.discard_history(state);

@@ -93,7 +93,7 @@ class EventLocated final : public ContactModel {
   std::vector<BodyPair> stuck_;  ///< at the end of the last hold; sorted
   std::vector<double> rests_from_;
   VectorX<double> rate_;
-  State<double> free_, start_, there_;
+  State<double> free_, start_, there_, whole_start_, before_impacts_;
   double whole_ = 0;  ///< s, of the flight that is searched
 };
 
