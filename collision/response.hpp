@@ -13,6 +13,12 @@
 
 namespace polhode {
 
+template <class S>
+class System;
+template <class S>
+class ForceModel;
+class ContactScene;
+
 /// A body as impulses see it, world axes. What cannot move has no inverse mass and no inverse inertia.
 struct ImpulseBody {
   Vector3<double> position = Vector3<double>::Zero();          ///< m, of the mass centre, or of the pivot
@@ -62,14 +68,25 @@ class Response {
   virtual void forget() {}
 };
 
+/// What a response by forces needs to know of surfaces, beside restitution and friction.
+struct Compliance {
+  double stiffness = 0;       ///< N/m, of each point of contact; 0: what the response derives from the masses
+  double slip_speed = 1e-3;   ///< m/s: at this slip friction has 1/√2 of what it tends to
+};
+
+/// One that answers by impulses has `make`; one that is a force, and leaves all else to the method, has `make_force`.
 struct ResponseEntry {
   std::string name;     ///< as in the catalogue: "sequential_impulses"
   std::string summary;  ///< one line of mathematics
-  std::unique_ptr<Response> (*make)();
+  std::unique_ptr<Response> (*make)() = nullptr;
+  /// System and scene must outlive it, and nobody else may ask the scene while it lives.
+  std::unique_ptr<ForceModel<double>> (*make_force)(const System<double>&, ContactScene&, const Compliance&) = nullptr;
 };
 
 /// Those of the catalogue, one line each.
 const std::vector<ResponseEntry>& response_catalogue();
 const ResponseEntry* find_response(std::string_view name);
+/// Those among them that answer by impulses.
+std::vector<ResponseEntry> impulse_responses();
 
 }  // namespace polhode

@@ -7,7 +7,8 @@
 #define POLHODE_RESPONSES(METHOD) \
   METHOD(single_impulse) \
   METHOD(sequential_impulses) \
-  METHOD(simultaneous)
+  METHOD(simultaneous) \
+  METHOD(compliant)
 
 namespace polhode {
 
@@ -24,6 +25,12 @@ const ResponseEntry* find_response(std::string_view name) {
   const auto& all = response_catalogue();
   const auto found = std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.name == name; });
   return found == all.end() ? nullptr : &*found;
+}
+
+std::vector<ResponseEntry> impulse_responses() {
+  std::vector<ResponseEntry> some = response_catalogue();
+  std::erase_if(some, [](const ResponseEntry& e) { return !e.make; });
+  return some;
 }
 
 }  // namespace polhode

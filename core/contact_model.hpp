@@ -31,6 +31,14 @@ struct Impact {
   double rests_from = std::numeric_limits<double>::infinity();
 };
 
+/// A contact that slid, and from here on sticks or rolls.
+struct Transition {
+  double t = 0;                                      ///< s
+  std::size_t a = 0, b = 0;                          ///< bodies, a < b, in the problem's order
+  Vector3<double> point = Vector3<double>::Zero();   ///< m, world
+  Vector3<double> normal = Vector3<double>::Zero();  ///< unit, world, from B to A
+};
+
 class ContactModel {
  public:
   ContactModel() = default;
@@ -50,6 +58,9 @@ class ContactModel {
 
   /// The impacts of the last step.
   virtual std::span<const Impact> impacts() const = 0;
+
+  /// The transitions of the last step, of a model that finds their time.
+  virtual std::span<const Transition> transitions() const { return {}; }
 };
 
 }  // namespace polhode

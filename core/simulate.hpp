@@ -49,8 +49,9 @@ class Observer {
   /// The whole state at the sample seen last. Called for the start, before observe(), and for the first sample at or
   /// after next_look().
   virtual void look(const State<double>&, const Sample&) {}
-  /// The impacts of a step, and what was lost in contacts up to a sample: before that sample, where there is contact.
+  /// The impacts of a step, its transitions, and what was lost in contacts up to a sample: before that sample, where there is contact.
   virtual void meet(std::span<const Impact>) {}
+  virtual void stick(std::span<const Transition>) {}
   virtual void account(const ContactLosses&) {}
   /// s; 0 for every sample. A method may take many steps in one call up to then.
   virtual double next_look() const { return std::numeric_limits<double>::infinity(); }

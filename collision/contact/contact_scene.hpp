@@ -37,6 +37,7 @@ class ContactScene {
   Distance distance(std::size_t k, std::span<const Pose> poses);
 
   std::size_t size() const { return colliders_.size(); }
+  const Collider& collider(std::size_t body) const { return colliders_[body]; }
   /// True where everything that can touch is a body that moves freely.
   bool all_free() const { return all_free_; }
   /// m, the radius about the mass centre that holds the body; 0 without a shape and of what has no end.

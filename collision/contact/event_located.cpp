@@ -7,17 +7,16 @@
 #include <limits>
 
 #include "collision/contact/contact_losses.hpp"
+#include "collision/response/contact_frame.hpp"
 
 namespace polhode {
 namespace {
 
-constexpr double touch_share = 1e-9;       // of the largest body: surfaces so near touch
-constexpr double sink_share = 1e-7;        // of the same: a resting pair may sink so far before it is an impact
-constexpr double hop_share = 1e-11;        // of the same: a bounce that rises less is not flown
 constexpr double quiet = 1e-11;            // m/s, of round-off in a contact that rests
 constexpr double resting_step = 1e-3;      // s, at most, through which a method that chooses its steps holds contacts
 constexpr int most_impacts = 10000;        // in a step
 constexpr int deepest_search = 20;         // halvings of a flight: a dip shorter than 1e-6 of it is not seen
+constexpr double brief = 1e-6;             // of a hold: a slide that ends sooner is none
 
 /// As many steps as it takes to go on by h.
 StepResult advance(Integrator<double>& method, State<double>& state, double h) {
@@ -34,19 +33,19 @@ double normal_speed(const std::vector<ImpulseBody>& bodies, const ImpulseContact
   return (bodies[c.a].velocity_at(c.point) - bodies[c.b].velocity_at(c.point)).dot(c.normal);
 }
 
+Vector3<double> slip_of(const std::vector<ImpulseBody>& bodies, const ImpulseContact& c) {
+  const Vector3<double> v = bodies[c.a].velocity_at(c.point) - bodies[c.b].velocity_at(c.point);
+  return v - v.dot(c.normal) * c.normal;
+}
+
 }  // namespace
 
 EventLocated::EventLocated(System<double>& system, ContactScene& scene, std::unique_ptr<Response> response)
-    : system_(system), scene_(scene), response_(std::move(response)) {
-  auto held = std::make_unique<HeldImpulses>(system.problem().bodies.size(), scene.all_free());
+    : system_(system), scene_(scene), response_(std::move(response)), lengths_(scene), guards_(system, scene) {
+  auto held = std::make_unique<HeldImpulses>(scene.all_free());
   held_ = held.get();
   system.add_force(std::move(held));
-  double largest = 0;
-  for (std::size_t i = 0; i < scene.size(); ++i) largest = std::max(largest, scene.radius(i));
-  touch_ = touch_share * largest;
-  sink_ = sink_share * largest;
-  hop_ = hop_share * largest;
-  met_ = 0.1 * hop_;
+  looks_.resize(deepest_search + 4);
 }
 
 void EventLocated::begin(Integrator<double>& method, const State<double>& state) {
@@ -54,15 +53,12 @@ void EventLocated::begin(Integrator<double>& method, const State<double>& state)
   held_->release();
   losses_ = {};
   impacts_.clear();
-  bulge_.assign(scene_.size(), 0);
-  speed_.assign(scene_.size(), 0);
+  transitions_.clear();
+  stuck_.clear();
   rate_ = VectorX<double>::Zero(state.y.size());
-  shape_poses(system_, state.y, poses_);
-  end_poses_ = poses_;
-  scene_.near_pairs(poses_, poses_, bulge_, touch_);
   guards_.clear();
   if (method.has_native_roots()) {
-    method.set_events({[this](const State<double>& seen) { return least_guard(seen); }});
+    method.set_events({[this](const State<double>& seen) { return guards_.least(seen); }});
   }
 }
 
@@ -70,9 +66,9 @@ void EventLocated::begin(Integrator<double>& method, const State<double>& state)
 std::span<ImpulseContact> EventLocated::touching(const State<double>& state) {
   shape_poses(system_, state.y, poses_);
   guards_.clear();  // they are numbered as the near pairs are
-  scene_.near_pairs(poses_, poses_, {}, touch_ + sink_);
+  scene_.near_pairs(poses_, poses_, {}, lengths_.touch + lengths_.sink);
   impulse_bodies(system_, state.y, bodies_);
-  const std::span<ImpulseContact> all = scene_.contacts(poses_, touch_ + sink_);
+  const std::span<ImpulseContact> all = scene_.contacts(poses_, lengths_.touch + lengths_.sink);
   for (ImpulseContact& c : all) c.approach = normal_speed(bodies_, c);
   return all;
 }
@@ -83,7 +79,8 @@ void EventLocated::measure_accelerations(const State<double>& state) {
   system_.rate(state.t, state.y.data(), rate_.data());
   const double fast = rate_.cwiseAbs().maxCoeff();
   const double dt = fast > 0 ? 1e-7 / std::max(1.0, fast) : 1e-7;
-  impulse_bodies(system_, state.y + dt * rate_, later_);
+  there_.y = state.y + dt * rate_;
+  impulse_bodies(system_, there_.y, later_);
   for (std::size_t i = 0; i < later_.size(); ++i) {
     later_[i].velocity = (later_[i].velocity - bodies_[i].velocity) / dt;
     later_[i].angular_velocity = (later_[i].angular_velocity - bodies_[i].angular_velocity) / dt;
@@ -101,7 +98,7 @@ double EventLocated::normal_acceleration(const ImpulseContact& c) const {
 
 /// m/s: a contact that is pressed together and no faster neither is an impact nor comes apart by more than a hop.
 double EventLocated::slow(const ImpulseContact& c) const {
-  return quiet + std::sqrt(2 * hop_ * std::max(-normal_acceleration(c), 0.0));
+  return quiet + std::sqrt(2 * lengths_.hop * std::max(-normal_acceleration(c), 0.0));
 }
 
 /// Impacts at this instant, all together. True if there was one.
@@ -110,7 +107,7 @@ bool EventLocated::take_impacts(Integrator<double>& method, State<double>& state
   if (contacts.empty()) return false;
   measure_accelerations(state);
   // What still approaches is left to fly; what rests takes its part in an impact.
-  const auto apart = [&](const ImpulseContact& c) { return c.depth < -met_ && std::abs(c.approach) > slow(c); };
+  const auto apart = [&](const ImpulseContact& c) { return c.depth < -lengths_.met && std::abs(c.approach) > slow(c); };
   contacts = contacts.first(std::size_t(std::remove_if(contacts.begin(), contacts.end(), apart) - contacts.begin()));
   bool any = false;
   rests_from_.assign(contacts.size(), std::numeric_limits<double>::infinity());
@@ -132,7 +129,7 @@ bool EventLocated::take_impacts(Integrator<double>& method, State<double>& state
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const ImpulseContact& c = contacts[k];
     if (c.impulse.isZero(0)) continue;
-    const double lost = book(c, bodies_, end_, 0, losses_);
+    const double lost = book(c, bodies_, end_, losses_);
     impacts_.push_back({state.t, c.a, c.b, c.point, c.normal, c.impulse, lost, rests_from_[k]});
     const auto push = [&](std::uint32_t i, const Vector3<double>& j) {
       if (i < system_.moving()) system_.apply_impulse(state.y, i, j, (c.point - bodies_[i].position).cross(j));
@@ -155,15 +152,28 @@ bool EventLocated::hold_resting(Integrator<double>& method, const State<double>&
     // A low flight is slow at its apex: only a contact that rested before may be so far apart.
     const auto same_pair = [&](const ImpulseContact& r) { return r.a == c.a && r.b == c.b; };
     const bool rested = std::any_of(rested_.begin(), rested_.end(), same_pair);
-    if (!all_rest_ && (std::abs(c.approach) > slow(c) || (!rested && c.depth < -hop_))) continue;
+    if (!all_rest_ && (std::abs(c.approach) > slow(c) || (!rested && c.depth < -lengths_.hop))) continue;
     c.restitution = 0;
     c.wanted = 0;
     resting_.push_back(c);
   }
   if (resting_.empty()) return false;
+  if (!resolve_hold(method, state, h)) return false;
+  whole_ = first_transition(method, state, h);
+  if (!(whole_ > 0)) return false;
+  if (whole_ < h) note_transitions(state.t + whole_);
+  note_stuck();
+  held_->hold(resting_, bodies_, whole_);
+  all_rest_ = false;
+  return true;
+}
+
+/// The impulses that hold the contacts that rest through the next h seconds.
+bool EventLocated::resolve_hold(Integrator<double>& method, const State<double>& state, double h) {
   free_ = state;
-  if (!advance(method, free_, h).ok()) return false;
+  const bool done = advance(method, free_, h).ok();
   method.discard_history(state);
+  if (!done) return false;
   end_ = bodies_;
   impulse_bodies(system_, free_.y, later_);
   for (std::size_t i = 0; i < end_.size(); ++i) {
@@ -172,52 +182,114 @@ bool EventLocated::hold_resting(Integrator<double>& method, const State<double>&
   }
   response_->forget();
   response_->resolve(end_, resting_, 0);
-  held_->hold(resting_, bodies_, state.t, h);
-  whole_ = h;
-  all_rest_ = false;
   return true;
 }
 
-/// Which pairs may meet on the way, and how fast their distances may change.
-void EventLocated::watch(const State<double>& from, const State<double>& to) {
-  shape_poses(system_, from.y, poses_);
-  shape_poses(system_, to.y, end_poses_);
-  impulse_bodies(system_, to.y, end_);
-  impulse_bodies(system_, from.y, bodies_);
-  const double length = to.t - from.t;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const double turning = std::max(bodies_[i].angular_velocity.norm(), end_[i].angular_velocity.norm()) * scene_.radius(i);
-    const double change = (end_[i].velocity - bodies_[i].velocity).norm();
-    speed_[i] = 1.1 * (std::max(bodies_[i].velocity.norm(), end_[i].velocity.norm()) + change + turning);
-    bulge_[i] = length * (change + turning);
+/// m/s: of a pair that slides at first, how far it is from ceasing to in the hold that was resolved last. While a point of it
+/// slides on, the fastest slip along what it was; else less than zero, by what friction has to spare.
+double EventLocated::slip_left(std::span<const Slide> pair) const {
+  double fastest = -std::numeric_limits<double>::infinity(), spare = 0;
+  for (const Slide& s : pair) {
+    const ImpulseContact& c = resting_[s.contact];
+    const Vector3<double> slip = slip_of(end_, c);
+    if (slip.norm() > brief * s.slip) fastest = std::max(fastest, slip.dot(s.along));
+    spare += s.mobility * (c.friction * c.impulse.dot(c.normal) + c.impulse.dot(s.along));
   }
-  const std::span<const BodyPair> pairs = scene_.near_pairs(poses_, end_poses_, bulge_, touch_ + sink_);
-  guards_.assign(pairs.size(), {});
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const Distance d = scene_.distance(k, poses_);
-    Guard& g = guards_[k];
-    g.speed = speed_[pairs[k].a] + speed_[pairs[k].b];
-    const bool held = std::any_of(resting_.begin(), resting_.end(), [&](const ImpulseContact& c) {
-      return c.a == pairs[k].a && c.b == pairs[k].b;
-    });
-    if (held) {
-      // As deep as it is, and no deeper: sinking from one bounce to the next would feed them. A body that rolls may sink on.
-      g.allowance = std::max(sink_, (sinking_ ? sink_ : 0.01 * hop_) - d.distance);
-      g.speed = 0;
-      g.leaving = g.allowance > sink_;
-    } else if (d.distance <= met_) {
-      g.leaving = true;  // it was no impact, so it comes apart
-    }
+  return std::isfinite(fastest) ? fastest : -spare;
+}
+
+/// Calls f with the slides of each pair.
+template <class F>
+void EventLocated::for_sliding_pairs(const F& f) const {
+  const std::span<const Slide> all(slides_);
+  for (std::size_t first = 0, last = 0; first < all.size(); first = last) {
+    const auto same = [&](std::size_t k) {
+      const ImpulseContact &c = resting_[all[first].contact], &d = resting_[all[k].contact];
+      return c.a == d.a && c.b == d.b;
+    };
+    while (last < all.size() && same(last)) ++last;
+    f(all.subspan(first, last - first));
   }
 }
 
-double EventLocated::least_guard(const State<double>& state) {
-  shape_poses(system_, state.y, end_poses_);
+double EventLocated::least_slip_left() const {
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < guards_.size(); ++k) {
-    least = std::min(least, scene_.distance(k, end_poses_).distance + guards_[k].allowance);
+  for_sliding_pairs([&](std::span<const Slide> pair) { least = std::min(least, slip_left(pair)); });
+  return least;
+}
+
+/// s: when in a hold of h, which was resolved, the first of the pairs that slide ceases to; h where none does. Resolves the
+/// hold until then; 0 where the method fails.
+double EventLocated::first_transition(Integrator<double>& method, const State<double>& state, double h) {
+  slides_.clear();
+  for (std::size_t k = 0; k < resting_.size(); ++k) {
+    const ImpulseContact& c = resting_[k];
+    if (std::binary_search(stuck_.begin(), stuck_.end(), BodyPair{c.a, c.b})) continue;  // its slip is the method's error
+    const Vector3<double> slip = slip_of(bodies_, c);
+    Slide s{k, slip.norm(), slip.stableNormalized(), 0};
+    s.mobility = s.along.dot(mobility_along(bodies_[c.a], bodies_[c.b], c.point, s.along));
+    if (!(s.slip > quiet + brief * s.mobility * c.friction * c.impulse.dot(c.normal))) continue;
+    slides_.push_back(s);
   }
-  return std::isfinite(least) ? least : 1;
+  if (slides_.empty()) return h;
+  double slip_at_start = std::numeric_limits<double>::infinity();
+  for_sliding_pairs([&](std::span<const Slide> pair) {
+    double fastest = 0;
+    for (const Slide& s : pair) fastest = std::max(fastest, s.slip);
+    slip_at_start = std::min(slip_at_start, fastest);
+  });
+  const double left = least_slip_left();
+  if (!(left < 0)) return h;
+  const auto value = [&](double s) {
+    return resolve_hold(method, state, s) ? least_slip_left() : std::numeric_limits<double>::quiet_NaN();
+  };
+  const auto close = [&](double low, double high) { return high - low <= 0.1 * brief * h; };
+  std::uintmax_t rounds = 40;
+  const double end = boost::math::tools::toms748_solve(value, 0.0, h, slip_at_start, left, close, rounds).second;
+  if (end > brief * h && end < h && resolve_hold(method, state, end) && some_stop()) return end;
+  return resolve_hold(method, state, h) ? h : 0;  // a slip that turned
+}
+
+/// Whether a pair that slid at first has no slip at the end of the hold.
+bool EventLocated::stops(std::span<const Slide> pair) const {
+  return std::all_of(pair.begin(), pair.end(), [&](const Slide& s) {
+    return slip_of(end_, resting_[s.contact]).norm() <= quiet + brief * s.slip;
+  });
+}
+
+bool EventLocated::some_stop() const {
+  bool some = false;
+  for_sliding_pairs([&](std::span<const Slide> pair) { some = some || stops(pair); });
+  return some;
+}
+
+/// The pairs that cease to slide where the hold ends, at t.
+void EventLocated::note_transitions(double t) {
+  for_sliding_pairs([&](std::span<const Slide> pair) {
+    if (!stops(pair)) return;
+    const ImpulseContact& c = resting_[pair.front().contact];
+    transitions_.push_back({t, c.a, c.b, c.point, c.normal});
+  });
+}
+
+/// The pairs that stick or roll at the end of the hold.
+void EventLocated::note_stuck() {
+  stuck_.clear();
+  for (std::size_t k = 0; k < resting_.size();) {
+    const std::size_t first = k;
+    bool sticks = true;
+    for (; k < resting_.size() && resting_[k].a == resting_[first].a && resting_[k].b == resting_[first].b; ++k) {
+      const ImpulseContact& c = resting_[k];
+      const double could = (bodies_[c.a].inverse_mass + bodies_[c.b].inverse_mass) * c.friction * c.impulse.dot(c.normal);
+      sticks = sticks && slip_of(end_, c).norm() <= quiet + brief * (slip_of(bodies_, c).norm() + could);
+    }
+    if (sticks) stuck_.push_back({resting_[first].a, resting_[first].b});
+  }
+}
+
+/// Which pairs may meet on the way.
+void EventLocated::watch(const State<double>& from, const State<double>& to) {
+  guards_.watch(from, to, resting_, sinking_ ? lengths_.sink : 0.01 * lengths_.hop);
 }
 
 /// Guards for roots of the method's own, before it has taken its step: as if the bodies went straight on.
@@ -238,32 +310,33 @@ bool EventLocated::go_to(Integrator<double>& method, const State<double>& start,
   return advance(method, there, s).ok();
 }
 
-/// The first instant in (from, to] at which the least guard is not positive; infinity if there is none. It changes no
-/// faster than the fastest pair.
-double EventLocated::first_below(Integrator<double>& method, const State<double>& start, double from, double value_from,
-                                 double to, double value_to, int depth) {
-  double fastest = 0;
-  for (const Guard& g : guards_) fastest = std::max(fastest, g.speed);
+/// The first instant in (from, to] at which the least guard is not positive; infinity if there is none.
+double EventLocated::first_below(Integrator<double>& method, const State<double>& start, double from,
+                                 const Guards::Look& at_from, double to, const Guards::Look& at_to, int depth) {
+  Guards::Look& seen = looks_[std::size_t(depth)];
   const auto value = [&](double s) {
-    return go_to(method, start, s, there_) ? least_guard(there_) : std::numeric_limits<double>::quiet_NaN();
+    return go_to(method, start, s, there_) ? guards_.least(there_) : std::numeric_limits<double>::quiet_NaN();
   };
-  if (value_from > 0 && value_to <= 0) {
+  if (at_from.least > 0 && at_to.least <= 0) {
     double root = to;
-    if (value_to < 0) {
+    if (at_to.least < 0) {
       std::uintmax_t rounds = 100;
-      const auto bracket = boost::math::tools::toms748_solve(value, from, to, value_from, value_to,
+      const auto bracket = boost::math::tools::toms748_solve(value, from, to, at_from.least, at_to.least,
                                                              boost::math::tools::eps_tolerance<double>(52), rounds);
       root = bracket.second;
     }
-    if (depth == 0) return root;
-    const double before = first_below(method, start, from, value_from, std::max(from, root * (1 - 1e-12)), 0x1p-1000, depth - 1);
-    return std::min(root, before);
+    const double before_root = std::max(from, root * (1 - 1e-12));
+    if (depth == 0 || !go_to(method, start, before_root, there_)) return root;
+    guards_.look(there_, seen);
+    if (!(seen.least > 0)) return root;
+    return std::min(root, first_below(method, start, from, at_from, before_root, seen, depth - 1));
   }
-  if (depth == 0 || value_from + value_to > fastest * (to - from)) return std::numeric_limits<double>::infinity();
-  const double middle = 0.5 * (from + to), at_middle = value(middle);
-  if (std::isnan(at_middle)) return middle;  // where the flight cannot be followed, it ends
-  const double first = first_below(method, start, from, value_from, middle, at_middle, depth - 1);
-  return std::isfinite(first) ? first : first_below(method, start, middle, at_middle, to, value_to, depth - 1);
+  if (depth == 0 || !guards_.may_dip(at_from, at_to, to - from)) return std::numeric_limits<double>::infinity();
+  const double middle = 0.5 * (from + to);
+  if (!go_to(method, start, middle, there_)) return middle;  // where the flight cannot be followed, it ends
+  guards_.look(there_, seen);
+  const double first = first_below(method, start, from, at_from, middle, seen, depth - 1);
+  return std::isfinite(first) ? first : first_below(method, start, middle, seen, to, at_to, depth - 1);
 }
 
 /// From `state` by at most h, to the first impact if there is one.
@@ -281,18 +354,19 @@ StepResult EventLocated::fly(Integrator<double>& method, State<double>& state, d
   if (guards_.empty()) return result;
   searched_ = false;
   // Pairs that come apart at the start are guarded from where they are clear of each other.
-  double from = 0, value_from = least_guard(start_);
-  const double value_to = least_guard(state);
-  const bool leaving = std::any_of(guards_.begin(), guards_.end(), [](const Guard& g) { return g.leaving; });
-  if (value_to <= 0 && (leaving || !(value_from > 0))) {
+  Guards::Look &at_from = looks_[deepest_search + 1], &at_to = looks_[deepest_search + 2];
+  double from = 0;
+  guards_.look(start_, at_from);
+  guards_.look(state, at_to);
+  if (at_to.least <= 0 && (guards_.some_leave() || !(at_from.least > 0))) {
     from = flight.length;
-    value_from = value_to;
-    for (int halvings = 0; halvings < 60 && !(value_from > met_); ++halvings) {
+    at_from = at_to;
+    for (int halvings = 0; halvings < 60 && !(at_from.least > lengths_.met); ++halvings) {
       from *= 0.5;
       if (!go_to(method, start_, from, there_)) break;
-      value_from = least_guard(there_);
+      guards_.look(there_, at_from);
     }
-    if (!(value_from > 0)) {  // they do not come apart at all
+    if (!(at_from.least > 0)) {  // they do not come apart at all
       state = start_;
       method.discard_history(state);
       flight = {0, true};
@@ -300,7 +374,7 @@ StepResult EventLocated::fly(Integrator<double>& method, State<double>& state, d
       return result;
     }
   }
-  const double root = first_below(method, start_, from, value_from, flight.length, value_to, deepest_search);
+  const double root = first_below(method, start_, from, at_from, flight.length, at_to, deepest_search);
   if (!std::isfinite(root)) {
     if (searched_) method.discard_history(state);
     return result;
@@ -314,33 +388,38 @@ StepResult EventLocated::fly(Integrator<double>& method, State<double>& state, d
   return result;
 }
 
-/// The work of what was held, as far as the flight went.
+/// The work of what was held, as far as the flight went; and where the points of transitions have gone with it.
 void EventLocated::account_held(const State<double>& end) {
   impulse_bodies(system_, start_.y, bodies_);
   impulse_bodies(system_, end.y, end_);
   const double share = (end.t - start_.t) / whole_;
   for (ImpulseContact& c : resting_) {
     c.impulse *= share;
-    book(c, bodies_, end_, end.t - start_.t, losses_);
+    book(c, bodies_, end_, losses_);
+  }
+  for (Transition& t : transitions_) {
+    if (t.t == end.t) t.point += line_shift(t.a, t.b, bodies_, end_);
   }
 }
 
 StepResult EventLocated::step(Integrator<double>& method, State<double>& state, double h) {
   impacts_.clear();
-  const State<double> whole_start = state;
+  transitions_.clear();
+  whole_start_ = state;
   const ContactLosses losses_before = losses_;
   const double target = state.t + h;
   // A method that chooses its steps ends its step where it likes, any other where it was told to.
   bool adaptive = false, ended_in_impact = false;
-  State<double> before_impacts;
   for (int count = 0;; ++count) {
     if (count > most_impacts) {
-      state = whole_start;
+      state = whole_start_;
       losses_ = losses_before;
       impacts_.clear();
-      return {"more than " + std::to_string(most_impacts) + " impacts in one step; take --impact-timing time_stepping"};
+      transitions_.clear();
+      return {"more than " + std::to_string(most_impacts) +
+              " impacts in one step; take --impact-timing time_stepping, or a response that answers all points of a face at once"};
     }
-    before_impacts = state;
+    before_impacts_ = state;
     const ContactLosses losses_before_impacts = losses_;
     const std::size_t impacts_before = impacts_.size();
     const bool met = take_impacts(method, state);
@@ -348,21 +427,25 @@ StepResult EventLocated::step(Integrator<double>& method, State<double>& state, 
     double left = target - state.t;
     if (!(left > 0)) break;
     no_bounce_ = false;
-    const bool held = hold_resting(method, state, method.has_dense_output() ? std::min(left, resting_step) : left);
+    const double longest = method.has_dense_output() ? std::min(left, resting_step) : left;
+    const std::size_t transitions_before = transitions_.size();
+    const bool held = hold_resting(method, state, longest);
+    const bool until_transition = held && whole_ < longest;
     if (held) left = whole_;
     Flight flight;
     const StepResult result = fly(method, state, left, flight);
     if (held) account_held(state);
     held_->release();
     if (!result.ok()) {
-      state = whole_start;
+      state = whole_start_;
       losses_ = losses_before;
       impacts_.clear();
+      transitions_.clear();
       return result;
     }
     if (flight.impact || held) method.discard_history(state);
     if (flight.impact && flight.length == 0 && met) {  // a bounce that the method cannot resolve: none, then
-      state = before_impacts;
+      state = before_impacts_;
       losses_ = losses_before_impacts;
       impacts_.resize(impacts_before);
       method.discard_history(state);
@@ -370,7 +453,12 @@ StepResult EventLocated::step(Integrator<double>& method, State<double>& state, 
       all_rest_ = false;
     }
     ended_in_impact = flight.impact;
-    if (flight.impact) continue;
+    if (flight.impact) {
+      transitions_.resize(transitions_before);  // it did not come so far
+      stuck_.clear();
+      continue;
+    }
+    if (until_transition && state.t < target) continue;
     adaptive = state.t < target;
     if (adaptive || flight.length >= left) break;
   }

@@ -5,7 +5,6 @@
 // under any method, which a jump of its velocity before or after the step would not let it.
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "collision/contact/contact_losses.hpp"
@@ -17,39 +16,30 @@ namespace polhode {
 class HeldImpulses final : public ForceModel<double> {
  public:
   /// `internal`: every body that can touch moves freely, so that total momenta are conserved.
-  HeldImpulses(std::size_t bodies, bool internal)
-      : internal_(internal), wrenches_(bodies), changes_(bodies, Vector3<double>::Zero()) {}
+  explicit HeldImpulses(bool internal) : internal_(internal) {}
 
-  void release() {
-    if (held_) {
-      std::fill(wrenches_.begin(), wrenches_.end(), Wrench<double>{});
-      std::fill(changes_.begin(), changes_.end(), Vector3<double>::Zero());
-    }
-    held_ = false;
-  }
+  void release() { pairs_.clear(); }
 
-  /// From t (s) through a step of h (s); the bodies are where the step starts.
-  void hold(std::span<const ImpulseContact> contacts, std::span<const ImpulseBody> bodies, double t, double h) {
+  /// Through a step of h (s); the bodies are where it starts.
+  void hold(std::span<const ImpulseContact> contacts, std::span<const ImpulseBody> bodies, double h) {
     release();
-    held_ = !contacts.empty();
-    since_ = t;
     for (const ImpulseContact& c : contacts) {
+      const ImpulseBody &a = bodies[c.a], &b = bodies[c.b];
+      if (pairs_.empty() || pairs_.back().a != c.a || pairs_.back().b != c.b) pairs_.push_back({c.a, c.b, line_share(a, b)});
+      Pair& p = pairs_.back();
       const Vector3<double> f = c.impulse / h;
-      const Vector3<double> torque = c.point.cross(f), change = line_velocity(bodies[c.a], bodies[c.b]).cross(f);
-      wrenches_[c.a].force += f;
-      wrenches_[c.a].torque += torque;
-      changes_[c.a] += change;
-      wrenches_[c.b].force -= f;
-      wrenches_[c.b].torque -= torque;
-      changes_[c.b] -= change;
+      p.force += f;
+      p.torque += (c.point - (p.share * a.position + (1 - p.share) * b.position)).cross(f);
     }
   }
 
-  void add_wrench(double t, std::span<const BodyMotion<double>> bodies, std::span<Wrench<double>> wrenches) const override {
-    if (!held_) return;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      wrenches[i].force += wrenches_[i].force;
-      wrenches[i].torque += wrenches_[i].torque + (t - since_) * changes_[i] - bodies[i].position.cross(wrenches_[i].force);
+  void add_wrench(double, std::span<const BodyMotion<double>> bodies, std::span<Wrench<double>> wrenches) const override {
+    for (const Pair& p : pairs_) {
+      const Vector3<double> from_b_to_a = bodies[p.a].position - bodies[p.b].position;
+      wrenches[p.a].force += p.force;
+      wrenches[p.a].torque += p.torque - (1 - p.share) * from_b_to_a.cross(p.force);
+      wrenches[p.b].force -= p.force;
+      wrenches[p.b].torque -= p.torque + p.share * from_b_to_a.cross(p.force);
     }
   }
 
@@ -58,11 +48,14 @@ class HeldImpulses final : public ForceModel<double> {
   Effect effect_on(std::size_t) const override { return {true, std::nullopt}; }
 
  private:
+  struct Pair {
+    std::uint32_t a, b;
+    double share;  ///< of A in the point that the line goes with
+    Vector3<double> force = Vector3<double>::Zero();   ///< N, on A
+    Vector3<double> torque = Vector3<double>::Zero();  ///< N m, on A, about that point
+  };
   bool internal_;
-  std::vector<Wrench<double>> wrenches_;   ///< torque about the world's origin, at `since`
-  std::vector<Vector3<double>> changes_;   ///< N m/s, of these torques
-  double since_ = 0;                       ///< s
-  bool held_ = false;
+  std::vector<Pair> pairs_;
 };
 
 }  // namespace polhode

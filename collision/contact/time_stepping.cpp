@@ -10,7 +10,7 @@ namespace polhode {
 
 TimeStepping::TimeStepping(System<double>& system, ContactScene& scene, std::unique_ptr<Response> response, Reflected reflected)
     : system_(system), scene_(scene), response_(std::move(response)), reflected_(reflected) {
-  auto held = std::make_unique<HeldImpulses>(system.problem().bodies.size(), scene.all_free());
+  auto held = std::make_unique<HeldImpulses>(scene.all_free());
   held_ = held.get();
   system.add_force(std::move(held));
 }
@@ -71,7 +71,7 @@ StepResult TimeStepping::step(Integrator<double>& method, State<double>& state, 
     return result;
   }
   response_->resolve(bodies_, contacts, h);
-  held_->hold(contacts, start_, state.t, h);
+  held_->hold(contacts, start_, h);
   before_ = state;
   method.discard_history(state);
   result = method.step(state, h);
@@ -90,7 +90,7 @@ StepResult TimeStepping::step(Integrator<double>& method, State<double>& state, 
 void TimeStepping::account(const State<double>& end, std::span<const ImpulseContact> contacts) {
   impulse_bodies(system_, end.y, end_);
   for (const ImpulseContact& c : contacts) {
-    const double lost = book(c, start_, end_, end.t - before_.t, losses_);
+    const double lost = book(c, start_, end_, losses_);
     if (c.approach < 0 && c.restitution > 0 && !c.impulse.isZero(0)) {
       impacts_.push_back({end.t, c.a, c.b, c.point, c.normal, c.impulse, lost, {}});
     }

@@ -338,7 +338,8 @@ class Planner {
       for (const std::string& narrow : axes_.narrow_phases) {
         for (const std::string& response : axes_.responses) {
           for (const std::string& timing : axes_.impact_timings) {
-            config.contact = ContactConfig{broad, narrow, response, timing};
+            // To a response that is a force the axis means nothing.
+            config.contact = ContactConfig{broad, narrow, response, find_response(response)->make ? timing : ""};
             add_planned(config, scenario);
           }
         }

@@ -75,11 +75,17 @@ RunOutcome run_in(const System<S>& system, const System<double>& truth, const Ru
 /// The bodies that can touch, and how it is answered.
 struct Contact {
   Contact(System<double>& system, const Scenario& scenario, const ContactConfig& config)
-      : scene(scenario.problem, scenario.colliders, config.broad_phase, config.narrow_phase),
-        model(find_impact_timing(config.impact_timing)->make(system, scene, find_response(config.response)->make())) {}
+      : scene(scenario.problem, scenario.colliders, config.broad_phase, config.narrow_phase) {
+    const ResponseEntry& response = *find_response(config.response);
+    if (response.make) {
+      model = find_impact_timing(config.impact_timing)->make(system, scene, response.make());
+    } else {
+      system.add_force(response.make_force(system, scene, scenario.compliance));
+    }
+  }
 
   ContactScene scene;
-  std::unique_ptr<ContactModel> model;
+  std::unique_ptr<ContactModel> model;  ///< none where the response is a force
 };
 
 RunOutcome run_on(const System<double>& truth, const RunConfig& config, Observer& observer,
@@ -131,8 +137,9 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
   if (config.contact) {
     if (config.precision != Precision::dual) return "contact works in double only, not in " + std::string(name(config.precision));
     if (config.reference) return "no reference can be made of a motion with contact; leave --reference out";
-    if (declared.adaptive && find_impact_timing(config.contact->impact_timing)->fixed_steps_only) {
-      return config.integrator + " chooses its own steps, and " + config.contact->impact_timing +
+    const std::string& timing = config.contact->impact_timing;
+    if (declared.adaptive && !timing.empty() && find_impact_timing(timing)->fixed_steps_only) {
+      return config.integrator + " chooses its own steps, and " + timing +
              " is about steps; take --impact-timing event_located";
     }
   }

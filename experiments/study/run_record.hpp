@@ -30,7 +30,8 @@ struct NamedOptions {
 
 /// How contact is found and answered, by the names of the catalogues.
 struct ContactConfig {
-  std::string broad_phase, narrow_phase, response, impact_timing;
+  std::string broad_phase, narrow_phase, response;
+  std::string impact_timing;  ///< empty where the response is a force
 };
 
 struct RunConfig {

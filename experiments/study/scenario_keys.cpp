@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "collision/response.hpp"
+
 namespace polhode::study {
 
 namespace {
@@ -20,6 +22,8 @@ const std::vector<ScenarioKey>& root_keys() {
       {"t_end", std::nullopt},
       {"invariants", empty_list()},
       {"contact", TomlValue::of(false), false},  // which nothing is that has always been
+      {"contact_stiffness", std::nullopt},  // from the masses
+      {"contact_slip_speed", TomlValue::of(Compliance{}.slip_speed)},
       {"body", std::nullopt},
       {"force", empty_list()},
   };

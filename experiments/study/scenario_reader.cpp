@@ -6,6 +6,7 @@
 
 #include "core/forces/catalogue.hpp"
 #include "core/invariants.hpp"
+#include "experiments/study/axes.hpp"
 #include "experiments/study/body_reader.hpp"
 #include "experiments/study/canonical_text.hpp"
 #include "experiments/study/parameter_reader.hpp"
@@ -63,6 +64,24 @@ BodyIndex read_bodies(const TomlCursor& root, Scenario& scenario, std::string& c
     contact.fail("needs two bodies with a shape");
   }
   return index;
+}
+
+/// Its lines in `canonical`, where it is not as it always was.
+Compliance read_compliance(const TomlCursor& root, std::string& canonical) {
+  Compliance compliance;
+  for (const char* name : {"contact_stiffness", "contact_slip_speed"}) {
+    if (!root.has(name)) continue;
+    const TomlCursor given = root.at(name, "");
+    if (!key(root, "contact").boolean()) given.fail("means nothing without contact = true");
+  }
+  if (root.has("contact_stiffness")) {
+    compliance.stiffness = root.at("contact_stiffness", "").number("N/m", Parameter::Range::positive);
+    canonical += "stiffness " + exact(compliance.stiffness) + "\n";
+  }
+  const double otherwise = compliance.slip_speed;
+  compliance.slip_speed = key(root, "contact_slip_speed").number("m/s", Parameter::Range::positive);
+  if (compliance.slip_speed != otherwise) canonical += "slip_speed " + exact(compliance.slip_speed) + "\n";
+  return compliance;
 }
 
 // Forces.
@@ -196,6 +215,7 @@ Scenario read_scenario(const TomlValue& tree, const std::string& name) {
   scenario.t_end = root.at("t_end", "a positive number of s").number("s", Parameter::Range::positive);
   std::string contact;
   const BodyIndex index = read_bodies(root, scenario, contact);
+  scenario.compliance = read_compliance(root, contact);
   read_gravity(root, scenario.problem);
   read_forces(root, index, scenario.problem);
   scenario.invariants = read_invariants(root, scenario.problem);

@@ -139,7 +139,12 @@ std::vector<double> event_row(const Impact& i) {
           i.normal[0], i.normal[1],              i.normal[2],              i.impulse.norm(), i.energy_lost};
 }
 
-/// What both formats share: the rows of a sample. Tables has trajectory(row), energy(row), impact(row), close().
+/// In the same columns.
+std::vector<double> event_row(const Transition& t) {
+  return event_row(Impact{.t = t.t, .a = t.a, .b = t.b, .point = t.point, .normal = t.normal});
+}
+
+/// What both formats share: the rows of a sample. Tables has trajectory(row), energy(row), impact(row), stick(row), close().
 template <class Tables>
 class Writer final : public TrajectoryWriter {
  public:
@@ -150,6 +155,10 @@ class Writer final : public TrajectoryWriter {
   void meet(std::span<const Impact> impacts) override {
     for (const Impact& impact : impacts) tables_.impact(event_row(impact));
     next_.meet(impacts);
+  }
+  void stick(std::span<const Transition> transitions) override {
+    for (const Transition& transition : transitions) tables_.stick(event_row(transition));
+    next_.stick(transitions);
   }
   void account(const ContactLosses& losses) override {
     contact_ = losses;
@@ -188,6 +197,7 @@ class CsvTables {
   void trajectory(const std::vector<double>& row) { trajectory_.add(row); }
   void energy(const std::vector<double>& row) { energy_.add(row); }
   void impact(const std::vector<double>& row) { events_.add(row, "impact"); }
+  void stick(const std::vector<double>& row) { events_.add(row, "stick"); }
   void close() {
     trajectory_.close();
     energy_.close();
@@ -225,20 +235,23 @@ class Hdf5Tables {
       : file_(folder / "trajectory.h5"),
         trajectory_(file_.id, "trajectory", columns),
         energy_(file_.id, "energy", energy_columns()),
-        impacts_(file_.id, "impacts", event_columns(false)) {}
+        impacts_(file_.id, "impacts", event_columns(false)),
+        sticks_(file_.id, "sticks", event_columns(false)) {}
   void trajectory(const std::vector<double>& row) { trajectory_.add(row); }
   void energy(const std::vector<double>& row) { energy_.add(row); }
   void impact(const std::vector<double>& row) { impacts_.add(row); }
+  void stick(const std::vector<double>& row) { sticks_.add(row); }
   void close() {
     trajectory_.flush();
     energy_.flush();
     impacts_.flush();
+    sticks_.flush();
     file_.finish();
   }
 
  private:
   Hdf5File file_;
-  Hdf5Table trajectory_, energy_, impacts_;
+  Hdf5Table trajectory_, energy_, impacts_, sticks_;
 };
 
 }  // namespace

@@ -244,7 +244,7 @@ TEST(DegenerateStarts, GiveNoVelocity) {
                                      {ball, {{0, 0, -0.4}}, true},
                                      {box, {{0, 0, 0.2}, {0.1, 0, 0.3}}, true}};
   for (const Timing timing : {Timing::at_step, Timing::located}) {
-    for (const ResponseEntry& response : response_catalogue()) {
+    for (const ResponseEntry& response : impulse_responses()) {
       for (const char* narrow : {"sat", "gjk"}) {
         for (const Start& start : starts) {
           ContactRun run;

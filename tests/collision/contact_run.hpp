@@ -24,7 +24,8 @@ struct ContactRun {
   Problem problem;
   std::vector<Collider> colliders;
   std::string method = "rk4", response = "sequential_impulses", broad_phase = "sweep_and_prune", narrow_phase = "sat";
-  Timing timing = Timing::located;
+  Timing timing = Timing::located;  // of responses by impulses
+  Compliance compliance{};          // of those by forces
   double dt = 1e-3, tolerance = 1e-10, t_end = 1;
   Formulation formulation{};
 
@@ -33,6 +34,7 @@ struct ContactRun {
   std::vector<Sample> samples;  // after every step
   std::vector<BodySnapshot<double>> path;  // of the body 0, at the same times
   std::vector<Impact> impacts;
+  std::vector<Transition> transitions;
   ContactLosses losses;
   State<double> end;
 
@@ -67,39 +69,39 @@ struct ContactRun {
   void run() {
     const auto system = make_system<double>(problem, formulation);
     ContactScene scene(problem, colliders, broad_phase, narrow_phase);
-    auto answer = find_response(response)->make();
+    const ResponseEntry& answer = *find_response(response);
     std::unique_ptr<ContactModel> contact;
-    if (timing == Timing::located) {
-      contact = std::make_unique<EventLocated>(*system, scene, std::move(answer));
+    if (!answer.make) {
+      system->add_force(answer.make_force(*system, scene, compliance));
+    } else if (timing == Timing::located) {
+      contact = std::make_unique<EventLocated>(*system, scene, answer.make());
     } else {
-      contact = std::make_unique<TimeStepping>(*system, scene, std::move(answer),
+      contact = std::make_unique<TimeStepping>(*system, scene, answer.make(),
                                                timing == Timing::at_step ? Reflected::at_start : Reflected::at_free_end);
     }
     const IntegratorEntry& entry = *find_integrator(method);
     const auto integrator = entry.make(*system, {.dt = dt, .tolerance = tolerance, .t_end = t_end});
     const Schedule schedule{.t_end = t_end, .dt = dt, .adaptive = entry.declaration.adaptive, .samples = {}};
     end = system->start();
-    Recorder recorder(*this, *system, *contact);
+    Recorder recorder(*this, *system);
     outcome = simulate(*system, *system, *integrator, end, schedule, recorder, nullptr, contact.get());
-    losses = contact->losses();
     EXPECT_EQ(outcome.status, RunStatus::ok) << outcome.message;
   }
 
  private:
   struct Recorder final : Observer {
-    Recorder(ContactRun& to, const System<double>& s, const ContactModel& c) : run(to), system(s), contact(c) {}
+    Recorder(ContactRun& to, const System<double>& s) : run(to), system(s) {}
     std::size_t observe(std::span<const Sample> seen) override {
       run.samples.insert(run.samples.end(), seen.begin(), seen.end());
-      if (run.samples.size() > 1) {
-        run.impacts.insert(run.impacts.end(), contact.impacts().begin(), contact.impacts().end());
-      }
       return seen.size();
     }
+    void meet(std::span<const Impact> some) override { run.impacts.insert(run.impacts.end(), some.begin(), some.end()); }
+    void stick(std::span<const Transition> some) override { run.transitions.insert(run.transitions.end(), some.begin(), some.end()); }
+    void account(const ContactLosses& all) override { run.losses = all; }
     void look(const State<double>& state, const Sample&) override { run.path.push_back(system.snapshot(state.y, 0)); }
     double next_look() const override { return 0; }
     ContactRun& run;
     const System<double>& system;
-    const ContactModel& contact;
   };
 };
 

@@ -39,9 +39,34 @@ class Contact(unittest.TestCase):
             self.assertAlmostEqual(float(last["friction_loss_J"]), 1.5 * 9 / 7, delta=1e-4)  # m v0²/7
             self.assertLess(abs(float(last["impact_loss_J"])), 1e-4)
             self.assertLess(abs(float(last["drift_J"])), 1e-4)
+            events = read(out / "events.csv")
+            self.assertEqual([e["kind"] for e in events], ["stick"] if timing == "event_located" else [])
+            for event in events:
+                self.assertAlmostEqual(float(event["t_s"]), 2 * 3 / (7 * 0.25 * 9.81), delta=1e-8)
             row, = read(out / "runs.csv")
             self.assertEqual([row[c] for c in ("broad_phase", "narrow_phase", "response", "impact_timing")],
                              ["sweep_and_prune", "sat", "sequential_impulses", timing])
+
+    def test_a_force_takes_a_ball_through_its_bounces(self):
+        for method, setting in (("rk4", ["--dt", "2e-5"]), ("cvode_bdf", ["--tolerance", "1e-11"])):
+            out = self.folder / method
+            self.simulate("--scenario", "bouncing_ball", "--integrator", method, *setting, "--response", "compliant",
+                          "--t-end", "1.9", "--out", out)
+            row, = read(out / "runs.csv")
+            self.assertEqual([row["status"], row["response"], row["impact_timing"]], ["ok", "compliant", ""])
+            energy = read(out / "energy.csv")
+            # Restitution 0.5 leaves a quarter of the energy; a little goes with gravity over the depth of the impact.
+            self.assertAlmostEqual(float(energy[-1]["work_J"]), -0.75 * 10 * 9.81 * 4.9, delta=1)
+            self.assertLess(max(abs(float(e["drift_J"])) for e in energy), 0.02)
+
+    def test_stiffness_is_an_axis(self):
+        out = self.folder / "out"
+        call("energy_drift", "--scenario", "bouncing_ball", "--integrator", "cvode_bdf", "--tolerance", "1e-8", "--response",
+             "compliant", "--vary", "contact_stiffness=1e5,1e6", "--vary", "contact_slip_speed=1e-3,1e-4", "--t-end", "1.2",
+             "--no-figures", "--out", out, folder=self.folder)
+        rows = read(out / "runs.csv")
+        self.assertEqual(len(rows), 4)
+        self.assertEqual(len({row["rhs_evaluations"] for row in rows}), 2)  # a ball that falls straight does not slip
 
     def test_an_axis_is_empty_where_nothing_touches(self):
         out = self.folder / "out"
@@ -49,8 +74,9 @@ class Contact(unittest.TestCase):
              "2", "--response", "all", "--impact-timing", "all", "--no-figures", "--out", out, folder=self.folder)
         rows = read(out / "runs.csv")
         self.assertEqual(sum(r["scenario"] == "coursework" for r in rows), 1)
-        self.assertEqual(sum(r["scenario"] == "two_cubes" for r in rows), 9)
+        self.assertEqual(sum(r["scenario"] == "two_cubes" for r in rows), 10)
         for row in rows:
+            self.assertEqual(row["impact_timing"] == "", row["response"] in ("", "compliant"))
             self.assertEqual(row["response"] == "", row["scenario"] == "coursework")
             self.assertEqual(row["status"], "ok")
 
@@ -69,7 +95,8 @@ class Contact(unittest.TestCase):
                             (ball.replace("0.5", "0.5, size = [1, 1, 1]") + FLOOR, "s.toml:6:"),
                             (ball.replace('"sphere", radius = 0.5', '"half_space", normal = [0, 0, 1]') + FLOOR,
                              "its body must be static"),
-                            (ball + FLOOR.replace("[0, 0, 1]", "[0, 0, 0]"), "normal")):
+                            (ball + FLOOR.replace("[0, 0, 1]", "[0, 0, 0]"), "normal"),
+                            ("contact_stiffness = 0\n" + ball + FLOOR, "s.toml:3:21: contact_stiffness")):
             (self.folder / "s.toml").write_text("t_end = 1\ncontact = true\n" + text, encoding="utf-8")
             done = self.simulate("--scenario", "s.toml", "--integrator", "rk4", "--dt", "1e-3", status=2)
             self.assertIn(place, done.stderr)

@@ -306,7 +306,7 @@ TEST_P(ResponseCase, ABodyOnAPivotOnlyTurns) {
   EXPECT_NEAR(kinetic_energy(s.bodies), before, 1e-12);
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, ResponseCase, testing::ValuesIn(response_catalogue()),
+INSTANTIATE_TEST_SUITE_P(Catalogue, ResponseCase, testing::ValuesIn(impulse_responses()),
                          [](const auto& response) { return response.param.name; });
 
 }  // namespace

@@ -296,7 +296,7 @@ TEST_P(ResponseLaw, ASteadySceneAllocatesNothing) {
   EXPECT_EQ(allocations(), before);
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, ResponseLaw, testing::ValuesIn(response_catalogue()),
+INSTANTIATE_TEST_SUITE_P(Catalogue, ResponseLaw, testing::ValuesIn(impulse_responses()),
                          [](const auto& response) { return response.param.name; });
 
 }  // namespace
