@@ -8,6 +8,7 @@
 
 #include "collision/contact/impact_timing.hpp"
 #include "core/simulate_ensemble.hpp"
+#include "experiments/study/contact_meter.hpp"
 #include "experiments/study/drift_meter.hpp"
 #include "experiments/study/end_at_contact.hpp"
 #include "experiments/study/narrow_phase_choice.hpp"
@@ -159,8 +160,11 @@ RunResult carry_out(const RunConfig& config, const Scenario& scenario, const Tra
   if (config.contact) contact.emplace(*truth, scenario, *config.contact);
   DriftMeter meter(*truth, scenario.invariants, config.t_end, config.samples.has_value(),
                    reference_of(config, scenario, *truth, stop, references));
-  const auto writer = open_trajectory(trajectory.format, trajectory.folder, *truth, meter);
-  Observer& observer = writer ? static_cast<Observer&>(*writer) : meter;
+  std::optional<ContactMeter> contact_meter;
+  if (config.contact) contact_meter.emplace(*truth, scenario, *config.contact, config.t_end, meter);
+  Observer& measured = contact_meter ? static_cast<Observer&>(*contact_meter) : meter;
+  const auto writer = open_trajectory(trajectory.format, trajectory.folder, *truth, measured);
+  Observer& observer = writer ? static_cast<Observer&>(*writer) : measured;
   RunOutcome outcome;
   double seconds = 0;
   try {
@@ -170,7 +174,9 @@ RunResult carry_out(const RunConfig& config, const Scenario& scenario, const Tra
     outcome.message = "out of memory";
   }
   if (writer && outcome.status != RunStatus::interrupted) writer->close();  // else it stays unfinished by name
-  return result_of(outcome, meter, seconds);
+  RunResult result = result_of(outcome, meter, seconds);
+  if (contact_meter) contact_meter->report(result);
+  return result;
 }
 
 std::string ensemble_key(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory) {
