@@ -61,7 +61,7 @@ class Standing {
     found.sentences = sentences();
     found.method = {fmt::format(
         "A stack stands until the centre of a box is further than a tenth of the box’s radius (half its diagonal) from where it "
-        "was after 2 s. A stack is called still where no centre moves by more than {} mm after 2 s. Depths are looked at at 100 "
+        "started. A stack is called still where no centre moves by more than {} mm after 2 s. Depths are looked at at 100 "
         "instants and at the end; the energy’s rise is that of kinetic and potential energy above an earlier value.",
         number(1000 * still))};
     if (curves_.empty()) return found;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::int64_t instants = 1000, between_depths = 10;
 constexpr double settled_at = 2;  // s
-constexpr double left = 0.1;      // of its radius: so far from its place a body has left it
+constexpr double left = 0.1;      // of its radius: so far from where it was at the start a body has left its place
 
 void raise(std::optional<double>& worst, double now) {
   if (std::isfinite(now) && !(worst && *worst >= now)) worst = now;
@@ -75,12 +75,12 @@ void ContactMeter::measure_depth(const State<double>& state) {
 }
 
 void ContactMeter::measure_places(const State<double>& state) {
-  if (state.t < settled_at * (1 - 1e-12)) return;
-  if (settled_.empty()) settled_ = poses_;
+  if (started_.empty()) started_ = poses_;
+  if (settled_.empty() && state.t >= settled_at * (1 - 1e-12)) settled_ = poses_;
   for (std::size_t i = 0; i < system_.moving(); ++i) {
-    const double moved = (poses_[i].position - settled_[i].position).norm();
-    raise(found_.displacement_max, moved);
+    const double moved = (poses_[i].position - started_[i].position).norm();
     if (!found_.left_place && moved > left * scene_.radius(i) && scene_.radius(i) > 0) found_.left_place = state.t;
+    if (!settled_.empty()) raise(found_.displacement_max, (poses_[i].position - settled_[i].position).norm());
   }
 }
 

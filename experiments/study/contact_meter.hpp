@@ -37,7 +37,7 @@ class ContactMeter final : public Observer {
   ContactMeasures found_;
   bool first_ = true;
   double energy_start_ = 0, energy_least_ = 0;  ///< J
-  std::vector<Pose> poses_, settled_;
+  std::vector<Pose> poses_, started_, settled_;
 };
 
 }  // namespace polhode::study

@@ -118,7 +118,7 @@ std::string metrics() {
          line("energy_change_max_J", "its largest distance from that at the start") +
          line("penetration_max_m, _end_m", "how deep two bodies were in each other at most, and at the end") +
          line("displacement_after_2s_max_m", "of a mass centre from where it was after 2 s") +
-         line("left_place_s", "when one was a tenth of its body's radius away from there") +
+         line("left_place_s", "when one was a tenth of its body's radius away from where it started") +
          line("drift_exponent*", "p of |drift| ~ t^p, oscillations set aside, and its 95 % confidence interval") +
          line("drift_class", "by that exponent: round-off, bounded, random walk or sublinear, linear, quadratic, faster");
 }

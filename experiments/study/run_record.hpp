@@ -78,7 +78,7 @@ struct ContactMeasures {
   std::optional<double> energy_rise_max, energy_change_max;
   std::optional<double> penetration_max, penetration_end;  ///< m, of any two bodies
   std::optional<double> displacement_max;    ///< m, of any mass centre from where it was after 2 s
-  std::optional<double> left_place;          ///< s, when one was first a tenth of its body's radius away from there
+  std::optional<double> left_place;          ///< s, when one was first a tenth of its body's radius away from where it started
 };
 
 struct RunResult {
