@@ -152,16 +152,18 @@ class Impacts {
     for (const std::string& where : motions_) {
       for (const std::string& timing : timings_) {
         std::vector<std::string> times, energies;
-        for (const auto& [key, errors] : curves_) {
+        for (const auto& curve : curves_) {
+          const Key& key = curve.first;
           if (std::get<0>(key) != where || std::get<3>(key) != timing || std::get<2>(key) != responses_.front()) continue;
-          const Errors& finest = errors.front();
-          const auto said = [&](std::optional<double> Errors::*error, double floor, const char* unit) {
-            const auto p = order(errors, error, floor);
-            return fmt::format("{} {}{}{}", std::get<1>(key), number(*(finest.*error)), unit,
-                               p ? fmt::format(" (order {:.1f})", *p) : std::string());
+          const auto say = [&](std::vector<std::string>& said, std::optional<double> Errors::*error, double floor, const char* unit) {
+            const auto& at_smallest_step = curve.second.front().*error;
+            if (!at_smallest_step) return;
+            const auto p = order(curve.second, error, floor);
+            said.push_back(fmt::format("{} {}{}{}", std::get<1>(key), number(*at_smallest_step), unit,
+                                       p ? fmt::format(" (order {:.1f})", *p) : std::string()));
           };
-          if (finest.time) times.push_back(said(&Errors::time, time_floor, " s"));
-          if (finest.energy) energies.push_back(said(&Errors::energy, energy_floor, ""));
+          say(times, &Errors::time, time_floor, " s");
+          say(energies, &Errors::energy, energy_floor, "");
         }
         if (times.empty() && energies.empty()) continue;
         std::string text = fmt::format("On {} with {}, at the smallest step", where, timing);
