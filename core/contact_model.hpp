@@ -61,6 +61,9 @@ class ContactModel {
 
   /// The transitions of the last step, of a model that finds their time.
   virtual std::span<const Transition> transitions() const { return {}; }
+
+  /// True where the run is over with the last step, at whatever time that ended.
+  virtual bool ended() const { return false; }
 };
 
 }  // namespace polhode

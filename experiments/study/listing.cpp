@@ -112,6 +112,13 @@ std::string metrics() {
          line("polhode_phase_error_*", "of one free body: how far its momentum is ahead along the exact polhode, s and rad") +
          line("polhode_off_error_*", "and its distance from that polhode, over |L|") +
          line("energy_drift_rate_*", "least-squares slope of the drift, and half its 95 % confidence interval") +
+         line("first_impact_s", "with contact: when the first impact was, and") +
+         line("impact_loss_J ...", "what the ledger has lost to impacts and friction, and what undoing penetration put in") +
+         line("energy_rise_max_J", "largest rise of kinetic + potential - work above an earlier value") +
+         line("energy_change_max_J", "its largest distance from that at the start") +
+         line("penetration_max_m, _end_m", "how deep two bodies were in each other at most, and at the end") +
+         line("displacement_after_2s_max_m", "of a mass centre from where it was after 2 s") +
+         line("left_place_s", "when one was a tenth of its body's radius away from where it started") +
          line("drift_exponent*", "p of |drift| ~ t^p, oscillations set aside, and its 95 % confidence interval") +
          line("drift_class", "by that exponent: round-off, bounded, random walk or sublinear, linear, quadratic, faster");
 }

@@ -264,6 +264,7 @@ std::string value_list(const std::set<double, std::greater<>>& values) {
 std::string options_html(const StudyView& study) {
   std::set<double, std::greater<>> steps, tolerances, ends;
   std::set<std::string> orientations, states, gyroscopic, normalise, rotation, precision, orders, summation, samples;
+  std::set<std::string> broad, narrow, responses, timings;
   for (const auto& run : study.runs) {
     const auto& c = run.config;
     if (c.dt) steps.insert(*c.dt);
@@ -275,6 +276,12 @@ std::string options_html(const StudyView& study) {
     normalise.emplace(c.normalise ? "step" : "never");
     if (c.formulation.orientation == Orientation::quaternion) rotation.emplace(name(c.formulation.rotation_from));
     precision.emplace(name(c.precision));
+    if (c.contact) {
+      broad.insert(c.contact->broad_phase);
+      narrow.insert(c.contact->narrow_phase);
+      responses.insert(c.contact->response);
+      timings.insert(c.contact->impact_timing);
+    }
     if (c.order.value_or(0) > 0) orders.insert(std::to_string(*c.order));
     if (c.summation) summation.emplace(name(*c.summation));
     samples.insert(c.samples ? std::to_string(*c.samples) : "every step");
@@ -302,6 +309,10 @@ std::string options_html(const StudyView& study) {
   add("normalize", texts(normalise));
   add("rotation from (quaternions)", texts(rotation));
   add("precision", texts(precision));
+  add("broad phase", texts(broad));
+  add("narrow phase", texts(narrow));
+  add("response to contact", texts(responses));
+  add("timing of impacts", texts(timings));
   add("order, of methods that offer several", texts(orders));
   add("summation of the state", texts(summation));
   add("observed at (samples)", texts(samples));

@@ -23,6 +23,10 @@ bool has_references(const StudyView& study) {
   return std::any_of(study.runs.begin(), study.runs.end(), [](const RunRecord& run) { return run.config.reference; });
 }
 
+bool has_contact(const StudyView& study) {
+  return std::any_of(study.runs.begin(), study.runs.end(), [](const RunRecord& run) { return run.config.contact.has_value(); });
+}
+
 /// How uncertain each reference is, once for each variant of a scenario and each duration.
 nlohmann::ordered_json references_of(const StudyView& study) {
   using Json = nlohmann::ordered_json;
@@ -73,6 +77,11 @@ void write_runs_csv(const StudyView& study) {
                "polhode_off_error_max_rel"});
   const bool references = has_references(study);
   if (references) add(header, {"position_reference_m", "attitude_reference_rad", "angular_velocity_reference_rel"});
+  const bool contact = has_contact(study);
+  if (contact) {
+    add(header, {"first_impact_s", "impact_loss_J", "friction_loss_J", "penetration_J", "energy_rise_max_J", "energy_change_max_J",
+                 "penetration_max_m", "penetration_end_m", "displacement_after_2s_max_m", "left_place_s"});
+  }
   std::string text = csv_row(header);
   for (const RunRecord& run : study.runs) {
     const RunResult& r = run.result;
@@ -92,6 +101,12 @@ void write_runs_csv(const StudyView& study) {
     if (references) {
       add(row, {csv_cell(r.position_reference), csv_cell(r.attitude_reference),
                 csv_cell(r.angular_velocity_reference_rel)});
+    }
+    if (contact) {
+      const ContactMeasures& c = r.contact;
+      add(row, {csv_cell(c.first_impact), csv_cell(c.impact_loss), csv_cell(c.friction_loss), csv_cell(c.penetration_energy),
+                csv_cell(c.energy_rise_max), csv_cell(c.energy_change_max), csv_cell(c.penetration_max),
+                csv_cell(c.penetration_end), csv_cell(c.displacement_max), csv_cell(c.left_place)});
     }
     text += csv_row(row);
   }

@@ -8,7 +8,10 @@
 
 #include "collision/contact/impact_timing.hpp"
 #include "core/simulate_ensemble.hpp"
+#include "experiments/study/contact_meter.hpp"
 #include "experiments/study/drift_meter.hpp"
+#include "experiments/study/end_at_contact.hpp"
+#include "experiments/study/narrow_phase_choice.hpp"
 #include "experiments/study/report/curves.hpp"
 #include "integrators/catalogue.hpp"
 #include "integrators/compensated.hpp"
@@ -77,11 +80,13 @@ struct Contact {
   Contact(System<double>& system, const Scenario& scenario, const ContactConfig& config)
       : scene(scenario.problem, scenario.colliders, config.broad_phase, config.narrow_phase) {
     const ResponseEntry& response = *find_response(config.response);
-    if (response.make) {
-      model = find_impact_timing(config.impact_timing)->make(system, scene, response.make());
-    } else {
+    if (!response.make) {
       system.add_force(response.make_force(system, scene, scenario.compliance));
+      return;
     }
+    const ImpactTimingEntry& timing = *find_impact_timing(config.impact_timing);
+    model = timing.make(system, scene, response.make());
+    if (scenario.end_at_contact) model = std::make_unique<EndAtContact>(std::move(model), !timing.fixed_steps_only);
   }
 
   ContactScene scene;
@@ -142,6 +147,7 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
       return config.integrator + " chooses its own steps, and " + timing +
              " is about steps; take --impact-timing event_located";
     }
+    if (std::string reason = narrow_phase_refusal(config.contact->narrow_phase, scenario); !reason.empty()) return reason;
   }
   if (entry->refusal) {
     if (std::string reason = entry->refusal(scenario.problem, config.formulation); !reason.empty()) {
@@ -160,8 +166,11 @@ RunResult carry_out(const RunConfig& config, const Scenario& scenario, const Tra
   if (config.contact) contact.emplace(*truth, scenario, *config.contact);
   DriftMeter meter(*truth, scenario.invariants, config.t_end, config.samples.has_value(),
                    reference_of(config, scenario, *truth, stop, references));
-  const auto writer = open_trajectory(trajectory.format, trajectory.folder, *truth, meter);
-  Observer& observer = writer ? static_cast<Observer&>(*writer) : meter;
+  std::optional<ContactMeter> contact_meter;
+  if (config.contact) contact_meter.emplace(*truth, scenario, *config.contact, config.t_end, meter);
+  Observer& measured = contact_meter ? static_cast<Observer&>(*contact_meter) : meter;
+  const auto writer = open_trajectory(trajectory.format, trajectory.folder, *truth, measured);
+  Observer& observer = writer ? static_cast<Observer&>(*writer) : measured;
   RunOutcome outcome;
   double seconds = 0;
   try {
@@ -171,7 +180,9 @@ RunResult carry_out(const RunConfig& config, const Scenario& scenario, const Tra
     outcome.message = "out of memory";
   }
   if (writer && outcome.status != RunStatus::interrupted) writer->close();  // else it stays unfinished by name
-  return result_of(outcome, meter, seconds);
+  RunResult result = result_of(outcome, meter, seconds);
+  if (contact_meter) contact_meter->report(result);
+  return result;
 }
 
 std::string ensemble_key(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory) {

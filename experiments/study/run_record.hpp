@@ -70,6 +70,18 @@ struct AttitudeError {
 
 inline bool is_compensated(const RunConfig& config) { return config.summation == Summation::compensated; }
 
+/// What contact did in a run (contact_meter.hpp). Empty throughout for a run without contact.
+struct ContactMeasures {
+  std::optional<double> first_impact;        ///< s, as events.csv lists them
+  std::optional<double> impact_loss, friction_loss, penetration_energy;  ///< J, of the ledger, at the end
+  /// J, of kinetic + potential − work of non-conservative forces: its largest rise above an earlier value, and its largest
+  /// distance from that at the start. Exactly 0 of an elastic motion without friction.
+  std::optional<double> energy_rise_max, energy_change_max;
+  std::optional<double> penetration_max, penetration_end;  ///< m, of any two bodies
+  std::optional<double> displacement_max;    ///< m, of any mass centre from where it was after 2 s
+  std::optional<double> left_place;          ///< s, when one was first a tenth of its body's radius away from where it started
+};
+
 struct RunResult {
   std::string status;   ///< "ok", "diverged", "failed", "refused"
   std::string message;  ///< why, when not ok
@@ -100,6 +112,7 @@ struct RunResult {
   std::optional<double> position_reference;     ///< m
   std::optional<double> attitude_reference;     ///< rad
   std::optional<double> angular_velocity_reference_rel;
+  ContactMeasures contact;
   double seconds = 0;                           ///< wall time of the motion, measuring included; goes to timings.csv only
   std::vector<SeriesPoint> series;
   std::vector<AttitudeError> attitude_errors;   ///< empty without an exact solution, and where a reference stands for it

@@ -109,6 +109,13 @@ constexpr std::optional<double> RunResult::*drift_members[] = {&RunResult::energ
                                                                &RunResult::polhode_phase_error_max_rad,
                                                                &RunResult::polhode_off_error_max_rel};
 
+/// The columns of the table `contacts`, in their order.
+constexpr std::optional<double> ContactMeasures::*contact_members[] = {
+    &ContactMeasures::first_impact,    &ContactMeasures::impact_loss,       &ContactMeasures::friction_loss,
+    &ContactMeasures::penetration_energy, &ContactMeasures::energy_rise_max, &ContactMeasures::energy_change_max,
+    &ContactMeasures::penetration_max, &ContactMeasures::penetration_end,   &ContactMeasures::displacement_max,
+    &ContactMeasures::left_place};
+
 /// How long another program that looks into the store may hold it.
 constexpr int patience_ms = 5000;
 
@@ -141,6 +148,11 @@ Store::Store(const std::filesystem::path& folder) : path_(folder / file_name) {
   execute(
       "CREATE TABLE IF NOT EXISTS references_used (id TEXT PRIMARY KEY, position_m REAL, attitude_rad REAL,"
       " angular_velocity_rel REAL)");
+  // Of the runs with contact.
+  execute(
+      "CREATE TABLE IF NOT EXISTS contacts (id TEXT PRIMARY KEY, first_impact_s REAL, impact_loss_J REAL,"
+      " friction_loss_J REAL, penetration_J REAL, energy_rise_max_J REAL, energy_change_max_J REAL, penetration_max_m REAL,"
+      " penetration_end_m REAL, displacement_after_2s_max_m REAL, left_place_s REAL)");
   // Of the runs with an exact motion, their attitude error over time.
   execute("CREATE TABLE IF NOT EXISTS attitude_errors (id TEXT PRIMARY KEY, series BLOB)");
 }
@@ -188,6 +200,11 @@ std::map<std::string, RunResult> Store::load() const {
     r.attitude_reference = used.optional_real();
     r.angular_velocity_reference_rel = used.optional_real();
   }
+  Statement contacts(path_, db_.get(), "SELECT * FROM contacts WHERE id IN (SELECT id FROM runs)");
+  while (contacts.step()) {
+    RunResult& r = results[contacts.text()];
+    for (const auto member : contact_members) r.contact.*member = contacts.optional_real();
+  }
   Statement errors(path_, db_.get(), "SELECT * FROM attitude_errors WHERE id IN (SELECT id FROM runs)");
   while (errors.step()) {
     RunResult& r = results[errors.text()];
@@ -203,6 +220,7 @@ void Store::keep(std::span<const RunRecord> records) {
                      "INSERT OR REPLACE INTO runs VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
     Statement drifts(path_, db_.get(), "INSERT OR REPLACE INTO drifts VALUES (?,?,?,?,?,?,?,?)");
     Statement used(path_, db_.get(), "INSERT OR REPLACE INTO references_used VALUES (?,?,?,?)");
+    Statement contacts(path_, db_.get(), "INSERT OR REPLACE INTO contacts VALUES (?,?,?,?,?,?,?,?,?,?,?)");
     Statement errors(path_, db_.get(), "INSERT OR REPLACE INTO attitude_errors VALUES (?,?)");
     for (const RunRecord& record : records) {
       const RunResult& r = record.result;
@@ -238,6 +256,12 @@ void Store::keep(std::span<const RunRecord> records) {
       for (const auto member : drift_members) drifts.bind(r.*member);
       drifts.step();
       drifts.reset();
+      if (r.contact.energy_change_max) {
+        contacts.bind(record.id);
+        for (const auto member : contact_members) contacts.bind(r.contact.*member);
+        contacts.step();
+        contacts.reset();
+      }
       if (!r.position_reference && !r.attitude_reference && !r.angular_velocity_reference_rel) continue;
       used.bind(record.id);
       used.bind(r.position_reference);

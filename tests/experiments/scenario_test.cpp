@@ -487,6 +487,19 @@ TEST(ScenarioOverrides, AreBlamedForWhatTheyMakeOfTheRest) {
   EXPECT_THAT(of_file, StartsWith("test.toml:7:8: body.0.mass: -2")) << "the file is wrong by itself";
 }
 
+TEST(ScenarioOverrides, SurfacesDecideWhereThereIsContact) {
+  const std::string text = "t_end = 1\ncontact = true\n[[body]]\nmass = 1\nrestitution = 0.5\ninertia = [1, 1, 1]\n"
+                           "shape = { kind = \"sphere\", radius = 0.5 }\n[[body]]\nstatic = true\n"
+                           "shape = { kind = \"half_space\", normal = [0, 0, 1] }\n";
+  EXPECT_EQ(resolved(text, {{"body.0.restitution", "0.25"}}).colliders[0].restitution, 0.25);
+  EXPECT_EQ(resolved(text, {{"body.1.friction", "0.5"}}).colliders[1].friction, 0.5);
+  EXPECT_NE(resolved(text, {{"body.0.shape.radius", "0.25"}}).canonical, resolved(text).canonical);
+  EXPECT_TRUE(resolved(text, {{"end_at_contact", "true"}}).end_at_contact);
+  EXPECT_NE(resolved(text, {{"end_at_contact", "true"}}).canonical, resolved(text).canonical);
+  EXPECT_EQ(error_of(base, {{"body.0.friction", "0.5"}}), "--vary body.0.friction: the friction decides nothing about a run without contact = true");
+  EXPECT_THAT(error_of("end_at_contact = true\n" + base), HasSubstr("end_at_contact: needs contact = true"));
+}
+
 // The canonical text.
 
 TEST(ScenarioCanonical, SaysNothingOfNamesTitlesAndSpelling) {
@@ -552,7 +565,11 @@ TEST(ScenarioCanonical, SeesEveryKeyOfABody) {
       {"angular_velocity_frame", {"body.0.angular_velocity_frame", "\"body\""}},
       {"pinned", {"body.0.pinned", "true"}},
       {"center_of_mass", {"body.1.center_of_mass", "[1, 0, 0]"}},
-      {"static", {"body.1.static", "true"}}};
+      {"static", {"body.1.static", "true"}},
+      {"repeat", {"body.1.repeat", "[1, 1, 2]"}},
+      {"spacing", {"body.1.spacing", "[0, 2, 0]"}},
+      {"jitter", {"body.1.jitter", "0.1"}},
+      {"jitter_angle", {"body.1.jitter_angle", "0.1"}}};
   const std::string text = changed("name = \"ground\"\nstatic = true", R"(name = "hung"
 mass = 1
 inertia = [2, 2, 2]
@@ -560,11 +577,17 @@ pinned = true)");
   const std::string canonical = resolved(text).canonical;
   for (const ScenarioKey& key : body_keys()) {
     // These two allow or replace what other keys say.
-    if (!key.decides || key.name == "unphysical_inertia" || key.name == "point_masses") continue;
+    if (key.decides != Decides::always || key.name == "unphysical_inertia" || key.name == "point_masses") continue;
     ASSERT_TRUE(other.contains(key.name)) << key.name;
     std::vector<Override> overrides = {other.at(key.name)};
+    std::vector<Override> beside;
     if (key.name == "static") overrides.push_back({"body.1.pinned", "false"});
-    EXPECT_NE(resolved(text, overrides).canonical, canonical) << key.name;
+    if (key.name == "repeat") overrides.push_back({"body.1.spacing", "[0, 0, 1]"});
+    if (key.name == "spacing" || key.name.starts_with("jitter")) {
+      beside = {{"body.1.repeat", "[1, 2, 1]"}, {"body.1.spacing", "[0, 1, 0]"}};
+      overrides.insert(overrides.begin(), beside.begin(), beside.end());
+    }
+    EXPECT_NE(resolved(text, overrides).canonical, beside.empty() ? canonical : resolved(text, beside).canonical) << key.name;
   }
   EXPECT_NE(resolved(text, {{"gravity", "[0, 0, 1]"}}).canonical, canonical);
   EXPECT_NE(resolved(text, {{"gravity", "[0, 0, 0]"}}).canonical, canonical);

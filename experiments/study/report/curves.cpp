@@ -93,6 +93,10 @@ Options variant_options(const std::vector<RunRecord>& runs) {
            [](const RunConfig& c) { return fmt::format("normalize {}", c.normalise ? "step" : "never"); },
            [](const RunConfig& c) { return fmt::format("rotation {}", name(c.formulation.rotation_from)); },
            [](const RunConfig& c) { return std::string(name(c.precision)); },
+           [](const RunConfig& c) { return c.contact ? c.contact->broad_phase : std::string(); },
+           [](const RunConfig& c) { return c.contact ? c.contact->narrow_phase : std::string(); },
+           [](const RunConfig& c) { return c.contact ? c.contact->response : std::string(); },
+           [](const RunConfig& c) { return c.contact ? c.contact->impact_timing : std::string(); },
            [](const RunConfig& c) { return c.order.value_or(0) > 0 ? fmt::format("order {}", *c.order) : std::string(); },
            [](const RunConfig& c) { return c.summation ? std::string(name(*c.summation)) : std::string(); }}};
 }

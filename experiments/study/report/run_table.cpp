@@ -58,6 +58,13 @@ std::vector<Field> configuration(const StudyView& study) {
   option("rotation from", "", Kind::text,
          [](const RunConfig& c) { return std::string(name(c.formulation.rotation_from)); });
   option("precision", "", Kind::text, [](const RunConfig& c) { return std::string(name(c.precision)); });
+  const auto contact = [&](const char* header, std::string ContactConfig::*member) {
+    option(header, "", Kind::text, [member](const RunConfig& c) { return c.contact ? *c.contact.*member : std::string(); });
+  };
+  contact("broad phase", &ContactConfig::broad_phase);
+  contact("narrow phase", &ContactConfig::narrow_phase);
+  contact("response", &ContactConfig::response);
+  contact("timing of impacts", &ContactConfig::impact_timing);
   option("order", "", Kind::number,
          [](const RunConfig& c) { return c.order.value_or(0) > 0 ? std::to_string(*c.order) : std::string(); });
   option("summation", "", Kind::text,
@@ -110,6 +117,15 @@ std::vector<Field> results(const StudyView& study) {
   add("angular velocity error", "relative", &RunResult::angular_velocity_error_max_rel, false);
   add("along the polhode", "s", &RunResult::polhode_phase_error_max, false);
   add("off the polhode", "relative", &RunResult::polhode_off_error_max_rel, false);
+  const auto add_contact = [&](const char* header, const char* unit, std::optional<double> ContactMeasures::*member) {
+    fields.push_back({{header, unit}, [member](const RunRecord& r) { return measured(r.result.contact.*member); }, false, false});
+  };
+  add_contact("first impact", "s", &ContactMeasures::first_impact);
+  add_contact("lost to impacts", "J", &ContactMeasures::impact_loss);
+  add_contact("lost to friction", "J", &ContactMeasures::friction_loss);
+  add_contact("put in by undoing depth", "J", &ContactMeasures::penetration_energy);
+  add_contact("energy rises by", "J", &ContactMeasures::energy_rise_max);
+  add_contact("deepest", "m", &ContactMeasures::penetration_max);
   add_count("steps", &RunResult::steps);
   add_count("evaluations", &RunResult::evaluations);
   return fields;

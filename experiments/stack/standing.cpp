@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/stack/standing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "experiments/study/csv.hpp"
+#include "experiments/study/report/notation.hpp"
+#include "experiments/study/report/plain_panel.hpp"
+
+namespace polhode::study {
+namespace {
+
+using namespace report;
+
+/// Of a box of 1 m: further than this from where it was after 2 s, it has moved; deeper than that, it has sunk in.
+constexpr double still = 1e-3, shallow = 5e-3;  // m
+
+struct Stack {
+  const RunRecord* run;
+  std::size_t boxes;
+  const ContactMeasures& found() const { return run->result.contact; }
+  bool carried_out() const { return run->result.status == "ok"; }
+  /// s; the whole run where nothing left its place.
+  double stood() const { return found().left_place.value_or(run->result.t_reached); }
+};
+
+/// The runs of one curve: what was not varied in height.
+using Key = std::tuple<std::string, std::string, std::string, std::string, double>;  // scenario, method, response, timing, size
+Key key_of(const RunConfig& c) {
+  return {c.scenario, c.integrator, c.contact->response, c.contact->impact_timing, c.dt ? *c.dt : *c.tolerance};
+}
+
+class Standing {
+ public:
+  explicit Standing(const StudyView& study) {
+    for (const RunRecord& run : study.runs) {
+      if (!run.config.contact) continue;
+      const Stack stack{&run, run.scenario->problem.moving()};
+      if (!stack.carried_out()) {
+        failed_.push_back(fmt::format("{}: {}", label(key_of(run.config)), run.result.message));
+        continue;
+      }
+      curves_[key_of(run.config)].push_back(stack);
+    }
+    for (auto& [key, stacks] : curves_) {
+      std::stable_sort(stacks.begin(), stacks.end(), [](const Stack& a, const Stack& b) { return a.boxes < b.boxes; });
+      remember(responses_, std::get<2>(key));
+      remember(steps_, step(key));
+      several_timings_ = several_timings_ || std::get<3>(key) != std::get<3>(curves_.begin()->first);
+      several_methods_ = several_methods_ || std::get<1>(key) != std::get<1>(curves_.begin()->first);
+      several_scenarios_ = several_scenarios_ || std::get<0>(key) != std::get<0>(curves_.begin()->first);
+    }
+  }
+
+  Analysis analysis() const {
+    Analysis found{.alone = true, .heading = "How stacks stand"};
+    found.sentences = sentences();
+    found.method = {fmt::format(
+        "A stack stands until the centre of a box is further than a tenth of the box’s radius (half its diagonal) from where it "
+        "started. A stack is called still where no centre moves by more than {} mm after 2 s. Depths are looked at at 100 "
+        "instants and at the end; the energy’s rise is that of kinetic and potential energy above an earlier value.",
+        number(1000 * still))};
+    if (curves_.empty()) return found;
+    found.tables.push_back({"standing", table()});
+    found.files.push_back({"standing.csv", csv()});
+    found.figures.push_back(figure());
+    return found;
+  }
+
+ private:
+  static void remember(std::vector<std::string>& all, const std::string& one) {
+    if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
+  }
+  static std::size_t place(const std::vector<std::string>& all, const std::string& one) {
+    return std::size_t(std::find(all.begin(), all.end(), one) - all.begin());
+  }
+  static std::string step(const Key& key) { return fmt::format("h = {} s", number(std::get<4>(key))); }
+
+  std::string label(const Key& key) const {
+    const auto& [scenario, method, response, timing, size] = key;
+    std::string text = response;
+    if (several_methods_) text += ", " + method;
+    if (several_timings_) text += ", " + timing;
+    if (several_scenarios_) text += ", " + scenario;
+    return fmt::format("{}, {}", text, step(key));
+  }
+
+  std::vector<std::string> sentences() const {
+    std::vector<std::string> all;
+    for (const auto& [key, stacks] : curves_) {
+      std::size_t stands = 0, count = 0, still_ones = 0;
+      bool standing = true;
+      const Stack* first_fallen = nullptr;
+      double deepest = 0;
+      for (const Stack& s : stacks) {
+        standing = standing && !s.found().left_place;
+        if (standing) {
+          stands = s.boxes;
+          deepest = std::max(deepest, s.found().penetration_end.value_or(0));
+          ++count;
+          if (s.found().displacement_max.value_or(0) <= still) ++still_ones;
+        }
+        if (!standing && !first_fallen) first_fallen = &s;
+      }
+      std::string text = fmt::format("{}: ", label(key));
+      if (stands == 0) {
+        text += "no stack stands to the end";
+      } else {
+        text += fmt::format("stacks of up to {} stand to the end, {} still, with boxes at most {} mm in each other there{}", stands,
+                            still_ones == count ? "all" : fmt::format("{} of {}", still_ones, count),
+                            number(1000 * deepest), deepest > shallow ? fmt::format(", more than {} mm", number(1000 * shallow)) : "");
+      }
+      if (first_fallen) {
+        text += fmt::format("; that of {} leaves its place after {} s", first_fallen->boxes, number(first_fallen->stood()));
+      }
+      all.push_back(text + ".");
+    }
+    for (const std::string& failed : failed_) all.push_back("Not carried out: " + failed + ".");
+    return all;
+  }
+
+  Table table() const {
+    Table table{.caption = "Stacks of boxes: how long they stand, what moves and sinks, and the energy",
+                .columns = {{"response and step", "", Column::Kind::name},
+                            {"boxes"},
+                            {"stands", "s"},
+                            {"moved after 2 s", "m"},
+                            {"deepest", "m"},
+                            {"depth at the end", "m"},
+                            {"energy rises by", "J"},
+                            {"put in by undoing depth", "J"}},
+                .rows = {}};
+    const auto cell = [](const std::optional<double>& x) { return x ? number(*x) : std::string(); };
+    for (const auto& [key, stacks] : curves_) {
+      for (const Stack& s : stacks) {
+        const ContactMeasures& c = s.found();
+        table.rows.push_back({label(key), std::to_string(s.boxes), (c.left_place ? "" : "≥ ") + number(s.stood()),
+                              cell(c.displacement_max), cell(c.penetration_max), cell(c.penetration_end),
+                              cell(c.energy_rise_max), cell(c.penetration_energy)});
+      }
+    }
+    return table;
+  }
+
+  std::string csv() const {
+    std::string text = csv_row({"run", "scenario", "integrator", "response", "impact_timing", "step_s_or_tolerance", "boxes",
+                                "left_place_s", "displacement_after_2s_max_m", "penetration_max_m", "penetration_end_m",
+                                "energy_rise_max_J"});
+    for (const auto& [key, stacks] : curves_) {
+      const auto& [scenario, method, response, timing, size] = key;
+      for (const Stack& s : stacks) {
+        const ContactMeasures& c = s.found();
+        text += csv_row({s.run->id, scenario, method, response, timing, study::exact(size), std::to_string(s.boxes),
+                         csv_cell(c.left_place), csv_cell(c.displacement_max), csv_cell(c.penetration_max),
+                         csv_cell(c.penetration_end), csv_cell(c.energy_rise_max)});
+      }
+    }
+    return text;
+  }
+
+  Figure figure() const {
+    struct Shown {
+      const char* title;
+      PlainAxis axis;
+      std::optional<double> (*of)(const Stack&);
+    };
+    const Shown all[] = {
+        {"How long it stands", {"stands_s", "stands until (s)", Scale::linear}, [](const Stack& s) { return std::optional(s.stood()); }},
+        {"How far a centre moves after 2 s", {"displacement_after_2s_max_m", "displacement (m)"},
+         [](const Stack& s) { return s.found().displacement_max; }},
+        {"How deep boxes are in each other at the end", {"penetration_end_m", "depth (m)"},
+         [](const Stack& s) { return s.found().penetration_end; }},
+        {"How far the energy rises", {"energy_rise_max_J", "energy rise (J)"}, [](const Stack& s) { return s.found().energy_rise_max; }}};
+    std::vector<Panel> panels;
+    for (const Shown& shown : all) {
+      std::vector<PlainCurve> curves;
+      for (const auto& [key, stacks] : curves_) {
+        PlainCurve curve{label(key), place(responses_, std::get<2>(key)), place(steps_, step(key))};
+        for (const Stack& s : stacks) {
+          if (const auto y = shown.of(s)) curve.points.emplace_back(double(s.boxes), *y);
+        }
+        curves.push_back(std::move(curve));
+      }
+      panels.push_back(plain_panel(shown.title, {"boxes", "boxes"}, shown.axis, curves));
+    }
+    return plain_figure("stacks", "Stacks against their height",
+                        "Each stack once for each response (colour) and step (dashes). A stack that stands at the end of the run "
+                        "is drawn there.",
+                        responses_, steps_, std::move(panels));
+  }
+
+  std::map<Key, std::vector<Stack>> curves_;
+  std::vector<std::string> responses_, steps_, failed_;
+  bool several_methods_ = false, several_timings_ = false, several_scenarios_ = false;
+};
+
+}  // namespace
+
+Analysis how_stacks_stand(const StudyView& study) { return Standing(study).analysis(); }
+
+}  // namespace polhode::study
