@@ -87,7 +87,7 @@ class Paper:
         """0, or the exit status of the first program that failed."""
         bin_folder, out, plain = bin_folder.resolve(), out.resolve(), [] if figures else ["--no-figures"]
         study = [str(bin_folder / "energy_drift"), "--study", "study.toml", "--out", str(out), *plain]
-        moved = any(paper_quantities.known(row["quantity"]) for row in self.expected if not row.get("of"))
+        moved = self.scripts() or any(paper_quantities.known(row["quantity"]) for row in self.expected if not row.get("of"))
         steps = [study + (["--trajectory", "csv"] if moved else [])]
         for name, (program, *options) in self.commands.items():
             options = [option.replace("{out}", str(out)) for option in options]
