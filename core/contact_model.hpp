@@ -50,6 +50,9 @@ class ContactModel {
 
   /// The impacts of the last step.
   virtual std::span<const Impact> impacts() const = 0;
+
+  /// True where the run is over with the last step, at whatever time that ended.
+  virtual bool ended() const { return false; }
 };
 
 }  // namespace polhode

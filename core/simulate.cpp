@@ -131,7 +131,8 @@ class Loop {
       outcome_.message = at_time(result.failure, state_.t);
       return false;
     }
-    if (t_after) state_.t = *t_after;  // t_k = k h, never accumulated
+    const bool ended = contact_ && contact_->ended();
+    if (t_after && !ended) state_.t = *t_after;  // t_k = k h, never accumulated
     if (contact_ && !contact_->impacts().empty()) observer_.meet(contact_->impacts());
     ++outcome_.steps;
     const bool progress = t_after || state_.t - before_step > least_progress * schedule_.t_end || state_.t >= schedule_.t_end;
@@ -153,6 +154,10 @@ class Loop {
       if (account_) projection_energy_ += energy() - before;
       integrator_.discard_history(state_);
     }
+    if (ended) {
+      if (state_.t > observed_) observe_now();
+      return false;
+    }
     return outcome_.steps % steps_between_looks != 0 || !interrupted();
   }
 
@@ -161,6 +166,7 @@ class Loop {
   bool observe_now() { return observe(state_); }
   bool observe(const State<S>& state) {
     const Sample sample = measure(state);
+    observed_ = sample.t;
     if (contact_) observer_.account(contact_->losses());
     if (!take_samples({&sample, 1})) return false;
     if (sample.t >= observer_.next_look()) observer_.look(view_.of(state), sample);
@@ -251,6 +257,7 @@ class Loop {
   const bool account_;  ///< projections can change the energy, so it is measured around them
   View<S> view_;
   double projection_energy_ = 0;
+  double observed_ = 0;  ///< s, when the last sample was seen that did not go by in a stretch
   std::int64_t surplus_steps_ = 0;
   int steps_without_progress_ = 0;
   std::array<Sample, longest_stretch> samples_;

@@ -69,7 +69,7 @@ std::string sampling_problem(const Schedule& schedule);
 
 /// Runs from `state` (at t = 0) to schedule.t_end. Energies are measured on `truth`, the same system in double.
 /// Memory does not depend on the number of steps. `stop`, when given, is looked at every few thousand steps. `contact`, when
-/// given, takes the steps in the method's place; in double only, else std::invalid_argument.
+/// given, takes the steps in the method's place, and may end the run; in double only, else std::invalid_argument.
 template <class S>
 RunOutcome simulate(const System<S>& system, const System<double>& truth, Integrator<S>& integrator, State<S>& state,
                     const Schedule& schedule, Observer& observer, const std::atomic<bool>* stop = nullptr,

@@ -31,7 +31,7 @@ constexpr AxisHelp axis_help[] = {
     {"t-end", "S", "duration in s (default: the scenario's)"},
     {"samples", "N", "measure at k t_end/N only (default: after every step)"},
     {"broad-phase", "NAME", "broad phase of scenarios with contact, a list or all (default: sweep_and_prune)"},
-    {"narrow-phase", "NAME", "narrow phase of them (default: sat)"},
+    {"narrow-phase", "NAME", "narrow phase of them (default: sat, or gjk where shapes have no separating axes)"},
     {"response", "NAME", "contact response (default: sequential_impulses)"},
     {"impact-timing", "NAME", "when impacts are answered (default: time_stepping)"},
 };

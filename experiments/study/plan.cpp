@@ -15,6 +15,7 @@
 #include "collision/narrow_phase.hpp"
 #include "experiments/study/axes.hpp"
 #include "experiments/study/input_error.hpp"
+#include "experiments/study/narrow_phase_choice.hpp"
 #include "experiments/study/run.hpp"
 #include "experiments/study/suggestion.hpp"
 #include "integrators/catalogue.hpp"
@@ -86,7 +87,7 @@ struct Axes {
   std::vector<std::string> broad_phases, narrow_phases, responses, impact_timings;
 };
 
-/// The names of an axis, among those of a catalogue; `otherwise` where the study does not speak of it.
+/// The names of an axis, among those of a catalogue; `otherwise` where the study does not speak of it (empty: by the scenario).
 template <class Entry>
 std::vector<std::string> catalogue_names(const Options& options, const char* axis, const std::vector<Entry>& catalogue,
                                          const char* otherwise) {
@@ -161,7 +162,7 @@ Axes read_axes(const Experiment& experiment, const Options& options) {
   }
   if (axes.samples.empty()) axes.samples.emplace_back(std::nullopt);
   axes.broad_phases = catalogue_names(options, "broad-phase", broad_phase_catalogue(), "sweep_and_prune");
-  axes.narrow_phases = catalogue_names(options, "narrow-phase", narrow_phase_catalogue(), "sat");
+  axes.narrow_phases = catalogue_names(options, "narrow-phase", narrow_phase_catalogue(), "");
   axes.responses = catalogue_names(options, "response", response_catalogue(), "sequential_impulses");
   axes.impact_timings = catalogue_names(options, "impact-timing", impact_timing_catalogue(), "time_stepping");
   return axes;
@@ -335,7 +336,8 @@ class Planner {
   void add_run(RunConfig config, const std::shared_ptr<const Scenario>& scenario) {
     if (scenario->colliders.empty()) return add_planned(config, scenario);
     for (const std::string& broad : axes_.broad_phases) {
-      for (const std::string& narrow : axes_.narrow_phases) {
+      for (const std::string& said : axes_.narrow_phases) {
+        const std::string narrow = said.empty() ? narrow_phase_for(*scenario) : said;
         for (const std::string& response : axes_.responses) {
           for (const std::string& timing : axes_.impact_timings) {
             config.contact = ContactConfig{broad, narrow, response, timing};

@@ -9,6 +9,8 @@
 #include "collision/contact/impact_timing.hpp"
 #include "core/simulate_ensemble.hpp"
 #include "experiments/study/drift_meter.hpp"
+#include "experiments/study/end_at_contact.hpp"
+#include "experiments/study/narrow_phase_choice.hpp"
 #include "experiments/study/report/curves.hpp"
 #include "integrators/catalogue.hpp"
 #include "integrators/compensated.hpp"
@@ -75,8 +77,11 @@ RunOutcome run_in(const System<S>& system, const System<double>& truth, const Ru
 /// The bodies that can touch, and how it is answered.
 struct Contact {
   Contact(System<double>& system, const Scenario& scenario, const ContactConfig& config)
-      : scene(scenario.problem, scenario.colliders, config.broad_phase, config.narrow_phase),
-        model(find_impact_timing(config.impact_timing)->make(system, scene, find_response(config.response)->make())) {}
+      : scene(scenario.problem, scenario.colliders, config.broad_phase, config.narrow_phase) {
+    const ImpactTimingEntry& timing = *find_impact_timing(config.impact_timing);
+    model = timing.make(system, scene, find_response(config.response)->make());
+    if (scenario.end_at_contact) model = std::make_unique<EndAtContact>(std::move(model), !timing.fixed_steps_only);
+  }
 
   ContactScene scene;
   std::unique_ptr<ContactModel> model;
@@ -135,6 +140,7 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
       return config.integrator + " chooses its own steps, and " + config.contact->impact_timing +
              " is about steps; take --impact-timing event_located";
     }
+    if (std::string reason = narrow_phase_refusal(config.contact->narrow_phase, scenario); !reason.empty()) return reason;
   }
   if (entry->refusal) {
     if (std::string reason = entry->refusal(scenario.problem, config.formulation); !reason.empty()) {

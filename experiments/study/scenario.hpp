@@ -31,6 +31,7 @@ struct Scenario {
   double t_end = 1;         ///< s
   Problem problem;          ///< moving bodies first, in the scenario's order
   std::vector<Collider> colliders;      ///< of each body where the scenario has contact; else empty
+  bool end_at_contact = false;          ///< a run ends at its first impact, before it is answered
   std::vector<std::string> invariants;  ///< declared beyond energy and momenta; names of core/invariants
   /// Everything that decides how a run goes, and nothing else, as text with every default filled in and numbers that
   /// read back exactly; t_end is not in it, since it is an option of the run. Part of a run's identity.

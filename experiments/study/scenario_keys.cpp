@@ -14,12 +14,13 @@ TomlValue empty_list() { return TomlValue::of(std::vector<double>{}); }
 
 const std::vector<ScenarioKey>& root_keys() {
   static const std::vector<ScenarioKey> keys = {
-      {"title", std::nullopt, false},  // the scenario's name
-      {"description", TomlValue::of(""), false},
+      {"title", std::nullopt, Decides::never},  // the scenario's name
+      {"description", TomlValue::of(""), Decides::never},
       {"gravity", zero()},
       {"t_end", std::nullopt},
       {"invariants", empty_list()},
-      {"contact", TomlValue::of(false), false},  // which nothing is that has always been
+      {"contact", TomlValue::of(false), Decides::never},  // which nothing is that has always been
+      {"end_at_contact", TomlValue::of(false), Decides::with_contact},
       {"body", std::nullopt},
       {"force", empty_list()},
   };
@@ -28,7 +29,7 @@ const std::vector<ScenarioKey>& root_keys() {
 
 const std::vector<ScenarioKey>& body_keys() {
   static const std::vector<ScenarioKey> keys = {
-      {"name", std::nullopt, false},  // body0, body1, …
+      {"name", std::nullopt, Decides::never},  // body0, body1, …
       {"mass", std::nullopt},
       {"shape", std::nullopt},
       {"inertia", std::nullopt},
@@ -42,8 +43,12 @@ const std::vector<ScenarioKey>& body_keys() {
       {"pinned", TomlValue::of(false)},
       {"center_of_mass", zero()},
       {"static", TomlValue::of(false)},
-      {"restitution", TomlValue::of(0.0), false},  // of bodies that touch
-      {"friction", TomlValue::of(0.0), false},
+      {"restitution", TomlValue::of(0.0), Decides::with_contact},
+      {"friction", TomlValue::of(0.0), Decides::with_contact},
+      {"repeat", std::nullopt},
+      {"spacing", zero()},
+      {"jitter", TomlValue::of(0.0)},
+      {"jitter_angle", TomlValue::of(0.0)},
   };
   return keys;
 }

@@ -12,10 +12,13 @@
 
 namespace polhode::study {
 
+/// Where a key decides how a run goes; elsewhere a run is the same whatever it says, so that it makes no axis.
+enum class Decides { always, with_contact, never };
+
 struct ScenarioKey {
   std::string_view name;
   std::optional<TomlValue> otherwise;  ///< absent: the key has no default of its own
-  bool decides = true;                 ///< false: a run is the same whatever it says, so that it makes no axis
+  Decides decides = Decides::always;
 };
 
 const std::vector<ScenarioKey>& root_keys();

@@ -121,9 +121,12 @@ class Walk {
     const std::string& name = parts_[depth];
     const ScenarioKey* key = find_key(keys, name);
     if (!key) fail("there is no key '" + name + "'" + suggestion(name, "There are", names(keys)));
-    const bool unread = name == "shape" && (table.find("inertia") || table.find("point_masses"));
-    if (!key->decides || unread) {
-      fail("the " + name + " decides nothing about a run" + (unread ? " while the inertia is given beside it" : ""));
+    const TomlValue* said = root_.find("contact");
+    const bool contact = said && said->boolean;
+    const bool unread = name == "shape" && !contact && (table.find("inertia") || table.find("point_masses"));
+    if (key->decides == Decides::never || (key->decides == Decides::with_contact && !contact) || unread) {
+      fail("the " + name + " decides nothing about a run" +
+           (unread ? " while the inertia is given beside it" : key->decides == Decides::never ? "" : " without contact = true"));
     }
     TomlValue* found = table.find(name);
     if (!found && depth + 1 < parts_.size()) {

@@ -6,7 +6,7 @@
 
 #include "core/forces/catalogue.hpp"
 #include "core/invariants.hpp"
-#include "experiments/study/body_reader.hpp"
+#include "experiments/study/body_repeat.hpp"
 #include "experiments/study/canonical_text.hpp"
 #include "experiments/study/parameter_reader.hpp"
 #include "experiments/study/scenario_keys.hpp"
@@ -28,14 +28,18 @@ TomlCursor key(const TomlCursor& root, std::string_view name) { return root.at(n
 // Bodies.
 
 std::vector<ReadBody> read_all_bodies(const TomlCursor& list, bool contact) {
-  std::vector<ReadBody> bodies(list.list("a list of tables, each under its own [[body]]"));
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
+  const std::size_t tables = list.list("a list of tables, each under its own [[body]]");
+  std::vector<ReadBody> bodies;
+  std::map<std::string, std::size_t> named;  // by which table
+  for (std::size_t i = 0; i < tables; ++i) {
     const TomlCursor table = list.item(i);
-    bodies[i] = read_body(table, i, contact);
-    for (std::size_t j = 0; j < i; ++j) {
-      if (bodies[j].body.name != bodies[i].body.name) continue;
+    for (ReadBody& body : repeated(table, i, read_body(table, i, contact))) {
+      const auto [known, is_new] = named.emplace(body.body.name, i);
       const TomlCursor name = table.at("name", table.value());
-      name.fail("body " + std::to_string(j) + " is called '" + bodies[j].body.name + "' already; names must differ");
+      if (!is_new) {
+        name.fail("body " + std::to_string(known->second) + " is called '" + known->first + "' already; names must differ");
+      }
+      bodies.push_back(std::move(body));
     }
   }
   return bodies;
@@ -62,6 +66,11 @@ BodyIndex read_bodies(const TomlCursor& root, Scenario& scenario, std::string& c
   if (contact.value().boolean && std::count_if(scenario.colliders.begin(), scenario.colliders.end(), touches) < 2) {
     contact.fail("needs two bodies with a shape");
   }
+  const TomlCursor end = key(root, "end_at_contact");
+  scenario.end_at_contact = end.boolean();
+  if (!scenario.end_at_contact) return index;
+  if (!contact.value().boolean) end.fail("needs contact = true");
+  canonical += "end_at_contact\n";
   return index;
 }
 

@@ -487,6 +487,67 @@ TEST(ScenarioOverrides, AreBlamedForWhatTheyMakeOfTheRest) {
   EXPECT_THAT(of_file, StartsWith("test.toml:7:8: body.0.mass: -2")) << "the file is wrong by itself";
 }
 
+// Copies.
+
+std::string with_copies(const std::string& keys) { return changed("radius = 0.1 }", "radius = 0.1 }\n" + keys); }
+
+TEST(ScenarioCopies, StandOnAGrid) {
+  const Scenario s = resolved(changed("bodies = [\"box\", \"body2\"]", "bodies = [\"box\", \"body2_5\"]"),
+                              {{"body.2.repeat", "[2, 3, 1]"}, {"body.2.spacing", "[1, 2, 0]"}, {"body.2.position", "[5, 0, 1]"}});
+  ASSERT_EQ(s.problem.bodies.size(), 8u);
+  EXPECT_EQ(s.problem.bodies[1].name, "body2_0");
+  EXPECT_EQ(s.problem.bodies[6].name, "body2_5");
+  EXPECT_EQ(s.problem.starts[1].position, Vector(5, 0, 1));
+  EXPECT_EQ(s.problem.starts[2].position, Vector(6, 0, 1)) << "x fastest";
+  EXPECT_EQ(s.problem.starts[6].position, Vector(6, 4, 1));
+  EXPECT_EQ(s.problem.forces[2].bodies, (std::vector<std::size_t>{0, 6}));
+}
+
+TEST(ScenarioCopies, AreOffTheGridAsFarAsTheyMay) {
+  const std::string text = "t_end = 1\n[[body]]\nmass = 1\ninertia = [1, 1, 1]\norientation = [0, 1, 0, 0]\nrepeat = [10, 10, 1]\n"
+                           "spacing = [1, 1, 0]\njitter = 0.25\njitter_angle = 0.5\n";
+  const Scenario s = resolved(text), again = resolved(text);
+  EXPECT_EQ(s.canonical, again.canonical);
+  double most = 0, most_angle = 0;
+  for (std::size_t i = 0; i < 100; ++i) {
+    const Vector off = s.problem.starts[i].position - Vector(double(i % 10), double(i / 10), 0);
+    const Quaternion<double>& q = s.problem.starts[i].orientation;
+    const Quaternion<double> turn = product(q, Quaternion<double>(0, -1, 0, 0));
+    const double angle = 2 * std::atan2(turn.tail<3>().norm(), std::abs(turn[0]));
+    EXPECT_NEAR(q.norm(), 1, 1e-15);
+    most = std::max(most, off.cwiseAbs().maxCoeff());
+    most_angle = std::max(most_angle, angle);
+  }
+  EXPECT_LE(most, 0.25);
+  EXPECT_GT(most, 0.24);
+  EXPECT_LE(most_angle, 0.5 + 1e-12);
+  EXPECT_GT(most_angle, 0.45);
+}
+
+TEST(ScenarioCopies, ErrorsSayWhatWouldDo) {
+  const auto error = [](const std::string& keys) { return error_of(with_copies(keys)); };
+  EXPECT_THAT(error("repeat = [1, 2.5, 1]"), HasSubstr("3 whole numbers from 1, the copies along x, y and z"));
+  EXPECT_THAT(error("repeat = [1, 0, 1]"), HasSubstr("body.2.repeat: "));
+  EXPECT_THAT(error("repeat = [2, 2]"), HasSubstr("a list of 2"));
+  EXPECT_THAT(error("repeat = [100, 100, 100]"), HasSubstr("asks for 1e+06 copies; it must be at most 10000"));
+  EXPECT_THAT(error("repeat = [1, 4, 1]\nspacing = [1, 0, 1]"), HasSubstr("body.2.spacing: is 0 along y, where there are 4 copies; give"));
+  EXPECT_THAT(error("jitter = 0.1"), HasSubstr("body.2.jitter: is of the copies of a body; give repeat = [nx, ny, nz] too"));
+  EXPECT_THAT(error("repeat = [1, 1, 1]\njitter = -1"), HasSubstr("body.2.jitter: -1 is not"));
+}
+
+TEST(ScenarioOverrides, SurfacesDecideWhereThereIsContact) {
+  const std::string text = "t_end = 1\ncontact = true\n[[body]]\nmass = 1\nrestitution = 0.5\ninertia = [1, 1, 1]\n"
+                           "shape = { kind = \"sphere\", radius = 0.5 }\n[[body]]\nstatic = true\n"
+                           "shape = { kind = \"half_space\", normal = [0, 0, 1] }\n";
+  EXPECT_EQ(resolved(text, {{"body.0.restitution", "0.25"}}).colliders[0].restitution, 0.25);
+  EXPECT_EQ(resolved(text, {{"body.1.friction", "0.5"}}).colliders[1].friction, 0.5);
+  EXPECT_NE(resolved(text, {{"body.0.shape.radius", "0.25"}}).canonical, resolved(text).canonical);
+  EXPECT_TRUE(resolved(text, {{"end_at_contact", "true"}}).end_at_contact);
+  EXPECT_NE(resolved(text, {{"end_at_contact", "true"}}).canonical, resolved(text).canonical);
+  EXPECT_EQ(error_of(base, {{"body.0.friction", "0.5"}}), "--vary body.0.friction: the friction decides nothing about a run without contact = true");
+  EXPECT_THAT(error_of("end_at_contact = true\n" + base), HasSubstr("end_at_contact: needs contact = true"));
+}
+
 // The canonical text.
 
 TEST(ScenarioCanonical, SaysNothingOfNamesTitlesAndSpelling) {
@@ -552,7 +613,11 @@ TEST(ScenarioCanonical, SeesEveryKeyOfABody) {
       {"angular_velocity_frame", {"body.0.angular_velocity_frame", "\"body\""}},
       {"pinned", {"body.0.pinned", "true"}},
       {"center_of_mass", {"body.1.center_of_mass", "[1, 0, 0]"}},
-      {"static", {"body.1.static", "true"}}};
+      {"static", {"body.1.static", "true"}},
+      {"repeat", {"body.1.repeat", "[1, 1, 2]"}},
+      {"spacing", {"body.1.spacing", "[0, 2, 0]"}},
+      {"jitter", {"body.1.jitter", "0.1"}},
+      {"jitter_angle", {"body.1.jitter_angle", "0.1"}}};
   const std::string text = changed("name = \"ground\"\nstatic = true", R"(name = "hung"
 mass = 1
 inertia = [2, 2, 2]
@@ -560,11 +625,17 @@ pinned = true)");
   const std::string canonical = resolved(text).canonical;
   for (const ScenarioKey& key : body_keys()) {
     // These two allow or replace what other keys say.
-    if (!key.decides || key.name == "unphysical_inertia" || key.name == "point_masses") continue;
+    if (key.decides != Decides::always || key.name == "unphysical_inertia" || key.name == "point_masses") continue;
     ASSERT_TRUE(other.contains(key.name)) << key.name;
     std::vector<Override> overrides = {other.at(key.name)};
+    std::vector<Override> beside;
     if (key.name == "static") overrides.push_back({"body.1.pinned", "false"});
-    EXPECT_NE(resolved(text, overrides).canonical, canonical) << key.name;
+    if (key.name == "repeat") overrides.push_back({"body.1.spacing", "[0, 0, 1]"});
+    if (key.name == "spacing" || key.name.starts_with("jitter")) {
+      beside = {{"body.1.repeat", "[1, 2, 1]"}, {"body.1.spacing", "[0, 1, 0]"}};
+      overrides.insert(overrides.begin(), beside.begin(), beside.end());
+    }
+    EXPECT_NE(resolved(text, overrides).canonical, beside.empty() ? canonical : resolved(text, beside).canonical) << key.name;
   }
   EXPECT_NE(resolved(text, {{"gravity", "[0, 0, 1]"}}).canonical, canonical);
   EXPECT_NE(resolved(text, {{"gravity", "[0, 0, 0]"}}).canonical, canonical);
