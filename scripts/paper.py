@@ -60,7 +60,10 @@ class Paper:
                     commands = tomllib.load(file)
                 except tomllib.TOMLDecodeError as error:
                     raise BadInput(f"{folder / 'experiments.toml'}: {error}") from error
-            self.commands = {name: shlex.split(line) for name, line in commands.items()}
+            for name, line in commands.items():
+                if not isinstance(line, str) or not line.split():
+                    raise BadInput(f"{folder / 'experiments.toml'}: {name}: must be a command")
+                self.commands[name] = shlex.split(line)
         self.expected = table(folder / "expected.csv")
         for number, row in enumerate(self.expected, start=2):
             where = f"{folder / 'expected.csv'}, row {number}"
