@@ -1,23 +1,33 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reproduces a paper: runs its study, compares the results with the numbers that it gives, and draws both.
+"""Reproduces a paper: runs its studies, compares the results with the numbers that it gives, and draws both.
 
     paper.py BIN_DIR PAPER_DIR [--out DIR]
 
-PAPER_DIR holds README.md, study.toml (what energy_drift runs) and expected.csv. Each row of expected.csv picks one run by
-the columns of runs.csv that it fills in, and names a quantity, its value, how near ours must be, and where the value
-comes from. A quantity is a column of runs.csv, or one of those below that are made from the end of the trajectory.
+PAPER_DIR holds README.md, study.toml (what energy_drift runs) and expected.csv. Where one study does not do, it has
+experiments.toml besides: a name for each further experiment, and its command as `./run` takes it, or that of a script of
+PAPER_DIR that makes a table of what the others left. All run in PAPER_DIR, one after another, and each leaves its results in
+the folder of its name; {out} is the folder of them all.
+
+Each row of expected.csv picks one row of a table by the columns that it fills in, and names a quantity, its value, how
+near ours must be, and where the value comes from. `of` is the experiment, empty for study.toml, and `table` the file,
+where it is not runs.csv. A quantity is a column of the table, or one of those of paper_quantities.py that are made from the
+motion of a run, of its body number `body` (default 0).
 Exit status: 0 all within their tolerances, 2 bad input, 3 not all.
 """
 import argparse
 import csv
-import math
 import pathlib
+import shlex
 import shutil
 import subprocess
 import sys
+import tomllib
 
-OWN_COLUMNS = ["quantity", "scale", "value", "allowed", "kind", "source"]
-KINDS = ("relative", "absolute", "at_most")
+import paper_quantities
+
+OWN_COLUMNS = ["of", "table", "body", "quantity", "scale", "value", "allowed", "kind", "source"]
+NAMED_BY_VALUE = ("broad_phase", "narrow_phase", "response", "impact_timing", "trajectory", "class")
+KINDS = ("relative", "absolute", "at_most", "at_least")
 
 
 class BadInput(Exception):
@@ -32,42 +42,6 @@ def table(path):
         raise BadInput(f"{path}: cannot be read: {error.strerror}") from error
 
 
-def to_body(row, name):
-    """A world vector of a row of trajectory.csv, in body axes: q* v q."""
-    w, x, y, z = (float(row[k]) for k in ("qw", "qx", "qy", "qz"))
-    n = w * w + x * x + y * y + z * z
-    v = [float(row[k]) for k in name]
-    u = (-x, -y, -z)
-    def cross(a, b):
-        return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-    uv = cross(u, v)
-    uuv = cross(u, uv)
-    return [v[i] + 2 * (w * uv[i] + uuv[i]) / n for i in range(3)]
-
-
-def axis_3(row):
-    """The body's third axis, in world axes."""
-    w, x, y, z = (float(row[k]) for k in ("qw", "qx", "qy", "qz"))
-    n = w * w + x * x + y * y + z * z
-    return [2 * (x * z + w * y) / n, 2 * (y * z - w * x) / n, (w * w - x * x - y * y + z * z) / n]
-
-
-SPIN = ("wx_rad_per_s", "wy_rad_per_s", "wz_rad_per_s")
-MOMENTUM = ("lx_kg_m2_per_s", "ly_kg_m2_per_s", "lz_kg_m2_per_s")
-
-
-def end_quantities(row, reference):
-    """What is made from the last row of a trajectory of one body; `reference` is the point of reference.csv."""
-    values = {}
-    for name, vector in (("end_body_angular_velocity", to_body(row, SPIN)),
-                         ("end_body_angular_momentum", to_body(row, MOMENTUM)), ("end_axis", axis_3(row))):
-        for i in range(3):
-            values[f"{name}_{i + 1}"] = vector[i]
-    if reference:
-        values["end_body_angular_momentum_error"] = math.dist(to_body(row, MOMENTUM), reference)
-    return values
-
-
 def same(wanted, have):
     """Of two cells of tables: as numbers where both are."""
     try:
@@ -79,11 +53,24 @@ def same(wanted, have):
 class Paper:
     def __init__(self, folder):
         self.folder = folder
+        self.commands = {}
+        if (folder / "experiments.toml").exists():
+            with open(folder / "experiments.toml", "rb") as file:
+                try:
+                    commands = tomllib.load(file)
+                except tomllib.TOMLDecodeError as error:
+                    raise BadInput(f"{folder / 'experiments.toml'}: {error}") from error
+            for name, line in commands.items():
+                if not isinstance(line, str) or not line.split():
+                    raise BadInput(f"{folder / 'experiments.toml'}: {name}: must be a command")
+                self.commands[name] = shlex.split(line)
         self.expected = table(folder / "expected.csv")
         for number, row in enumerate(self.expected, start=2):
             where = f"{folder / 'expected.csv'}, row {number}"
             if row.get("kind") not in KINDS:
                 raise BadInput(f"{where}: kind must be one of {', '.join(KINDS)}")
+            if (row.get("of") or "") not in ("", *self.commands):
+                raise BadInput(f"{where}: experiments.toml has no {row['of']}")
             for column in ("value", "allowed", "scale"):
                 try:
                     float(row[column])
@@ -92,40 +79,84 @@ class Paper:
         points = table(folder / "reference.csv") if (folder / "reference.csv").exists() else []
         self.reference = [float(points[0][k]) for k in ("x", "y", "z")] if points else None
 
-    def needs_trajectories(self):
-        return any(row["quantity"].startswith("end_") for row in self.expected)
+    def programs(self):
+        """The experiments that it needs, study.toml's first."""
+        return ["energy_drift", *sorted({c[0] for c in self.commands.values()} - {"energy_drift"} - self.scripts())]
+
+    def scripts(self):
+        return {c[0] for c in self.commands.values() if c[0].endswith(".py")}
+
+    def run(self, bin_folder, out, figures):
+        """0, or the exit status of the first program that failed."""
+        bin_folder, out, plain = bin_folder.resolve(), out.resolve(), [] if figures else ["--no-figures"]
+        study = [str(bin_folder / "energy_drift"), "--study", "study.toml", "--out", str(out), *plain]
+        moved = self.scripts() or any(paper_quantities.known(row["quantity"]) for row in self.expected if not row.get("of"))
+        steps = [study + (["--trajectory", "csv"] if moved else [])]
+        for name, (program, *options) in self.commands.items():
+            options = [option.replace("{out}", str(out)) for option in options]
+            if program in self.scripts():
+                steps.append([sys.executable, "-B", program, *options])
+            else:
+                steps.append([str(bin_folder / program), *options, "--out", str(out / name), *plain])
+        for command in steps:
+            done = subprocess.run(command, stdout=subprocess.DEVNULL, cwd=self.folder, check=False)
+            if done.returncode not in (0, 3):
+                return done.returncode
+        return 0
 
     def compare(self, out):
-        runs = table(out / "runs.csv")
-        rows = []
+        rows, tables = [], {}
         for number, wanted in enumerate(self.expected, start=2):
             where = f"{self.folder / 'expected.csv'}, row {number}"
+            folder = out / (wanted.get("of") or "")
+            path = folder / (wanted.get("table") or "runs.csv")
+            if path not in tables:
+                tables[path] = table(path)
             chosen = {k: v for k, v in wanted.items() if k not in OWN_COLUMNS and v}
-            found = [r for r in runs if all(same(v, r.get(k, "")) for k, v in chosen.items())]
+            found = [r for r in tables[path] if all(same(v, r.get(k, "")) for k, v in chosen.items())]
             if len(found) != 1:
-                raise BadInput(f"{where}: it picks {len(found)} runs of the study; it must pick one")
-            rows.append(self.judge(wanted, found[0], out, where))
+                raise BadInput(f"{where}: it picks {len(found)} rows of {path.name}; it must pick one")
+            rows.append(self.judge(wanted, chosen, found[0], folder, where))
         return rows
 
-    def judge(self, wanted, run, out, where):
+    def judge(self, wanted, chosen, row, folder, where):
         quantity = wanted["quantity"]
-        if quantity.startswith("end_"):
-            last = table(out / "trajectories" / run["run"] / "trajectory.csv")[-1]
-            values = end_quantities(last, self.reference)
-        else:
-            values = run
-        if values.get(quantity, "") == "":
-            raise BadInput(f"{where}: the run has no quantity {quantity}")
+        values = row
+        if paper_quantities.known(quantity):
+            motion = folder / "trajectories" / row["run"]
+            try:
+                values = paper_quantities.of(quantity, motion if motion.exists() else folder, wanted.get("body") or "0",
+                                             self.reference)
+            except OSError as error:
+                raise BadInput(f"{where}: {error.filename}: {error.strerror}; add --trajectory csv") from error
+        if values.get(quantity, "") in ("", None):
+            raise BadInput(f"{where}: {quantity} is not there")
         ours = float(values[quantity]) * float(wanted["scale"])
         value, tolerance = float(wanted["value"]), float(wanted["allowed"])
         if wanted["kind"] == "at_most":
             within = ours <= value
+        elif wanted["kind"] == "at_least":
+            within = ours >= value
         else:
             within = abs(ours - value) <= tolerance * (abs(value) if wanted["kind"] == "relative" else 1)
-        return {"integrator": run["integrator"], "orientation": run["orientation"],
-                "angular_state": run["angular_state"], "dt_s": run["dt_s"], "tolerance": run["tolerance"],
-                "quantity": quantity, "ours": repr(ours), "theirs": wanted["value"], "kind": wanted["kind"],
-                "allowed": wanted["allowed"], "source": wanted["source"], "verdict": "as given" if within else "not"}
+        label = quantity + (f" of body {wanted['body']}" if wanted.get("body") else "")
+        return {"of": wanted.get("of") or "", "picked": said_of(chosen), "quantity": label, "ours": repr(ours),
+                "theirs": wanted["value"], "kind": wanted["kind"], "allowed": wanted["allowed"],
+                "source": wanted["source"], "verdict": "as given" if within else "not"}
+
+
+def said_of(chosen):
+    """What picks a row, in words: the method and its chart, then what else is chosen."""
+    chart = chosen.get("orientation", "quaternion")
+    words = [chosen["integrator"] + ("" if chart == "quaternion" else f" ({chart})")] if "integrator" in chosen else []
+    for name, value in chosen.items():
+        if name == "dt_s":
+            words.append(f"h = {float(value):g} s")
+        elif name in NAMED_BY_VALUE:
+            words.append(value)
+        elif name not in ("integrator", "orientation", "angular_state"):
+            words.append(f"{name} {value}")
+    return ", ".join(words)
 
 
 def write_comparison(rows, out):
@@ -141,19 +172,22 @@ def draw(name, rows, out):
     for i, row in enumerate(rows, start=1):
         theirs, ours = float(row["theirs"]), float(row["ours"])
         if row["kind"] == "at_most":
-            place = ours / theirs
+            place = ours / theirs if theirs else ours
+        elif row["kind"] == "at_least":
+            place = theirs / ours if ours else 2
         else:
-            place = (ours - theirs) / (float(row["allowed"]) * (abs(theirs) if row["kind"] == "relative" else 1))
-        size = f"h = {row['dt_s']} s" if row["dt_s"] else f"tolerance {row['tolerance']}"
-        chart = "" if row["orientation"] == "quaternion" else f" ({row['orientation']})"
-        labels.append(f'"{row["integrator"]}{chart}, {size}: {row["quantity"]}" {i}')
+            allowed = float(row["allowed"]) * (abs(theirs) if row["kind"] == "relative" else 1)
+            place = (ours - theirs) / allowed if allowed else 2 * (ours - theirs)
+        labels.append(f'"{", ".join(w for w in (row["of"], row["picked"]) if w)}: {row["quantity"]}" {i}')
         values.append(f'set label "{ours:.6g}" at graph 1.02,first {i}')
         places.append(f"{max(-1.45, min(1.45, place)):.6g} {i}")
-    script = [f"set terminal svg size 1000,{130 + 21 * len(rows)} font 'sans,12' background 'white'",
+    left = max(470, 20 + 7 * max(len(label) for label in labels))  # pixels
+    script = [f"set terminal svg size {left + 530},{130 + 21 * len(rows)} font 'sans,12' background 'white'",
               f"set output '{out / 'comparison.svg'}'", f"set title '{name}: our numbers beside theirs' noenhanced",
-              "set xlabel '(ours − theirs)/allowed; of an upper bound: ours/bound. Between the dashed lines: as given'",
+              "set xlabel '(ours − theirs)/allowed; of a bound: ours/upper, lower/ours. Between the dashed lines: as given'",
               "set xrange [-1.5:1.5]", f"set yrange [{len(rows) + 0.7}:0.3]", "set key off", "set grid y lc rgb '#e4e4e4'",
-              f"set ytics noenhanced ({', '.join(labels)})", "set lmargin at screen 0.47", "set rmargin at screen 0.88",
+              f"set ytics noenhanced ({', '.join(labels)})", f"set lmargin at screen {left / (left + 530):.6g}",
+              f"set rmargin at screen {(left + 410) / (left + 530):.6g}",
               "set arrow from -1,graph 0 to -1,graph 1 nohead dt 2", "set arrow from 1,graph 0 to 1,graph 1 nohead dt 2",
               "set label 'ours' at graph 1.02,graph 1.02", *values,
               "plot '-' using 1:2 with points pt 7 ps 0.6 lc rgb '#1f5fa8'", *places, "e"]
@@ -169,22 +203,24 @@ def main():
     parser.add_argument("paper", type=pathlib.Path, help="folder of the paper")
     parser.add_argument("--out", type=pathlib.Path, help="folder of the results (default: results/paper-NAME)")
     parser.add_argument("--no-figures", action="store_true", help="tables only")
+    parser.add_argument("--programs", action="store_true", help="name the experiments that it needs, and run nothing")
     given = parser.parse_args()
+    if given.programs:
+        print(*Paper(given.paper).programs())
+        return 0
     out = given.out or pathlib.Path("results") / f"paper-{given.paper.name}"
     paper = Paper(given.paper)
-    command = [str(given.bin / "energy_drift"), "--study", str(given.paper / "study.toml"), "--out", str(out)]
-    command += ["--trajectory", "csv"] if paper.needs_trajectories() else []
-    command += ["--no-figures"] if given.no_figures else []
-    done = subprocess.run(command, stdout=subprocess.DEVNULL, check=False)
-    if done.returncode not in (0, 3):
-        return done.returncode
+    status = paper.run(given.bin, out, not given.no_figures)
+    if status:
+        return status
     rows = paper.compare(out)
     write_comparison(rows, out)
     said = "" if given.no_figures else draw(given.paper.name, rows, out)
-    width = max(len(row["quantity"]) for row in rows)
-    for row in rows:
-        bound = "at most" if row["kind"] == "at_most" else "theirs"
-        print(f"{row['verdict']:8}  {row['integrator']:26} {row['dt_s'] or row['tolerance']:7} {row['quantity']:{width}}  "
+    whose = [" ".join(w for w in (row["of"], row["picked"]) if w) for row in rows]
+    widths = max(map(len, whose)), max(len(row["quantity"]) for row in rows)
+    for who, row in zip(whose, rows):
+        bound = {"at_most": "at most", "at_least": "at least"}.get(row["kind"], "theirs")
+        print(f"{row['verdict']:8}  {who:{widths[0]}} {row['quantity']:{widths[1]}}  "
               f"ours {float(row['ours']):.10g}, {bound} {row['theirs']} ({row['source']})")
     wrong = sum(row["verdict"] != "as given" for row in rows)
     print(f"{len(rows) - wrong} of {len(rows)} numbers as given; {out / 'comparison.csv'}")
