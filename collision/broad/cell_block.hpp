@@ -31,6 +31,7 @@ inline Key key_part(std::int64_t number, std::size_t axis) {
   return static_cast<Key>(number & key_mask) << (key_bits * static_cast<int>(axis));
 }
 inline Key key_part(std::size_t level) { return Key(level) << (3 * key_bits); }
+inline std::size_t level_of(Key key) { return static_cast<std::size_t>(key >> (3 * key_bits)); }
 
 /// Sixteen lanes of a byte each, as two words.
 using Word = std::uint64_t;
@@ -69,7 +70,7 @@ struct alignas(64) Block {
   Index next;  // cell with the same hash; of the first block of a cell
   Index more;  // boxes of this cell
 
-  std::size_t level() const { return static_cast<std::size_t>(key >> (3 * key_bits)); }
+  std::size_t level() const { return level_of(key); }
 
   void set(std::size_t lane, const Reach& r) {
     for (std::size_t k = 0; k < 3; ++k) {
