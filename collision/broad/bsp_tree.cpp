@@ -32,7 +32,7 @@ constexpr Index poor = 8;              // entries of two leaves, to be one again
 constexpr double larger_side = 0.8;    // of the entries, at most, for a plane to be worth it
 constexpr double both_sides = 1.7;     // entries on both sides together, over those before
 
-constexpr std::size_t leaves_ahead = 12, chunks_ahead = 6;  // visits, when memory is asked for them
+constexpr std::size_t leaves_ahead = 24, heads_ahead = 16, chunks_ahead = 8;  // visits, when memory is asked for them
 
 /// What is read on the way down.
 struct Node {
@@ -149,11 +149,16 @@ class BspTree final : public BroadPhase {
 
   void fetch_ahead(std::size_t k) const {
     if (k + leaves_ahead < visits_.size()) broad::fetch(leaves_[visits_[k + leaves_ahead].leaf]);
-    if (k + chunks_ahead >= visits_.size()) return;
-    const Index head = leaves_[visits_[k + chunks_ahead].leaf].head;
-    if (head == none) return;
-    broad::fetch(chunks_[head]);
-    if (chunks_[head].next != none) broad::fetch(chunks_[chunks_[head].next]);
+    if (k + heads_ahead < visits_.size()) {
+      const Index head = leaves_[visits_[k + heads_ahead].leaf].head;
+      if (head != none) broad::fetch(chunks_[head]);
+    }
+    if (k + chunks_ahead < visits_.size()) {
+      const Visit& soon = visits_[k + chunks_ahead];
+      const Index head = leaves_[soon.leaf].head;
+      if (head != none && chunks_[head].next != none) broad::fetch(chunks_[chunks_[head].next]);
+      broad::fetch(fat_.fat(soon.body));
+    }
   }
 
   /// The number of a search, by which it knows whom it has met.
@@ -350,7 +355,7 @@ class BspTree final : public BroadPhase {
         const Index other = chunk.body[k];
         if (other == body || last_question_[other] == question_ || (other > body && fat_.has_left(other))) continue;
         last_question_[other] = question_;
-        if (overlap(box, fat_.fat(other))) kept_.add(body, other);
+        if (surely_overlap(rounded, chunk.box[k]) || overlap(box, fat_.fat(other))) kept_.add(body, other);
       }
     }
   }
