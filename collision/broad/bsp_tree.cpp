@@ -5,8 +5,9 @@
 //
 // When a body leaves its fat box, one way down the tree finds the leaves of the old box and of the new one; its entries there
 // are renewed, and the leaves of the new one looked through for new pairs. All others are kept. Memory is what this waits
-// for: all ways down come first, so that it is known beforehand which leaves are next. Then leaves in which many gather are
-// split at the median centre, where a plane tells enough of them apart, and two that have become poor are joined.
+// for: all ways down come first, so that it is known beforehand which leaves are next; and the boxes of a leaf are asked all at
+// once, seven bits for a side (broad/cell_block.hpp), what is hit then of the boxes themselves. Then leaves in which many
+// gather are split at the median centre, where a plane tells enough of them apart, and two that have become poor are joined.
 #include <algorithm>
 #include <array>
 #include <cmath>

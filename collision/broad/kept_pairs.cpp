@@ -7,8 +7,8 @@
 namespace polhode::broad {
 namespace {
 
-// When memory is asked for bounds: the second body's of a pair that was kept, both of a fresh one.
-constexpr std::ptrdiff_t pairs_ahead = 16;
+// When memory is asked for bounds, those of pairs that were kept and those of fresh ones.
+constexpr std::ptrdiff_t pairs_ahead = 32;
 constexpr std::size_t fresh_ahead = 8;
 
 std::uint64_t key(const BodyPair& p) { return std::uint64_t(p.a) << 32 | p.b; }
@@ -34,7 +34,9 @@ std::span<const BodyPair> KeptPairs::renew(const FatBoxes& boxes, std::span<cons
     pairs_end += all(stays, overlap(box_of(bounds[p.a]), box_of(bounds[p.b])));
   };
   const auto take_old = [&] {
-    fetch(bounds[old[std::min(pairs_ahead, old_end - old - 1)].b]);
+    const BodyPair& soon = old[std::min(pairs_ahead, old_end - old - 1)];
+    fetch(bounds[soon.a]);
+    fetch(bounds[soon.b]);
     const BodyPair p = *old++;
     take(p, all(!boxes.has_left(p.a), !boxes.has_left(p.b)));
   };
