@@ -5,8 +5,9 @@
 //
 // When a body leaves its fat box, one way down the tree finds the leaves of the old box and of the new one; its entries there
 // are renewed, and the leaves of the new one looked through for new pairs. All others are kept. Memory is what this waits
-// for: all ways down come first, so that it is known beforehand which leaves are next. Then leaves in which many gather are
-// split at the median centre, where a plane tells enough of them apart, and two that have become poor are joined.
+// for: all ways down come first, so that it is known beforehand which leaves are next; and the boxes of a leaf are asked all at
+// once, seven bits for a side (broad/cell_block.hpp), what is hit then of the boxes themselves. Then leaves in which many
+// gather are split at the median centre, where a plane tells enough of them apart, and two that have become poor are joined.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,16 +15,18 @@
 #include <vector>
 
 #include "collision/broad/boxes.hpp"
+#include "collision/broad/cell_block.hpp"
 #include "collision/broad/fat_boxes.hpp"
 #include "collision/broad/kept_pairs.hpp"
-#include "collision/broad/rounded_box.hpp"
 #include "collision/broad_phase.hpp"
 
 namespace polhode {
 namespace {
 
 using broad::Box;
-using broad::RoundedBox;
+using broad::cells::lanes;
+using broad::cells::Limits;
+using broad::cells::Reach;
 
 using Index = std::uint32_t;
 constexpr Index none = ~Index(0);
@@ -32,7 +35,7 @@ constexpr Index poor = 8;              // entries of two leaves, to be one again
 constexpr double larger_side = 0.8;    // of the entries, at most, for a plane to be worth it
 constexpr double both_sides = 1.7;     // entries on both sides together, over those before
 
-constexpr std::size_t leaves_ahead = 12, chunks_ahead = 6;  // visits, when memory is asked for them
+constexpr std::size_t leaves_ahead = 24, heads_ahead = 16, chunks_ahead = 8;  // visits, when memory is asked for them
 
 /// What is read on the way down.
 struct Node {
@@ -41,12 +44,39 @@ struct Node {
   std::uint8_t axis = 0;
 };
 
+/// The units in which a leaf counts the sides of its boxes, from 1 to 126. What is beyond is taken for the first or the last,
+/// which keeps the order of numbers, whatever the units are.
+struct Frame {
+  static constexpr int units = 126;
+
+  std::array<float, 3> origin{};
+  float per_metre = 0;
+
+  Frame() = default;
+  explicit Frame(const Box& b) : per_metre(static_cast<float>((units - 2) / size_of(b))) {
+    for (std::size_t k = 0; k < 3; ++k) origin[k] = static_cast<float>(b.low[k]);
+  }
+  std::int64_t side(double x, std::size_t k) const {
+    const double u = (x - double(origin[k])) * double(per_metre);
+    return u > 0 ? 1 + static_cast<std::int64_t>(std::min(u, double(units - 1))) : 1;  // 1 also where u is no number
+  }
+  Reach reach(const Box& b) const {
+    Reach r;
+    for (std::size_t k = 0; k < 3; ++k) {
+      r.low[k] = side(b.low[k], k);
+      r.high[k] = side(b.high[k], k);
+    }
+    return r;
+  }
+};
+
 /// What else there is of a node.
-struct Leaf {
+struct alignas(32) Leaf {
   Index head = none;       // the entries, in chunks of which only the first may have room
   Index count = 0;
   Index limit = capacity;  // entries at which a plane is looked for
   Index parent = none;     // of an inner node too
+  Frame frame{};
 };
 
 /// A body that left its fat box, at a leaf that the old one or the new one reaches.
@@ -55,12 +85,10 @@ struct Visit {
   bool was, is;
 };
 
-/// Entries of a leaf side by side in memory, which one after the other in a list would be waited for.
-struct Chunk {
-  static constexpr Index room = 8;
-  std::array<Index, room> body;
-  std::array<RoundedBox, room> box;
+/// Entries of a leaf side by side in memory, in as many lanes from the first on. Which bodies they are stands elsewhere.
+struct alignas(64) Chunk : broad::cells::Sides {
   Index count = 0, next = none;
+  Chunk() { hide_all(); }
 };
 
 class BspTree final : public BroadPhase {
@@ -83,6 +111,7 @@ class BspTree final : public BroadPhase {
     broad::leave_room(leaves_, 64 + 4 * fat_.size());
     broad::leave_room(visits_, 64 + 8 * fat_.size());
     broad::leave_room(chunks_, 64 + 2 * fat_.size());
+    broad::leave_room(bodies_in_, lanes * chunks_.capacity());
     broad::leave_room(free_nodes_, 64 + fat_.size());
     broad::leave_room(centres_, 256);
   }
@@ -90,9 +119,12 @@ class BspTree final : public BroadPhase {
   void plant() {
     kept_.forget();
     nodes_.assign(1, Node{});
-    leaves_.assign(1, Leaf{});
+    Around all;
+    for (Index body = 0; body < fat_.size(); ++body) all.add(fat_.fat(body));
+    leaves_.assign(1, Leaf{.frame = all.frame()});
     free_nodes_.clear();
     chunks_.clear();
+    bodies_in_.clear();
     free_chunk_ = none;
     ask_anew();
     for (Index body = 0; body < fat_.size(); ++body) link(0, body);
@@ -101,6 +133,7 @@ class BspTree final : public BroadPhase {
       ask();
       search(0, body);
     }
+    settle_hits();
   }
 
   void follow() {
@@ -121,6 +154,7 @@ class BspTree final : public BroadPhase {
       asked = v.body;
       search(v.leaf, v.body);  // those whose entries are still to be renewed will find the pair
     }
+    settle_hits();
     for (const Visit& v : visits_) {
       if (!v.is) join_above(v.leaf);
     }
@@ -149,16 +183,28 @@ class BspTree final : public BroadPhase {
 
   void fetch_ahead(std::size_t k) const {
     if (k + leaves_ahead < visits_.size()) broad::fetch(leaves_[visits_[k + leaves_ahead].leaf]);
-    if (k + chunks_ahead >= visits_.size()) return;
-    const Index head = leaves_[visits_[k + chunks_ahead].leaf].head;
-    if (head == none) return;
-    broad::fetch(chunks_[head]);
-    if (chunks_[head].next != none) broad::fetch(chunks_[chunks_[head].next]);
+    if (k + heads_ahead < visits_.size()) {
+      const Index head = leaves_[visits_[k + heads_ahead].leaf].head;
+      if (head != none) fetch_chunk(head);
+    }
+    if (k + chunks_ahead < visits_.size()) {
+      const Visit& soon = visits_[k + chunks_ahead];
+      const Index head = leaves_[soon.leaf].head;
+      if (head != none && chunks_[head].next != none) fetch_chunk(chunks_[head].next);
+      broad::fetch(fat_.fat(soon.body));
+    }
+  }
+  void fetch_chunk(Index c) const {
+    broad::fetch(chunks_[c]);
+    broad::fetch(bodies_in_[lanes * c]);
+    broad::fetch(bodies_in_[lanes * c + lanes - 1]);
   }
 
   /// The number of a search, by which it knows whom it has met.
   void ask() {
-    if (++question_ == 0) ask_anew();
+    if (++question_ != 0) return;
+    settle_hits();
+    ask_anew();
   }
   void ask_anew() {
     last_question_.assign(fat_.size(), 0);
@@ -170,21 +216,22 @@ class BspTree final : public BroadPhase {
 
   void link(Index v, Index body) {
     Index head = leaves_[v].head;
-    if (head == none || chunks_[head].count == Chunk::room) {
+    if (head == none || chunks_[head].count == lanes) {
       head = free_chunk_;
       if (head == none) {
         head = static_cast<Index>(chunks_.size());
         chunks_.emplace_back();
+        bodies_in_.resize(lanes * chunks_.size());
       } else {
         free_chunk_ = chunks_[head].next;
       }
-      chunks_[head].count = 0;
+      chunks_[head] = Chunk{};
       chunks_[head].next = leaves_[v].head;
       leaves_[v].head = head;
     }
     Chunk& chunk = chunks_[head];
-    chunk.body[chunk.count] = body;
-    chunk.box[chunk.count++] = RoundedBox(fat_.fat(body));
+    bodies_in_[lanes * head + chunk.count] = body;
+    chunk.set(chunk.count++, leaves_[v].frame.reach(fat_.fat(body)));
     ++leaves_[v].count;
   }
 
@@ -195,13 +242,13 @@ class BspTree final : public BroadPhase {
   /// Of a body that is listed.
   Place place_of(Index v, Index body) const {
     Place p{leaves_[v].head, 0};
-    while ((p.entry = place_in(chunks_[p.chunk], body)) == chunks_[p.chunk].count) p.chunk = chunks_[p.chunk].next;
+    while ((p.entry = place_in(p.chunk, body)) == chunks_[p.chunk].count) p.chunk = chunks_[p.chunk].next;
     return p;
   }
 
   void renew(Index v, Index body) {
     const Place p = place_of(v, body);
-    chunks_[p.chunk].box[p.entry] = RoundedBox(fat_.fat(body));
+    chunks_[p.chunk].set(p.entry, leaves_[v].frame.reach(fat_.fat(body)));
   }
 
   /// The last entry of the first chunk goes, after it has taken the place of that of a body.
@@ -210,14 +257,15 @@ class BspTree final : public BroadPhase {
     Leaf& leaf = leaves_[v];
     Chunk& head = chunks_[leaf.head];
     --head.count;
-    chunks_[p.chunk].body[p.entry] = head.body[head.count];
-    chunks_[p.chunk].box[p.entry] = head.box[head.count];
+    bodies_in_[lanes * p.chunk + p.entry] = bodies_in_[lanes * leaf.head + head.count];
+    chunks_[p.chunk].set(p.entry, head, head.count);
+    head.hide(head.count);
     if (head.count == 0) leaf.head = release(leaf.head);
     --leaf.count;
   }
-  static std::size_t place_in(const Chunk& chunk, Index body) {
+  std::size_t place_in(Index c, Index body) const {
     std::size_t k = 0;
-    while (k < chunk.count && chunk.body[k] != body) ++k;
+    while (k < chunks_[c].count && bodies_in_[lanes * c + k] != body) ++k;
     return k;
   }
 
@@ -233,7 +281,7 @@ class BspTree final : public BroadPhase {
   template <class Visit>
   void for_entries(Index head, const Visit& visit) const {
     for (Index c = head; c != none; c = chunks_[c].next) {
-      for (std::size_t k = 0; k < chunks_[c].count; ++k) visit(chunks_[c].body[k]);
+      for (std::size_t k = 0; k < chunks_[c].count; ++k) visit(bodies_in_[lanes * c + k]);
     }
   }
 
@@ -258,8 +306,10 @@ class BspTree final : public BroadPhase {
     leaves_[first] = leaves_[first + 1] = Leaf{};
     free_nodes_.push_back(first);
     nodes_[v].child = none;
-    leaves_[v] = Leaf{.parent = leaves_[v].parent};
     const auto end = bodies.begin() + static_cast<std::ptrdiff_t>(count);
+    Around around;
+    std::for_each(bodies.begin(), end, [&](Index body) { around.add(fat_.fat(body)); });
+    leaves_[v] = Leaf{.parent = leaves_[v].parent, .frame = around.frame()};
     std::sort(bodies.begin(), end);
     const auto last = std::unique(bodies.begin(), end);
     for (auto body = bodies.begin(); body != last; ++body) link(v, *body);
@@ -307,18 +357,27 @@ class BspTree final : public BroadPhase {
       free_nodes_.pop_back();
     }
     nodes_[first] = nodes_[first + 1] = Node{};
-    leaves_[first] = leaves_[first + 1] = Leaf{.parent = v};
+    Around below, above;
+    for_entries(leaves_[v].head, [&](Index body) {
+      const Box& box = fat_.fat(body);
+      if (reaches_below(nodes_[v], box)) below.add(box);
+      if (reaches_above(nodes_[v], box)) above.add(box);
+    });
+    leaves_[first] = Leaf{.parent = v, .frame = below.frame()};
+    leaves_[first + 1] = Leaf{.parent = v, .frame = above.frame()};
     nodes_[v].child = first;
     Index c = leaves_[v].head;
     leaves_[v].head = none;
     leaves_[v].count = 0;
     while (c != none) {
-      const Chunk chunk = chunks_[c];
+      std::array<Index, lanes> bodies;
+      const std::size_t count = chunks_[c].count;
+      std::copy_n(&bodies_in_[lanes * c], lanes, bodies.begin());
       c = release(c);
-      for (std::size_t k = 0; k < chunk.count; ++k) {
-        const Box& box = fat_.fat(chunk.body[k]);
-        if (reaches_below(nodes_[v], box)) link(first, chunk.body[k]);
-        if (reaches_above(nodes_[v], box)) link(first + 1, chunk.body[k]);
+      for (std::size_t k = 0; k < count; ++k) {
+        const Box& box = fat_.fat(bodies[k]);
+        if (reaches_below(nodes_[v], box)) link(first, bodies[k]);
+        if (reaches_above(nodes_[v], box)) link(first + 1, bodies[k]);
       }
     }
     split(first);
@@ -342,27 +401,58 @@ class BspTree final : public BroadPhase {
       if (below && above) search(node.child, body);
       v = node.child + Index(above);
     }
-    const RoundedBox rounded(box);
+    const Reach r = leaves_[v].frame.reach(box);
+    const Limits x(r.low[0], r.high[0]), y(r.low[1], r.high[1]), z(r.low[2], r.high[2]);
     for (Index c = leaves_[v].head; c != none; c = chunks_[c].next) {
-      const Chunk& chunk = chunks_[c];
-      for (std::size_t k = 0; k < chunk.count; ++k) {
-        if (!may_overlap(rounded, chunk.box[k])) continue;
-        const Index other = chunk.body[k];
-        if (other == body || last_question_[other] == question_ || (other > body && fat_.has_left(other))) continue;
-        last_question_[other] = question_;
-        if (overlap(box, fat_.fat(other))) kept_.add(body, other);
-      }
+      broad::cells::for_lanes(chunks_[c].overlapping(x, y, z), [&](std::size_t lane) { hit(body, bodies_in_[lanes * c + lane]); });
     }
   }
+
+  /// What may be a pair is looked at later, many together, so that memory is not waited for each time.
+  void hit(Index body, Index other) {
+    if (other == body || (other > body && fat_.has_left(other))) return;
+    broad::fetch(last_question_[other]);
+    broad::fetch(fat_.fat(other));
+    hits_[hit_count_++] = {body, other, question_};
+    if (hit_count_ == hits_.size()) settle_hits();
+  }
+
+  void settle_hits() {
+    for (std::size_t k = 0; k < hit_count_; ++k) {
+      const Hit& h = hits_[k];
+      if (last_question_[h.other] == h.question) continue;
+      last_question_[h.other] = h.question;
+      if (overlap(fat_.fat(h.body), fat_.fat(h.other))) kept_.add(h.body, h.other);
+    }
+    hit_count_ = 0;
+  }
+
+  /// The box around boxes, as far as it has bounds.
+  struct Around {
+    Box box{};
+    bool any = false;
+    void add(const Box& b) {
+      if (broad::FatBoxes::too_large(b)) return;
+      box = any ? hull(box, b) : b;
+      any = true;
+    }
+    Frame frame() const { return any ? Frame(box) : Frame(); }
+  };
 
   broad::FatBoxes fat_;
   std::vector<Node> nodes_;  // the root first
   std::vector<Leaf> leaves_;  // of the same numbers
   std::vector<Visit> visits_;
   std::vector<Chunk> chunks_;
+  std::vector<Index> bodies_in_;  // the lanes of the chunks
   std::vector<Index> free_nodes_;  // pairs of children that are not in use
   Index free_chunk_ = none;        // a list of chunks that are not in use
   std::vector<double> centres_;
+  struct Hit {
+    Index body, other, question;
+  };
+  std::array<Hit, 256> hits_;
+  std::size_t hit_count_ = 0;
   Index question_ = 0;                // the number of a search
   std::vector<Index> last_question_;  // of each body, the one that met it last
   broad::KeptPairs kept_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boxes of a cell of uniform_grid, side by side in a block of two lines of memory: seven bits for a side, relative to the
+// The boxes of a cell of uniform_grid, or of a leaf of bsp_tree, side by side in a block of two lines of memory: seven bits for a side, relative to the
 // cell, so that a word holds one side of eight boxes, and all are compared with a box in a few instructions (Lamport,
 // "Multiple Byte Processing with Full-Word Instructions", 1975). Numbers are rounded down throughout, which keeps their
 // order: no overlap is missed, and one by less than a unit may be none.
@@ -31,6 +31,7 @@ inline Key key_part(std::int64_t number, std::size_t axis) {
   return static_cast<Key>(number & key_mask) << (key_bits * static_cast<int>(axis));
 }
 inline Key key_part(std::size_t level) { return Key(level) << (3 * key_bits); }
+inline std::size_t level_of(Key key) { return static_cast<std::size_t>(key >> (3 * key_bits)); }
 
 /// Sixteen lanes of a byte each, as two words.
 using Word = std::uint64_t;
@@ -55,27 +56,29 @@ void for_lanes(Words bits, const Visit& visit) {
 /// set. Of what is beyond the cell's reach, that much is kept.
 struct Limits {
   Limits() = default;
-  Limits(std::int64_t low, std::int64_t high, std::int64_t cell)
-      : begins(words(std::clamp<std::int64_t>(high - (cell << cell_bits), 0, largest - 1))),
-        ends(words(largest - std::clamp<std::int64_t>(low - (cell << cell_bits), 0, largest))) {}
+  Limits(std::int64_t low, std::int64_t high)
+      : begins(words(std::clamp<std::int64_t>(high, 0, largest - 1))), ends(words(largest - std::clamp<std::int64_t>(low, 0, largest))) {}
+  Limits(std::int64_t low, std::int64_t high, std::int64_t cell) : Limits(low - (cell << cell_bits), high - (cell << cell_bits)) {}
   static Words words(std::int64_t side) { return both(static_cast<Word>(side) * in_all_lanes | top_bits); }
   Words begins{}, ends{};
 };
 
-/// Up to sixteen fat boxes of one cell; a cell that holds more has several blocks.
-struct alignas(64) Block {
+/// The sides of up to sixteen boxes, as counted from where their cell begins.
+struct Sides {
   std::array<Words, 3> begins, ends;  // by lane; the end as what is left to the largest number
-  Key key;
-  Index next;  // cell with the same hash; of the first block of a cell
-  Index more;  // boxes of this cell
 
-  std::size_t level() const { return static_cast<std::size_t>(key >> (3 * key_bits)); }
-
-  void set(std::size_t lane, const Reach& r) {
+  void set(std::size_t lane, const Reach& in_cell) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::int64_t from = r.low[k] >> cell_bits << cell_bits;
-      set(begins[k], lane, r.low[k] - from);
-      set(ends[k], lane, largest - (r.high[k] - from));
+      set(begins[k], lane, in_cell.low[k]);
+      set(ends[k], lane, largest - in_cell.high[k]);
+    }
+  }
+  /// Takes over one of another's, or of its own.
+  void set(std::size_t lane, const Sides& other, std::size_t from) {
+    const std::size_t half = from / lanes_of_word, at = 8 * (from % lanes_of_word);
+    for (std::size_t k = 0; k < 3; ++k) {
+      set(begins[k], lane, static_cast<std::int64_t>(other.begins[k][half] >> at & 0xFF));
+      set(ends[k], lane, static_cast<std::int64_t>(other.ends[k][half] >> at & 0xFF));
     }
   }
   /// An empty lane begins too late for any question, and beyond its cell.
@@ -103,6 +106,24 @@ struct alignas(64) Block {
   static void set(Words& side, std::size_t lane, std::int64_t to) {
     const std::size_t half = lane / lanes_of_word, at = 8 * (lane % lanes_of_word);
     side[half] = (side[half] & ~(Word(0xFF) << at)) | static_cast<Word>(to) << at;
+  }
+};
+
+/// Up to sixteen fat boxes of one cell; a cell that holds more has several blocks.
+struct alignas(64) Block : Sides {
+  Key key;
+  Index next;  // cell with the same hash; of the first block of a cell
+  Index more;  // boxes of this cell
+
+  std::size_t level() const { return level_of(key); }
+
+  void set(std::size_t lane, Reach r) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int64_t from = r.low[k] >> cell_bits << cell_bits;
+      r.low[k] -= from;
+      r.high[k] -= from;
+    }
+    Sides::set(lane, r);
   }
 };
 static_assert(sizeof(Block) == 128);

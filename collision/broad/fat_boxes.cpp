@@ -42,8 +42,11 @@ bool FatBoxes::update(std::span<const Bounds> bounds) {
     fetch(fat_[soon]);
     const Box now = box_of(bounds[i]);
     good &= all(now.low[0] <= now.high[0], now.low[1] <= now.high[1], now.low[2] <= now.high[2]);
+    if (contains(fat_[i], now)) continue;
     left_[count] = static_cast<std::uint32_t>(i);
-    count += !contains(fat_[i], now);
+    before_[count] = fat_[i];
+    now_[count++] = now;
+    fetch(origin_[i]);
   }
   left_.resize(good ? count : 0);
   if (!good) check(bounds);
@@ -53,9 +56,9 @@ bool FatBoxes::update(std::span<const Bounds> bounds) {
   for (std::size_t k = 0; k < count; ++k) {
     const std::uint32_t body = left_[k], soon = left_[std::min(k + bodies_ahead, count - 1)];
     fetch(origin_[soon]);
-    before_[k] = fat_[body];
+    fetch(fat_[soon]);
     has_left_[body] = 1;
-    renew(body, box_of(bounds[body]), fewest);
+    renew(body, now_[k], fewest);
   }
   return false;
 }
@@ -65,6 +68,7 @@ void FatBoxes::begin_scene(std::span<const Bounds> bounds) {
   step_ = 0;
   fat_.resize(n);
   before_.resize(n);
+  now_.resize(n);
   origin_.resize(n);
   left_.resize(n);
   std::iota(left_.begin(), left_.end(), std::uint32_t(0));

@@ -40,7 +40,7 @@ class FatBoxes {
   void begin_scene(std::span<const Bounds> bounds);
   void renew(std::uint32_t body, const Box& now, double fewest_steps);
 
-  std::vector<Box> fat_, before_;
+  std::vector<Box> fat_, before_, now_;  // by number; of those that left: the fat box that they had, and the true one
   std::vector<Origin> origin_;
   std::vector<std::uint32_t> left_;
   std::vector<std::uint8_t> has_left_;

@@ -7,7 +7,9 @@
 namespace polhode::broad {
 namespace {
 
-constexpr std::ptrdiff_t pairs_ahead = 16;  // when memory is asked for the bounds of a second body
+// When memory is asked for bounds, those of pairs that were kept and those of fresh ones.
+constexpr std::ptrdiff_t pairs_ahead = 32;
+constexpr std::size_t fresh_ahead = 8;
 
 std::uint64_t key(const BodyPair& p) { return std::uint64_t(p.a) << 32 | p.b; }
 
@@ -32,13 +34,18 @@ std::span<const BodyPair> KeptPairs::renew(const FatBoxes& boxes, std::span<cons
     pairs_end += all(stays, overlap(box_of(bounds[p.a]), box_of(bounds[p.b])));
   };
   const auto take_old = [&] {
-    fetch(bounds[old[std::min(pairs_ahead, old_end - old - 1)].b]);
+    const BodyPair& soon = old[std::min(pairs_ahead, old_end - old - 1)];
+    fetch(bounds[soon.a]);
+    fetch(bounds[soon.b]);
     const BodyPair p = *old++;
     take(p, all(!boxes.has_left(p.a), !boxes.has_left(p.b)));
   };
-  for (const BodyPair& p : fresh) {
-    while (old != old_end && key(*old) < key(p)) take_old();
-    take(p, true);
+  for (std::size_t k = 0; k < fresh.size(); ++k) {
+    const BodyPair& soon = fresh[std::min(k + fresh_ahead, fresh.size() - 1)];
+    fetch(bounds[soon.a]);
+    fetch(bounds[soon.b]);
+    while (old != old_end && key(*old) < key(fresh[k])) take_old();
+    take(fresh[k], true);
   }
   while (old != old_end) take_old();
   kept_count_ = static_cast<std::size_t>(kept_end - next_.data());

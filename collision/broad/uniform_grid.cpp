@@ -35,7 +35,7 @@ constexpr double common = 2;                // times the median size: still a co
 constexpr double half_cell_of_size = 1.05;  // half the edge of a cell over the largest common size
 constexpr double still_right = 1.3;         // half a cell over what it would be now, or the other way round
 constexpr std::size_t slots_per_body = 1;
-constexpr std::size_t ahead = 3;  // bodies, when memory is asked for their blocks
+constexpr std::size_t boxes_ahead = 8, blocks_ahead = 6;  // bodies, when memory is asked for theirs
 constexpr std::uint32_t steps_between_looks = 32;  // at the sizes of boxes
 
 class UniformGrid final : public BroadPhase {
@@ -45,23 +45,16 @@ class UniformGrid final : public BroadPhase {
       begin_scene();
     } else if (++steps_ % steps_between_looks == 0 && choose_cells()) {
       clear();
-      for (Index body = 0; body < fat_.size(); ++body) place(body, home_of(fat_.fat(body)));
+      place_all(fat_.size(), [](std::size_t k) { return static_cast<Index>(k); });
     }
     const auto left = fat_.left();
-    const std::size_t count = left.size();
-    homes_.resize(count);
-    for (std::size_t k = 0; k < count; ++k) {
-      homes_[k] = home_of(fat_.fat(left[k]));
-      fetch_slots(homes_[k]);
-      broad::fetch(place_[left[k]]);
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      if (k + ahead < count && place_[left[k + ahead]] < on_no_level) broad::fetch(blocks_[place_[left[k + ahead]] / lanes]);
-      place(left[k], homes_[k]);
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      if (k + ahead < count) fetch_blocks(homes_[k + ahead]);
-      search(left[k], homes_[k]);
+    place_all(left.size(), [&](std::size_t k) { return left[k]; });
+    for (std::size_t k = 0; k < movers_.size(); ++k) {
+      if (k + blocks_ahead < movers_.size()) {
+        fetch_blocks(movers_[k + blocks_ahead].home);
+        broad::fetch(fat_.fat(movers_[k + blocks_ahead].body));
+      }
+      search(movers_[k].body, movers_[k].home);
     }
     settle_hits();
     pairs_ = kept_.renew(fat_, bounds);
@@ -84,6 +77,8 @@ class UniformGrid final : public BroadPhase {
     bodies_in_.reserve(lanes * blocks_.capacity());
     large_.reserve(fat_.size());
     homes_.reserve(fat_.size());
+    movers_.reserve(fat_.size());
+    starts_.reserve(slots_.size() + 1);
     clear();
     kept_.forget();
   }
@@ -163,23 +158,54 @@ class UniformGrid final : public BroadPhase {
     return r;
   }
 
-  /// Where a box stands; `level` is most_levels where it is too large for all.
+  /// The cell in which a box stands; no_key where it is too large for all levels.
   struct Home {
-    std::size_t level;
-    Reach reach;
+    Key key = no_key;
+    Reach reach{};
   };
 
   Home home_of(const Box& box) const {
-    Home home{most_levels, {}};
+    Home home;
     if (FatBoxes::too_large(box)) return home;
-    for (home.level = 0; home.level < most_levels; ++home.level) {
-      home.reach = reach(box, home.level);
+    for (std::size_t level = 0; level < most_levels; ++level) {
+      home.reach = reach(box, level);
       const auto fits = [&r = home.reach](std::size_t k) {
         return (r.high[k] >> half_cell_bits) - (r.low[k] >> half_cell_bits) <= 1;
       };
-      if (broad::all(fits(0), fits(1), fits(2))) break;
+      if (!broad::all(fits(0), fits(1), fits(2))) continue;
+      home.key = key_part(level);
+      for (std::size_t k = 0; k < 3; ++k) home.key |= key_part(home.reach.low[k] >> cell_bits, k);
+      break;
     }
     return home;
+  }
+
+  /// Places bodies, and leaves them in movers_ in the order of their cells' slots: of those that are looked up one after the
+  /// other many need the same blocks, and blocks that are new together stand in this order in memory.
+  template <class BodyAt>
+  void place_all(std::size_t count, const BodyAt& body_at) {
+    const auto fewer = std::bit_floor(std::clamp<std::size_t>(count, 1, slots_.size()));
+    const int shift = std::countr_zero(slots_.size()) - std::countr_zero(fewer);
+    const auto start = [&](const Home& home) { return (hash(home.key) & (slots_.size() - 1)) >> shift; };
+    homes_.resize(count);
+    starts_.assign(fewer + 1, 0);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (k + boxes_ahead < count) broad::fetch(fat_.fat(body_at(k + boxes_ahead)));
+      homes_[k] = home_of(fat_.fat(body_at(k)));
+      ++starts_[start(homes_[k]) + 1];
+      fetch_slots(homes_[k]);
+      broad::fetch(place_[body_at(k)]);
+    }
+    for (std::size_t k = 0; k < fewer; ++k) starts_[k + 1] += starts_[k];
+    movers_.resize(count);
+    for (std::size_t k = 0; k < count; ++k) movers_[starts_[start(homes_[k])]++] = {body_at(k), homes_[k]};
+    for (std::size_t k = 0; k < count; ++k) {
+      if (k + blocks_ahead < count) {
+        const Index soon = place_[movers_[k + blocks_ahead].body];
+        if (soon < on_no_level) broad::fetch(blocks_[soon / lanes]);
+      }
+      place(movers_[k].body, movers_[k].home);
+    }
   }
 
   Index hash(Key key) const {
@@ -196,15 +222,14 @@ class UniformGrid final : public BroadPhase {
 
   void place(Index body, const Home& home) {
     const Index old = place_[body];
-    if (home.level == most_levels) {
+    if (home.key == no_key) {
       if (old == on_no_level) return;
       if (old != none) take_out(body);
       place_[body] = on_no_level;
       large_.push_back(body);
       return;
     }
-    Key key = key_part(home.level);
-    for (std::size_t k = 0; k < 3; ++k) key |= key_part(home.reach.low[k] >> cell_bits, k);
+    const Key key = home.key;
     if (old == on_no_level) {
       std::erase(large_, body);
     } else if (old != none) {
@@ -231,8 +256,8 @@ class UniformGrid final : public BroadPhase {
     block.set(lane, home.reach);
     place_[body] = b * Index(lanes) + static_cast<Index>(lane);
     bodies_in_[place_[body]] = body;
-    ++bodies_[home.level];
-    levels_ = std::max(levels_, home.level + 1);
+    ++bodies_[block.level()];
+    levels_ = std::max(levels_, block.level() + 1);
   }
 
   void take_out(Index body) {
@@ -286,11 +311,11 @@ class UniformGrid final : public BroadPhase {
     return {first, first + step_y_, first + step_z_, first + step_y_ + step_z_};
   }
   void fetch_slots(const Home& home) const {
-    if (home.level == most_levels) return;
+    if (home.key == no_key) return;
     for (const Index row : rows(home)) broad::fetch(slots_[row & (slots_.size() - 1)]);
   }
   void fetch_blocks(const Home& home) const {
-    if (home.level == most_levels) return;
+    if (home.key == no_key) return;
     for (const Index row : rows(home)) {
       broad::fetch(blocks_[slots_[row & (slots_.size() - 1)]]);
       broad::fetch(blocks_[slots_[(row + 1) & (slots_.size() - 1)]]);
@@ -299,10 +324,10 @@ class UniformGrid final : public BroadPhase {
 
   /// The new pairs of a body that left its fat box.
   void search(Index body, const Home& home) {
-    const Box& box = fat_.fat(body);
-    if (FatBoxes::too_large(box)) return search_all(body);
+    if (home.key == no_key) return search_all(body);
     for (std::size_t level = 0; level < levels_; ++level) {
-      if (bodies_[level] > 0) search_level(body, level, level == home.level ? home.reach : reach(box, level));
+      if (bodies_[level] == 0) continue;
+      search_level(body, level, level == level_of(home.key) ? home.reach : reach(fat_.fat(body), level));
     }
     for (const Index other : large_) found(body, other);
   }
@@ -436,7 +461,13 @@ class UniformGrid final : public BroadPhase {
   std::vector<Block> blocks_;
   std::vector<Index> bodies_in_;                 // the lanes of the blocks
   Index free_block_ = no_block;                      // a list of those not in use
+  struct Mover {
+    Index body;
+    Home home;
+  };
   std::vector<Home> homes_;                      // of those that left their fat boxes
+  std::vector<Mover> movers_;                    // the same in the order of their cells' slots
+  std::vector<Index> starts_;                    // of that order
   std::vector<Index> place_;                     // of each body: its block and lane
   std::vector<Index> large_;                     // on no level
   double half_cell_ = -1;  // of the first level, m
