@@ -31,7 +31,7 @@ struct Impact {
   double rests_from = std::numeric_limits<double>::infinity();
 };
 
-/// A contact that slid, and from here on sticks or rolls.
+/// Where the slide of two bodies on each other ends: from here on they stick, or roll, or slide another way.
 struct Transition {
   double t = 0;                                      ///< s
   std::size_t a = 0, b = 0;                          ///< bodies, a < b, in the problem's order

@@ -134,7 +134,7 @@ class Loop {
     const bool ended = contact_ && contact_->ended();
     if (t_after && !ended) state_.t = *t_after;  // t_k = k h, never accumulated
     if (contact_ && !contact_->impacts().empty()) observer_.meet(contact_->impacts());
-    if (contact_ && !contact_->transitions().empty()) observer_.stick(contact_->transitions());
+    if (contact_ && !contact_->transitions().empty()) observer_.slides_end(contact_->transitions());
     ++outcome_.steps;
     const bool progress = t_after || state_.t - before_step > least_progress * schedule_.t_end || state_.t >= schedule_.t_end;
     steps_without_progress_ = progress ? 0 : steps_without_progress_ + 1;

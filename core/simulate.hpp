@@ -51,7 +51,7 @@ class Observer {
   virtual void look(const State<double>&, const Sample&) {}
   /// The impacts of a step, its transitions, and what was lost in contacts up to a sample: before that sample, where there is contact.
   virtual void meet(std::span<const Impact>) {}
-  virtual void stick(std::span<const Transition>) {}
+  virtual void slides_end(std::span<const Transition>) {}
   virtual void account(const ContactLosses&) {}
   /// s; 0 for every sample. A method may take many steps in one call up to then.
   virtual double next_look() const { return std::numeric_limits<double>::infinity(); }

@@ -224,6 +224,7 @@ double EventLocated::first_transition(Integrator<double>& method, const State<do
   slides_.clear();
   for (std::size_t k = 0; k < resting_.size(); ++k) {
     const ImpulseContact& c = resting_[k];
+    if (c.friction == 0) continue;  // it never sticks
     if (std::binary_search(stuck_.begin(), stuck_.end(), BodyPair{c.a, c.b})) continue;  // its slip is the method's error
     const Vector3<double> slip = slip_of(bodies_, c);
     Slide s{k, slip.norm(), slip.stableNormalized(), 0};

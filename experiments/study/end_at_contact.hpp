@@ -47,6 +47,9 @@ class EndAtContact final : public ContactModel {
 
   const ContactLosses& losses() const override { return losses_; }
   std::span<const Impact> impacts() const override { return impacts_; }
+  std::span<const Transition> transitions() const override {
+    return ended() ? std::span<const Transition>() : model_->transitions();
+  }
   bool ended() const override { return !impacts_.empty(); }
 
  private:

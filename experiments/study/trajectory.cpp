@@ -144,7 +144,8 @@ std::vector<double> event_row(const Transition& t) {
   return event_row(Impact{.t = t.t, .a = t.a, .b = t.b, .point = t.point, .normal = t.normal});
 }
 
-/// What both formats share: the rows of a sample. Tables has trajectory(row), energy(row), impact(row), stick(row), close().
+/// What both formats share: the rows of a sample. Tables has trajectory(row), energy(row), impact(row), slide_end(row),
+/// close().
 template <class Tables>
 class Writer final : public TrajectoryWriter {
  public:
@@ -156,9 +157,9 @@ class Writer final : public TrajectoryWriter {
     for (const Impact& impact : impacts) tables_.impact(event_row(impact));
     next_.meet(impacts);
   }
-  void stick(std::span<const Transition> transitions) override {
-    for (const Transition& transition : transitions) tables_.stick(event_row(transition));
-    next_.stick(transitions);
+  void slides_end(std::span<const Transition> transitions) override {
+    for (const Transition& transition : transitions) tables_.slide_end(event_row(transition));
+    next_.slides_end(transitions);
   }
   void account(const ContactLosses& losses) override {
     contact_ = losses;
@@ -197,7 +198,7 @@ class CsvTables {
   void trajectory(const std::vector<double>& row) { trajectory_.add(row); }
   void energy(const std::vector<double>& row) { energy_.add(row); }
   void impact(const std::vector<double>& row) { events_.add(row, "impact"); }
-  void stick(const std::vector<double>& row) { events_.add(row, "stick"); }
+  void slide_end(const std::vector<double>& row) { events_.add(row, "slide_end"); }
   void close() {
     trajectory_.close();
     energy_.close();
@@ -236,22 +237,22 @@ class Hdf5Tables {
         trajectory_(file_.id, "trajectory", columns),
         energy_(file_.id, "energy", energy_columns()),
         impacts_(file_.id, "impacts", event_columns(false)),
-        sticks_(file_.id, "sticks", event_columns(false)) {}
+        slide_ends_(file_.id, "slide_ends", event_columns(false)) {}
   void trajectory(const std::vector<double>& row) { trajectory_.add(row); }
   void energy(const std::vector<double>& row) { energy_.add(row); }
   void impact(const std::vector<double>& row) { impacts_.add(row); }
-  void stick(const std::vector<double>& row) { sticks_.add(row); }
+  void slide_end(const std::vector<double>& row) { slide_ends_.add(row); }
   void close() {
     trajectory_.flush();
     energy_.flush();
     impacts_.flush();
-    sticks_.flush();
+    slide_ends_.flush();
     file_.finish();
   }
 
  private:
   Hdf5File file_;
-  Hdf5Table trajectory_, energy_, impacts_, sticks_;
+  Hdf5Table trajectory_, energy_, impacts_, slide_ends_;
 };
 
 }  // namespace

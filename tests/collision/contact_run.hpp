@@ -96,7 +96,9 @@ struct ContactRun {
       return seen.size();
     }
     void meet(std::span<const Impact> some) override { run.impacts.insert(run.impacts.end(), some.begin(), some.end()); }
-    void stick(std::span<const Transition> some) override { run.transitions.insert(run.transitions.end(), some.begin(), some.end()); }
+    void slides_end(std::span<const Transition> some) override {
+      run.transitions.insert(run.transitions.end(), some.begin(), some.end());
+    }
     void account(const ContactLosses& all) override { run.losses = all; }
     void look(const State<double>& state, const Sample&) override { run.path.push_back(system.snapshot(state.y, 0)); }
     double next_look() const override { return 0; }

@@ -40,7 +40,7 @@ class Contact(unittest.TestCase):
             self.assertLess(abs(float(last["impact_loss_J"])), 1e-4)
             self.assertLess(abs(float(last["drift_J"])), 1e-4)
             events = read(out / "events.csv")
-            self.assertEqual([e["kind"] for e in events], ["stick"] if timing == "event_located" else [])
+            self.assertEqual([e["kind"] for e in events], ["slide_end"] if timing == "event_located" else [])
             for event in events:
                 self.assertAlmostEqual(float(event["t_s"]), 2 * 3 / (7 * 0.25 * 9.81), delta=1e-8)
             row, = read(out / "runs.csv")
