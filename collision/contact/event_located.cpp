@@ -14,7 +14,7 @@ namespace {
 
 constexpr double quiet = 1e-11;            // m/s, of round-off in a contact that rests
 constexpr double resting_step = 1e-3;      // s, at most, through which a method that chooses its steps holds contacts
-constexpr int most_impacts = 10000;        // in a step
+constexpr int most_impacts = 1000;         // in a step
 constexpr int deepest_search = 20;         // halvings of a flight: a dip shorter than 1e-6 of it is not seen
 constexpr double brief = 1e-6;             // of a hold: a slide that ends sooner is none
 

@@ -10,7 +10,7 @@
 // rest, is not flown: the contact rests (Zeno). A contact that rests is held through the step by the impulses that the
 // response asks for, as in time stepping, but no longer than it slides: the end of a pair's slide is found by the same search,
 // over re-taken holds, where the slip that is left crosses zero. A pair that is held may sink by 1e-7 of the largest body
-// before it is looked at again. After 10000 impacts in one step the run fails and says so: it never hangs. So it ends with
+// before it is looked at again. After 1000 impacts in one step the run fails and says so: it never hangs. So it ends with
 // single_impulse where a body settles on a face: with one impulse for a pair it rocks from side to side, ever faster, and no
 // point of it rests before the others.
 #pragma once

@@ -56,6 +56,10 @@ class SequentialImpulses final : public Response {
 
   Stop when_to_stop(std::span<const ImpulseBody> bodies, std::span<const ImpulseContact> contacts, double step) const {
     if (step == 0) return {settings_.at_instant, settings_.instant_tolerance};
+    // A bounce is as exact as at an instant.
+    if (std::any_of(contacts.begin(), contacts.end(), [](const auto& c) { return c.wanted > 0; })) {
+      return {settings_.at_instant, settings_.instant_tolerance};
+    }
     // What is slower than a tenth of what a step of the forces makes of rest does not strike.
     double fastest = 0, forced = 0;
     for (const ImpulseContact& c : contacts) {

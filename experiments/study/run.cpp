@@ -147,6 +147,9 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
       return config.integrator + " chooses its own steps, and " + timing +
              " is about steps; take --impact-timing event_located";
     }
+    if (scenario.end_at_contact && !find_response(config.contact->response)->make) {
+      return config.contact->response + " knows no impacts for end_at_contact to end at; take another --response";
+    }
     if (std::string reason = narrow_phase_refusal(config.contact->narrow_phase, scenario); !reason.empty()) return reason;
   }
   if (entry->refusal) {

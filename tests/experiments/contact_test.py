@@ -82,10 +82,13 @@ class Contact(unittest.TestCase):
 
     def test_what_makes_no_sense_says_why(self):
         for arguments, reason in (
+                (["--scenario", "contact_detection", "--integrator", "rk4", "--dt", "1e-3", "--response", "compliant"],
+                 "knows no impacts for end_at_contact"),
                 (["--integrator", "odeint_dopri5", "--tolerance", "1e-8"], "take --impact-timing event_located"),
                 (["--integrator", "rk4", "--dt", "1e-3", "--precision", "float"], "contact works in double only"),
                 (["--integrator", "rk4", "--dt", "1e-3", "--response", "sequential_impulse"], "sequential_impulses")):
-            done = self.simulate("--scenario", "bouncing_ball", *arguments, "--out", self.folder / "out", status=2)
+            scenario = [] if "--scenario" in arguments else ["--scenario", "bouncing_ball"]
+            done = self.simulate(*scenario, *arguments, "--out", self.folder / "out", status=2)
             self.assertIn(reason, done.stderr)
             self.assertFalse((self.folder / "out").exists())
 
