@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The response `sequential_impulses`: projected Gauss–Seidel over the contacts (Catto, "Iterative dynamics with temporal
 // coherence", 2005), each a block of its normal and its two tangents, with the tangents in Coulomb's cone (as Jourdan,
-// Alart & Jean, 1998). The normals obey v'·n >= wanted ⟂ j·n >= 0, which is Newton's restitution. A step starts from the
+// Alart & Jean, 1998). The normals obey v'·n >= wanted ⟂ j·n >= 0, which is Newton's restitution. A sweep goes to the last point
+// and back; from sweep to sweep conjugate gradients carry the impulses on (conjugate_course.hpp). A step starts from the
 // forces of the step before.
 //
 // Newton's cradle: all impulses are found together, so one ball in sends all out: of three the velocities −1/3, 2/3, 2/3.
@@ -303,7 +304,7 @@ std::unique_ptr<Response> make_sequential_impulses(const SequentialSettings& set
 }
 
 ResponseEntry sequential_impulses() {
-  return {"sequential_impulses", "projected Gauss–Seidel: v'·n >= wanted, j·n >= 0 complementary, |j_t| <= μ j_n against the slip",
+  return {"sequential_impulses", "projected Gauss–Seidel there and back, with conjugate gradients: v'·n >= wanted, j·n >= 0 complementary, |j_t| <= μ j_n against the slip",
           [] { return make_sequential_impulses({}); }};
 }
 
