@@ -148,4 +148,13 @@ void impulse_bodies(const System<double>& system, const VectorX<double>& y, std:
   }
 }
 
+void impulse_motions(const System<double>& system, const VectorX<double>& y, std::vector<ImpulseBody>& bodies) {
+  for (std::size_t i = 0; i < system.moving(); ++i) {
+    const BodyMotion<double> m = system.motion_of(y, i);
+    bodies[i].position = m.position;
+    bodies[i].velocity = m.velocity;
+    bodies[i].angular_velocity = m.angular_velocity;
+  }
+}
+
 }  // namespace polhode

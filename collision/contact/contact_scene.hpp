@@ -71,4 +71,7 @@ void shape_poses(const System<double>& system, const VectorX<double>& y, std::ve
 /// The bodies as impulses see them.
 void impulse_bodies(const System<double>& system, const VectorX<double>& y, std::vector<ImpulseBody>& bodies);
 
+/// Their places and velocities alone, of bodies that were made by that.
+void impulse_motions(const System<double>& system, const VectorX<double>& y, std::vector<ImpulseBody>& bodies);
+
 }  // namespace polhode

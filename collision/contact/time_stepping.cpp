@@ -27,10 +27,7 @@ void TimeStepping::begin(Integrator<double>&, const State<double>&) {
 std::span<ImpulseContact> TimeStepping::find_contacts(const State<double>& start, double h) {
   shape_poses(system_, start.y, poses_);
   reach_.assign(bodies_.size(), 0);
-  impulse_bodies(system_, start.y, start_);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    bodies_[i].position = start_[i].position;  // velocities of the free end, where the step starts
-    bodies_[i].inverse_inertia = start_[i].inverse_inertia;
     reach_[i] = h * (bodies_[i].velocity.norm() + bodies_[i].angular_velocity.norm() * scene_.radius(i));
   }
   scene_.near_pairs(poses_, poses_, reach_, 0);
@@ -63,7 +60,10 @@ StepResult TimeStepping::step(Integrator<double>& method, State<double>& state, 
   free_ = state;
   StepResult result = method.step(free_, h);
   if (!result.ok()) return result;
-  impulse_bodies(system_, free_.y, bodies_);
+  impulse_bodies(system_, state.y, start_);
+  bodies_ = start_;
+  impulse_motions(system_, free_.y, bodies_);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].position = start_[i].position;  // the free end's velocities alone
   const std::span<ImpulseContact> contacts = find_contacts(state, h);
   if (contacts.empty()) {
     std::swap(state.y, free_.y);
@@ -88,7 +88,8 @@ StepResult TimeStepping::step(Integrator<double>& method, State<double>& state, 
 
 /// The work of the held forces by the trapezoidal rule, along the normals and against the slip.
 void TimeStepping::account(const State<double>& end, std::span<const ImpulseContact> contacts) {
-  impulse_bodies(system_, end.y, end_);
+  end_ = start_;
+  impulse_motions(system_, end.y, end_);
   for (const ImpulseContact& c : contacts) {
     const double lost = book(c, start_, end_, losses_);
     if (c.approach < 0 && c.restitution > 0 && !c.impulse.isZero(0)) {

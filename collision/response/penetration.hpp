@@ -14,7 +14,7 @@ namespace polhode {
 struct PenetrationSettings {
   double slop = 1e-3;     ///< m of depth that stay, so that resting contacts last
   double share = 0.5;     ///< of the depth beyond it that a step undoes
-  int iterations = 10;    ///< at most
+  int iterations = 20;    ///< at most
   double tolerance = 1e-2;  ///< of the largest displacement: when to stop
 };
 

@@ -162,10 +162,12 @@ class SequentialImpulses final : public Response {
     return work;
   }
 
-  /// Over all points to the last and back, until hardly anything changes.
+  /// Over all points to the last and back, until hardly anything changes, and further while each sweep halves the
+  /// change of the one before: where they are so few that it costs little, the answer is exact.
   void sweep(const Stop& stop) {
     course_.start(motions_.size());
     for (Point& p : points_) p.course = zero_lanes();
+    double before = 0;
     for (int n = 1;; ++n) {
       Extent extent;
       course_.mark(motions_);
@@ -173,7 +175,10 @@ class SequentialImpulses final : public Response {
       const std::size_t count = batches_.patches().size();
       for (std::size_t i = 0; i < count; ++i) visit<false>(i, extent);
       for (std::size_t i = count; i-- > 0;) visit<true>(i, extent);
-      if (n == stop.iterations || largest(extent.change) <= stop.tolerance * largest(extent.impulse)) break;
+      const double change = largest(extent.change), impulse = largest(extent.impulse);
+      const bool fast = change < 0.5 * before && change > settings_.instant_tolerance * impulse;
+      if (n == stop.iterations || (change <= stop.tolerance * impulse && !fast)) break;
+      before = change;
       const double share = course_.share(products());
       course_.advance(motions_, share);
       for (Point& p : points_) {

@@ -120,8 +120,8 @@ TEST_P(ResponseCase, ABoxOnFourCornersComesToRest) {
     for (int k = 0; k < 10; ++k) {
       s.bodies[1].velocity += Vector(0, 0, -9.81 / 60);
       s = after(s, step);
-      EXPECT_LE(s.bodies[1].velocity.norm(), step == 0 ? 1e-10 : 1e-7) << "step " << k;
-      EXPECT_LE(s.bodies[1].angular_velocity.norm(), step == 0 ? 1e-10 : 1e-7) << "step " << k;
+      EXPECT_LE(s.bodies[1].velocity.norm(), 1e-10) << "step " << k;
+      EXPECT_LE(s.bodies[1].angular_velocity.norm(), 1e-10) << "step " << k;
     }
   }
 }
