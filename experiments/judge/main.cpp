@@ -66,8 +66,8 @@ int judge(const JudgeOptions& options) {
     view.runs.push_back(s.record);
     // The score itself says which run it is: another trajectory has another one.
     std::string text = scenario.canonical + s.record.config.integrator + std::to_string(s.instants);
-    for (const ErrorPoint& p : s.errors) text += exact(p.t) + csv_cell(p.attitude) + csv_cell(p.position);
-    for (const SeriesPoint& p : s.record.result.series) text += exact(p.t) + exact(p.energy_drift_rel);
+    for (const ErrorPoint& p : s.errors) text += study::exact(p.t) + csv_cell(p.attitude) + csv_cell(p.position);
+    for (const SeriesPoint& p : s.record.result.series) text += study::exact(p.t) + study::exact(p.energy_drift_rel);
     view.runs.back().id = identity_of(text);
     ids.insert(view.runs.back().id);
     plan.identity += view.runs.back().id;

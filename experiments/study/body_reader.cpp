@@ -18,7 +18,6 @@ namespace {
 
 using Range = Parameter::Range;
 
-TomlCursor key(const TomlCursor& body, std::string_view name) { return body.at(name, otherwise(body_keys(), name)); }
 
 // Names.
 
@@ -129,7 +128,7 @@ void check_inertia(const TomlCursor& table, std::string_view source, const Body&
   const TomlCursor cursor = table.at(source, "");
   const std::string unusable = equations_inertia_fault(body.inertia);
   if (!unusable.empty()) cursor.fail("the inertia " + unusable);
-  if (key(table, "unphysical_inertia").boolean()) return;
+  if (body_key(table, "unphysical_inertia").boolean()) return;
   const std::string impossible = inertia_fault(body.inertia);
   if (!impossible.empty()) cursor.fail("the inertia " + impossible + "; unphysical_inertia = true lets it pass");
 }
@@ -160,7 +159,7 @@ void take_inertia(const TomlCursor& table, Body& body) {
 }
 
 Vector3<double> read_center(const TomlCursor& table, bool pinned) {
-  const TomlCursor cursor = key(table, "center_of_mass");
+  const TomlCursor cursor = body_key(table, "center_of_mass");
   const Vector3<double> center = cursor.vector("m");
   if (!pinned && !center.isZero(0)) {
     cursor.fail("is for a body with pinned = true; any other has its mass centre at the origin of its axes");
@@ -171,8 +170,8 @@ Vector3<double> read_center(const TomlCursor& table, bool pinned) {
 Body read_matter(const TomlCursor& table, std::size_t index) {
   Body body;
   body.name = read_name(table, index);
-  body.pinned = key(table, "pinned").boolean();
-  const TomlCursor fixed = key(table, "static");
+  body.pinned = body_key(table, "pinned").boolean();
+  const TomlCursor fixed = body_key(table, "static");
   body.fixed = fixed.boolean();
   if (body.pinned && body.fixed) fixed.fail("a body is static or pinned, not both");
   if (table.has("point_masses")) {
@@ -211,15 +210,15 @@ Vector3<double> read_motion(const TomlCursor& vector, std::string_view unit, boo
 
 BodyStart read_start(const TomlCursor& table, const Body& body) {
   BodyStart start;
-  start.position = key(table, "position").vector("m");
-  start.orientation = read_orientation(key(table, "orientation"));
-  start.velocity = read_motion(key(table, "velocity"), "m/s", !body.fixed && !body.pinned,
+  start.position = body_key(table, "position").vector("m");
+  start.orientation = read_orientation(body_key(table, "orientation"));
+  start.velocity = read_motion(body_key(table, "velocity"), "m/s", !body.fixed && !body.pinned,
                                body.pinned ? "a pinned body has no velocity: its pivot stays where it is; "
                                              "give an angular_velocity"
                                            : "a static body does not move");
   start.angular_velocity =
-      read_motion(key(table, "angular_velocity"), "rad/s", !body.fixed, "a static body does not move");
-  const TomlCursor frame = key(table, "angular_velocity_frame");
+      read_motion(body_key(table, "angular_velocity"), "rad/s", !body.fixed, "a static body does not move");
+  const TomlCursor frame = body_key(table, "angular_velocity_frame");
   constexpr std::string_view frames = "\"world\" or \"body\"";
   const std::string& name = frame.text(frames);
   if (name != "world" && name != "body") frame.refuse(frames);
@@ -228,11 +227,11 @@ BodyStart read_start(const TomlCursor& table, const Body& body) {
 }
 
 void read_collider(const TomlCursor& table, bool contact, ReadBody& read) {
-  const TomlCursor restitution = key(table, "restitution");
+  const TomlCursor restitution = body_key(table, "restitution");
   Collider& collider = read.collider;
   collider.restitution = restitution.number("", Range::non_negative);
   if (collider.restitution > 1) restitution.refuse("a number from 0 to 1");
-  collider.friction = key(table, "friction").number("", Range::non_negative);
+  collider.friction = body_key(table, "friction").number("", Range::non_negative);
   if (!contact || !table.has("shape")) return;
   const TomlCursor shape = table.at("shape", "");
   ShapeParameters sizes;
@@ -244,6 +243,8 @@ void read_collider(const TomlCursor& table, bool contact, ReadBody& read) {
 }
 
 }  // namespace
+
+TomlCursor body_key(const TomlCursor& body, std::string_view name) { return body.at(name, otherwise(body_keys(), name)); }
 
 ReadBody read_body(const TomlCursor& table, std::size_t index, bool contact) {
   table.table("A body has", names(body_keys()));

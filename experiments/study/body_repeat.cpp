@@ -18,8 +18,6 @@ using Counts = std::array<int, 3>;
 
 constexpr double most_bodies = 10'000;
 
-TomlCursor key(const TomlCursor& body, std::string_view name) { return body.at(name, otherwise(body_keys(), name)); }
-
 Counts read_counts(const TomlCursor& repeat) {
   constexpr std::string_view must_be = "3 whole numbers from 1, the copies along x, y and z";
   const Vector3<double> n = repeat.vector("copies");
@@ -51,14 +49,14 @@ Quaternion<double> turned(const Quaternion<double>& q, double most, Dice& dice) 
 std::vector<ReadBody> repeated(const TomlCursor& table, std::size_t index, ReadBody body) {
   if (!table.has("repeat")) {
     for (const std::string_view other : {"spacing", "jitter", "jitter_angle"}) {
-      if (table.has(other)) key(table, other).fail("is of the copies of a body; give repeat = [nx, ny, nz] too");
+      if (table.has(other)) body_key(table, other).fail("is of the copies of a body; give repeat = [nx, ny, nz] too");
     }
     return {std::move(body)};
   }
   const Counts counts = read_counts(table.at("repeat", ""));
-  const Vector3<double> spacing = read_spacing(key(table, "spacing"), counts);
-  const double jitter = key(table, "jitter").number("m", Parameter::Range::non_negative);
-  const TomlCursor angle = key(table, "jitter_angle");
+  const Vector3<double> spacing = read_spacing(body_key(table, "spacing"), counts);
+  const double jitter = body_key(table, "jitter").number("m", Parameter::Range::non_negative);
+  const TomlCursor angle = body_key(table, "jitter_angle");
   const double jitter_angle = angle.number("rad", Parameter::Range::non_negative);
   if (jitter_angle > std::numbers::pi) angle.refuse("a number from 0 to pi, of rad");
   Dice dice(index);

@@ -18,8 +18,8 @@ namespace {
 
 using namespace sundials;
 
-void free_memory(void* memory) { ARKStepFree(&memory); }
-using Memory = std::unique_ptr<void, Destroy<free_memory>>;
+void free_dirk(void* memory) { ARKStepFree(&memory); }
+using DirkMemory = std::unique_ptr<void, Destroy<free_dirk>>;
 
 class ArkodeDirk final : public SundialsIntegrator {
  public:
@@ -68,7 +68,7 @@ class ArkodeDirk final : public SundialsIntegrator {
   int order_;
   Matrix matrix_;
   LinearSolver linear_;
-  Memory memory_;
+  DirkMemory memory_;
 };
 
 }  // namespace

@@ -15,8 +15,8 @@ namespace {
 
 using namespace sundials;
 
-void free_memory(void* memory) { ERKStepFree(&memory); }
-using Memory = std::unique_ptr<void, Destroy<free_memory>>;
+void free_erk(void* memory) { ERKStepFree(&memory); }
+using ErkMemory = std::unique_ptr<void, Destroy<free_erk>>;
 
 class ArkodeErk final : public SundialsIntegrator {
  public:
@@ -59,7 +59,7 @@ class ArkodeErk final : public SundialsIntegrator {
   const char* library() const override { return "ARKODE"; }
 
   int order_;
-  Memory memory_;
+  ErkMemory memory_;
 };
 
 }  // namespace

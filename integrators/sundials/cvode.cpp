@@ -21,8 +21,8 @@ namespace {
 
 using namespace sundials;
 
-void free_memory(void* memory) { CVodeFree(&memory); }
-using Memory = std::unique_ptr<void, Destroy<free_memory>>;
+void free_cvode(void* memory) { CVodeFree(&memory); }
+using CvodeMemory = std::unique_ptr<void, Destroy<free_cvode>>;
 
 class Cvode final : public SundialsIntegrator {
  public:
@@ -103,7 +103,7 @@ class Cvode final : public SundialsIntegrator {
   Matrix matrix_;
   LinearSolver linear_;
   NonlinearSolver nonlinear_;
-  Memory memory_;
+  CvodeMemory memory_;
 };
 
 IntegratorEntry entry(Declaration declaration, int method) {

@@ -24,7 +24,7 @@ using Matrix = Matrix3<double>;
 using Vector = Vector3<double>;
 using Attitude = Quaternion<double>;
 
-Matrix diagonal(double i1, double i2, double i3) { return Vector(i1, i2, i3).asDiagonal(); }
+Matrix principal(double i1, double i2, double i3) { return Vector(i1, i2, i3).asDiagonal(); }
 
 const Attitude turned(0.5, -0.1, 0.7, 0.5);
 
@@ -33,49 +33,49 @@ double distance(const FreeTop::Motion& a, const FreeTop::Motion& b) {
                   (a.angular_velocity_body - b.angular_velocity_body).norm() / b.angular_velocity_body.norm());
 }
 
-struct Case {
+struct TopCase {
   std::string name;
   Matrix inertia;
   Vector omega;
   std::string regime;
 };
 
-std::vector<Case> every_regime() {
+std::vector<TopCase> every_regime() {
   const Matrix full = (Matrix() << 2.0, 0.3, -0.4, 0.3, 3.0, 0.2, -0.4, 0.2, 2.5).finished();
   return {
-      {"about the smallest", diagonal(0.6, 0.8, 1.0), {3, 0.5, -0.9}, "about the smallest axis"},
-      {"about the smallest, backwards", diagonal(0.6, 0.8, 1.0), {-3, -0.5, -0.9}, "about the smallest axis"},
-      {"about the largest", diagonal(1.0, 0.6, 0.8), {1.9, 0.8, 0.5}, "about the largest axis"},
-      {"about the largest, backwards", diagonal(0.6, 0.8, 1.0), {0.8, 0.5, -1.9}, "about the largest axis"},
+      {"about the smallest", principal(0.6, 0.8, 1.0), {3, 0.5, -0.9}, "about the smallest axis"},
+      {"about the smallest, backwards", principal(0.6, 0.8, 1.0), {-3, -0.5, -0.9}, "about the smallest axis"},
+      {"about the largest", principal(1.0, 0.6, 0.8), {1.9, 0.8, 0.5}, "about the largest axis"},
+      {"about the largest, backwards", principal(0.6, 0.8, 1.0), {0.8, 0.5, -1.9}, "about the largest axis"},
       {"full matrix", full, {0.7, -0.2, 1.1}, "about the smallest axis"},
       {"full matrix about the largest", full, {0.1, 1.2, 0.1}, "about the largest axis"},
-      {"separatrix", diagonal(3, 4, 6), {2, 0.5, 1}, "separatrix"},
-      {"separatrix, backwards", diagonal(4, 3, 6), {0.5, -2, -1}, "separatrix"},
-      {"just inside", diagonal(3, 4, 6), {2 + 0x1p-40, 0.5, 1}, "about the smallest axis"},
-      {"just outside", diagonal(3, 4, 6), {2 - 0x1p-40, 0.5, 1}, "about the largest axis"},
-      {"near the intermediate axis", diagonal(3, 5, 9), {1e-9, 1, -1e-9}, "about the largest axis"},
-      {"prolate", diagonal(3, 3, 1), {0.2, 1, -0.5}, "symmetric"},
-      {"oblate", diagonal(2, 2, 3), {0.7, -0.3, 1.1}, "symmetric"},
-      {"nearly oblate", diagonal(2, 2 + 1e-10, 3), {0.7, -0.3, 1.1}, "about the largest axis"},
-      {"sphere", diagonal(1.5, 1.5, 1.5), {0.2, -1, 0.5}, "sphere"},
-      {"sphere to round-off", diagonal(1, 1 + 0x1p-52, 1 + 0x1p-51), {0.2, -1, 0.5}, "sphere"},
-      {"smallest axis", diagonal(0.6, 0.8, 1.0), {-1.1, 0, 0}, "pure spin"},
-      {"intermediate axis", diagonal(0.6, 0.8, 1.0), {0, 1.1, 0}, "pure spin"},
+      {"separatrix", principal(3, 4, 6), {2, 0.5, 1}, "separatrix"},
+      {"separatrix, backwards", principal(4, 3, 6), {0.5, -2, -1}, "separatrix"},
+      {"just inside", principal(3, 4, 6), {2 + 0x1p-40, 0.5, 1}, "about the smallest axis"},
+      {"just outside", principal(3, 4, 6), {2 - 0x1p-40, 0.5, 1}, "about the largest axis"},
+      {"near the intermediate axis", principal(3, 5, 9), {1e-9, 1, -1e-9}, "about the largest axis"},
+      {"prolate", principal(3, 3, 1), {0.2, 1, -0.5}, "symmetric"},
+      {"oblate", principal(2, 2, 3), {0.7, -0.3, 1.1}, "symmetric"},
+      {"nearly oblate", principal(2, 2 + 1e-10, 3), {0.7, -0.3, 1.1}, "about the largest axis"},
+      {"sphere", principal(1.5, 1.5, 1.5), {0.2, -1, 0.5}, "sphere"},
+      {"sphere to round-off", principal(1, 1 + 0x1p-52, 1 + 0x1p-51), {0.2, -1, 0.5}, "sphere"},
+      {"smallest axis", principal(0.6, 0.8, 1.0), {-1.1, 0, 0}, "pure spin"},
+      {"intermediate axis", principal(0.6, 0.8, 1.0), {0, 1.1, 0}, "pure spin"},
       {"intermediate axis, full matrix", (Matrix() << 2, 1, 0, 1, 2, 0, 0, 0, 5).finished(), {1, 1, 0}, "pure spin"},
-      {"largest axis", diagonal(0.6, 0.8, 1.0), {0, 0, 1.1}, "pure spin"},
-      {"across a symmetric body", diagonal(3, 1, 3), {0.3, 0, 0.4}, "pure spin"},
+      {"largest axis", principal(0.6, 0.8, 1.0), {0, 0, 1.1}, "pure spin"},
+      {"across a symmetric body", principal(3, 1, 3), {0.3, 0, 0.4}, "pure spin"},
   };
 }
 
 // So near the separatrix that rounding its state gives a motion which soon departs from it.
-bool is_delicate(const Case& c) {
+bool is_delicate(const TopCase& c) {
   return c.regime == "separatrix" || c.name.starts_with("just") || c.name.starts_with("near the") ||
          c.name.starts_with("intermediate");
 }
 
 TEST(FreeTop, NamesItsRegime) {
-  for (const Case& c : every_regime()) EXPECT_EQ(FreeTop(c.inertia, turned, c.omega).regime(), c.regime) << c.name;
-  EXPECT_EQ(FreeTop(diagonal(1, 2, 3), turned, Vector::Zero()).regime(), "at rest");
+  for (const TopCase& c : every_regime()) EXPECT_EQ(FreeTop(c.inertia, turned, c.omega).regime(), c.regime) << c.name;
+  EXPECT_EQ(FreeTop(principal(1, 2, 3), turned, Vector::Zero()).regime(), "at rest");
 }
 
 // Every row to 2e-15 (1 + |ω| |t|), in every component and in the sign of the quaternion; measured: 5e-16.
@@ -105,13 +105,13 @@ TEST(FreeTop, AgreesWith40Digits) {
 }
 
 TEST(FreeTop, StartsWhereItIsTold) {
-  for (const Case& c : every_regime()) {
+  for (const TopCase& c : every_regime()) {
     EXPECT_LE(distance(FreeTop(c.inertia, turned, c.omega).at(0), {turned, c.omega}), 2e-15) << c.name;
   }
 }
 
 TEST(FreeTop, KeepsTheLengthOfTheQuaternion) {
-  for (const Case& c : every_regime()) {
+  for (const TopCase& c : every_regime()) {
     const FreeTop::Motion unit = FreeTop(c.inertia, turned, c.omega).at(7);
     const FreeTop::Motion longer = FreeTop(c.inertia, 1.25 * turned, c.omega).at(7);
     EXPECT_LE(distance(longer, {1.25 * unit.orientation, unit.angular_velocity_body}), 2e-15) << c.name;
@@ -119,13 +119,13 @@ TEST(FreeTop, KeepsTheLengthOfTheQuaternion) {
 }
 
 TEST(FreeTop, StaysAtRest) {
-  const FreeTop::Motion motion = FreeTop(diagonal(1, 2, 3), turned, Vector::Zero()).at(1e9);
+  const FreeTop::Motion motion = FreeTop(principal(1, 2, 3), turned, Vector::Zero()).at(1e9);
   EXPECT_EQ(motion.orientation, turned);
   EXPECT_EQ(motion.angular_velocity_body, Vector::Zero());
 }
 
 TEST(FreeTop, ConservesEnergyAndWorldAngularMomentum) {
-  for (const Case& c : every_regime()) {
+  for (const TopCase& c : every_regime()) {
     const FreeTop top(c.inertia, turned, c.omega);
     const double energy = c.omega.dot(c.inertia * c.omega) / 2;
     const Vector momentum = rotation_matrix(turned) * (c.inertia * c.omega);
@@ -142,7 +142,7 @@ TEST(FreeTop, ConservesEnergyAndWorldAngularMomentum) {
 
 // q̇ = ½ q (0, ω) and I ω̇ = (I ω) × ω by central differences of order 8.
 TEST(FreeTop, SatisfiesTheEquationsOfMotion) {
-  for (const Case& c : every_regime()) {
+  for (const TopCase& c : every_regime()) {
     const FreeTop top(c.inertia, turned, c.omega);
     for (double t : {-31.0, -2.0, 0.0, 0.4, 1.7, 5.0, 23.0, 47.0}) {
       const double h = 0.02 / c.omega.norm(), weight[] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
@@ -163,7 +163,7 @@ TEST(FreeTop, SatisfiesTheEquationsOfMotion) {
 }
 
 TEST(FreeTop, GoesOnFromWhereItIs) {
-  for (const Case& c : every_regime()) {
+  for (const TopCase& c : every_regime()) {
     const FreeTop top(c.inertia, turned, c.omega);
     const double there = 2.3, further = is_delicate(c) ? 3.1 : 40.0;
     const FreeTop::Motion middle = top.at(there);
@@ -174,7 +174,7 @@ TEST(FreeTop, GoesOnFromWhereItIs) {
 }
 
 TEST(FreeTop, ComesBackFromFarAway) {
-  const Matrix inertia = diagonal(0.6, 0.8, 1.0);
+  const Matrix inertia = principal(0.6, 0.8, 1.0);
   const Vector omega(1.3, 0.4, 0.7);
   const FreeTop::Motion far = FreeTop(inertia, turned, omega).at(1e6);
   const FreeTop::Motion back = FreeTop(inertia, far.orientation, far.angular_velocity_body).at(-1e6);
@@ -186,7 +186,7 @@ TEST(FreeTop, DoesNotDependOnTheBodyAxes) {
   const double half = std::numbers::sqrt2 / 2;
   const std::vector<Attitude> exact = {{0.5, 0.5, 0.5, 0.5}, {0.5, -0.5, -0.5, -0.5}, {0, 0, 0, 1}, {0, 1, 0, 0}},
                               rounded = {{half, half, 0, 0}, {0.8, 0.48, -0.36, 0}, {0.1, -0.7, 0.1, 0.7}};
-  for (const Case& c : every_regime()) {
+  for (const TopCase& c : every_regime()) {
     std::vector<Attitude> turns = exact;
     // rounding r I rᵀ moves a delicate motion to another one
     if (!is_delicate(c)) turns.insert(turns.end(), rounded.begin(), rounded.end());
@@ -205,7 +205,7 @@ TEST(FreeTop, DoesNotDependOnTheBodyAxes) {
 }
 
 TEST(FreeTop, DoesNotDependOnTheUnits) {
-  const Matrix inertia = diagonal(0.6, 0.8, 1.0);
+  const Matrix inertia = principal(0.6, 0.8, 1.0);
   const Vector omega(1.3, 0.4, -0.7);
   for (double t : {0.3, 17.0}) {
     const FreeTop::Motion motion = FreeTop(inertia, turned, omega).at(t);
@@ -227,14 +227,14 @@ TEST(FreeTop, IsContinuousAcrossRegimes) {
   };
   const Matrix none = Matrix::Zero();
   const std::vector<Border> borders = {
-      {"separatrix", diagonal(3, 4, 6), none, {2, 0.5, 1}, {1, 0, 0}},
-      {"separatrix, by the inertia", diagonal(3, 4, 6), diagonal(0, 1, 0), {-2, 0.5, 1}, Vector::Zero()},
-      {"symmetric, oblate", diagonal(2, 2, 3), diagonal(0, 1, 0), {0.7, -0.3, 1.1}, Vector::Zero()},
-      {"symmetric, prolate", diagonal(1, 3, 3), diagonal(0, 0, 1), {-0.2, 1, 0.5}, Vector::Zero()},
-      {"sphere", diagonal(2, 2, 2), diagonal(0.2, 0.3, -1), {-0.2, 1, 0.5}, Vector::Zero()},
-      {"smallest axis", diagonal(3, 4, 6), none, {1, 0, 0}, {0, 0.3, -0.7}},
-      {"intermediate axis", diagonal(3, 4, 6), none, {0, -1, 0}, {0.6, 0, -0.7}},
-      {"largest axis", diagonal(3, 4, 6), none, {0, 0, 1}, {0.3, -0.7, 0}},
+      {"separatrix", principal(3, 4, 6), none, {2, 0.5, 1}, {1, 0, 0}},
+      {"separatrix, by the inertia", principal(3, 4, 6), principal(0, 1, 0), {-2, 0.5, 1}, Vector::Zero()},
+      {"symmetric, oblate", principal(2, 2, 3), principal(0, 1, 0), {0.7, -0.3, 1.1}, Vector::Zero()},
+      {"symmetric, prolate", principal(1, 3, 3), principal(0, 0, 1), {-0.2, 1, 0.5}, Vector::Zero()},
+      {"sphere", principal(2, 2, 2), principal(0.2, 0.3, -1), {-0.2, 1, 0.5}, Vector::Zero()},
+      {"smallest axis", principal(3, 4, 6), none, {1, 0, 0}, {0, 0.3, -0.7}},
+      {"intermediate axis", principal(3, 4, 6), none, {0, -1, 0}, {0.6, 0, -0.7}},
+      {"largest axis", principal(3, 4, 6), none, {0, 0, 1}, {0.3, -0.7, 0}},
   };
   for (const Border& b : borders) {
     const FreeTop on(b.inertia, turned, b.omega);
@@ -252,19 +252,19 @@ TEST(FreeTop, IsContinuousAcrossRegimes) {
 TEST(FreeTop, RefusesWhatIsNoTop) {
   const Vector omega(1, 2, 3);
   const Attitude q = identity_quaternion<double>();
-  EXPECT_THROW(FreeTop(diagonal(1, 2, 0), q, omega), std::invalid_argument);
-  EXPECT_THROW(FreeTop(diagonal(1, -2, 3), q, omega), std::invalid_argument);
+  EXPECT_THROW(FreeTop(principal(1, 2, 0), q, omega), std::invalid_argument);
+  EXPECT_THROW(FreeTop(principal(1, -2, 3), q, omega), std::invalid_argument);
   EXPECT_THROW(FreeTop((Matrix() << 1, 0.1, 0, 0, 1, 0, 0, 0, 1).finished(), q, omega), std::invalid_argument);
   EXPECT_THROW(FreeTop((Matrix() << 1, 2, 0, 2, 1, 0, 0, 0, 1).finished(), q, omega), std::invalid_argument);
-  EXPECT_THROW(FreeTop(diagonal(1, 2, std::numeric_limits<double>::infinity()), q, omega), std::invalid_argument);
-  EXPECT_THROW(FreeTop(diagonal(1, 2, 3), q, Vector(0, std::nan(""), 1)), std::invalid_argument);
+  EXPECT_THROW(FreeTop(principal(1, 2, std::numeric_limits<double>::infinity()), q, omega), std::invalid_argument);
+  EXPECT_THROW(FreeTop(principal(1, 2, 3), q, Vector(0, std::nan(""), 1)), std::invalid_argument);
 }
 
 // The published or independently computed end points, to the digits that are given.
 
 TEST(FreeTop, PetersHsuComplexCase) {
   const auto [q, omega] =
-      FreeTop(diagonal(0.80833333, 0.68333333, 0.14166667), identity_quaternion<double>(), {0.1, 5, 0.1}).at(10);
+      FreeTop(principal(0.80833333, 0.68333333, 0.14166667), identity_quaternion<double>(), {0.1, 5, 0.1}).at(10);
   EXPECT_LE(angle_between(q, {0.2251644204565, -0.6199276265891, -0.2770289703668, 0.6987457843377}), 5e-13);
   EXPECT_LE((omega - Vector(2.7558388762, -3.7359651567, -3.1618072245)).norm(), 1e-10);
 }
@@ -279,7 +279,7 @@ TEST(FreeTop, HairerVilmart) {
 }
 
 TEST(FreeTop, DetestB5) {
-  const FreeTop top(diagonal(2, 3, 1), turned, {0, std::sqrt(0.51), std::sqrt(3.0)});
+  const FreeTop top(principal(2, 3, 1), turned, {0, std::sqrt(0.51), std::sqrt(3.0)});
   const Vector scale(std::sqrt(1.53), std::sqrt(0.51), std::sqrt(3.0));
   const Vector exact(-0.939657079872920, -0.342117775400075, 0.741412659619995);
   EXPECT_LE((top.at(20).angular_velocity_body.cwiseQuotient(scale) - exact).norm(), 1e-14);
@@ -290,7 +290,7 @@ TEST(FreeTop, DetestB5) {
 TEST(FreeTop, AxisymmetricCylinder) {
   const double i = 0.04, j = 0.02;
   const Vector omega0(2, 4, 6);
-  const FreeTop top(diagonal(i, i, j), turned, omega0);
+  const FreeTop top(principal(i, i, j), turned, omega0);
   for (double t : {0.1, 1.0, 10.0, -4.0}) {
     const double spin = (i - j) * omega0.z() / i * t;
     const Vector precession = Vector(omega0.x(), omega0.y(), j / i * omega0.z()) * t;
@@ -304,7 +304,7 @@ TEST(FreeTop, AxisymmetricCylinder) {
 TEST(FreeTop, DzhanibekovFlipsEveryHalfPeriod) {
   const double period = 118.110887046386;
   const Vector omega0(0, 2.0 / 5, 0.01 / 9);
-  const FreeTop top(diagonal(3, 5, 9), turned, omega0);
+  const FreeTop top(principal(3, 5, 9), turned, omega0);
   EXPECT_LE((top.at(period).angular_velocity_body - omega0).norm(), 1e-14);
   EXPECT_LE((top.at(period / 2).angular_velocity_body - Vector(0, -omega0.y(), omega0.z())).norm(), 1e-14);
 }

@@ -303,6 +303,11 @@ std::optional<double> value(const RunRecord& run, const Quantity& quantity) {
   return found && std::isfinite(*found) ? found : std::nullopt;
 }
 
+std::string printed(const RunRecord& run, const Quantity& quantity) {
+  const auto found = value(run, quantity);
+  return found ? number(*found) : "";
+}
+
 double epsilon(Precision precision) {
   switch (precision) {
     case Precision::single:

@@ -74,6 +74,8 @@ bool completed(const RunRecord& run);    ///< status ok
 bool ended_early(const RunRecord& run);  ///< it started and did not reach its end: diverged or failed
 /// The quantity if the run was completed and the number is finite.
 std::optional<double> value(const RunRecord& run, const Quantity& quantity);
+/// That number as tables and sentences print it; empty where there is none.
+std::string printed(const RunRecord& run, const Quantity& quantity);
 
 /// The distance from 1 to the next number of that arithmetic.
 double epsilon(Precision precision);

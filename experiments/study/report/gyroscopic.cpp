@@ -142,11 +142,6 @@ std::pair<const RunRecord*, const RunRecord*> smallest_common(const Curve& with,
   return {nullptr, nullptr};
 }
 
-std::string printed(const RunRecord& run, const Quantity& quantity) {
-  const auto found = value(run, quantity);
-  return found ? number(*found) : "";
-}
-
 std::array<Quantity, 3> compared() {
   return {quantity::energy_drift(), quantity::angular_momentum_drift(), quantity::attitude_error()};
 }

@@ -27,11 +27,6 @@ std::string slope_text(const Curve& curve, const Quantity& quantity) {
   return fmt::format("{:.2f} ({})", p, slope->points);
 }
 
-std::string printed(const RunRecord& run, const Quantity& quantity) {
-  const auto found = value(run, quantity);
-  return found ? number(*found) : "";
-}
-
 std::string largest(const Curve& curve, const Quantity& quantity) {
   std::optional<double> most;
   for (const auto* run : curve.runs) {
