@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws lines of any width, smooth at their edges, and dots: lines without length.
+#pragma once
+
+#include <span>
+
+#include "experiments/viewer/gl_objects.hpp"
+#include "experiments/viewer/view_state.hpp"
+
+namespace polhode::viewer {
+
+/// What of a mark is behind something else: not seen, or seen through it, faint.
+enum class Hidden { unseen, faint };
+
+struct LineInstance {
+  Vector3<float> from, to;  ///< m, from the eye
+  Colour colour_from, colour_to;
+  float width = 1;          ///< pixels
+  float round = 0;          ///< 1: the ends are half discs
+};
+
+class LinePass {
+ public:
+  LinePass();
+  /// `lift`: m towards the eye, so that a mark on a surface is not half within it.
+  void draw(const ViewState& view, std::span<const LineInstance> lines, Hidden hidden, double lift);
+
+ private:
+  Program program_;
+  VertexArray lines_;
+};
+
+}  // namespace polhode::viewer
