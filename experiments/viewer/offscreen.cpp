@@ -158,9 +158,8 @@ Picture Offscreen::read() {
     glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   }
   glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_ ? resolved_->framebuffer : drawn_->framebuffer);
-  Picture picture{.width = width_, .height = height_};
   const std::size_t row = 3 * std::size_t(width_);
-  picture.rgb.resize(row * std::size_t(height_));
+  Picture picture{width_, height_, std::vector<std::uint8_t>(row * std::size_t(height_))};
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, picture.rgb.data());
   for (std::size_t upper = 0, lower = std::size_t(height_) - 1; upper < lower; ++upper, --lower) {

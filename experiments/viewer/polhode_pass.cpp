@@ -141,7 +141,8 @@ void PolhodePass::draw(const ViewState& view, const InertiaEllipsoid& e, std::sp
   surface_.set("semi_axes", Eigen::Vector3f(e.semi_axes.cast<float>()));
   surface_.set("axes", Matrix3<float>(e.axes.cast<float>()));
   surface_.set("forward", view.forward);
-  surface_.set("base", Eigen::Vector3f(float(colours::inset.red), float(colours::inset.green), float(colours::inset.blue)) / 255);
+  const Colour base = colours::inset;
+  surface_.set("base", Eigen::Vector3f(float(base.red) / 255, float(base.green) / 255, float(base.blue) / 255));
   surface_.set("level_of_axis", Eigen::Vector3f(0, round ? 0 : float((e.moments[1] - least) / spread), 1));
   surface_.set("level", float(level));
   surface_.set("curves", round ? 0.0f : 1.0f);
