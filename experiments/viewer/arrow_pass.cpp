@@ -100,19 +100,19 @@ ArrowPass::ArrowPass() : program_(vertex, fragment) {
   arrows_.bytes(Per::instance, 5, 4, stride, offsetof(ArrowInstance, colour));
 }
 
-void ArrowPass::draw(const ViewState& view, std::span<const ArrowInstance> arrows, Hidden hidden) {
+void ArrowPass::draw(const ViewState& view, std::span<const ArrowInstance> arrows, double through) {
   if (arrows.empty()) return;
   arrows_.instances(arrows);
   program_.use();
   program_.set("to_clip", view.to_clip);
   program_.set("forward", view.forward);
   program_.set("head_length", head_length);
-  if (hidden == Hidden::faint) {
+  if (through > 0) {
     // Without writing depths, and each pixel once: the far side of an arrow would shine through its near one.
     glDepthFunc(GL_GREATER);
     glDepthMask(GL_FALSE);
     glEnable(GL_CULL_FACE);
-    program_.set("share", 0.3f);
+    program_.set("share", float(through));
     arrows_.draw_corners(arrows.size());
     glDisable(GL_CULL_FACE);
     glDepthMask(GL_TRUE);

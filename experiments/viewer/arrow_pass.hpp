@@ -5,7 +5,6 @@
 #include <span>
 
 #include "experiments/viewer/gl_objects.hpp"
-#include "experiments/viewer/line_pass.hpp"
 #include "experiments/viewer/view_state.hpp"
 
 namespace polhode::viewer {
@@ -20,7 +19,8 @@ struct ArrowInstance {
 class ArrowPass {
  public:
   ArrowPass();
-  void draw(const ViewState& view, std::span<const ArrowInstance> arrows, Hidden hidden);
+  /// `through`: how much of an arrow shines through what is before it, 0 to 1.
+  void draw(const ViewState& view, std::span<const ArrowInstance> arrows, double through);
 
  private:
   Program program_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/viewer/body_pass.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace polhode::viewer {
@@ -46,8 +47,8 @@ uniform vec3 forward;
 uniform vec3 light;
 out vec4 seen;
 void main() {
-  vec3 n = normalize(gl_FrontFacing ? normal : -normal);
-  float shade = 0.46 + 0.16 * n.z + 0.34 * max(dot(n, light), 0.0) + 0.14 * max(-dot(n, forward), 0.0);
+  vec3 n = normalize(normal);
+  float shade = 0.60 + 0.10 * n.z + 0.26 * max(dot(n, light), 0.0) + 0.12 * max(-dot(n, forward), 0.0);
   vec3 right = dFdx(from_edges), up = dFdy(from_edges);
   vec3 pixels = from_edges * inversesqrt(max(right * right + up * up, 1e-30));
   float edge = edge_share * clamp(edge_width - min(pixels.x, min(pixels.y, pixels.z)), 0.0, 1.0);
@@ -103,8 +104,12 @@ BodyPass::BodyPass(const std::vector<study::Surface>& surfaces)
   }
 }
 
-void BodyPass::place(std::span<const std::vector<BodyInstance>> instances) {
+void BodyPass::place(std::span<std::vector<BodyInstance>> instances) {
   for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+    // The nearest first: what is behind it need not be shaded.
+    std::stable_sort(instances[s].begin(), instances[s].end(), [](const BodyInstance& a, const BodyInstance& b) {
+      return a.position.squaredNorm() < b.position.squaredNorm();
+    });
     surfaces_[s]->instances = instances[s].size();
     surfaces_[s]->vertices.instances(std::span(instances[s]));
   }
@@ -116,11 +121,13 @@ void BodyPass::draw(const ViewState& view, bool edges) const {
   solid_.set("forward", view.forward);
   solid_.set("light", light);
   solid_.set("edges", edges ? 1.0f : 0.0f);
+  glEnable(GL_CULL_FACE);
   for (const auto& surface : surfaces_) {
     if (surface->instances == 0) continue;
     solid_.set("radius_in_pixels", surface->radius * view.pixels_per_slope);
     surface->vertices.draw_corners(surface->instances);
   }
+  glDisable(GL_CULL_FACE);
 }
 
 void BodyPass::draw_shadows(const ViewState& view, const Vector3<double>& normal, double offset, double reach) const {
@@ -132,13 +139,16 @@ void BodyPass::draw_shadows(const ViewState& view, const Vector3<double>& normal
   shadow_.set("light", light);
   shadow_.set("plane", Eigen::Vector4f(n[0], n[1], n[2], float(offset - normal.dot(view.eye))));
   shadow_.set("reach", float(reach));
-  // Each pixel once, however many bodies shade it.
+  // On the floor alone, where FloorPass has left a 1, and each pixel once, however many bodies shade it; of a body the
+  // faces towards the light.
   glEnable(GL_STENCIL_TEST);
-  glStencilFunc(GL_EQUAL, 0, 0xff);
+  glStencilFunc(GL_EQUAL, 1, 0xff);
   glStencilOp(GL_KEEP, GL_KEEP, GL_INCR);
+  glEnable(GL_CULL_FACE);
   for (const auto& surface : surfaces_) {
     if (surface->instances > 0) surface->vertices.draw_corners(surface->instances);
   }
+  glDisable(GL_CULL_FACE);
   glDisable(GL_STENCIL_TEST);
 }
 

@@ -25,10 +25,10 @@ class BodyPass {
   explicit BodyPass(const std::vector<study::Surface>& surfaces);
 
   float radius(std::size_t surface) const { return surfaces_[surface]->radius; }
-  /// Who is drawn from now on, for each surface.
-  void place(std::span<const std::vector<BodyInstance>> instances);
+  /// Who is drawn from now on, for each surface; they are sorted by their distance.
+  void place(std::span<std::vector<BodyInstance>> instances);
   void draw(const ViewState& view, bool edges) const;
-  /// On the plane normal · x = offset; `reach` m above it they have faded.
+  /// Right after FloorPass::draw_floor, on the plane normal · x = offset; `reach` m above it they have faded.
   void draw_shadows(const ViewState& view, const Vector3<double>& normal, double offset, double reach) const;
 
  private:

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "experiments/viewer/cast.hpp"
+#include "experiments/viewer/marks.hpp"
 
 namespace polhode::viewer {
 
@@ -16,8 +16,10 @@ struct Ball {
   double radius;
 };
 
-std::vector<Ball> balls_of(const study::Scene& scene, std::span<const Frame> frames) {
+std::vector<Ball> balls_of(const study::Scene& scene, std::span<const Frame> frames, const Look& look) {
   const Cast cast = cast_of(scene);
+  const double arrows = cast.typical_radius * std::max(look.angular_velocity ? longest_angular_velocity : 0,
+                                                       look.angular_momentum ? longest_angular_momentum : 0);
   std::vector<Ball> balls;
   const auto add = [&](const Vector3<double>& middle, double radius) {
     if (middle.allFinite()) balls.push_back({middle, radius});
@@ -25,7 +27,7 @@ std::vector<Ball> balls_of(const study::Scene& scene, std::span<const Frame> fra
   for (const Frame& frame : frames) {
     for (std::size_t i = 0; i < std::min(frame.bodies.size(), cast.moving.size()); ++i) {
       const FrameBody& body = frame.bodies[i];
-      add(body.position, cast.radius[i]);
+      add(body.position, std::max(look.axes ? axis_length(cast.radius[i]) : cast.radius[i], arrows));
       const Vector3<double>& center = scene.bodies[cast.moving[i]].center_of_mass;
       if (!center.isZero()) add(body.position - rotation_matrix(body.orientation) * center, 0.1 * cast.radius[i]);
     }
@@ -47,7 +49,7 @@ double azimuth_across(std::span<const Ball> balls, double usual) {
     xx += d[0] * d[0], yy += d[1] * d[1], xy += d[0] * d[1], size += ball.radius * ball.radius;
   }
   const double spread = std::hypot(xx - yy, 2 * xy);
-  if (!(spread > 0.5 * (xx + yy)) || !(xx + yy > size)) return usual;
+  if (!(spread > 0.5 * (xx + yy)) || !(xx + yy > size / 4)) return usual;
   constexpr double aside = 0.35;
   const double along = std::atan2(2 * xy, xx - yy) / 2;
   double best = usual, least = std::numeric_limits<double>::infinity();
@@ -80,9 +82,10 @@ struct Fit {
 
 }  // namespace
 
-Camera default_camera(const study::Scene& scene, std::span<const Frame> frames, double width_over_height) {
+Camera default_camera(const study::Scene& scene, std::span<const Frame> frames, double width_over_height,
+                      const Look& look) {
   Camera camera;
-  std::vector<Ball> balls = balls_of(scene, frames);
+  std::vector<Ball> balls = balls_of(scene, frames, look);
   if (balls.empty()) return camera;
   camera.azimuth = azimuth_across(balls, camera.azimuth);
 

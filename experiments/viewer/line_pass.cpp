@@ -69,7 +69,7 @@ LinePass::LinePass() : program_(vertex, fragment) {
   lines_.floats(Per::instance, 5, 1, stride, offsetof(LineInstance, round));
 }
 
-void LinePass::draw(const ViewState& view, std::span<const LineInstance> lines, Hidden hidden, double lift) {
+void LinePass::draw(const ViewState& view, std::span<const LineInstance> lines, double through, double lift) {
   if (lines.empty()) return;
   lines_.instances(lines);
   program_.use();
@@ -77,9 +77,9 @@ void LinePass::draw(const ViewState& view, std::span<const LineInstance> lines, 
   program_.set("half_size", view.half_size);
   program_.set("nearest", float(0.011 * view.distance));
   program_.set("lift", float(lift));
-  if (hidden == Hidden::faint) {
+  if (through > 0) {
     glDepthFunc(GL_GREATER);
-    program_.set("share", 0.3f);
+    program_.set("share", float(through));
     lines_.draw(GL_TRIANGLE_STRIP, 4, lines.size());
     glDepthFunc(GL_LEQUAL);
   }

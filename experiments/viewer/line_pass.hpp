@@ -9,9 +9,6 @@
 
 namespace polhode::viewer {
 
-/// What of a mark is behind something else: not seen, or seen through it, faint.
-enum class Hidden { unseen, faint };
-
 struct LineInstance {
   Vector3<float> from, to;  ///< m, from the eye
   Colour colour_from, colour_to;
@@ -22,8 +19,9 @@ struct LineInstance {
 class LinePass {
  public:
   LinePass();
-  /// `lift`: m towards the eye, so that a mark on a surface is not half within it.
-  void draw(const ViewState& view, std::span<const LineInstance> lines, Hidden hidden, double lift);
+  /// `through`: how much of a line shines through what is before it, 0 to 1; `lift`: m towards the eye, so that a mark on a
+  /// surface is not half within it.
+  void draw(const ViewState& view, std::span<const LineInstance> lines, double through, double lift);
 
  private:
   Program program_;

@@ -20,10 +20,10 @@ void add_line(std::vector<LineInstance>& lines, const Vector3<float>& from, cons
   lines.push_back({from, to, colour, colour, width, 0});
 }
 
-Vector3<double> arrow(const FrameBody& body, const Vector3<double>& vector, const VectorScale& scale, const Cast& cast) {
+Vector3<double> arrow(const FrameBody& body, const Vector3<double>& vector, const VectorScale& scale, double reach, const Cast& cast) {
   const double length = vector.norm();
   if (!(body.angular_velocity.norm() > least_angular_velocity) || !(length > 0)) return Vector3<double>::Zero();
-  return vector * (1.7 * cast.typical_radius * scale.share(length) / length);
+  return vector * (reach * cast.typical_radius * scale.share(length) / length);
 }
 
 /// The helix of a spring from one end to the other: straight at both ends, its turns wider apart the longer it is.
@@ -67,24 +67,26 @@ void VectorScales::see(const Frame& frame) {
 }
 
 Vector3<double> angular_velocity_arrow(const FrameBody& body, const Cast& cast, const VectorScales& scales) {
-  return arrow(body, body.angular_velocity, scales.angular_velocity, cast);
+  return arrow(body, body.angular_velocity, scales.angular_velocity, longest_angular_velocity, cast);
 }
 
 Vector3<double> angular_momentum_arrow(const FrameBody& body, const Cast& cast, const VectorScales& scales) {
-  return arrow(body, body.angular_momentum, scales.angular_momentum, cast);
+  return arrow(body, body.angular_momentum, scales.angular_momentum, longest_angular_momentum, cast);
 }
 
 void Marks::clear() {
   lines.clear();
+  trails.clear();
   over.clear();
   arrows.clear();
 }
 
 void Marks::add_arrow(const Vector3<double>& from, const Vector3<double>& way, double radius, Colour colour, const ViewState& view) {
   if (!(way.squaredNorm() > 0)) return;
-  constexpr double least_pixels = 1.3;
+  constexpr double least_pixels = 1.3, most_pixels = 4.5;
+  const double pixel = 1 / view.pixels_per_metre(from);
   arrows.push_back({view.from_eye(from), way.cast<float>(),
-                    float(std::max(radius, least_pixels / view.pixels_per_metre(from))), colour});
+                    float(std::clamp(radius, least_pixels * pixel, most_pixels * pixel)), colour});
 }
 
 void Marks::add_springs(const study::Scene& scene, const Cast& cast, const Frame& frame, const ViewState& view) {
@@ -106,8 +108,8 @@ void Marks::add_springs(const study::Scene& scene, const Cast& cast, const Frame
     for (int i = 0; i <= Coil::points; ++i) {
       const Vector3<float> next = view.from_eye(coil.point(i));
       const double towards_eye = -coil.outward(i).dot(view.forward.cast<double>());
-      const Colour colour = mix(colours::spring, {214, 220, 228}, 0.5 + 0.5 * towards_eye);
-      add_line(lines, last, next, colour, width);
+      const Colour colour = mix(colours::spring, {172, 180, 190}, 0.5 + 0.5 * towards_eye);
+      lines.push_back({last, next, colour, colour, width, 1});
       last = next;
     }
     add_line(lines, last, view.from_eye(to), colours::spring, width);
@@ -154,12 +156,12 @@ void Marks::add_cells(const Frame& frame, const ViewState& view) {
   }
 }
 
-void Marks::add_trails(std::span<const Trail> trails, const ViewState& view) {
-  for (const Trail& trail : trails) {
+void Marks::add_trails(std::span<const Trail> given, const ViewState& view) {
+  for (const Trail& trail : given) {
     const Colour dark = mix(body_colour(trail.body), colours::ink, 0.35);
     const auto colour = [&](std::size_t i) { return with_alpha(dark, 0.05 + 0.9 * double(i) / double(trail.points.size() - 1)); };
     for (std::size_t i = 1; i < trail.points.size(); ++i) {
-      lines.push_back({view.from_eye(trail.points[i - 1]), view.from_eye(trail.points[i]), colour(i - 1), colour(i), 2.2f, 0});
+      trails.push_back({view.from_eye(trail.points[i - 1]), view.from_eye(trail.points[i]), colour(i - 1), colour(i), 2.2f, 0});
     }
   }
 }

@@ -39,7 +39,7 @@ constexpr Colour normal = {213, 94, 0};
 constexpr Colour depth = {204, 0, 102};
 constexpr Colour spring = {88, 96, 108};
 constexpr Colour cell = {0, 114, 178};
-constexpr Colour polhode = {213, 94, 0};
+constexpr Colour polhode = {200, 16, 80};
 constexpr Colour inset = {206, 216, 228};
 }  // namespace colours
 

@@ -64,7 +64,7 @@ void main() {
 }
 )";
 
-constexpr double axis_reach = 1.28;
+constexpr double axis_reach = 1.2;
 constexpr int around = 48, down = 24;
 
 }  // namespace
@@ -112,7 +112,7 @@ Rectangle PolhodePass::area(const Rectangle& whole, Corner corner) {
 Camera PolhodePass::camera(const Camera& main) {
   Camera camera = main;
   camera.field_of_view = 0.3;
-  camera.look_at(Vector3<double>::Zero(), 1.32);
+  camera.look_at(Vector3<double>::Zero(), 1.24);
   return camera;
 }
 
@@ -155,7 +155,7 @@ void PolhodePass::draw(const ViewState& view, const InertiaEllipsoid& e, std::sp
   }
   vectors_.push_back({view.from_eye(middle), e.omega.cast<float>(), 0.018f, colours::angular_velocity});
   vectors_.push_back({view.from_eye(e.omega), (0.45 * e.momentum).cast<float>(), 0.018f, colours::angular_momentum});
-  arrows.draw(view, vectors_, Hidden::faint);
+  arrows.draw(view, vectors_, 0.35);
 
   curve_.clear();
   for (std::size_t i = 1; i < past.size(); ++i) {
@@ -164,7 +164,7 @@ void PolhodePass::draw(const ViewState& view, const InertiaEllipsoid& e, std::sp
   const Vector3<float> now = view.from_eye(e.omega);
   curve_.push_back({now, now, colours::ink, colours::ink, 9, 1});
   curve_.push_back({now, now, colours::angular_velocity, colours::angular_velocity, 6, 1});
-  lines.draw(view, curve_, Hidden::faint, 0.03);
+  lines.draw(view, curve_, 0.3, 0.03);
 }
 
 }  // namespace polhode::viewer

@@ -15,6 +15,13 @@ void clip_to(const Rectangle& area) {
   glScissor(area.left, area.bottom, area.width, area.height);
 }
 
+/// How much of each mark shines through the bodies: less, the more there are, and nothing of very many.
+double through(std::size_t marks) {
+  constexpr double most = 0.45, in_all = 30, least = 0.05;
+  const double share = std::min(most, in_all / double(std::max<std::size_t>(marks, 1)));
+  return share < least ? 0 : share;
+}
+
 void usual_state() {
   glEnable(GL_SCISSOR_TEST);
   glDisable(GL_CULL_FACE);
@@ -29,7 +36,11 @@ void usual_state() {
 }  // namespace
 
 Renderer::Renderer(const study::Scene& scene)
-    : scene_(scene), cast_(cast_of(scene)), bodies_(scene.surfaces), instances_(scene.surfaces.size()) {}
+    : scene_(scene), cast_(cast_of(scene)), bodies_(scene.surfaces), instances_(scene.surfaces.size()) {
+  for (const study::SceneBody& body : scene_.bodies) {
+    if (!body.surface) planes_.push_back({body.floor_normal, body.floor_offset});
+  }
+}
 
 void Renderer::place_bodies(const Frame& frame, const ViewState& view, const Look& look) {
   for (auto& list : instances_) list.clear();
@@ -69,11 +80,11 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Look& look, 
 
   glEnable(GL_BLEND);
   glDepthMask(GL_FALSE);
-  for (const study::SceneBody& body : scene_.bodies) {
-    if (body.surface || !look.floor) continue;
-    floor_.draw_floor(view, body.floor_normal, body.floor_offset);
-    if (!look.shadows || body.floor_normal.dot(view.eye) < body.floor_offset) continue;
-    bodies_.draw_shadows(view, body.floor_normal, body.floor_offset, 6 * cast_.typical_radius);
+  for (std::size_t i = 0; i < planes_.size() && look.floor; ++i) {
+    const Plane& plane = planes_[i];
+    if (plane.normal.dot(view.eye) <= plane.offset) continue;  // seen from within: it would hide everything
+    floor_.draw_floor(view, planes_, i);
+    if (look.shadows) bodies_.draw_shadows(view, plane.normal, plane.offset, 6 * cast_.typical_radius);
   }
   glDepthMask(GL_TRUE);
 
@@ -93,10 +104,12 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Look& look, 
       marks_.add_arrow(body.position, angular_momentum_arrow(body, cast_, scales_), shaft, colours::angular_momentum, view);
     }
   }
-  arrows_.draw(view, marks_.arrows, Hidden::faint);
+  const double lift = 0.05 * cast_.typical_radius;
+  arrows_.draw(view, marks_.arrows, through(marks_.arrows.size()));
   glDepthMask(GL_FALSE);
-  lines_.draw(view, marks_.lines, Hidden::unseen, 0);
-  lines_.draw(view, marks_.over, Hidden::faint, 0.05 * cast_.typical_radius);
+  lines_.draw(view, marks_.lines, 0, 0);
+  lines_.draw(view, marks_.trails, through(past.trails.size()), 0);
+  lines_.draw(view, marks_.over, through(marks_.over.size() / 3), lift);
   glDepthMask(GL_TRUE);
 
   if (look.polhode) draw_polhode(frame, camera, look, area, past);

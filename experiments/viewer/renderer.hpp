@@ -38,6 +38,7 @@ class Renderer {
   ArrowPass arrows_;
   PolhodePass polhode_;
   Marks marks_;
+  std::vector<Plane> planes_;                         // half-spaces
   std::vector<std::vector<BodyInstance>> instances_;  // of each surface
 };
 
