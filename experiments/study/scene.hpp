@@ -2,21 +2,15 @@
 // What of a scenario can be drawn: the surface of each body as triangles, and the springs between bodies.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "collision/pose.hpp"
 #include "experiments/study/scenario.hpp"
+#include "experiments/study/surface.hpp"
 
 namespace polhode::study {
-
-/// A surface as triangles, m, in the shape's own axes; corners stand once for each normal that they have.
-struct Surface {
-  std::vector<Vector3<float>> points, normals;  ///< the same number; normals outward, of unit length
-  std::vector<std::uint32_t> corners;           ///< three of them a triangle, counterclockwise from outside
-};
 
 struct SceneBody {
   std::string name;
