@@ -101,7 +101,7 @@ struct SessionStatus {
 /// All that the window shows, of one instant; never changed once it is handed out.
 struct View {
   Frame frame;
-  std::vector<PlotPoint> plot;             ///< from the start to what is shown, thinned to 2048 points
+  std::vector<PlotPoint> plot;             ///< of all there is to scrub through, thinned to 2048 points
   std::vector<Trace> traces;               ///< of the wanted bodies, thinned alike
   SessionStatus status;
   Configuration configuration;             ///< the present one
