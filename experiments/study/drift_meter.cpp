@@ -5,13 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "experiments/study/energy_scale.hpp"
+
 namespace polhode::study {
 namespace {
 
 constexpr int exact_instants = 50;
 constexpr int most_attitude_errors = 64;
 constexpr std::int64_t fewest_samples = 32;  ///< that a drift can be classified by
-constexpr double hopeless = 1e6;  ///< relative energy drift beyond which a run is called off as diverged
 
 /// max(a, |x|) that a NaN does not get lost in.
 void raise(double& worst, double x) {
@@ -88,11 +89,7 @@ void DriftMeter::start(const State<double>& state, const Sample& sample) {
   const Measurement<double>& m = sample.seen;
   started_ = true;
   energy_start_ = sample.ledger(0);
-  // Against |E0|; where kinetic and potential energy cancel in it, against the larger of the two; at rest at zero
-  // potential, against 1 J.
-  const double larger = std::max(std::abs(m.kinetic), std::abs(m.potential));
-  energy_scale_ = std::abs(energy_start_) >= 1e-9 * larger ? std::abs(energy_start_) : larger;
-  if (energy_scale_ == 0) energy_scale_ = 1;
+  energy_scale_ = energy_scale_of(sample);
   linear_start_ = m.linear_momentum;
   angular_start_ = m.angular_momentum;
   // Against the size of the momentum; where the bodies' momenta cancel, or nothing moves, against the sum of their
@@ -118,7 +115,7 @@ void DriftMeter::start(const State<double>& state, const Sample& sample) {
 }
 
 std::size_t DriftMeter::observe(std::span<const Sample> samples) {
-  const double bound = hopeless * energy_scale_, per_t_end = 1 / t_end_, energy_start = energy_start_;
+  const double bound = hopeless_energy_drift * energy_scale_, per_t_end = 1 / t_end_, energy_start = energy_start_;
   const ConservedMomenta conserved = conserved_;
   Sums sums = sums_;  // a copy, which the compiler can keep in registers
   std::size_t taken = 0;
