@@ -137,11 +137,20 @@ void Renderer::draw_polhode(const Frame& frame, const Camera& camera, const Look
 
 std::vector<Label> Renderer::labels(const Frame& frame, const Camera& camera, const Look& look, const Rectangle& area) const {
   std::vector<Label> all;
+  bool of_bodies = true;
+  const bool has_inset = ellipsoid(frame, look).has_value();
+  const auto hidden = [&](double right, double down) {  // behind the inset
+    const Rectangle inset = polhode_area(area, look);
+    const double left = inset.left - area.left, top = area.bottom + area.height - inset.bottom - inset.height;
+    return has_inset && right >= left && right <= left + inset.width && down >= top && down <= top + inset.height;
+  };
   const auto add = [&](const char* text, Colour colour, const Vector3<double>& point, const Camera& seen_by, const Rectangle& part) {
     const auto at = seen_by.pixel(point, part.width, part.height);
     if (!at) return;
     const double top = area.bottom + area.height - part.bottom - part.height;
-    all.push_back({text, (*at)[0] + part.left - area.left, (*at)[1] + top, colour});
+    const double right = (*at)[0] + part.left - area.left, down = (*at)[1] + top;
+    if (of_bodies && hidden(right, down)) return;
+    all.push_back({text, right, down, colour});
   };
   const auto at_tip = [](const Vector3<double>& from, const Vector3<double>& way) { return Vector3<double>(from + 1.08 * way); };
   constexpr std::array<const char*, 3> axis_names = {"x", "y", "z"};
@@ -160,6 +169,7 @@ std::vector<Label> Renderer::labels(const Frame& frame, const Camera& camera, co
     vector(look.angular_momentum, "L", colours::angular_momentum, angular_momentum_arrow(body, cast_, scales_));
   }
   if (const auto shown = ellipsoid(frame, look)) {
+    of_bodies = false;
     const Rectangle inset = polhode_area(area, look);
     const Camera inset_camera = PolhodePass::camera(camera);
     const auto points = PolhodePass::label_points(*shown);
