@@ -16,7 +16,8 @@ double reach(const Camera& camera, std::span<const Frame> frames, double width_o
   for (const Frame& frame : frames) {
     for (const FrameBody& body : frame.bodies) {
       for (unsigned i = 0; i < 8; ++i) {
-        const Vector3<double> corner = body.position + 0.2 * Vector3<double>(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+        const Vector3<double> corner =
+            body.position + 0.2 * Vector3<double>(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
         const auto at = camera.pixel(corner, width, height);
         if (!at) return std::numeric_limits<double>::infinity();
         most = std::max({most, std::abs(2 * (*at)[0] / width - 1), std::abs(2 * (*at)[1] / height - 1)});

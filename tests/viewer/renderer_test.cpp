@@ -45,7 +45,8 @@ TEST_F(RendererStage, FarFromTheOriginTooWhereFloatsAreCoarse) {
   Camera there = camera();
   there.target += far;
   const Vector3<double> position = far + Vector3<double>(0.5, 1, -0.5);
-  expect_at(draw(renderer, standing_at({position}), there), body_colour(0), 0, width, *there.pixel(position, width, height));
+  expect_at(draw(renderer, standing_at({position}), there), body_colour(0), 0, width,
+            *there.pixel(position, width, height));
 }
 
 TEST_F(RendererStage, RunsSideBySideEachInItsHalf) {

@@ -57,7 +57,8 @@ inline void add_floor(study::Scene& scene, double height) {
 inline bool is_shade(const std::uint8_t* pixel, Colour colour) {
   const double most = std::max({pixel[0], pixel[1], pixel[2], std::uint8_t(1)});
   const double full = std::max({colour.red, colour.green, colour.blue});
-  return std::abs(pixel[0] / most - colour.red / full) < 0.05 && std::abs(pixel[1] / most - colour.green / full) < 0.05 &&
+  return std::abs(pixel[0] / most - colour.red / full) < 0.05 &&
+         std::abs(pixel[1] / most - colour.green / full) < 0.05 &&
          std::abs(pixel[2] / most - colour.blue / full) < 0.05;
 }
 
@@ -97,7 +98,8 @@ class Stage : public testing::Test {
     }
   }
 
-  Picture draw(Renderer& renderer, const Frame& frame, const Camera& camera, const Look& look = {}, const Past& past = {}) {
+  Picture draw(Renderer& renderer, const Frame& frame, const Camera& camera, const Look& look = {},
+               const Past& past = {}) {
     renderer.draw(frame, camera, look, whole, past);
     return offscreen_->read();
   }
