@@ -11,7 +11,9 @@ namespace polhode::viewer {
 
 namespace {
 
-constexpr int sides = 10;
+/// Of an arrow, and of one among so many that each is small or not looked at.
+constexpr std::uint32_t sides = 10, sides_of_many = 4;
+constexpr std::size_t many = 200;
 constexpr float head_radius = 2.7f, head_length = 7.5f;  // of the shaft's radius
 
 struct ArrowVertex {
@@ -24,18 +26,18 @@ struct ArrowMesh {
   std::vector<std::uint32_t> corners;
 };
 
-ArrowMesh arrow_mesh() {
+ArrowMesh arrow_mesh(std::uint32_t round) {
   ArrowMesh mesh;
   // A ring of two rims, outward where it goes up or inward.
   const auto strip = [&](float low_radius, float low, float high_radius, float high, float tilt) {
     const auto first = std::uint32_t(mesh.vertices.size());
-    for (std::uint32_t side = 0; side < sides; ++side) {
-      const double angle = 2 * std::numbers::pi * side / sides;
+    for (std::uint32_t side = 0; side < round; ++side) {
+      const double angle = 2 * std::numbers::pi * side / round;
       const Vector3<float> across(float(std::cos(angle)), float(std::sin(angle)), 0), along = Vector3<float>::UnitZ();
       const Vector3<float> normal = (across + tilt * along).normalized();
       mesh.vertices.push_back({low_radius * across + low * along, normal});
       mesh.vertices.push_back({high_radius * across + high * along, normal});
-      const std::uint32_t a = first + 2 * side, b = first + 2 * ((side + 1) % sides);
+      const std::uint32_t a = first + 2 * side, b = first + 2 * ((side + 1) % round);
       mesh.corners.insert(mesh.corners.end(), {a, b, a + 1, a + 1, b, b + 1});
     }
   };
@@ -84,42 +86,46 @@ void main() {
 }
 )";
 
+void set_up(VertexArray& arrows, const ArrowMesh& mesh) {
+  using Per = VertexArray::Per;
+  arrows.vertices(std::span(mesh.vertices));
+  arrows.corners(mesh.corners);
+  arrows.floats(Per::vertex, 0, 3, sizeof(ArrowVertex), offsetof(ArrowVertex, place));
+  arrows.floats(Per::vertex, 1, 3, sizeof(ArrowVertex), offsetof(ArrowVertex, normal));
+  constexpr std::size_t stride = sizeof(ArrowInstance);
+  arrows.floats(Per::instance, 2, 3, stride, offsetof(ArrowInstance, from));
+  arrows.floats(Per::instance, 3, 3, stride, offsetof(ArrowInstance, way));
+  arrows.floats(Per::instance, 4, 1, stride, offsetof(ArrowInstance, radius));
+  arrows.bytes(Per::instance, 5, 4, stride, offsetof(ArrowInstance, colour));
+}
+
 }  // namespace
 
 ArrowPass::ArrowPass() : program_(vertex, fragment) {
-  using Per = VertexArray::Per;
-  const ArrowMesh mesh = arrow_mesh();
-  arrows_.vertices(std::span(mesh.vertices));
-  arrows_.corners(mesh.corners);
-  arrows_.floats(Per::vertex, 0, 3, sizeof(ArrowVertex), offsetof(ArrowVertex, place));
-  arrows_.floats(Per::vertex, 1, 3, sizeof(ArrowVertex), offsetof(ArrowVertex, normal));
-  constexpr std::size_t stride = sizeof(ArrowInstance);
-  arrows_.floats(Per::instance, 2, 3, stride, offsetof(ArrowInstance, from));
-  arrows_.floats(Per::instance, 3, 3, stride, offsetof(ArrowInstance, way));
-  arrows_.floats(Per::instance, 4, 1, stride, offsetof(ArrowInstance, radius));
-  arrows_.bytes(Per::instance, 5, 4, stride, offsetof(ArrowInstance, colour));
+  set_up(fine_, arrow_mesh(sides));
+  set_up(coarse_, arrow_mesh(sides_of_many));
 }
 
 void ArrowPass::draw(const ViewState& view, std::span<const ArrowInstance> arrows, double through) {
   if (arrows.empty()) return;
-  arrows_.instances(arrows);
+  VertexArray& mesh = arrows.size() > many ? coarse_ : fine_;
+  mesh.instances(arrows);
   program_.use();
   program_.set("to_clip", view.to_clip);
   program_.set("forward", view.forward);
   program_.set("head_length", head_length);
+  glEnable(GL_CULL_FACE);
   if (through > 0) {
-    // Without writing depths, and each pixel once: the far side of an arrow would shine through its near one.
     glDepthFunc(GL_GREATER);
     glDepthMask(GL_FALSE);
-    glEnable(GL_CULL_FACE);
     program_.set("share", float(through));
-    arrows_.draw_corners(arrows.size());
-    glDisable(GL_CULL_FACE);
+    mesh.draw_corners(arrows.size());
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LEQUAL);
   }
   program_.set("share", 1.0f);
-  arrows_.draw_corners(arrows.size());
+  mesh.draw_corners(arrows.size());
+  glDisable(GL_CULL_FACE);
 }
 
 }  // namespace polhode::viewer

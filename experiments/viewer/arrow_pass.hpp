@@ -24,7 +24,7 @@ class ArrowPass {
 
  private:
   Program program_;
-  VertexArray arrows_;
+  VertexArray fine_, coarse_;
 };
 
 }  // namespace polhode::viewer

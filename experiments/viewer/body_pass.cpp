@@ -94,9 +94,11 @@ BodyPass::BodyPass(const std::vector<study::Surface>& surfaces)
     card.radius = mesh.radius;
     card.vertices.vertices(std::span(mesh.vertices));
     card.vertices.corners(mesh.corners);
-    for (GLuint i = 0; i < 3; ++i) card.vertices.floats(Per::vertex, i, 3, sizeof(MeshVertex), i * sizeof(Vector3<float>));
+    for (GLuint i = 0; i < 3; ++i)
+      card.vertices.floats(Per::vertex, i, 3, sizeof(MeshVertex), i * sizeof(Vector3<float>));
     for (GLuint i = 0; i < 3; ++i) {
-      card.vertices.floats(Per::instance, 3 + i, 3, sizeof(BodyInstance), offsetof(BodyInstance, rotation) + i * 3 * sizeof(float));
+      card.vertices.floats(Per::instance, 3 + i, 3, sizeof(BodyInstance),
+                           offsetof(BodyInstance, rotation) + i * 3 * sizeof(float));
     }
     card.vertices.floats(Per::instance, 6, 3, sizeof(BodyInstance), offsetof(BodyInstance, position));
     card.vertices.bytes(Per::instance, 7, 4, sizeof(BodyInstance), offsetof(BodyInstance, colour));

@@ -38,8 +38,8 @@ std::vector<Ball> balls_of(const study::Scene& scene, std::span<const Frame> fra
   return balls;
 }
 
-/// The azimuth from which the balls' longest level extent lies across the picture, turned a little so that it is not seen
-/// flat; the one nearest to the usual.
+/// The azimuth from which the balls' longest level extent lies across the picture, turned a little so that it is not
+/// seen flat; the one nearest to the usual.
 double azimuth_across(std::span<const Ball> balls, double usual) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const Ball& ball : balls) mean += ball.middle.head<2>() / double(balls.size());
@@ -97,7 +97,8 @@ Camera default_camera(const study::Scene& scene, std::span<const Frame> frames, 
   const double slope = std::tan(camera.field_of_view / 2) / margin;
   const Eigen::Matrix4d axes = camera.view();
   const auto axis = [&](int k) { return Vector3<double>(axes.block<1, 3>(k, 0).transpose()); };
-  const Fit level(balls, axis(0), axis(2), std::atan(slope * width_over_height)), upright(balls, axis(1), axis(2), std::atan(slope));
+  const Fit level(balls, axis(0), axis(2), std::atan(slope * width_over_height)),
+      upright(balls, axis(1), axis(2), std::atan(slope));
   camera.target = middle + level.shift * axis(0) + upright.shift * axis(1);
   camera.distance = std::max({level.distance, upright.distance, 1e-6});
   return camera;

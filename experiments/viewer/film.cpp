@@ -15,9 +15,10 @@ namespace {
 using study::report::ChildProcess;
 
 [[noreturn]] void no_encoder(const std::filesystem::path& path) {
-  throw std::runtime_error(fmt::format("no film {}: ffmpeg is not installed; install the package ffmpeg, or make a film of the "
-                                       "PNG pictures elsewhere",
-                                       path.string()));
+  throw std::runtime_error(
+      fmt::format("no film {}: ffmpeg is not installed; install the package ffmpeg, or make a film of the "
+                  "PNG pictures elsewhere",
+                  path.string()));
 }
 
 bool has_x264(const std::filesystem::path& path) {
@@ -67,13 +68,14 @@ void Film::fail(const std::string& printed) {
   std::error_code ignored;
   std::filesystem::remove(unfinished_, ignored);
   const std::string why = last_line(printed);
-  throw std::runtime_error(fmt::format("no film {}: ffmpeg failed: {}", path_.string(), why.empty() ? "it gives no reason" : why));
+  throw std::runtime_error(
+      fmt::format("no film {}: ffmpeg failed: {}", path_.string(), why.empty() ? "it gives no reason" : why));
 }
 
 void Film::add(const Picture& picture) {
   if (picture.width != width_ || picture.height != height_) {
-    throw std::runtime_error(fmt::format("no film {}: a picture of {}×{} pixels among those of {}×{}", path_.string(), picture.width,
-                                         picture.height, width_, height_));
+    throw std::runtime_error(fmt::format("no film {}: a picture of {}×{} pixels among those of {}×{}", path_.string(),
+                                         picture.width, picture.height, width_, height_));
   }
   if (!encoder_->feed(picture.rgb)) fail(encoder_->wait().printed);
 }

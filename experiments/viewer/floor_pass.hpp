@@ -20,13 +20,14 @@ class FloorPass {
   FloorPass();
 
   void draw_background() const;
-  /// One of the planes, as far as it is not within another's half-space. Its lines stand a power of ten of metres apart, by
-  /// the camera's distance. The stencil is 1 where it is seen, else 0.
-  void draw_floor(const ViewState& view, std::span<const Plane> planes, std::size_t shown) const;
+  /// One of the planes, as far as it is not within another's half-space. Its lines stand a power of ten of metres
+  /// apart, by the camera's distance. The stencil is 1 where it is seen, else 0.
+  void draw_floor(const ViewState& view, std::span<const Plane> planes, std::size_t shown);
 
  private:
   Program background_, floor_;
   VertexArray nothing_;  // corners come from the vertex's number
+  VertexArray polygon_;
 };
 
 }  // namespace polhode::viewer

@@ -56,7 +56,8 @@ VertexArray::~VertexArray() {
   glDeleteVertexArrays(1, &id_);
 }
 
-void VertexArray::attribute(Per per, GLuint location, int numbers, GLenum type, std::size_t stride, std::size_t offset) {
+void VertexArray::attribute(Per per, GLuint location, int numbers, GLenum type, std::size_t stride,
+                            std::size_t offset) {
   glBindVertexArray(id_);
   glBindBuffer(GL_ARRAY_BUFFER, buffers_[per == Per::vertex ? 0 : 1]);
   glEnableVertexAttribArray(location);

@@ -23,8 +23,12 @@ class Program {
   void set(const char* name, const Eigen::Vector2f& value) const { glUniform2fv(place(name), 1, value.data()); }
   void set(const char* name, const Eigen::Vector3f& value) const { glUniform3fv(place(name), 1, value.data()); }
   void set(const char* name, const Eigen::Vector4f& value) const { glUniform4fv(place(name), 1, value.data()); }
-  void set(const char* name, const Eigen::Matrix3f& value) const { glUniformMatrix3fv(place(name), 1, GL_FALSE, value.data()); }
-  void set(const char* name, const Eigen::Matrix4f& value) const { glUniformMatrix4fv(place(name), 1, GL_FALSE, value.data()); }
+  void set(const char* name, const Eigen::Matrix3f& value) const {
+    glUniformMatrix3fv(place(name), 1, GL_FALSE, value.data());
+  }
+  void set(const char* name, const Eigen::Matrix4f& value) const {
+    glUniformMatrix4fv(place(name), 1, GL_FALSE, value.data());
+  }
 
  private:
   GLint place(const char* name) const { return glGetUniformLocation(id_, name); }
@@ -45,9 +49,13 @@ class VertexArray {
   void bytes(Per per, GLuint location, int numbers, std::size_t stride, std::size_t offset);
 
   template <class Records>
-  void vertices(std::span<Records> records) { upload(GL_ARRAY_BUFFER, buffers_[0], records.data(), records.size_bytes(), GL_STATIC_DRAW); }
+  void vertices(std::span<Records> records) {
+    upload(GL_ARRAY_BUFFER, buffers_[0], records.data(), records.size_bytes(), GL_STATIC_DRAW);
+  }
   template <class Records>
-  void instances(std::span<Records> records) { upload(GL_ARRAY_BUFFER, buffers_[1], records.data(), records.size_bytes(), GL_STREAM_DRAW); }
+  void instances(std::span<Records> records) {
+    upload(GL_ARRAY_BUFFER, buffers_[1], records.data(), records.size_bytes(), GL_STREAM_DRAW);
+  }
   void corners(std::span<const std::uint32_t> indices);
 
   void draw(GLenum shape, std::size_t vertices, std::size_t instances) const;

@@ -12,15 +12,15 @@ namespace polhode::viewer {
 struct LineInstance {
   Vector3<float> from, to;  ///< m, from the eye
   Colour colour_from, colour_to;
-  float width = 1;          ///< pixels
-  float round = 0;          ///< 1: the ends are half discs
+  float width = 1;  ///< pixels
+  float round = 0;  ///< 1: the ends are half discs
 };
 
 class LinePass {
  public:
   LinePass();
-  /// `through`: how much of a line shines through what is before it, 0 to 1; `lift`: m towards the eye, so that a mark on a
-  /// surface is not half within it.
+  /// `through`: how much of a line shines through what is before it, 0 to 1; `lift`: m towards the eye, so that a mark
+  /// on a surface is not half within it.
   void draw(const ViewState& view, std::span<const LineInstance> lines, double through, double lift);
 
  private:

@@ -16,17 +16,17 @@ namespace polhode::viewer {
 enum class Corner { upper_left, upper_right, lower_left, lower_right };
 
 struct Look {
-  bool floor = true;     ///< half-spaces, as grids
-  bool shadows = true;   ///< of bodies on the floor
-  bool edges = true;     ///< of polyhedra
+  bool floor = true;    ///< half-spaces, as grids
+  bool shadows = true;  ///< of bodies on the floor
+  bool edges = true;    ///< of polyhedra
   bool springs = true;
   bool contacts = true;  ///< points, normals and depths, where the frame has them
   bool cells = true;     ///< of the broad phase, where the frame has them
   bool axes = false;     ///< of each moving body: x, y, z
   bool angular_velocity = false;
   bool angular_momentum = false;
-  bool trails = true;    ///< those given
-  bool polhode = false;  ///< of the selected body, in an inset
+  bool trails = true;                   ///< those given
+  bool polhode = false;                 ///< of the selected body, in an inset
   double depth_scale = 1;               ///< depths are drawn so many times as long as they are
   std::optional<std::size_t> selected;  ///< a moving body: its edges are drawn stronger
   Corner polhode_corner = Corner::lower_right;

@@ -16,11 +16,13 @@ void add_dot(std::vector<LineInstance>& lines, const Vector3<float>& at, float w
   lines.push_back({at, at, inside, inside, width - 3, 1});
 }
 
-void add_line(std::vector<LineInstance>& lines, const Vector3<float>& from, const Vector3<float>& to, Colour colour, float width) {
+void add_line(std::vector<LineInstance>& lines, const Vector3<float>& from, const Vector3<float>& to, Colour colour,
+              float width) {
   lines.push_back({from, to, colour, colour, width, 0});
 }
 
-Vector3<double> arrow(const FrameBody& body, const Vector3<double>& vector, const VectorScale& scale, double reach, const Cast& cast) {
+Vector3<double> arrow(const FrameBody& body, const Vector3<double>& vector, const VectorScale& scale, double reach,
+                      const Cast& cast) {
   const double length = vector.norm();
   if (!(body.angular_velocity.norm() > least_angular_velocity) || !(length > 0)) return Vector3<double>::Zero();
   return vector * (reach * cast.typical_radius * scale.share(length) / length);
@@ -39,7 +41,9 @@ class Coil {
   static constexpr int turns = 11, points_a_turn = 16, points = turns * points_a_turn;
 
   /// The point of that number, 0 to `points`.
-  Vector3<double> point(int i) const { return from_ + way_ * (lead + (1 - 2 * lead) * i / points) + radius_ * taper(i) * outward(i); }
+  Vector3<double> point(int i) const {
+    return from_ + way_ * (lead + (1 - 2 * lead) * i / points) + radius_ * taper(i) * outward(i);
+  }
   Vector3<double> outward(int i) const {
     const double angle = 2 * std::numbers::pi * i / points_a_turn;
     return std::cos(angle) * aside_ + std::sin(angle) * up_;
@@ -81,7 +85,8 @@ void Marks::clear() {
   arrows.clear();
 }
 
-void Marks::add_arrow(const Vector3<double>& from, const Vector3<double>& way, double radius, Colour colour, const ViewState& view) {
+void Marks::add_arrow(const Vector3<double>& from, const Vector3<double>& way, double radius, Colour colour,
+                      const ViewState& view) {
   if (!(way.squaredNorm() > 0)) return;
   constexpr double least_pixels = 1.3, most_pixels = 4.5;
   const double pixel = 1 / view.pixels_per_metre(from);
@@ -113,7 +118,8 @@ void Marks::add_springs(const study::Scene& scene, const Cast& cast, const Frame
       last = next;
     }
     add_line(lines, last, view.from_eye(to), colours::spring, width);
-    for (const Vector3<double>& end : {from, to}) add_dot(over, view.from_eye(end), width + 6, colours::ink, {255, 255, 255});
+    for (const Vector3<double>& end : {from, to})
+      add_dot(over, view.from_eye(end), width + 6, colours::ink, {255, 255, 255});
   }
 }
 
@@ -133,7 +139,8 @@ void Marks::add_contacts(const Frame& frame, const Cast& cast, double depth_scal
   const double length = 0.75 * cast.typical_radius;
   for (const FrameContact& contact : frame.contacts) {
     const Vector3<double> half_depth = contact.normal * (depth_scale * contact.depth / 2);
-    const Vector3<float> low = view.from_eye(contact.point - half_depth), high = view.from_eye(contact.point + half_depth);
+    const Vector3<float> low = view.from_eye(contact.point - half_depth),
+                         high = view.from_eye(contact.point + half_depth);
     over.push_back({low, high, colours::depth, colours::depth, 5, 0});
     add_dot(over, view.from_eye(contact.point), 8, colours::contact, {255, 255, 255});
     add_arrow(contact.point, length * contact.normal, 0.022 * cast.typical_radius, colours::normal, view);
@@ -159,9 +166,12 @@ void Marks::add_cells(const Frame& frame, const ViewState& view) {
 void Marks::add_trails(std::span<const Trail> given, const ViewState& view) {
   for (const Trail& trail : given) {
     const Colour dark = mix(body_colour(trail.body), colours::ink, 0.35);
-    const auto colour = [&](std::size_t i) { return with_alpha(dark, 0.05 + 0.9 * double(i) / double(trail.points.size() - 1)); };
+    const auto colour = [&](std::size_t i) {
+      return with_alpha(dark, 0.05 + 0.9 * double(i) / double(trail.points.size() - 1));
+    };
     for (std::size_t i = 1; i < trail.points.size(); ++i) {
-      trails.push_back({view.from_eye(trail.points[i - 1]), view.from_eye(trail.points[i]), colour(i - 1), colour(i), 2.2f, 0});
+      trails.push_back(
+          {view.from_eye(trail.points[i - 1]), view.from_eye(trail.points[i]), colour(i - 1), colour(i), 2.8f, 0});
     }
   }
 }

@@ -31,9 +31,9 @@ Vector3<double> angular_momentum_arrow(const FrameBody& body, const Cast& cast, 
 inline double axis_length(double body_radius) { return 1.35 * body_radius; }
 
 struct Marks {
-  std::vector<LineInstance> lines;     ///< hidden where something is before them
-  std::vector<LineInstance> trails;    ///< faint there
-  std::vector<LineInstance> over;      ///< so too
+  std::vector<LineInstance> lines;   ///< hidden where something is before them
+  std::vector<LineInstance> trails;  ///< faint there
+  std::vector<LineInstance> over;    ///< so too
   std::vector<ArrowInstance> arrows;
 
   void clear();
@@ -43,7 +43,8 @@ struct Marks {
   void add_cells(const Frame& frame, const ViewState& view);
   void add_trails(std::span<const Trail> given, const ViewState& view);
   void add_axes(const Frame& frame, const Cast& cast, const ViewState& view);
-  void add_arrow(const Vector3<double>& from, const Vector3<double>& way, double radius, Colour colour, const ViewState& view);
+  void add_arrow(const Vector3<double>& from, const Vector3<double>& way, double radius, Colour colour,
+                 const ViewState& view);
 };
 
 }  // namespace polhode::viewer

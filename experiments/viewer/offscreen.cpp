@@ -69,14 +69,16 @@ struct Offscreen::Context {
  private:
   void make() {
     if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) fail("this EGL knows no desktop OpenGL");
-    const std::array<EGLint, 5> wanted = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_NONE};
+    const std::array<EGLint, 5> wanted = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT,
+                                          EGL_NONE};
     EGLConfig config = nullptr;
     EGLint count = 0;
     if (eglChooseConfig(display, wanted.data(), &config, 1, &count) != EGL_TRUE || count == 0) {
       fail("EGL offers no configuration for OpenGL");
     }
-    const std::array<EGLint, 7> version = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3,
-                                           EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+    const std::array<EGLint, 7> version = {
+        EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
     context = eglCreateContext(display, config, EGL_NO_CONTEXT, version.data());
     if (context == EGL_NO_CONTEXT) fail("there is no OpenGL 3.3 core context");
     if (!epoxy_has_egl_extension(display, "EGL_KHR_surfaceless_context")) {
@@ -104,8 +106,8 @@ struct Offscreen::Target {
     colour = attach(GL_COLOR_ATTACHMENT0, GL_RGBA8, width, height, samples);
     depth = attach(GL_DEPTH_STENCIL_ATTACHMENT, GL_DEPTH24_STENCIL8, width, height, samples);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-      throw std::runtime_error(fmt::format("cannot draw a picture of {}×{} pixels with {} samples each: choose a smaller one",
-                                           width, height, samples));
+      throw std::runtime_error(fmt::format(
+          "cannot draw a picture of {}×{} pixels with {} samples each: choose a smaller one", width, height, samples));
     }
   }
   Target(const Target&) = delete;
@@ -133,7 +135,8 @@ Offscreen::Offscreen(int width, int height, int samples) : width_(width), height
   glGetIntegerv(GL_MAX_SAMPLES, &most);
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
   if (width < 1 || height < 1 || width > largest || height > largest) {
-    throw std::runtime_error(fmt::format("cannot draw a picture of {}×{} pixels: each edge is 1 to {}", width, height, largest));
+    throw std::runtime_error(
+        fmt::format("cannot draw a picture of {}×{} pixels: each edge is 1 to {}", width, height, largest));
   }
   samples_ = std::clamp(samples, 1, std::max(most, 1));
   drawn_ = std::make_unique<Target>(width, height, samples_);
@@ -144,6 +147,11 @@ Offscreen::Offscreen(int width, int height, int samples) : width_(width), height
 Offscreen::~Offscreen() = default;
 
 const char* Offscreen::driver() const { return reinterpret_cast<const char*>(glGetString(GL_RENDERER)); }
+
+bool draws_in_software() {
+  const std::string driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return driver.find("llvmpipe") != std::string::npos || driver.find("softpipe") != std::string::npos;
+}
 
 void Offscreen::bind() {
   glBindFramebuffer(GL_FRAMEBUFFER, drawn_->framebuffer);
@@ -163,7 +171,8 @@ Picture Offscreen::read() {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, picture.rgb.data());
   for (std::size_t upper = 0, lower = std::size_t(height_) - 1; upper < lower; ++upper, --lower) {
-    std::swap_ranges(picture.rgb.begin() + std::ptrdiff_t(upper * row), picture.rgb.begin() + std::ptrdiff_t((upper + 1) * row),
+    std::swap_ranges(picture.rgb.begin() + std::ptrdiff_t(upper * row),
+                     picture.rgb.begin() + std::ptrdiff_t((upper + 1) * row),
                      picture.rgb.begin() + std::ptrdiff_t(lower * row));
   }
   bind();

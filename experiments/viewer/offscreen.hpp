@@ -8,8 +8,11 @@
 
 namespace polhode::viewer {
 
-/// OpenGL 3.3 core by EGL: Mesa's surfaceless platform where there is one, else the first device, else the usual display.
-/// The context is current in the thread that made it.
+/// Whether the current context draws by the processor: a sample more a pixel then costs as much as the first.
+bool draws_in_software();
+
+/// OpenGL 3.3 core by EGL: Mesa's surfaceless platform where there is one, else the first device, else the usual
+/// display. The context is current in the thread that made it.
 class Offscreen {
  public:
   /// `samples` a pixel; 1: no multisampling. Throws std::runtime_error in one line with the remedy.

@@ -26,8 +26,14 @@ constexpr Colour mix(Colour a, Colour b, double share) {
 }
 
 namespace colours {
-constexpr std::array<Colour, 8> bodies = {{{119, 170, 221}, {238, 136, 102}, {68, 187, 153}, {238, 221, 136},
-                                           {255, 170, 187}, {153, 221, 255}, {187, 204, 51}, {170, 170, 0}}};
+constexpr std::array<Colour, 8> bodies = {{{119, 170, 221},
+                                           {238, 136, 102},
+                                           {68, 187, 153},
+                                           {238, 221, 136},
+                                           {255, 170, 187},
+                                           {153, 221, 255},
+                                           {187, 204, 51},
+                                           {170, 170, 0}}};
 constexpr Colour fixed = {176, 180, 186};
 constexpr Colour ink = {38, 44, 52};
 constexpr Colour accent = {0, 90, 160};

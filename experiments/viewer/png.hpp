@@ -8,7 +8,8 @@
 
 namespace polhode::viewer {
 
-/// Under a temporary name beside the file, then renamed. Throws std::runtime_error, which names the file and the reason.
+/// Under a temporary name beside the file, then renamed. Throws std::runtime_error, which names the file and the
+/// reason.
 void write_png(const std::filesystem::path& path, const Picture& picture);
 
 }  // namespace polhode::viewer

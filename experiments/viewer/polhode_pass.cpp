@@ -69,7 +69,8 @@ constexpr int around = 48, down = 24;
 
 }  // namespace
 
-std::optional<InertiaEllipsoid> InertiaEllipsoid::of(const Matrix3<double>& inertia, const Vector3<double>& omega_in_body) {
+std::optional<InertiaEllipsoid> InertiaEllipsoid::of(const Matrix3<double>& inertia,
+                                                     const Vector3<double>& omega_in_body) {
   const double twice_energy = omega_in_body.dot(inertia * omega_in_body);
   if (!(twice_energy > 0) || !std::isfinite(twice_energy)) return std::nullopt;
   const PrincipalAxes principal = principal_axes(inertia);
@@ -90,7 +91,9 @@ PolhodePass::PolhodePass() : panel_(panel_vertex, panel_fragment), surface_(surf
     const double polar = std::numbers::pi * i / down;
     for (int k = 0; k <= around; ++k) {
       const double turn = 2 * std::numbers::pi * k / around;
-      points.push_back(Vector3<double>(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar)).cast<float>());
+      points.push_back(
+          Vector3<double>(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar))
+              .cast<float>());
       if (i == down || k == around) continue;
       const auto a = std::uint32_t(i * (around + 1) + k), below = a + around + 1;
       corners.insert(corners.end(), {a, below, a + 1, a + 1, below, below + 1});
@@ -118,11 +121,12 @@ Camera PolhodePass::camera(const Camera& main) {
 
 std::array<Vector3<double>, 4> PolhodePass::label_points(const InertiaEllipsoid& e) {
   const double reach = axis_reach + 0.06;
-  return {reach * Vector3<double>::UnitX(), reach * Vector3<double>::UnitY(), reach * Vector3<double>::UnitZ(), 1.12 * e.omega};
+  return {reach * Vector3<double>::UnitX(), reach * Vector3<double>::UnitY(), reach * Vector3<double>::UnitZ(),
+          1.12 * e.omega};
 }
 
-void PolhodePass::draw(const ViewState& view, const InertiaEllipsoid& e, std::span<const Vector3<double>> past, LinePass& lines,
-                       ArrowPass& arrows) {
+void PolhodePass::draw(const ViewState& view, const InertiaEllipsoid& e, std::span<const Vector3<double>> past,
+                       LinePass& lines, ArrowPass& arrows) {
   glDisable(GL_DEPTH_TEST);
   panel_.use();
   panel_.set("half_size", view.half_size);
@@ -134,7 +138,8 @@ void PolhodePass::draw(const ViewState& view, const InertiaEllipsoid& e, std::sp
   const bool round = !(spread > 1e-9 * e.moments[2]);
   const Vector3<double> shares = e.axes.transpose() * e.omega;  // of ω along the principal axes
   double level = 0;
-  for (int i = 0; i < 3 && !round; ++i) level += (e.moments[i] - least) / spread * std::pow(shares[i] / e.semi_axes[i], 2);
+  for (int i = 0; i < 3 && !round; ++i)
+    level += (e.moments[i] - least) / spread * std::pow(shares[i] / e.semi_axes[i], 2);
   surface_.use();
   surface_.set("to_clip", view.to_clip);
   surface_.set("middle", view.from_eye(Vector3<double>::Zero()));
@@ -151,7 +156,8 @@ void PolhodePass::draw(const ViewState& view, const InertiaEllipsoid& e, std::sp
   const Vector3<double> middle = Vector3<double>::Zero();
   vectors_.clear();
   for (int k = 0; k < 3; ++k) {
-    vectors_.push_back({view.from_eye(middle), (axis_reach * Vector3<double>::Unit(k)).cast<float>(), 0.012f, colours::axes[std::size_t(k)]});
+    vectors_.push_back({view.from_eye(middle), (axis_reach * Vector3<double>::Unit(k)).cast<float>(), 0.012f,
+                        colours::axes[std::size_t(k)]});
   }
   vectors_.push_back({view.from_eye(middle), e.omega.cast<float>(), 0.018f, colours::angular_velocity});
   vectors_.push_back({view.from_eye(e.omega), (0.45 * e.momentum).cast<float>(), 0.018f, colours::angular_momentum});
@@ -159,7 +165,8 @@ void PolhodePass::draw(const ViewState& view, const InertiaEllipsoid& e, std::sp
 
   curve_.clear();
   for (std::size_t i = 1; i < past.size(); ++i) {
-    curve_.push_back({view.from_eye(past[i - 1] / e.unit), view.from_eye(past[i] / e.unit), colours::polhode, colours::polhode, 2.2f, 0});
+    curve_.push_back({view.from_eye(past[i - 1] / e.unit), view.from_eye(past[i] / e.unit), colours::polhode,
+                      colours::polhode, 2.2f, 0});
   }
   const Vector3<float> now = view.from_eye(e.omega);
   curve_.push_back({now, now, colours::ink, colours::ink, 9, 1});

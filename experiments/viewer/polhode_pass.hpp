@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The polhode in an inset: Poinsot's inertia ellipsoid in body axes, the surface of constant energy 2T = ω · I ω, with the
-// family of curves along which |L| is constant too, the one that the motion should follow, and the ω that a run has had.
-// Source: Poinsot 1834; Goldstein, Classical Mechanics, 1980, section 5.6.
+// The polhode in an inset: Poinsot's inertia ellipsoid in body axes, the surface of constant energy 2T = ω · I ω, with
+// the family of curves along which |L| is constant too, the one that the motion should follow, and the ω that a run has
+// had. Source: Poinsot 1834; Goldstein, Classical Mechanics, 1980, section 5.6.
 #pragma once
 
 #include <array>
@@ -17,12 +17,12 @@ namespace polhode::viewer {
 
 /// The ellipsoid of one body at one instant; lengths are shares of the longest semi-axis.
 struct InertiaEllipsoid {
-  Matrix3<double> axes;           ///< columns: the principal axes in body axes, right-handed
-  Vector3<double> moments;        ///< kg m², ascending
-  Vector3<double> semi_axes;      ///< the first is 1
-  double unit = 1;                ///< rad/s, the longest semi-axis
-  Vector3<double> omega;          ///< ω in units, body axes
-  Vector3<double> momentum;       ///< unit vector of L, body axes
+  Matrix3<double> axes;       ///< columns: the principal axes in body axes, right-handed
+  Vector3<double> moments;    ///< kg m², ascending
+  Vector3<double> semi_axes;  ///< the first is 1
+  double unit = 1;            ///< rad/s, the longest semi-axis
+  Vector3<double> omega;      ///< ω in units, body axes
+  Vector3<double> momentum;   ///< unit vector of L, body axes
 
   /// None where nothing turns.
   static std::optional<InertiaEllipsoid> of(const Matrix3<double>& inertia, const Vector3<double>& omega_in_body);
@@ -39,8 +39,8 @@ class PolhodePass {
   static std::array<Vector3<double>, 4> label_points(const InertiaEllipsoid& ellipsoid);
 
   /// `past`: ω so far, body axes, rad/s. The viewport must be `area`.
-  void draw(const ViewState& view, const InertiaEllipsoid& ellipsoid, std::span<const Vector3<double>> past, LinePass& lines,
-            ArrowPass& arrows);
+  void draw(const ViewState& view, const InertiaEllipsoid& ellipsoid, std::span<const Vector3<double>> past,
+            LinePass& lines, ArrowPass& arrows);
 
  private:
   Program panel_, surface_;

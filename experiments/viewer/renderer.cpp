@@ -51,7 +51,8 @@ void Renderer::place_bodies(const Frame& frame, const ViewState& view, const Loo
     if (!body.fixed && moving++ >= frame.bodies.size()) continue;
     if (!body.surface) continue;
     if (body.fixed) {
-      instances_[*body.surface].push_back({body.start.rotation.cast<float>(), view.from_eye(body.start.position), colours::fixed, 0});
+      instances_[*body.surface].push_back(
+          {body.start.rotation.cast<float>(), view.from_eye(body.start.position), colours::fixed, 0});
     } else {
       const FrameBody& now = frame.bodies[number];
       instances_[*body.surface].push_back({rotation_matrix(now.orientation).cast<float>(), view.from_eye(now.position),
@@ -61,7 +62,8 @@ void Renderer::place_bodies(const Frame& frame, const ViewState& view, const Loo
   bodies_.place(instances_);
 }
 
-void Renderer::draw(const Frame& frame, const Camera& camera, const Look& look, const Rectangle& area, const Past& past) {
+void Renderer::draw(const Frame& frame, const Camera& camera, const Look& look, const Rectangle& area,
+                    const Past& past) {
   if (area.width < 1 || area.height < 1) return;
   const ViewState view(camera, area);
   scales_.see(frame);
@@ -98,10 +100,12 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Look& look, 
   const double shaft = 0.032 * cast_.typical_radius;
   for (const FrameBody& body : frame.bodies) {
     if (look.angular_velocity) {
-      marks_.add_arrow(body.position, angular_velocity_arrow(body, cast_, scales_), shaft, colours::angular_velocity, view);
+      marks_.add_arrow(body.position, angular_velocity_arrow(body, cast_, scales_), shaft, colours::angular_velocity,
+                       view);
     }
     if (look.angular_momentum) {
-      marks_.add_arrow(body.position, angular_momentum_arrow(body, cast_, scales_), shaft, colours::angular_momentum, view);
+      marks_.add_arrow(body.position, angular_momentum_arrow(body, cast_, scales_), shaft, colours::angular_momentum,
+                       view);
     }
   }
   const double lift = 0.05 * cast_.typical_radius;
@@ -124,10 +128,12 @@ std::optional<InertiaEllipsoid> Renderer::ellipsoid(const Frame& frame, const Lo
   const std::size_t body = look.selected.value_or(0);
   if (!look.polhode || body >= frame.bodies.size()) return std::nullopt;
   const FrameBody& b = frame.bodies[body];
-  return InertiaEllipsoid::of(scene_.bodies[cast_.moving[body]].inertia, rotation_matrix(b.orientation).transpose() * b.angular_velocity);
+  return InertiaEllipsoid::of(scene_.bodies[cast_.moving[body]].inertia,
+                              rotation_matrix(b.orientation).transpose() * b.angular_velocity);
 }
 
-void Renderer::draw_polhode(const Frame& frame, const Camera& camera, const Look& look, const Rectangle& area, const Past& past) {
+void Renderer::draw_polhode(const Frame& frame, const Camera& camera, const Look& look, const Rectangle& area,
+                            const Past& past) {
   const auto shown = ellipsoid(frame, look);
   if (!shown) return;
   const Rectangle inset = polhode_area(area, look);
@@ -135,7 +141,8 @@ void Renderer::draw_polhode(const Frame& frame, const Camera& camera, const Look
   polhode_.draw(ViewState(PolhodePass::camera(camera), inset), *shown, past.polhode, lines_, arrows_);
 }
 
-std::vector<Label> Renderer::labels(const Frame& frame, const Camera& camera, const Look& look, const Rectangle& area) const {
+std::vector<Label> Renderer::labels(const Frame& frame, const Camera& camera, const Look& look,
+                                    const Rectangle& area) const {
   std::vector<Label> all;
   bool of_bodies = true;
   const bool has_inset = ellipsoid(frame, look).has_value();
@@ -144,7 +151,8 @@ std::vector<Label> Renderer::labels(const Frame& frame, const Camera& camera, co
     const double left = inset.left - area.left, top = area.bottom + area.height - inset.bottom - inset.height;
     return has_inset && right >= left && right <= left + inset.width && down >= top && down <= top + inset.height;
   };
-  const auto add = [&](const char* text, Colour colour, const Vector3<double>& point, const Camera& seen_by, const Rectangle& part) {
+  const auto add = [&](const char* text, Colour colour, const Vector3<double>& point, const Camera& seen_by,
+                       const Rectangle& part) {
     const auto at = seen_by.pixel(point, part.width, part.height);
     if (!at) return;
     const double top = area.bottom + area.height - part.bottom - part.height;
@@ -152,7 +160,9 @@ std::vector<Label> Renderer::labels(const Frame& frame, const Camera& camera, co
     if (of_bodies && hidden(right, down)) return;
     all.push_back({text, right, down, colour});
   };
-  const auto at_tip = [](const Vector3<double>& from, const Vector3<double>& way) { return Vector3<double>(from + 1.08 * way); };
+  const auto at_tip = [](const Vector3<double>& from, const Vector3<double>& way) {
+    return Vector3<double>(from + 1.08 * way);
+  };
   constexpr std::array<const char*, 3> axis_names = {"x", "y", "z"};
   for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
     const FrameBody& body = frame.bodies[i];

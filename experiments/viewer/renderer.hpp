@@ -22,11 +22,14 @@ class Renderer {
   /// Names at the arrows of what was drawn last with these arguments, and at the axes of the polhode's inset.
   std::vector<Label> labels(const Frame& frame, const Camera& camera, const Look& look, const Rectangle& area) const;
   /// Where draw() puts the polhode.
-  static Rectangle polhode_area(const Rectangle& area, const Look& look) { return PolhodePass::area(area, look.polhode_corner); }
+  static Rectangle polhode_area(const Rectangle& area, const Look& look) {
+    return PolhodePass::area(area, look.polhode_corner);
+  }
 
  private:
   void place_bodies(const Frame& frame, const ViewState& view, const Look& look);
-  void draw_polhode(const Frame& frame, const Camera& camera, const Look& look, const Rectangle& area, const Past& past);
+  void draw_polhode(const Frame& frame, const Camera& camera, const Look& look, const Rectangle& area,
+                    const Past& past);
   std::optional<InertiaEllipsoid> ellipsoid(const Frame& frame, const Look& look) const;
 
   study::Scene scene_;

@@ -26,7 +26,8 @@ class EdgeFinder {
         const auto [from, to] = ends(t, k);
         const bool forwards = key(surface.points[from]) < key(surface.points[to]);
         const std::uint32_t low = forwards ? from : to, high = forwards ? to : from;
-        sides_[{key(surface.points[low]), key(surface.points[high])}].push_back({{surface.normals[low], surface.normals[high]}});
+        sides_[{key(surface.points[low]), key(surface.points[high])}].push_back(
+            {{surface.normals[low], surface.normals[high]}});
       }
     }
   }
@@ -74,8 +75,8 @@ SurfaceMesh mesh_of(const study::Surface& surface) {
     }
     for (std::size_t k = 0; k < 3; ++k) {
       const MeshVertex v{p[k], surface.normals[surface.corners[t + k]], from_edges[k]};
-      const auto [at, is_new] = known.try_emplace({v.point[0], v.point[1], v.point[2], v.normal[0], v.normal[1], v.normal[2],
-                                                   v.from_edges[0], v.from_edges[1], v.from_edges[2]},
+      const auto [at, is_new] = known.try_emplace({v.point[0], v.point[1], v.point[2], v.normal[0], v.normal[1],
+                                                   v.normal[2], v.from_edges[0], v.from_edges[1], v.from_edges[2]},
                                                   std::uint32_t(mesh.vertices.size()));
       if (is_new) mesh.vertices.push_back(v);
       mesh.corners.push_back(at->second);

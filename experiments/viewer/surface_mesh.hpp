@@ -11,8 +11,9 @@ namespace polhode::viewer {
 
 struct MeshVertex {
   Vector3<float> point, normal;
-  /// m, from the triangle's three edges; of an edge that is not drawn the same large number at all corners. Interpolated,
-  /// it is the distance of any point of the triangle (Bærentzen et al., Single-pass wireframe rendering, 2006).
+  /// m, from the triangle's three edges; of an edge that is not drawn the same large number at all corners.
+  /// Interpolated, it is the distance of any point of the triangle (Bærentzen et al., Single-pass wireframe rendering,
+  /// 2006).
   Vector3<float> from_edges;
 };
 

@@ -11,15 +11,17 @@ namespace polhode::viewer {
 
 struct ViewState {
   Vector3<double> eye;
-  Eigen::Matrix4f to_clip;      ///< from world axes about the eye
-  Eigen::Vector3f forward;      ///< unit, world axes
-  Eigen::Vector2f half_size;    ///< pixels
-  double distance;              ///< m, from the eye to the target
+  Eigen::Matrix4f to_clip;    ///< from world axes about the eye
+  Eigen::Vector3f forward;    ///< unit, world axes
+  Eigen::Vector2f half_size;  ///< pixels
+  double distance;            ///< m, from the eye to the target
   Vector3<double> target;
-  float pixels_per_slope;       ///< pixels of a metre across at a metre ahead
+  float pixels_per_slope;  ///< pixels of a metre across at a metre ahead
 
   ViewState(const Camera& camera, const Rectangle& area)
-      : eye(camera.eye()), half_size(float(area.width) / 2, float(area.height) / 2), distance(camera.distance),
+      : eye(camera.eye()),
+        half_size(float(area.width) / 2, float(area.height) / 2),
+        distance(camera.distance),
         target(camera.target) {
     Eigen::Matrix4d turn = camera.view();
     turn.topRightCorner<3, 1>().setZero();
