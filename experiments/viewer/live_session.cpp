@@ -84,7 +84,7 @@ void LiveSession::tick(double seconds) {
 void LiveSession::play() {
   send([this] {
     leave_the_past();
-    playing_ = !at_end_ || leaving_;
+    playing_ = !at_end_;
     paused_at_collision_ = false;
     impact_.reset();
     pace_.forget();
@@ -100,7 +100,7 @@ void LiveSession::step(std::int64_t count) {
     leave_the_past();
     playing_ = paused_at_collision_ = false;
     impact_.reset();
-    if (!at_end_ || leaving_) steps_wanted_ += std::max<std::int64_t>(count, 0);
+    if (!at_end_) steps_wanted_ += std::max<std::int64_t>(count, 0);
   });
 }
 
@@ -108,7 +108,6 @@ void LiveSession::reset() {
   send([this] {
     halt();
     begin_again();
-    leaving_ = true;
   });
 }
 
@@ -164,14 +163,10 @@ void LiveSession::settle() {
 
 void LiveSession::work() {
   while (!quit_) {
-    leaving_ = at_end_ = failed_ = false;
-    message_.clear();
+    leaving_ = false;
     go_through_segment();
     changed_ = true;
-    if (!leaving_ && !quit_) {
-      record_steps();
-      wait();
-    }
+    if (!leaving_ && !quit_) wait();
   }
   record_steps();
 }
@@ -255,6 +250,7 @@ void LiveSession::wait() {
       return;
     }
     if (may_step()) return;
+    if (!playing_) record_steps();
     if (changed_) publish();
     std::unique_lock lock(mutex_);
     if (news_) continue;
@@ -323,9 +319,7 @@ void LiveSession::fork_from(Kept origin, const Configuration& configuration) {
   memory_.forget_after(origin.step);
   present_ = std::move(origin);
   configuration_ = configuration;
-  past_.reset();
-  impact_.reset();
-  leaving_ = true;
+  leave_for_new();
   record_segment(from);
 }
 
@@ -337,10 +331,16 @@ void LiveSession::begin_again() {
   present_.sample = {present_.state.t, system.measure(present_.state.y), 0, 0};
   memory_.begin(present_);
   fresh_ = true;
+  leave_for_new();
+  record_segment({});
+}
+
+void LiveSession::leave_for_new() {
+  leaving_ = true;
+  at_end_ = failed_ = paused_at_collision_ = false;
+  message_.clear();
   past_.reset();
   impact_.reset();
-  paused_at_collision_ = false;
-  record_segment({});
 }
 
 // Collisions.

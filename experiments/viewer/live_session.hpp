@@ -61,6 +61,7 @@ class LiveSession final : public Session, private Observer {
   std::optional<Kept> at_impact(std::span<const BodyPair> met);
   void fork_from(Kept origin, const Configuration& configuration);
   void begin_again();
+  void leave_for_new();
   void renew_lookout();
   void leave_the_past();
   void publish();
