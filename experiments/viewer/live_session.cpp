@@ -183,7 +183,8 @@ void LiveSession::go_through_segment() {
     State<double> state = present_.state;
     std::unique_ptr<study::TrajectoryWriter> rows;
     if (!trajectory_.empty()) {
-      rows = study::open_trajectory(study::TrajectoryFormat::csv, trajectory_ / fmt::format("segment_{}", segment_), run.system(), *this);
+      const auto folder = trajectory_ / fmt::format("segment_{}", segment_);
+      rows = study::open_trajectory(study::TrajectoryFormat::csv, folder, run.system(), *this);
     }
     Observer& observer = rows ? static_cast<Observer&>(*rows) : *this;
     finish_segment(run.go(state, observer, stop_, [this] { return next_size_; }));
@@ -327,8 +328,9 @@ void LiveSession::begin_again() {
   record_steps();
   const Formulation& formulation = configuration_.run.formulation;
   const System<double>& system = memory_.system(formulation);
-  present_ = {.state = system.start(), .formulation = formulation, .place = {++segment_, 0}, .step = 0, .sample = {}, .losses = {}};
-  present_.sample = {present_.state.t, system.measure(present_.state.y), 0, 0};
+  const State<double> start = system.start();
+  const Sample sample{start.t, system.measure(start.y), 0, 0};
+  present_ = {.state = start, .formulation = formulation, .place = {++segment_, 0}, .step = 0, .sample = sample, .losses = {}};
   memory_.begin(present_);
   fresh_ = true;
   leave_for_new();

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <deque>
+#include <numbers>
 
 #include "experiments/study/input_error.hpp"
 #include "core/quaternion.hpp"
@@ -78,12 +79,13 @@ TEST(RecordedSession, PlaysAtItsSpeedToItsEnd) {
 // A body that turns evenly does so between its samples too.
 TEST(RecordedSession, InterpolatesTurns) {
   const TemporaryFolder folder;
-  std::ofstream(folder.path() / "t.csv") << "t_s,px_m,py_m,pz_m,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n1,2,0,0,-0.7071067811865476,0,0,-0.7071067811865476\n";
+  std::ofstream(folder.path() / "t.csv") << "t_s,px_m,py_m,pz_m,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n"
+                                            "1,2,0,0,-0.7071067811865476,0,0,-0.7071067811865476\n";
   const auto session = recorded_session((folder.path() / "t.csv").string(), "peters_hsu");
   session->scrub(0.25);
   auto body = session->view()->frame.bodies[0];
-  const double quarter = std::atan2(1.0, 1.0) / 2;  // of the right angle, as a turn of the whole; half of it in q
-  EXPECT_LT(angle_between<double>(body.orientation, Quaternion<double>(std::cos(quarter / 2), 0, 0, std::sin(quarter / 2))), 1e-12);
+  const double half = std::numbers::pi / 16;  // of a quarter of the right angle
+  EXPECT_LT(angle_between<double>(body.orientation, Quaternion<double>(std::cos(half), 0, 0, std::sin(half))), 1e-12);
   EXPECT_DOUBLE_EQ(body.position[0], 0.5);
   const auto nearest = recorded_session((folder.path() / "t.csv").string(), "peters_hsu", {}, Between::nearest);
   nearest->scrub(0.25);
