@@ -234,7 +234,7 @@ void LiveSession::look(const State<double>& state, const Sample& sample) {
     const double went = state.t - before_.t;
     pace_.went(went);
     if (playing_ && !configuration_.run.dt) pace_.took(went);
-    if (pause_on_collision_ && lookout_) watch_collisions();
+    if (pause_on_collision_ && lookout_) or_say([this] { watch_collisions(); });
   }
   impacts_.clear();
   changed_ = true;
@@ -272,7 +272,7 @@ void LiveSession::apply_news() {
     commands.swap(commands_);
     seconds = std::exchange(ticked_, 0);
   }
-  for (const auto& command : commands) command();
+  for (const auto& command : commands) or_say(command);
   if (seconds > 0) pass_time(seconds);
   if (commands.empty()) return;
   record_steps();
@@ -298,6 +298,16 @@ bool LiveSession::may_step() {
   if (configuration_.drive == Drive::accumulator) return pace_.take(next_size_);
   next_size_ = pace_.take_all();
   return next_size_ > 0;
+}
+
+/// What goes wrong beside the motion ends neither it nor the thread.
+template <class F>
+void LiveSession::or_say(const F& act) {
+  try {
+    act();
+  } catch (const std::exception& error) {
+    trouble_ = error.what();
+  }
 }
 
 void LiveSession::halt() {
@@ -395,10 +405,12 @@ void LiveSession::publish() {
   auto view = std::make_shared<View>();
   const Kept& shown = past_ ? *past_ : impact_ ? *impact_ : present_;
   view->frame = memory_.frame(shown);
-  const System<double>& system = memory_.system(shown.formulation);
-  if (paused_at_collision_ && !past_) view->frame.contacts = impact_contacts_;
-  else if (wanted_.contacts && lookout_) view->frame.contacts = lookout_->contacts(system, shown.state.y);
-  if (wanted_.cells && lookout_) view->frame.cells = lookout_->cells(system, shown.state.y);
+  or_say([&] {
+    const System<double>& system = memory_.system(shown.formulation);
+    if (paused_at_collision_ && !past_) view->frame.contacts = impact_contacts_;
+    else if (wanted_.contacts && lookout_) view->frame.contacts = lookout_->contacts(system, shown.state.y);
+    if (wanted_.cells && lookout_) view->frame.cells = lookout_->cells(system, shown.state.y);
+  });
   if (impact_ && !past_) view->frame.energy_drift = memory_.energy_drift(present_.sample, present_.losses);
   view->plot = memory_.plot();
   view->traces = memory_.traces();
@@ -429,7 +441,7 @@ void LiveSession::record(const F& write) {
   try {
     write();
   } catch (const std::exception& error) {
-    trouble_ = fmt::format("recording has ended: {}", error.what());
+    trouble_ = fmt::format("the session is no longer recorded: {}", error.what());
     writer_.reset();
   }
 }

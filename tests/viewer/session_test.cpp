@@ -9,6 +9,7 @@
 #include "experiments/study/dice.hpp"
 #include "experiments/study/input_error.hpp"
 #include "experiments/study/run.hpp"
+#include "experiments/viewer/pace.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/viewer/session_run.hpp"
 
@@ -309,6 +310,34 @@ TEST(Session, SaysThatItIsSlowerThanWanted) {
   }
   EXPECT_TRUE(view->status.slower_than_wanted);
   EXPECT_LT(view->status.pace, 1000);
+}
+
+// However slow a step is, what is owed stays bounded: no tick makes the next one longer.
+TEST(Pace, FallsBehindByNoMoreThanItsBound) {
+  Pace pace;
+  pace.set_speed(2);
+  double taken = 0;
+  for (int k = 0; k < 600; ++k) {
+    pace.tick(0.1, 0.01);
+    for (int n = 0; n < 3 && pace.take(0.01); ++n) {
+      taken += 0.01;
+      pace.went(0.01);
+    }
+  }
+  EXPECT_NEAR(taken, 18, 1e-9);
+  EXPECT_TRUE(pace.slower());
+  EXPECT_NEAR(pace.pace(), 0.3, 0.01);
+  int left = 0;
+  while (pace.take(0.01)) ++left;
+  EXPECT_LE(left, 70) << "a quarter of a second and a tick, twice as fast";
+  for (int k = 0; k < 30; ++k) {
+    pace.tick(0.1, 0.01);
+    while (pace.take(0.01)) pace.went(0.01);
+  }
+  EXPECT_FALSE(pace.slower());
+  EXPECT_NEAR(pace.pace(), 2, 0.05);
+  pace.tick(0.1, 5);
+  while (!pace.take(5)) pace.tick(0.1, 5);  // a step longer than the bound is saved up for
 }
 
 TEST(Session, AFailedMotionStopsAndCanBeTakenBack) {
