@@ -179,8 +179,8 @@ class Loop {
   }
 
   double sample_time(std::int64_t k) const {
-    return k == *schedule_.samples ? schedule_.t_end
-                                   : t0_ + static_cast<double>(k) * (schedule_.t_end - t0_) / static_cast<double>(*schedule_.samples);
+    if (k == *schedule_.samples) return schedule_.t_end;
+    return t0_ + static_cast<double>(k) * (schedule_.t_end - t0_) / static_cast<double>(*schedule_.samples);
   }
 
   void fixed() {

@@ -18,6 +18,7 @@
 #include "collision/broad/boxes.hpp"
 #include "collision/broad/cell_block.hpp"
 #include "collision/broad/fat_boxes.hpp"
+#include "collision/broad/grid_cells.hpp"
 #include "collision/broad/kept_pairs.hpp"
 #include "collision/broad_phase.hpp"
 
@@ -62,25 +63,14 @@ class UniformGrid final : public BroadPhase {
 
   std::span<const BodyPair> pairs() override { return pairs_; }
 
-  /// Those that bodies reach, each once, on all levels.
+  /// Those that bodies reach, on all levels.
   void cells(std::vector<Bounds>& all) const override {
-    std::vector<std::array<std::int64_t, 4>> reached;  // the level and the numbers along the axes
+    broad::GridCells reached;
     for (Index body = 0; body < fat_.size(); ++body) {
       const Home home = home_of(fat_.fat(body));
-      if (home.key == no_key) continue;
-      for (int corner = 0; corner < 8; ++corner) {
-        std::array<std::int64_t, 4> cell{static_cast<std::int64_t>(level_of(home.key))};
-        for (std::size_t k = 0; k < 3; ++k) cell[k + 1] = (corner >> k & 1 ? home.reach.high[k] : home.reach.low[k]) >> cell_bits;
-        reached.push_back(cell);
-      }
+      if (home.key != no_key) reached.add(level_of(home.key), home.reach);
     }
-    std::sort(reached.begin(), reached.end());
-    reached.erase(std::unique(reached.begin(), reached.end()), reached.end());
-    for (const auto& cell : reached) {
-      const double edge = (1 << cell_bits) / per_metre_[static_cast<std::size_t>(cell[0])];
-      const Vector3<double> low(double(cell[1]) * edge, double(cell[2]) * edge, double(cell[3]) * edge);
-      all.emplace_back(low, low + Vector3<double>::Constant(edge));
-    }
+    reached.append_to(all, [this](std::size_t level) { return (1 << cell_bits) / per_metre_[level]; });
   }
 
  private:

@@ -84,7 +84,7 @@ void LiveSession::tick(double seconds) {
 void LiveSession::play() {
   send([this] {
     leave_the_past();
-    playing_ = !at_end_ || leaving_;
+    playing_ = !at_end_;
     paused_at_collision_ = false;
     impact_.reset();
     pace_.forget();
@@ -100,7 +100,7 @@ void LiveSession::step(std::int64_t count) {
     leave_the_past();
     playing_ = paused_at_collision_ = false;
     impact_.reset();
-    if (!at_end_ || leaving_) steps_wanted_ += std::max<std::int64_t>(count, 0);
+    if (!at_end_) steps_wanted_ += std::max<std::int64_t>(count, 0);
   });
 }
 
@@ -108,7 +108,6 @@ void LiveSession::reset() {
   send([this] {
     halt();
     begin_again();
-    leaving_ = true;
   });
 }
 
@@ -164,14 +163,10 @@ void LiveSession::settle() {
 
 void LiveSession::work() {
   while (!quit_) {
-    leaving_ = at_end_ = failed_ = false;
-    message_.clear();
+    leaving_ = false;
     go_through_segment();
     changed_ = true;
-    if (!leaving_ && !quit_) {
-      record_steps();
-      wait();
-    }
+    if (!leaving_ && !quit_) wait();
   }
   record_steps();
 }
@@ -188,7 +183,8 @@ void LiveSession::go_through_segment() {
     State<double> state = present_.state;
     std::unique_ptr<study::TrajectoryWriter> rows;
     if (!trajectory_.empty()) {
-      rows = study::open_trajectory(study::TrajectoryFormat::csv, trajectory_ / fmt::format("segment_{}", segment_), run.system(), *this);
+      const auto folder = trajectory_ / fmt::format("segment_{}", segment_);
+      rows = study::open_trajectory(study::TrajectoryFormat::csv, folder, run.system(), *this);
     }
     Observer& observer = rows ? static_cast<Observer&>(*rows) : *this;
     finish_segment(run.go(state, observer, stop_, [this] { return next_size_; }));
@@ -238,7 +234,7 @@ void LiveSession::look(const State<double>& state, const Sample& sample) {
     const double went = state.t - before_.t;
     pace_.went(went);
     if (playing_ && !configuration_.run.dt) pace_.took(went);
-    if (pause_on_collision_ && lookout_) watch_collisions();
+    if (pause_on_collision_ && lookout_) or_say([this] { watch_collisions(); });
   }
   impacts_.clear();
   changed_ = true;
@@ -255,6 +251,7 @@ void LiveSession::wait() {
       return;
     }
     if (may_step()) return;
+    if (!playing_) record_steps();
     if (changed_) publish();
     std::unique_lock lock(mutex_);
     if (news_) continue;
@@ -275,7 +272,7 @@ void LiveSession::apply_news() {
     commands.swap(commands_);
     seconds = std::exchange(ticked_, 0);
   }
-  for (const auto& command : commands) command();
+  for (const auto& command : commands) or_say(command);
   if (seconds > 0) pass_time(seconds);
   if (commands.empty()) return;
   record_steps();
@@ -303,6 +300,16 @@ bool LiveSession::may_step() {
   return next_size_ > 0;
 }
 
+/// What goes wrong beside the motion ends neither it nor the thread.
+template <class F>
+void LiveSession::or_say(const F& act) {
+  try {
+    act();
+  } catch (const std::exception& error) {
+    trouble_ = error.what();
+  }
+}
+
 void LiveSession::halt() {
   playing_ = false;
   steps_wanted_ = 0;
@@ -323,9 +330,7 @@ void LiveSession::fork_from(Kept origin, const Configuration& configuration) {
   memory_.forget_after(origin.step);
   present_ = std::move(origin);
   configuration_ = configuration;
-  past_.reset();
-  impact_.reset();
-  leaving_ = true;
+  leave_for_new();
   record_segment(from);
 }
 
@@ -333,14 +338,21 @@ void LiveSession::begin_again() {
   record_steps();
   const Formulation& formulation = configuration_.run.formulation;
   const System<double>& system = memory_.system(formulation);
-  present_ = {.state = system.start(), .formulation = formulation, .place = {++segment_, 0}, .step = 0, .sample = {}, .losses = {}};
-  present_.sample = {present_.state.t, system.measure(present_.state.y), 0, 0};
+  const State<double> start = system.start();
+  const Sample sample{start.t, system.measure(start.y), 0, 0};
+  present_ = {.state = start, .formulation = formulation, .place = {++segment_, 0}, .step = 0, .sample = sample, .losses = {}};
   memory_.begin(present_);
   fresh_ = true;
+  leave_for_new();
+  record_segment({});
+}
+
+void LiveSession::leave_for_new() {
+  leaving_ = true;
+  at_end_ = failed_ = paused_at_collision_ = false;
+  message_.clear();
   past_.reset();
   impact_.reset();
-  paused_at_collision_ = false;
-  record_segment({});
 }
 
 // Collisions.
@@ -393,10 +405,12 @@ void LiveSession::publish() {
   auto view = std::make_shared<View>();
   const Kept& shown = past_ ? *past_ : impact_ ? *impact_ : present_;
   view->frame = memory_.frame(shown);
-  const System<double>& system = memory_.system(shown.formulation);
-  if (paused_at_collision_ && !past_) view->frame.contacts = impact_contacts_;
-  else if (wanted_.contacts && lookout_) view->frame.contacts = lookout_->contacts(system, shown.state.y);
-  if (wanted_.cells && lookout_) view->frame.cells = lookout_->cells(system, shown.state.y);
+  or_say([&] {
+    const System<double>& system = memory_.system(shown.formulation);
+    if (paused_at_collision_ && !past_) view->frame.contacts = impact_contacts_;
+    else if (wanted_.contacts && lookout_) view->frame.contacts = lookout_->contacts(system, shown.state.y);
+    if (wanted_.cells && lookout_) view->frame.cells = lookout_->cells(system, shown.state.y);
+  });
   if (impact_ && !past_) view->frame.energy_drift = memory_.energy_drift(present_.sample, present_.losses);
   view->plot = memory_.plot();
   view->traces = memory_.traces();
@@ -427,7 +441,7 @@ void LiveSession::record(const F& write) {
   try {
     write();
   } catch (const std::exception& error) {
-    trouble_ = fmt::format("recording has ended: {}", error.what());
+    trouble_ = fmt::format("the session is no longer recorded: {}", error.what());
     writer_.reset();
   }
 }

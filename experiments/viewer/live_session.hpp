@@ -56,11 +56,14 @@ class LiveSession final : public Session, private Observer {
   void apply_news();
   void pass_time(double seconds);
   bool may_step();
+  template <class F>
+  void or_say(const F& act);
   void halt();
   void watch_collisions();
   std::optional<Kept> at_impact(std::span<const BodyPair> met);
   void fork_from(Kept origin, const Configuration& configuration);
   void begin_again();
+  void leave_for_new();
   void renew_lookout();
   void leave_the_past();
   void publish();
@@ -108,7 +111,7 @@ class LiveSession final : public Session, private Observer {
   bool playing_ = false, at_end_ = false, failed_ = false, paused_at_collision_ = false, pause_on_collision_ = false;
   std::int64_t steps_wanted_ = 0;
   double next_size_ = 0;             ///< s, where the frame clock drives
-  std::string message_, trouble_;    ///< why it stopped; why nothing is recorded any more
+  std::string message_, trouble_;    ///< why it stopped; what else went wrong
   bool changed_ = true;              ///< since the view was made
   std::int64_t recorded_steps_ = 0;  ///< of this segment
   std::vector<double> unrecorded_sizes_;

@@ -16,10 +16,8 @@ class Pace {
   /// chooses its steps.
   void tick(double seconds, double step) {
     const double most_behind = std::max(longest_behind * speed_, step);
-    if (owed_ > most_behind) {
-      owed_ = most_behind;
-      let_go_ = true;
-    }
+    let_go_ = let_go_ || owed_ > most_behind || seconds > longest_tick;
+    owed_ = std::min(owed_, most_behind);
     owed_ += std::min(seconds, longest_tick) * speed_;
     wall_ += seconds;
     if (wall_ < measured_over) return;

@@ -110,7 +110,9 @@ class RecordedSession final : public Session {
     view_.reset();
   }
 
-  const study::TrajectoryBody& body(std::size_t sample, std::size_t i) const { return motion_.bodies[sample * motion_.moving + i]; }
+  const study::TrajectoryBody& body(std::size_t sample, std::size_t i) const {
+    return motion_.bodies[sample * motion_.moving + i];
+  }
   Quaternion<double> orientation(std::size_t sample, std::size_t i) const {
     const study::TrajectoryBody& b = body(sample, i);
     return (motion_.has_matrix ? quaternion_from_rotation_matrix<double>(b.rotation) : b.orientation).normalized();
@@ -175,7 +177,9 @@ class RecordedSession final : public Session {
     momentum_start_ = start.angular_momentum;
     energy_start_ = motion_.has_energy ? motion_.energy[0] : start.energy();
     const std::size_t stride = (motion_.times.size() + most_points - 1) / most_points;
-    for (std::size_t k = 0; k < motion_.times.size(); k += stride) plot_.push_back(measured(motion_.times[k], state_at(k, 0), k));
+    for (std::size_t k = 0; k < motion_.times.size(); k += stride) {
+      plot_.push_back(measured(motion_.times[k], state_at(k, 0), k));
+    }
   }
 
   std::shared_ptr<const View> make_view() {
@@ -191,9 +195,13 @@ class RecordedSession final : public Session {
     auto view = std::make_shared<View>();
     const PlotPoint point = measured(t_, y, k);
     Frame& frame = view->frame;
-    frame = {.t = between_ == Between::nearest ? times[k] : t_, .step = static_cast<std::int64_t>(k), .bodies = {}, .contacts = {},
-             .cells = {}, .kinetic = point.kinetic, .potential = point.potential, .energy_drift = point.energy_drift,
-             .momentum_drift = point.momentum_drift, .defect = point.defect};
+    frame.t = between_ == Between::nearest ? times[k] : t_;
+    frame.step = static_cast<std::int64_t>(k);
+    frame.kinetic = point.kinetic;
+    frame.potential = point.potential;
+    frame.energy_drift = point.energy_drift;
+    frame.momentum_drift = point.momentum_drift;
+    frame.defect = point.defect;
     for (std::size_t i = 0; i < motion_.moving; ++i) {
       const BodySnapshot<double> b = system_->snapshot(y, i);
       frame.bodies.push_back({b.position, b.orientation, b.velocity, b.angular_velocity, b.angular_momentum});

@@ -18,7 +18,8 @@ using Place = std::pair<std::int64_t, std::int64_t>;  // segment and step
 /// Follows a segment step by step, keeps the states at which others start, and ends it where it was left.
 class Follower final : public Observer {
  public:
-  Follower(const RecordedSegment& segment, std::int64_t number, const std::set<Place>& wanted, std::map<Place, State<double>>& kept)
+  Follower(const RecordedSegment& segment, std::int64_t number, const std::set<Place>& wanted,
+           std::map<Place, State<double>>& kept)
       : segment_(segment), number_(number), last_(segment.steps()), wanted_(wanted), kept_(kept) {
     for (const SegmentPart& part : segment.parts) sizes_.insert(sizes_.end(), part.sizes.begin(), part.sizes.end());
   }
@@ -53,7 +54,8 @@ class Follower final : public Observer {
     ++part_;
     const std::string now = digest(state);
     if (mismatch_.empty() && now != part.digest) {
-      mismatch_ = fmt::format("segment {}, step {}, t = {} s: the state is {}, and was {}", number_, step_, state.t, now, part.digest);
+      mismatch_ = fmt::format("segment {}, step {}, t = {} s: the state is {}, and was {}", number_, step_, state.t, now,
+                              part.digest);
     }
   }
 

@@ -28,7 +28,9 @@ namespace polhode::viewer {
 /// What gives the steps their size.
 enum class Drive {
   accumulator,  ///< dt, or the method's tolerance: as many steps as fit into the time that has passed
-  frame_clock   ///< the time between two frames, one step each, Δt = t_current − t_previous, as the engine slides have it
+  /// The time between two frames, one step each, Δt = t_current − t_previous, as the engine slides have it. A step that takes
+  /// longer than a frame makes the next one so much larger.
+  frame_clock
 };
 constexpr std::string_view name(Drive d) { return d == Drive::accumulator ? "accumulator" : "frame_clock"; }
 
@@ -89,7 +91,7 @@ struct SessionStatus {
   bool failed = false;                     ///< the method gave up, or the motion diverged; the message says how
   bool paused_at_collision = false;
   bool in_the_past = false;                ///< scrubbed back; to go on from here forgets what came after
-  std::string message;                     ///< what there is to say: why it stopped
+  std::string message;                     ///< what there is to say: why it stopped, or why nothing is recorded any more
   double speed = 1;                        ///< simulated seconds wanted for one of the wall
   double pace = 0;                         ///< and had, over the last second
   bool slower_than_wanted = false;         ///< the simulation does not keep up, and time was let go

@@ -38,7 +38,9 @@ class SessionMemory {
   void forget_after(std::int64_t step);
 
   /// J, what the ledger cannot explain, and whether it is beyond hope.
-  double energy_drift(const Sample& sample, const ContactLosses& losses) const { return sample.ledger(losses.total()) - energy_start_; }
+  double energy_drift(const Sample& sample, const ContactLosses& losses) const {
+    return sample.ledger(losses.total()) - energy_start_;
+  }
   bool hopeless(double energy_drift) const;
 
   double first_time() const;  ///< s

@@ -81,7 +81,8 @@ SegmentPart part_of(const TomlCursor& cursor, Drive drive) {
   const TomlCursor said = cursor.at("digest", "16 hexadecimal digits");
   part.digest = said.text("16 hexadecimal digits");
   const auto is_hex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
-  if (part.digest.size() != 16 || !std::all_of(part.digest.begin(), part.digest.end(), is_hex)) said.refuse("16 hexadecimal digits");
+  const bool good = part.digest.size() == 16 && std::all_of(part.digest.begin(), part.digest.end(), is_hex);
+  if (!good) said.refuse("16 hexadecimal digits");
   return part;
 }
 
@@ -94,7 +95,8 @@ SegmentStart start_of(const TomlCursor& cursor, const std::vector<RecordedSegmen
   return from;
 }
 
-RecordedSegment segment_of(const TomlCursor& cursor, const study::Scenario& scenario, const std::vector<RecordedSegment>& before) {
+RecordedSegment segment_of(const TomlCursor& cursor, const study::Scenario& scenario,
+                           const std::vector<RecordedSegment>& before) {
   cursor.table("A segment has", segment_keys);
   RecordedSegment segment;
   segment.configuration = configuration_of(cursor);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What decided the digits of a session, as a file (session.toml): the scenario, and segment by segment where it started, how
-// it was configured and how far it went. It is only ever appended to, after each command and each second that plays, so that
-// a session that is killed leaves what it had done up to then.
+// it was configured and how far it went. It is only ever appended to, after each command, where it
+// pauses, and each second that it plays, so that a session that is killed leaves what it had done up to then.
 #pragma once
 
 #include <cstdint>
