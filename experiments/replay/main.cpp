@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "experiments/replay/options.hpp"
 #include "experiments/replay/page.hpp"
@@ -106,28 +107,38 @@ void fit(Motion& motion, double limit, const ThreeJs& three) {
   }
   const std::size_t n = instants_that_fit(motion.recordings, room - impacts);
   if (n < 2) {
-    throw InputError(fmt::format("--limit: {:.3g} MB have no room for two instants of {} runs of {} bodies; give --limit {:.0f}", limit / 1e6,
-                                 bare.size(), bare.front().moving,
+    throw InputError(fmt::format("--limit: {:.3g} MB have no room for two instants of each run; give --limit {:.0f}", limit / 1e6,
                                  std::ceil((limit - room + impacts + 100 * size_of(motion.recordings, 1)) / 1e6)));
   }
   for (Recording& r : motion.recordings) keep_instants(r, n);
 }
 
-void say_what_is_left(Motion& motion, double limit) {
-  for (const Recording& r : motion.recordings) {
-    const std::string which = motion.recordings.size() == 1 ? "" : " of run " + r.id;
-    const auto seen = std::size_t(r.instants_seen), impacts = std::size_t(r.impacts_seen);
-    if (r.times.size() < seen) {
-      say(motion, fmt::format("Thinned to fit {:g} MB: {} of {} instants{} are kept, at most {:.3g} s apart", limit / 1e6, r.times.size(),
-                              seen, which, longest_spacing(r)));
-    }
-    if (r.impacts.size() < impacts) {
-      say(motion, fmt::format("Of {} impacts{} the {} of the largest impulses are kept", impacts, which, r.impacts.size()));
-    }
-    if (const double turn = largest_turn(r); turn > most_turn) {
-      say(motion, fmt::format("A body{} turns by up to {:.3g} rad between two instants that are kept: its way between them is a guess", which, turn));
-    }
+/// "3 of 7 instants": once for all runs where it is the same for all.
+void say_of_each(Motion& motion, const std::function<std::string(const Recording&)>& sentence) {
+  std::vector<std::string> said;
+  for (const Recording& r : motion.recordings) said.push_back(sentence(r));
+  const bool same = std::all_of(said.begin(), said.end(), [&](const std::string& s) { return s == said.front(); });
+  for (std::size_t i = 0; i < (same ? 1 : said.size()); ++i) {
+    if (said[i].empty()) continue;
+    say(motion, (said.size() == 1 ? "Here " : same ? "Of each run " : "Of " + label_of(motion.recordings[i]) + " ") + said[i]);
   }
+}
+
+void say_what_is_left(Motion& motion, double limit) {
+  say_of_each(motion, [&](const Recording& r) {
+    if (std::int64_t(r.times.size()) == r.instants_seen) return std::string();
+    return fmt::format("{} of {} instants are kept, at most {:.3g} s apart: it is thinned to fit {:g} MB", r.times.size(), r.instants_seen,
+                       longest_spacing(r), limit / 1e6);
+  });
+  say_of_each(motion, [](const Recording& r) {
+    if (std::int64_t(r.impacts.size()) == r.impacts_seen) return std::string();
+    return fmt::format("{} of {} impacts are kept, those of the largest impulses", r.impacts.size(), r.impacts_seen);
+  });
+  say_of_each(motion, [](const Recording& r) {
+    const double turn = largest_turn(r);
+    if (!(turn > most_turn)) return std::string();
+    return fmt::format("a body turns by up to {:.3g} rad between two instants that are kept: its way between them is a guess", turn);
+  });
   const bool inferred = std::any_of(motion.recordings.begin(), motion.recordings.end(), [](const Recording& r) {
     return std::any_of(r.scene.bodies.begin(), r.scene.bodies.end(), [](const SceneBody& b) { return b.from_inertia && !b.fixed; });
   });
@@ -151,7 +162,7 @@ int replay(const ReplayOptions& options) {
   if (options.out.has_parent_path()) std::filesystem::create_directories(options.out.parent_path());
   write_text(options.out, page);
   if (!options.results.empty() && options.out == options.results / report::replay_page) report::update_replay_line(options.results);
-  fmt::print("{}: {} side by side, {:.2f} MB\n{}\n", motion.words.title, motion.recordings.size() == 1 ? "one view" : fmt::format("{} views", motion.recordings.size()),
+  fmt::print("{}: {}, {:.2f} MB\n{}\n", motion.words.title, motion.recordings.size() == 1 ? "one view" : fmt::format("{} views side by side", motion.recordings.size()),
              double(page.size()) / 1e6, options.out.string());
   return 0;
 }

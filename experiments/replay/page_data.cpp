@@ -111,16 +111,6 @@ std::string detail_of(const Recording& r, const std::vector<Recording>& all) {
   return detail;
 }
 
-std::string label_of(const Recording& r) {
-  std::string method, step;
-  for (const auto& [name, cell] : r.facts) {
-    if (name == "integrator") method = cell;
-    if (name == "dt_s" && !cell.empty()) step = ", dt = " + cell + " s";
-    if (name == "tolerance" && !cell.empty()) step = ", tolerance " + cell;
-  }
-  return method + step;
-}
-
 Json run_json(const Recording& r, const std::vector<Recording>& all) {
   std::vector<float> positions;
   std::vector<std::int16_t> orientations, rates;

@@ -6,6 +6,16 @@
 
 namespace polhode::study {
 
+std::string label_of(const Recording& r) {
+  std::string method, step;
+  for (const auto& [name, cell] : r.facts) {
+    if (name == "integrator") method = cell;
+    if (name == "dt_s" && !cell.empty()) step = ", dt = " + cell + " s";
+    if (name == "tolerance" && !cell.empty()) step = ", tolerance " + cell;
+  }
+  return method + step;
+}
+
 ShownMomentum shown_momentum(const System<double>& system, const Scenario& scenario) {
   const auto& bodies = scenario.problem.bodies;
   for (std::size_t i = 0; i < scenario.colliders.size(); ++i) {

@@ -39,6 +39,9 @@ struct Recording {
   std::int64_t instants_seen = 0, impacts_seen = 0;  ///< before anything was left out
 };
 
+/// Method and step: "rk4, dt = 0.01 s".
+std::string label_of(const Recording& recording);
+
 /// Angular before linear; none with contact against what stands still.
 ShownMomentum shown_momentum(const System<double>& system, const Scenario& scenario);
 

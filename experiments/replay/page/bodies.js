@@ -74,7 +74,8 @@ class Body {
     this.group = new THREE.Group();
     this.radius = geometry.boundingSphere.radius;
     this.colour = new THREE.Color(data.fixed ? theme.still : HUES[number % HUES.length]);
-    this.material = new THREE.MeshPhongMaterial({ color: this.colour, vertexColors: THREE.VertexColors, specular: 0x222222, shininess: 40 });
+    this.material = new THREE.MeshPhongMaterial({ color: this.colour, vertexColors: THREE.VertexColors, specular: 0x222222, shininess: 40,
+                                                   polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
     const mesh = new THREE.Mesh(geometry, this.material);
     mesh.castShadow = mesh.receiveShadow = !many;
     this.group.add(mesh);

@@ -26,8 +26,8 @@ const TOGGLES = [
   { key: "axes", label: "body axes", on: motions[0].moving <= 3, has: vectors, colour: `linear-gradient(90deg, ${AXES.join(", ")})` },
   { key: "omega", label: "angular velocity ω", on: onlyTurns, has: vectors && rotates, colour: OMEGA },
   { key: "momentum", label: "angular momentum L", on: onlyTurns, has: vectors && rotates, colour: MOMENTUM },
-  { key: "trails", label: "trails", on: motions[0].moving <= 12, has: vectors },
-  { key: "polhode", label: "polhode", on: false, has: vectors && rotates, colour: OMEGA },
+  { key: "trails", label: "trails", title: "of the mass centre, or where that stays, of the tip of ω", on: motions[0].moving <= 12, has: vectors },
+  { key: "polhode", label: "polhode", title: "the curve of ω on the inertia ellipsoid, in the body", on: false, has: vectors && rotates, colour: OMEGA },
   { key: "springs", label: "springs", on: true, has: anyMoves((s) => s.springs.length > 0) },
   { key: "floor", label: "floor", on: true, has: anyMoves((s) => s.bodies.some((b) => b.normal)) },
   { key: "marks", label: "contact marks", on: true, has: motions.some((m) => m.impactCount() > 0), colour: MARK },
@@ -77,7 +77,7 @@ function makePanels() {
     if (run.momentum) list.append(make("dt", { textContent: `${run.momentum} momentum drift` }), momentum);
     element("views").append(make("div", { className: "view" }, title, make("p", { className: "detail", textContent: run.detail }), ended, list));
     const value = make("b", {}), dot = make("span", { className: "swatch" });
-    element("legend").append(make("li", {}, dot, run.label + (run.detail ? `, ${run.detail}` : "") + "  ", value));
+    element("legend").append(make("li", {}, dot, run.label + (run.detail ? `, ${run.detail}` : ""), value));
     panels.push({ ended, energy, momentum, value, swatches: [swatch, dot] });
   });
 }
@@ -99,8 +99,19 @@ function makeViews() {
 }
 
 function lookFromTheStart() {
-  const far = 0.5 * sizes.view / Math.sin(0.5 * camera.fov * Math.PI / 180) * 0.92;
-  camera.position.copy(sizes.center).add(new THREE.Vector3(0.55, -1, 0.42).normalize().multiplyScalar(far));
+  const { x: wide, y: deep, z: high } = sizes.box.getSize(new THREE.Vector3());
+  const flat = Math.max(0, 1 - high / Math.max(wide, deep));  // what lies in a plane is seen from above
+  const away = new THREE.Vector3(0.55, -1, sizes.level ? 0.42 : 0.2 + 0.7 * flat).normalize();
+  const right = new THREE.Vector3(0, 0, 1).cross(away).normalize(), up = away.clone().cross(right);
+  const box = element("views").children[0].getBoundingClientRect(), across = Math.max(1, box.width / box.height);
+  const slope = Math.tan(0.5 * camera.fov * Math.PI / 180), x = new THREE.Vector3();
+  let far = 0;
+  for (let k = 0; k < 8; ++k) {  // so far that each corner of what is seen is in the picture
+    for (let c = 0; c < 3; ++c) x.setComponent(c, (k >> c & 1 ? sizes.box.max : sizes.box.min).getComponent(c));
+    x.sub(sizes.center);
+    far = Math.max(far, x.dot(away) + 1.02 * Math.max(Math.abs(x.dot(up)), Math.abs(x.dot(right)) / across) / slope);
+  }
+  camera.position.copy(sizes.center).addScaledVector(away, far);
   controls.target.copy(sizes.center);
   controls.update();
   state.dirty = true;
@@ -115,16 +126,14 @@ function openStage() {
     return;
   }
   renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
-  renderer.setScissorTest(true);
   renderer.shadowMap.enabled = true;
   renderer.shadowMap.type = THREE.PCFSoftShadowMap;
   makeViews();
-  camera = new THREE.PerspectiveCamera(35, 1, 0.005 * sizes.view, 50 * sizes.view);
+  camera = new THREE.PerspectiveCamera(28, 1, 0.005 * sizes.view, 50 * sizes.view);
   camera.up.set(0, 0, 1);
   controls = new THREE.OrbitControls(camera, renderer.domElement);
   controls.enableKeys = false;
   controls.addEventListener("change", () => { state.dirty = true; });
-  lookFromTheStart();
 }
 
 function layOut() {
@@ -141,7 +150,11 @@ function layOut() {
 }
 
 function render() {
-  const stage = element("stage").getBoundingClientRect();
+  const stage = element("stage").getBoundingClientRect(), far = camera.position.distanceTo(controls.target);
+  renderer.setScissorTest(false);
+  renderer.setClearColor(theme.paper);
+  renderer.clear();
+  renderer.setScissorTest(true);
   views.forEach((view, i) => {
     const box = element("views").children[i].getBoundingClientRect();
     const width = box.width, height = box.height, left = box.left - stage.left, bottom = stage.bottom - box.bottom;
@@ -151,6 +164,7 @@ function render() {
     // Wide or narrow, the shorter side shows the same.
     camera.zoom = Math.min(1, camera.aspect);
     camera.updateProjectionMatrix();
+    Object.assign(view.scene.fog, { near: far + 0.9 * sizes.view, far: far + 3.5 * sizes.view });
     renderer.render(view.scene, camera);
   });
 }
@@ -247,7 +261,7 @@ function makeControls() {
   TOGGLES.forEach((toggle) => {
     shown[toggle.key] = toggle.on && toggle.has;
     if (!toggle.has) return;
-    const box = make("input", { type: "checkbox", id: `show-${toggle.key}`, checked: toggle.on }), label = make("label", {}, box);
+    const box = make("input", { type: "checkbox", id: `show-${toggle.key}`, checked: toggle.on }), label = make("label", { title: toggle.title || "" }, box);
     if (toggle.colour) label.append(make("i", { style: `background: ${toggle.colour}` }));
     label.append(toggle.label);
     box.addEventListener("change", () => { shown[toggle.key] = box.checked; state.dirty = true; });
@@ -289,6 +303,7 @@ openStage();
 paintSwatches();
 writeWords();
 layOut();
+if (renderer) lookFromTheStart();
 window.addEventListener("resize", layOut);
 window.addEventListener("keydown", onKey);
 window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {

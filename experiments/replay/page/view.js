@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One run's scene: what of it is where at a time, and what surrounds it.
 
+/// m, world, of a pinned body.
+function pivotOf(body) {
+  const [w, x, y, z] = body.orientation;
+  return new THREE.Vector3(...body.center).negate().applyQuaternion(new THREE.Quaternion(x, y, z, w)).add(new THREE.Vector3(...body.position));
+}
+
 /// Of all runs together, so that every view has the same camera and the same scales.
 function sizesOf(data, motions) {
   const spans = [[], [], []];
+  const still = [];
   let radius = 0;
   motions.forEach((motion, m) => {
-    const bodies = data.scenes[data.runs[m].scene].bodies;
+    const { bodies, springs } = data.scenes[data.runs[m].scene];
+    springs.forEach((s) => s.other === null && still.push(new THREE.Vector3(...s.anchorOther)));
     bodies.forEach((b) => {
       if (b.surface !== undefined && !b.fixed) radius = Math.max(radius, b.radius);
       if (b.center) {
-        const reach = Math.hypot(...b.center);
-        if (reach > 0) for (let c = 0; c < 3; ++c) spans[c].push(b.position[c] - reach, b.position[c] + reach);
+        if (Math.hypot(...b.center) > 0) still.push(pivotOf(b));
       }
     });
     const n = motion.times.length, stride = Math.max(1, Math.floor(n * motion.moving / 20000));
@@ -29,7 +36,8 @@ function sizesOf(data, motions) {
     high.push(all[Math.ceil(0.99 * (all.length - 1))] + radius);
   });
   const box = new THREE.Box3(new THREE.Vector3(...low), new THREE.Vector3(...high));
-  return { box, radius, view: box.getSize(new THREE.Vector3()).length(), center: box.getCenter(new THREE.Vector3()) };
+  still.forEach((x) => box.expandByPoint(x));
+  return { box, radius, level: data.scenes.some((s) => s.bodies.some((b) => b.normal)), view: box.getSize(new THREE.Vector3()).length(), center: box.getCenter(new THREE.Vector3()) };
 }
 
 /// The largest |ω| and |L| of the bodies with vectors, by body of a run: arrows are relative to them.
@@ -92,7 +100,7 @@ function gridTexture() {
 /// A half-space as a tiled square: the floor solid, walls faint and seen from inside only.
 function planeMesh(plane, others, sizes) {
   const level = plane.normal[2] > 0.7, size = Math.max(sizes.view, 1e-6);
-  const { polygon, u, v, n } = cutSquare(plane, others, sizes.center, level ? 1.6 * size : 0.75 * size);
+  const { polygon, u, v, n } = cutSquare(plane, others, sizes.center, level ? 8 * size : 0.75 * size);
   if (polygon.length < 3) return null;
   const tile = round(size / 10), position = [], uv = [];
   for (let i = 1; i + 1 < polygon.length; ++i) {
@@ -104,12 +112,15 @@ function planeMesh(plane, others, sizes) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(position, 3));
   geometry.setAttribute("uv", new THREE.Float32BufferAttribute(uv, 2));
-  geometry.setAttribute("normal", new THREE.Float32BufferAttribute(polygon.length > 2 ? Array(position.length / 3).fill([n.x, n.y, n.z]).flat() : [], 3));
-  const material = new THREE.MeshLambertMaterial({ map: gridTexture(), transparent: !level, opacity: level ? 1 : 0.35, depthWrite: level });
-  const mesh = new THREE.Mesh(geometry, material);
-  mesh.receiveShadow = true;
-  mesh.tile = level ? tile : 0;
-  return mesh;
+  geometry.setAttribute("normal", new THREE.Float32BufferAttribute(Array(position.length / 3).fill([n.x, n.y, n.z]).flat(), 3));
+  const material = new THREE.MeshBasicMaterial({ map: gridTexture(), transparent: !level, opacity: level ? 1 : 0.3, depthWrite: level,
+                                                 polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+  const group = new THREE.Group(), shadow = new THREE.Mesh(geometry, new THREE.ShadowMaterial({ color: 0x1d2b3a, opacity: 0.22 }));
+  shadow.receiveShadow = true;
+  group.add(new THREE.Mesh(geometry, material));
+  if (level) group.add(shadow);
+  group.tile = level ? tile : 0;
+  return group;
 }
 
 /// Where bodies met lately: a ring across the normal and a line along it, larger for a larger impulse.
@@ -156,6 +167,7 @@ class View {
     this.motion = motion;
     this.scene = new THREE.Scene();
     this.scene.background = new THREE.Color(theme.sky);
+    this.scene.fog = new THREE.Fog(theme.sky, 1, 2);
     const setting = data.scenes[run.scene], planes = setting.bodies.filter((b) => b.normal);
     this.many = motion.moving > MANY;
     this.bodies = setting.bodies.map((b, i) => (b.normal ? null : new Body(b, i, setting.geometries[b.surface], sizes, this.many)));
@@ -178,14 +190,14 @@ class View {
   }
 
   light(sizes) {
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a93a0, 0.75));
-    const sun = new THREE.DirectionalLight(0xffffff, 0.55), reach = 0.75 * sizes.view;
-    sun.position.copy(sizes.center).add(new THREE.Vector3(0.5, -0.35, 1.1).multiplyScalar(2 * sizes.view));
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xb8c0ca, 0.72));
+    const sun = new THREE.DirectionalLight(0xffffff, 0.36), reach = 0.75 * sizes.view;
+    sun.position.copy(sizes.center).add(new THREE.Vector3(0.3, -0.75, 1.2).multiplyScalar(2 * sizes.view));
     sun.target.position.copy(sizes.center);
     sun.castShadow = this.planes.length > 0 && !this.many;
     Object.assign(sun.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1 * sizes.view, far: 6 * sizes.view });
     sun.shadow.mapSize.set(2048, 2048);
-    sun.shadow.bias = -0.0005;
+    sun.shadow.bias = -0.003;
     this.scene.add(sun, sun.target);
   }
 
