@@ -103,7 +103,7 @@ std::string impacts_packed(const Recording& r) {
 std::string detail_of(const Recording& r, const std::vector<Recording>& all) {
   std::string detail;
   for (std::size_t k = 0; k < r.facts.size(); ++k) {
-    const auto& [name, cell] = r.facts[k];
+    const std::string &name = r.facts[k].first, &cell = r.facts[k].second;
     if (name == "integrator" || name == "dt_s" || name == "tolerance" || cell.empty()) continue;
     const auto other = [&](const Recording& o) { return k < o.facts.size() && o.facts[k].second != cell; };
     if (std::any_of(all.begin(), all.end(), other)) detail += (detail.empty() ? "" : ", ") + name + " " + cell;

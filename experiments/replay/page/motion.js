@@ -54,6 +54,14 @@ class Motion {
     return out;
   }
 
+  /// Of all bodies, however heavy.
+  middle(at, out) {
+    const x = Motion.one;
+    out.set(0, 0, 0);
+    for (let i = 0; i < this.moving; ++i) out.add(this.position(at, i, x));
+    return out.multiplyScalar(1 / this.moving);
+  }
+
   /// Kept as w, x, y, z.
   kept(k, body, out) {
     const i = 4 * (k * this.moving + body), q = this.orientations;
@@ -88,3 +96,4 @@ class Motion {
   }
 }
 Motion.other = new THREE.Quaternion();
+Motion.one = new THREE.Vector3();

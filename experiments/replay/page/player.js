@@ -30,6 +30,7 @@ const TOGGLES = [
   { key: "polhode", label: "polhode", title: "the curve of ω on the inertia ellipsoid, in the body", on: false, has: vectors && rotates, colour: OMEGA },
   { key: "springs", label: "springs", on: true, has: anyMoves((s) => s.springs.length > 0) },
   { key: "floor", label: "floor", on: true, has: anyMoves((s) => s.bodies.some((b) => b.normal)) },
+  { key: "follow", label: "follow the bodies", on: true, get has() { return sizes !== null && sizes.follows; } },
   { key: "marks", label: "contact marks", on: true, has: motions.some((m) => m.impactCount() > 0), colour: MARK },
   { key: "pause", label: "pause at impacts", on: false, has: motions.some((m) => m.impactCount() > 0) },
   { key: "loop", label: "repeat", on: true, has: true },
@@ -138,7 +139,7 @@ function openStage() {
 
 function layOut() {
   const n = data.runs.length, narrow = window.innerWidth < 700, stage = element("stage");
-  const columns = narrow ? 1 : n <= 3 ? n : n === 4 ? 2 : Math.ceil(Math.sqrt(n)), rows = Math.ceil(n / columns);
+  const columns = narrow ? 1 : n <= 3 ? n : n === 4 ? 2 : n <= 6 ? 3 : 4, rows = Math.ceil(n / columns);
   const grid = element("views").style;
   grid.gridTemplateColumns = `repeat(${columns}, minmax(0, 1fr))`;
   grid.gridTemplateRows = `repeat(${rows}, minmax(0, 1fr))`;
@@ -165,7 +166,9 @@ function render() {
     camera.zoom = Math.min(1, camera.aspect);
     camera.updateProjectionMatrix();
     Object.assign(view.scene.fog, { near: far + 0.9 * sizes.view, far: far + 3.5 * sizes.view });
+    camera.position.add(view.middle);
     renderer.render(view.scene, camera);
+    camera.position.sub(view.middle);
   });
 }
 
@@ -297,9 +300,9 @@ function onKey(event) {
 }
 
 makePanels();
+openStage();
 makeControls();
 plot = new Plot(element("plot"), motions, colours, start, end);
-openStage();
 paintSwatches();
 writeWords();
 layOut();

@@ -7,37 +7,51 @@ function pivotOf(body) {
   return new THREE.Vector3(...body.center).negate().applyQuaternion(new THREE.Quaternion(x, y, z, w)).add(new THREE.Vector3(...body.position));
 }
 
-/// Of all runs together, so that every view has the same camera and the same scales.
+/// Where all of a motion is, by axis and sorted; about the middle of its bodies at each instant, or about the origin.
+function spansOf(motions, aboutMiddle) {
+  const spans = [[], [], []], middle = new THREE.Vector3();
+  for (const m of motions) {
+    const stride = Math.max(1, Math.floor(m.times.length * m.moving / 20000));
+    for (let k = 0; k < m.times.length; k += stride) {
+      if (aboutMiddle) m.middle({ k, part: 0 }, middle);
+      for (let i = 3 * k * m.moving; i < 3 * (k + 1) * m.moving; ++i) spans[i % 3].push(m.positions[i] - middle.getComponent(i % 3));
+    }
+  }
+  spans.forEach((all) => all.sort((p, q) => p - q));
+  return spans;
+}
+
+/// What flies off, as bodies of a method that is lost, does not set the scale: a hundredth at either end is left out.
+function boxOf(spans, radius) {
+  const box = new THREE.Box3();
+  spans.forEach((all, c) => {
+    box.min.setComponent(c, all[Math.floor(0.01 * (all.length - 1))] - radius);
+    box.max.setComponent(c, all[Math.ceil(0.99 * (all.length - 1))] + radius);
+  });
+  return box;
+}
+
+/// Of all runs together, so that every view has the same camera and the same scales. Where nothing stands still and bodies
+/// go far away together, the pictures follow their middle.
 function sizesOf(data, motions) {
-  const spans = [[], [], []];
   const still = [];
-  let radius = 0;
-  motions.forEach((motion, m) => {
+  let radius = 0, stands = false;
+  motions.forEach((_, m) => {
     const { bodies, springs } = data.scenes[data.runs[m].scene];
     springs.forEach((s) => s.other === null && still.push(new THREE.Vector3(...s.anchorOther)));
     bodies.forEach((b) => {
+      stands = stands || b.fixed;
       if (b.surface !== undefined && !b.fixed) radius = Math.max(radius, b.radius);
-      if (b.center) {
-        if (Math.hypot(...b.center) > 0) still.push(pivotOf(b));
-      }
+      if (b.center && Math.hypot(...b.center) > 0) still.push(pivotOf(b));
     });
-    const n = motion.times.length, stride = Math.max(1, Math.floor(n * motion.moving / 20000));
-    for (let k = 0; k < n; k += stride) {
-      for (let i = 0; i < motion.moving; ++i) {
-        for (let c = 0; c < 3; ++c) spans[c].push(motion.positions[3 * (k * motion.moving + i) + c]);
-      }
-    }
   });
-  // What flies off, as bodies of a method that is lost, does not set the scale: a hundredth at either end is left out.
-  const low = [], high = [];
-  spans.forEach((all) => {
-    all.sort((a, b) => a - b);
-    low.push(all[Math.floor(0.01 * (all.length - 1))] - radius);
-    high.push(all[Math.ceil(0.99 * (all.length - 1))] + radius);
-  });
-  const box = new THREE.Box3(new THREE.Vector3(...low), new THREE.Vector3(...high));
+  let box = boxOf(spansOf(motions, false), radius);
+  const near = boxOf(spansOf(motions, true), radius), length = (x) => x.getSize(new THREE.Vector3()).length();
+  const follows = !stands && still.length === 0 && length(box) > 6 * length(near);
+  if (follows) box = near;
   still.forEach((x) => box.expandByPoint(x));
-  return { box, radius, level: data.scenes.some((s) => s.bodies.some((b) => b.normal)), view: box.getSize(new THREE.Vector3()).length(), center: box.getCenter(new THREE.Vector3()) };
+  const level = data.scenes.some((s) => s.bodies.some((b) => b.normal));
+  return { box, radius, level, follows, view: length(box), center: box.getCenter(new THREE.Vector3()) };
 }
 
 /// The largest |ω| and |L| of the bodies with vectors, by body of a run: arrows are relative to them.
@@ -156,7 +170,7 @@ class Marks {
       mark.position.set(x[i + IMPACT.point], x[i + IMPACT.point + 1], x[i + IMPACT.point + 2]);
       mark.quaternion.setFromUnitVectors(Arrow.up, Arrow.unit.set(x[i + IMPACT.normal], x[i + IMPACT.normal + 1], x[i + IMPACT.normal + 2]).normalize());
       const size = this.largest > 0 ? Math.cbrt(x[i + IMPACT.impulse] / this.largest) : 1;
-      mark.scale.setScalar(this.radius * (0.12 + 0.4 * size) * (1 + 0.4 * age));
+      mark.scale.setScalar(this.radius * (0.1 + 0.3 * size) * (1 + 0.4 * age));
     }
     for (; used < this.pool.length; ++used) this.pool[used].visible = false;
   }
@@ -187,6 +201,8 @@ class View {
     });
     this.travels = this.moving.map((b) => this.travel(b) > 0.05 * b.radius);
     this.light(sizes);
+    this.middle = new THREE.Vector3();
+    if (sizes.radius < 0.01 * sizes.view) this.addDots();
   }
 
   light(sizes) {
@@ -199,6 +215,14 @@ class View {
     sun.shadow.mapSize.set(2048, 2048);
     sun.shadow.bias = -0.003;
     this.scene.add(sun, sun.target);
+  }
+
+  /// Bodies that are too small to be seen.
+  addDots() {
+    for (const body of this.bodies.slice(0, this.motion.moving)) {
+      const material = new THREE.PointsMaterial({ color: body.colour, size: 6, sizeAttenuation: false });
+      body.group.add(new THREE.Points(new THREE.BufferGeometry().setFromPoints([new THREE.Vector3()]), material));
+    }
   }
 
   /// m, how far a body gets from where it began.
@@ -248,6 +272,8 @@ class View {
     this.springs.forEach((s) => s.stretch(shown.springs));
     this.planes.forEach((p) => { p.visible = shown.floor; });
     this.marks.show(now, life, shown.marks);
+    if (shown.follow) this.motion.middle(at, this.middle);
+    else this.middle.set(0, 0, 0);
     return at;
   }
 }
