@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/integrator.hpp"
+#include "core/system.hpp"
 
 namespace polhode::study {
 
@@ -14,8 +14,8 @@ inline constexpr double hopeless_energy_drift = 1e6;
 
 /// J, of a run that starts so: |E0|; where kinetic and potential energy cancel in it, the larger of the two; at rest at zero
 /// potential 1 J.
-inline double energy_scale_of(const Sample& start) {
-  const double energy = std::abs(start.ledger(0)), larger = std::max(std::abs(start.seen.kinetic), std::abs(start.seen.potential));
+inline double energy_scale_of(const Measurement<double>& start) {
+  const double energy = std::abs(start.energy()), larger = std::max(std::abs(start.kinetic), std::abs(start.potential));
   const double scale = energy >= 1e-9 * larger ? energy : larger;
   return scale == 0 ? 1 : scale;
 }

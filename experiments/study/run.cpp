@@ -133,7 +133,8 @@ RunResult carry_out(const RunConfig& config, const Scenario& scenario, const Tra
   std::optional<ContactMeter> contact_meter;
   if (config.contact) contact_meter.emplace(*truth, scenario, *config.contact, config.t_end, meter);
   Observer& measured = contact_meter ? static_cast<Observer&>(*contact_meter) : meter;
-  const auto writer = open_trajectory(trajectory.format, trajectory.folder, *truth, measured);
+  const auto writer = trajectory.open ? trajectory.open(*truth, measured)
+                                      : open_trajectory(trajectory.format, trajectory.folder, *truth, measured);
   Observer& observer = writer ? static_cast<Observer&>(*writer) : measured;
   RunOutcome outcome;
   double seconds = 0;

@@ -31,7 +31,7 @@ const System<double>& SessionMemory::system(const Formulation& f) {
 
 void SessionMemory::begin(const Kept& start) {
   energy_start_ = start.sample.ledger(start.losses.total());
-  energy_scale_ = study::energy_scale_of(start.sample);
+  energy_scale_ = study::energy_scale_of(start.sample.seen);
   momentum_start_ = start.sample.seen.angular_momentum;
   history_ = Thinned<Kept>(capacity_);
   plot_ = Thinned<PlotPoint>(most_points);
