@@ -18,13 +18,13 @@ namespace {
 /// How many words stand after each.
 const std::map<std::string, std::vector<std::size_t>> commands = {
     {"click", {1}}, {"choose", {2}}, {"drag", {2}}, {"type", {2}}, {"wait", {1}}, {"until", {1, 2}},
-    {"expect", {2, 3}}, {"orbit", {2}}, {"picture", {1}}};
+    {"expect", {2, 3}}, {"orbit", {2}}, {"picture", {1}}, {"places", {1}}};
 constexpr int most_frames = 20000;  // of waiting
 
 }  // namespace
 
-Script::Script(const std::string& file, std::function<void(const std::string&)> take_picture)
-    : file_(file), take_picture_(std::move(take_picture)) {
+Script::Script(const std::string& file, FileMaker take_picture, FileMaker write_places)
+    : file_(file), take_picture_(std::move(take_picture)), write_places_(std::move(write_places)) {
   std::ifstream text(file);
   if (!text) throw study::InputError("--script " + file + ": cannot be read");
   int n = 0;
@@ -139,6 +139,8 @@ void Script::take(Stage& stage, Controls& controls) {
     stage.camera.orbit(number(w[1]), number(w[2]));
   } else if (w[0] == "picture") {
     take_picture_(w[1]);
+  } else if (w[0] == "places") {
+    write_places_(w[1]);
   }
 }
 

@@ -12,6 +12,7 @@
 //   expect t < 0.5
 //   orbit 0.5 0.1              rad, the camera
 //   picture FILE
+//   places FILE                CSV: run, body, the pixel where its mass centre is in the picture, and its colour
 #pragma once
 
 #include <deque>
@@ -26,8 +27,9 @@ namespace polhode::viewer {
 
 class Script {
  public:
+  using FileMaker = std::function<void(const std::string&)>;
   /// Throws InputError with the line.
-  Script(const std::string& file, std::function<void(const std::string&)> take_picture);
+  Script(const std::string& file, FileMaker take_picture, FileMaker write_places);
 
   /// Before a frame of Dear ImGui: what mouse and keyboard do in it.
   void before_frame();
@@ -61,7 +63,7 @@ class Script {
   Line line_{};
   int waited_ = 0;
   std::string opened_;  ///< the item to be taken from a list that is open
-  std::function<void(const std::string&)> take_picture_;
+  FileMaker take_picture_, write_places_;
 };
 
 }  // namespace polhode::viewer

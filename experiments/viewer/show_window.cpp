@@ -8,12 +8,13 @@
 #include <imgui.h>
 
 #include <atomic>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
 
-#include "experiments/study/input_error.hpp"
+#include "experiments/study/text_file.hpp"
 #include "experiments/viewer/captions.hpp"
 #include "experiments/viewer/frame_clock.hpp"
 #include "experiments/viewer/panel.hpp"
@@ -107,7 +108,9 @@ class Show {
       : settings_(settings), window_(settings.width, settings.height, settings.samples) {
     ImGui_ImplGlfw_InitForOpenGL(window_.get(), true);
     if (!settings.script.empty()) {
-      script_.emplace(settings.script, [this](const std::string& file) { picture_ = file; });
+      script_.emplace(
+          settings.script, [this](const std::string& file) { picture_ = file; },
+          [this](const std::string& file) { write_places(file); });
     }
     set(std::move(setup));
     if (settings_.play) stage_->each([](Session& s) { s.play(); });
@@ -163,6 +166,8 @@ class Show {
     draw_plots(*stage_, panel_width, float(height - plots_height), float(width - panel_width), plots_height);
     steer(*stage_);
     const Rectangle area = {panel_width, plots_height, std::max(width - panel_width, 1), std::max(height - plots_height, 1)};
+    area_ = area;
+    height_ = height;
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     painter_->draw(*stage_, area);
     glDisable(GL_SCISSOR_TEST);
@@ -180,6 +185,23 @@ class Show {
     if (script_) script_->after_frame(*stage_, gui_.controls);
     if (wishes.camera) home();
     if (wishes.scenario) other(*wishes.scenario);
+  }
+
+  /// Of the frame drawn last.
+  void write_places(const std::filesystem::path& file) const {
+    std::string csv = "run,body,x_px,y_px,red,green,blue\n";
+    for (std::size_t k = 0; k < stage_->size(); ++k) {
+      const Rectangle part = stage_->part(k, area_);
+      const auto& bodies = stage_->views()[k]->frame.bodies;
+      for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const auto at = stage_->camera.pixel(bodies[i].position, part.width, part.height);
+        if (!at) continue;
+        const Colour c = body_colour(i);
+        csv += fmt::format("{},{},{:.2f},{:.2f},{},{},{}\n", k + 1, stage_->moving()[i], part.left + (*at)[0],
+                           height_ - part.bottom - part.height + (*at)[1], c.red, c.green, c.blue);
+      }
+    }
+    study::write_text(file, csv);
   }
 
   std::filesystem::path next_picture() {
@@ -207,6 +229,8 @@ class Show {
   std::unique_ptr<Stage> stage_;
   std::unique_ptr<StagePainter> painter_;
   std::filesystem::path picture_;
+  Rectangle area_;   ///< where the runs were drawn last
+  int height_ = 0;   ///< px, of the picture
 };
 
 }  // namespace
