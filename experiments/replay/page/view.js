@@ -3,8 +3,7 @@
 
 /// m, world, of a pinned body.
 function pivotOf(body) {
-  const [w, x, y, z] = body.orientation;
-  return new THREE.Vector3(...body.center).negate().applyQuaternion(new THREE.Quaternion(x, y, z, w)).add(new THREE.Vector3(...body.position));
+  return new THREE.Vector3(...body.center).negate().applyQuaternion(quaternionOf(body)).add(new THREE.Vector3(...body.position));
 }
 
 /// Where all of a motion is, by axis and sorted; about the middle of its bodies at each instant, or about the origin.
@@ -88,7 +87,7 @@ function cutSquare(plane, others, p, s) {
     });
     polygon = next;
   }
-  return { polygon, u, v, n };
+  return { polygon, u, v };
 }
 
 /// A round number near x.
@@ -111,28 +110,38 @@ function gridTexture() {
   return texture;
 }
 
-/// A half-space as a tiled square: the floor solid, walls faint and seen from inside only.
-function planeMesh(plane, others, sizes) {
-  const level = plane.normal[2] > 0.7, size = Math.max(sizes.view, 1e-6);
-  const { polygon, u, v, n } = cutSquare(plane, others, sizes.center, level ? 8 * size : 0.75 * size);
+/// A square of that half-width on the plane, near what is seen; none where other half-spaces leave nothing of it.
+function planeGeometry(plane, others, sizes, half, tile) {
+  const { polygon, u, v } = cutSquare(plane, others, sizes.center, half), position = [], uv = [], normal = [];
   if (polygon.length < 3) return null;
-  const tile = round(size / 10), position = [], uv = [];
   for (let i = 1; i + 1 < polygon.length; ++i) {
     for (const x of [polygon[0], polygon[i], polygon[i + 1]]) {
       position.push(x.x, x.y, x.z);
       uv.push(x.dot(u) / tile, x.dot(v) / tile);
+      normal.push(...plane.normal);
     }
   }
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(position, 3));
   geometry.setAttribute("uv", new THREE.Float32BufferAttribute(uv, 2));
-  geometry.setAttribute("normal", new THREE.Float32BufferAttribute(Array(position.length / 3).fill([n.x, n.y, n.z]).flat(), 3));
+  geometry.setAttribute("normal", new THREE.Float32BufferAttribute(normal, 3));
+  return geometry;
+}
+
+/// A half-space: the floor solid, tiled and with shadows near the bodies, walls faint and seen from inside only.
+function planeMesh(plane, others, sizes) {
+  const level = plane.normal[2] > 0.7, size = Math.max(sizes.view, 1e-6), tile = round(size / 10);
+  const geometry = planeGeometry(plane, others, sizes, (level ? 8 : 0.75) * size, tile);
+  if (!geometry) return null;
   const material = new THREE.MeshBasicMaterial({ map: gridTexture(), transparent: !level, opacity: level ? 1 : 0.3, depthWrite: level,
                                                  polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
-  const group = new THREE.Group(), shadow = new THREE.Mesh(geometry, new THREE.ShadowMaterial({ color: 0x1d2b3a, opacity: 0.22 }));
-  shadow.receiveShadow = true;
+  const group = new THREE.Group(), near = level && planeGeometry(plane, others, sizes, 0.9 * size, tile);
   group.add(new THREE.Mesh(geometry, material));
-  if (level) group.add(shadow);
+  if (near) {
+    const shadow = new THREE.Mesh(near, new THREE.ShadowMaterial({ color: 0x1d2b3a, opacity: 0.22 }));
+    shadow.receiveShadow = true;
+    group.add(shadow);
+  }
   group.tile = level ? tile : 0;
   return group;
 }
@@ -191,7 +200,7 @@ class View {
     this.tile = 0;
     this.planes = planes.map((p) => planeMesh(p, planes.filter((o) => o !== p), sizes)).filter((p) => p);
     this.planes.forEach((p) => { this.scene.add(p); this.tile = this.tile || p.tile; });
-    this.springs = setting.springs.map((s) => new Spring(s, this.bodies, this.scene, sizes.view));
+    this.springs = setting.springs.map((s) => new Spring({ ...s, plane: setting.bodies[s.other] }, this.bodies, this.scene, sizes.view));
     this.marks = new Marks(motion, this.scene, sizes.radius);
     this.window = Math.min(duration, Math.max(2, duration / 6));
     this.trails = this.moving.map((b) => {
