@@ -108,6 +108,10 @@ class Pages(unittest.TestCase):
 
     def test_what_is_refused(self):
         self.assertIn("`./run replay` installs", self.refused("--three", "nowhere"))
+        (self.folder / "three.min.js").write_text('REVISION="150"')
+        (self.folder / "examples" / "js" / "controls").mkdir(parents=True)
+        (self.folder / "examples" / "js" / "controls" / "OrbitControls.js").write_text("")
+        self.assertIn("revision 111", self.refused("--three", "."))
         (self.folder / "notes.txt").write_text("mine")
         self.assertIn("no replay page", self.refused("--out", "notes.txt"))
         self.assertEqual((self.folder / "notes.txt").read_text(), "mine")

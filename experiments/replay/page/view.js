@@ -211,7 +211,7 @@ class View {
     this.travels = this.moving.map((b) => this.travel(b) > 0.05 * b.radius);
     this.light(sizes);
     this.middle = new THREE.Vector3();
-    if (sizes.radius < 0.01 * sizes.view) this.addDots();
+    this.addDots(0.008 * sizes.view);
   }
 
   light(sizes) {
@@ -227,9 +227,9 @@ class View {
   }
 
   /// Bodies that are too small to be seen.
-  addDots() {
-    for (const body of this.bodies.slice(0, this.motion.moving)) {
-      const material = new THREE.PointsMaterial({ color: body.colour, size: 6, sizeAttenuation: false });
+  addDots(least) {
+    for (const body of this.bodies.slice(0, this.motion.moving).filter((b) => b.radius < least)) {
+      const material = new THREE.PointsMaterial({ color: body.colour, size: 5, sizeAttenuation: false });
       body.group.add(new THREE.Points(new THREE.BufferGeometry().setFromPoints([new THREE.Vector3()]), material));
     }
   }
