@@ -222,6 +222,20 @@ class Played(unittest.TestCase):
         self.assertAlmostEqual(self.browser.run("replay.time"), first, delta=1e-6)
         self.check_quiet()
 
+    def test_a_run_that_is_lost_stands_still_and_says_so(self):
+        done = call("replay", "--scenario", "coursework", "--integrator", "explicit_euler,rk4", "--dt", "1.5", "--t-end", "60",
+                    "--out", "lost.html", folder=self.folder)
+        self.assertRegex(done.stdout, "explicit_euler, dt = 1.5 s a body turns by up to .* is a guess")
+        self.open(self.folder / "lost.html")
+        end = data_of(self.folder / "lost.html")["runs"][0]["facts"]
+        self.assertIn("diverged", dict(end)["status"])
+        self.browser.run("replay.seek(40)")
+        self.browser.frames(2)
+        self.assertRegex(self.browser.run("document.querySelector('.ended').textContent"), r"diverged at \d")
+        there = self.browser.run("replay.body(0, 0).position")
+        self.assertEqual(self.browser.run("(replay.seek(60), replay.body(0, 0).position)"), there)
+        self.check_quiet()
+
     def test_fits_a_phone(self):
         call("replay", "--scenario", "lagrange_top", "--integrator", "rk4,lie_euler,velocity_verlet", "--dt", "0.01", "--t-end", "1",
              "--out", "phone.html", folder=self.folder)

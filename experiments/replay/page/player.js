@@ -94,9 +94,10 @@ function makeViews() {
     scene.geometries = scene.geometries || scene.surfaces.map(geometryOf);
     scene.bodies.forEach((b) => { if (b.surface !== undefined) b.radius = scene.geometries[b.surface].boundingSphere.radius; });
   }
-  sizes = sizesOf(data, motions);
+  const sound = motions.filter((m) => m.run.status === "ok"), lasting = (m) => sound.length === 0 || sound.includes(m);
+  sizes = sizesOf(data, motions.filter(lasting));  // a run that was lost sets no scale
   views = data.runs.map((run, i) => new View(data, run, motions[i], sizes, duration));
-  scales = vectorScales(motions, views);
+  scales = vectorScales(views.filter((v) => lasting(v.motion)));
 }
 
 function lookFromTheStart() {

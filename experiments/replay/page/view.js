@@ -35,8 +35,8 @@ function boxOf(spans, radius) {
 function sizesOf(data, motions) {
   const still = [];
   let radius = 0, stands = false;
-  motions.forEach((_, m) => {
-    const { bodies, springs } = data.scenes[data.runs[m].scene];
+  motions.forEach((m) => {
+    const { bodies, springs } = data.scenes[m.run.scene];
     springs.forEach((s) => s.other === null && still.push(new THREE.Vector3(...s.anchorOther)));
     bodies.forEach((b) => {
       stands = stands || b.fixed;
@@ -53,20 +53,20 @@ function sizesOf(data, motions) {
   return { box, radius, level, follows, view: length(box), center: box.getCenter(new THREE.Vector3()) };
 }
 
-/// The largest |ω| and |L| of the bodies with vectors, by body of a run: arrows are relative to them.
-function vectorScales(motions, views) {
+/// The largest |ω| and |L| of the bodies with vectors: arrows are relative to them.
+function vectorScales(views) {
   const scales = { omega: 0, momentum: 0 }, l = new THREE.Vector3(), omega = new THREE.Vector3();
-  motions.forEach((motion, m) => {
+  for (const { motion, moving } of views) {
     const stride = Math.ceil(motion.times.length / 500);
     for (let k = 0; k < motion.times.length; k += stride) {
-      for (const body of views[m].moving) {
+      for (const body of moving) {
         motion.angularVelocity({ k, part: 0 }, body.number, omega);
         scales.omega = Math.max(scales.omega, omega.length());
         motion.kept(k, body.number, body.group.quaternion);
         scales.momentum = Math.max(scales.momentum, body.angularMomentum(omega, l).length());
       }
     }
-  });
+  }
   return scales;
 }
 
