@@ -52,6 +52,11 @@ ThreeJs read_three(const std::filesystem::path& folder) {
     throw InputError((folder / (library ? "examples/js/controls/OrbitControls.js" : "three.min.js")).string() +
                      " is not there: `./run replay` installs three.js (Debian's libjs-three), or name a folder that has it with --three");
   }
+  // What the page calls comes and goes from one revision to the next.
+  if (library->find("REVISION=\"111\"") == std::string::npos) {
+    throw InputError((folder / "three.min.js").string() + " is not revision 111 of three.js, for which the page is written: `./run replay` "
+                     "installs that, or name a folder that has it with --three");
+  }
   return {inlined(*library), inlined(*controls)};
 }
 

@@ -60,12 +60,13 @@ Json surface_json(const Surface& surface) {
 }
 
 Json body_json(const SceneBody& body) {
-  Json b = {{"name", body.name}, {"fixed", body.fixed}};
+  Json b = {{"name", body.name},
+            {"fixed", body.fixed},
+            {"position", list(body.start.position)},
+            {"orientation", list(quaternion_from_rotation_matrix(body.start.rotation))}};
   if (body.surface) {
     b["surface"] = *body.surface;
     b["inferred"] = body.from_inertia;
-    b["position"] = list(body.start.position);
-    b["orientation"] = list(quaternion_from_rotation_matrix(body.start.rotation));
     b["center"] = list(body.center_of_mass);
     b["inertia"] = list(body.inertia.reshaped());
   } else {

@@ -108,6 +108,10 @@ class Pages(unittest.TestCase):
 
     def test_what_is_refused(self):
         self.assertIn("`./run replay` installs", self.refused("--three", "nowhere"))
+        (self.folder / "three.min.js").write_text('REVISION="150"')
+        (self.folder / "examples" / "js" / "controls").mkdir(parents=True)
+        (self.folder / "examples" / "js" / "controls" / "OrbitControls.js").write_text("")
+        self.assertIn("revision 111", self.refused("--three", "."))
         (self.folder / "notes.txt").write_text("mine")
         self.assertIn("no replay page", self.refused("--out", "notes.txt"))
         self.assertEqual((self.folder / "notes.txt").read_text(), "mine")
@@ -216,6 +220,20 @@ class Played(unittest.TestCase):
         self.browser.run(f"(replay.seek({first - 0.2}), replay.play())")
         self.browser.wait_for("!replay.playing")
         self.assertAlmostEqual(self.browser.run("replay.time"), first, delta=1e-6)
+        self.check_quiet()
+
+    def test_a_run_that_is_lost_stands_still_and_says_so(self):
+        done = call("replay", "--scenario", "coursework", "--integrator", "explicit_euler,rk4", "--dt", "1.5", "--t-end", "60",
+                    "--out", "lost.html", folder=self.folder)
+        self.assertRegex(done.stdout, "explicit_euler, dt = 1.5 s a body turns by up to .* is a guess")
+        self.open(self.folder / "lost.html")
+        end = data_of(self.folder / "lost.html")["runs"][0]["facts"]
+        self.assertIn("diverged", dict(end)["status"])
+        self.browser.run("replay.seek(40)")
+        self.browser.frames(2)
+        self.assertRegex(self.browser.run("document.querySelector('.ended').textContent"), r"diverged at \d")
+        there = self.browser.run("replay.body(0, 0).position")
+        self.assertEqual(self.browser.run("(replay.seek(60), replay.body(0, 0).position)"), there)
         self.check_quiet()
 
     def test_fits_a_phone(self):

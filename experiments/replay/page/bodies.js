@@ -67,6 +67,12 @@ function lineOf(capacity, colour, fades) {
   return line;
 }
 
+/// Kept as w, x, y, z.
+function quaternionOf(data) {
+  const [w, x, y, z] = data.orientation;
+  return new THREE.Quaternion(x, y, z, w);
+}
+
 class Body {
   constructor(data, number, geometry, sizes, many) {
     this.data = data;
@@ -83,8 +89,7 @@ class Body {
       this.edges = new THREE.LineSegments(geometry.edges, new THREE.LineBasicMaterial({ color: theme.edge, transparent: true, opacity: 0.65 }));
       this.group.add(this.edges);
     }
-    const [w, x, y, z] = data.orientation;
-    this.group.quaternion.set(x, y, z, w);
+    this.group.quaternion.copy(quaternionOf(data));
     this.group.position.fromArray(data.position);
     this.center = new THREE.Vector3().fromArray(data.center);
     if (this.center.lengthSq() > 0) this.addRod(sizes.view);
@@ -189,6 +194,7 @@ class Spring {
     out.fromArray(anchor);
     if (number === null) return out;
     const body = this.bodies[number];
+    if (!body) return out.applyQuaternion(quaternionOf(this.data.plane)).add(new THREE.Vector3(...this.data.plane.position));
     return out.sub(body.center).applyQuaternion(body.group.quaternion).add(body.group.position);
   }
   stretch(shown) {

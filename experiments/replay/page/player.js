@@ -94,9 +94,10 @@ function makeViews() {
     scene.geometries = scene.geometries || scene.surfaces.map(geometryOf);
     scene.bodies.forEach((b) => { if (b.surface !== undefined) b.radius = scene.geometries[b.surface].boundingSphere.radius; });
   }
-  sizes = sizesOf(data, motions);
+  const sound = motions.filter((m) => m.run.status === "ok"), lasting = (m) => sound.length === 0 || sound.includes(m);
+  sizes = sizesOf(data, motions.filter(lasting));  // a run that was lost sets no scale
   views = data.runs.map((run, i) => new View(data, run, motions[i], sizes, duration));
-  scales = vectorScales(motions, views);
+  scales = vectorScales(views.filter((v) => lasting(v.motion)));
 }
 
 function lookFromTheStart() {
@@ -128,17 +129,22 @@ function openStage() {
   }
   renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
   renderer.shadowMap.enabled = true;
-  renderer.shadowMap.type = THREE.PCFSoftShadowMap;
+  renderer.shadowMap.type = THREE.PCFShadowMap;
   makeViews();
   camera = new THREE.PerspectiveCamera(28, 1, 0.005 * sizes.view, 50 * sizes.view);
   camera.up.set(0, 0, 1);
   controls = new THREE.OrbitControls(camera, renderer.domElement);
   controls.enableKeys = false;
+  // On a narrow page one finger scrolls, and two turn and zoom.
+  controls.touches.TWO = isNarrow() ? THREE.TOUCH.DOLLY_ROTATE : THREE.TOUCH.DOLLY_PAN;
+  element("stage").addEventListener("touchstart", (event) => { if (isNarrow() && event.touches.length === 1) event.stopPropagation(); }, true);
   controls.addEventListener("change", () => { state.dirty = true; });
 }
 
+const isNarrow = () => window.innerWidth < 700;
+
 function layOut() {
-  const n = data.runs.length, narrow = window.innerWidth < 700, stage = element("stage");
+  const n = data.runs.length, narrow = isNarrow(), stage = element("stage");
   const columns = narrow ? 1 : n <= 3 ? n : n === 4 ? 2 : n <= 6 ? 3 : 4, rows = Math.ceil(n / columns);
   const grid = element("views").style;
   grid.gridTemplateColumns = `repeat(${columns}, minmax(0, 1fr))`;
@@ -270,6 +276,8 @@ function makeControls() {
     box.addEventListener("change", () => { shown[toggle.key] = box.checked; state.dirty = true; });
     element("toggles").append(label);
   });
+  // After a click the keys are the page's again; who got there by keys stays there.
+  document.addEventListener("click", (event) => { if (event.detail > 0 && event.target.matches("button, button *, #toggles input, #scrub")) document.activeElement.blur(); });
   const canvas = element("plot");
   const scrub = (event) => { setPlaying(false); seek(plot.time(event.offsetX)); };
   canvas.addEventListener("pointerdown", (event) => { canvas.setPointerCapture(event.pointerId); scrub(event); });
@@ -277,8 +285,8 @@ function makeControls() {
 }
 
 function onKey(event) {
-  const away = event.ctrlKey || event.metaKey || event.altKey || ["SELECT"].includes(event.target.tagName);
-  if (away) return;
+  const has = (what) => event.target.matches(what);  // what has the focus and a meaning for the key of its own
+  if (event.ctrlKey || event.metaKey || event.altKey || has("select") || (event.key === " " && has("button, input[type=checkbox]"))) return;
   const faster = SPEEDS.find((s) => s > state.speed), slower = [...SPEEDS].reverse().find((s) => s < state.speed);
   const jump = (d) => { setPlaying(false); seek(state.t + d * duration / 50); };
   const keys = {

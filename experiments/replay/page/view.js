@@ -3,8 +3,7 @@
 
 /// m, world, of a pinned body.
 function pivotOf(body) {
-  const [w, x, y, z] = body.orientation;
-  return new THREE.Vector3(...body.center).negate().applyQuaternion(new THREE.Quaternion(x, y, z, w)).add(new THREE.Vector3(...body.position));
+  return new THREE.Vector3(...body.center).negate().applyQuaternion(quaternionOf(body)).add(new THREE.Vector3(...body.position));
 }
 
 /// Where all of a motion is, by axis and sorted; about the middle of its bodies at each instant, or about the origin.
@@ -36,8 +35,8 @@ function boxOf(spans, radius) {
 function sizesOf(data, motions) {
   const still = [];
   let radius = 0, stands = false;
-  motions.forEach((_, m) => {
-    const { bodies, springs } = data.scenes[data.runs[m].scene];
+  motions.forEach((m) => {
+    const { bodies, springs } = data.scenes[m.run.scene];
     springs.forEach((s) => s.other === null && still.push(new THREE.Vector3(...s.anchorOther)));
     bodies.forEach((b) => {
       stands = stands || b.fixed;
@@ -54,20 +53,20 @@ function sizesOf(data, motions) {
   return { box, radius, level, follows, view: length(box), center: box.getCenter(new THREE.Vector3()) };
 }
 
-/// The largest |ω| and |L| of the bodies with vectors, by body of a run: arrows are relative to them.
-function vectorScales(motions, views) {
+/// The largest |ω| and |L| of the bodies with vectors: arrows are relative to them.
+function vectorScales(views) {
   const scales = { omega: 0, momentum: 0 }, l = new THREE.Vector3(), omega = new THREE.Vector3();
-  motions.forEach((motion, m) => {
+  for (const { motion, moving } of views) {
     const stride = Math.ceil(motion.times.length / 500);
     for (let k = 0; k < motion.times.length; k += stride) {
-      for (const body of views[m].moving) {
+      for (const body of moving) {
         motion.angularVelocity({ k, part: 0 }, body.number, omega);
         scales.omega = Math.max(scales.omega, omega.length());
         motion.kept(k, body.number, body.group.quaternion);
         scales.momentum = Math.max(scales.momentum, body.angularMomentum(omega, l).length());
       }
     }
-  });
+  }
   return scales;
 }
 
@@ -88,7 +87,7 @@ function cutSquare(plane, others, p, s) {
     });
     polygon = next;
   }
-  return { polygon, u, v, n };
+  return { polygon, u, v };
 }
 
 /// A round number near x.
@@ -111,28 +110,38 @@ function gridTexture() {
   return texture;
 }
 
-/// A half-space as a tiled square: the floor solid, walls faint and seen from inside only.
-function planeMesh(plane, others, sizes) {
-  const level = plane.normal[2] > 0.7, size = Math.max(sizes.view, 1e-6);
-  const { polygon, u, v, n } = cutSquare(plane, others, sizes.center, level ? 8 * size : 0.75 * size);
+/// A square of that half-width on the plane, near what is seen; none where other half-spaces leave nothing of it.
+function planeGeometry(plane, others, sizes, half, tile) {
+  const { polygon, u, v } = cutSquare(plane, others, sizes.center, half), position = [], uv = [], normal = [];
   if (polygon.length < 3) return null;
-  const tile = round(size / 10), position = [], uv = [];
   for (let i = 1; i + 1 < polygon.length; ++i) {
     for (const x of [polygon[0], polygon[i], polygon[i + 1]]) {
       position.push(x.x, x.y, x.z);
       uv.push(x.dot(u) / tile, x.dot(v) / tile);
+      normal.push(...plane.normal);
     }
   }
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(position, 3));
   geometry.setAttribute("uv", new THREE.Float32BufferAttribute(uv, 2));
-  geometry.setAttribute("normal", new THREE.Float32BufferAttribute(Array(position.length / 3).fill([n.x, n.y, n.z]).flat(), 3));
+  geometry.setAttribute("normal", new THREE.Float32BufferAttribute(normal, 3));
+  return geometry;
+}
+
+/// A half-space: the floor solid, tiled and with shadows near the bodies, walls faint and seen from inside only.
+function planeMesh(plane, others, sizes) {
+  const level = plane.normal[2] > 0.7, size = Math.max(sizes.view, 1e-6), tile = round(size / 10);
+  const geometry = planeGeometry(plane, others, sizes, (level ? 8 : 0.75) * size, tile);
+  if (!geometry) return null;
   const material = new THREE.MeshBasicMaterial({ map: gridTexture(), transparent: !level, opacity: level ? 1 : 0.3, depthWrite: level,
                                                  polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
-  const group = new THREE.Group(), shadow = new THREE.Mesh(geometry, new THREE.ShadowMaterial({ color: 0x1d2b3a, opacity: 0.22 }));
-  shadow.receiveShadow = true;
+  const group = new THREE.Group(), near = level && planeGeometry(plane, others, sizes, 0.9 * size, tile);
   group.add(new THREE.Mesh(geometry, material));
-  if (level) group.add(shadow);
+  if (near) {
+    const shadow = new THREE.Mesh(near, new THREE.ShadowMaterial({ color: 0x1d2b3a, opacity: 0.22 }));
+    shadow.receiveShadow = true;
+    group.add(shadow);
+  }
   group.tile = level ? tile : 0;
   return group;
 }
@@ -191,7 +200,7 @@ class View {
     this.tile = 0;
     this.planes = planes.map((p) => planeMesh(p, planes.filter((o) => o !== p), sizes)).filter((p) => p);
     this.planes.forEach((p) => { this.scene.add(p); this.tile = this.tile || p.tile; });
-    this.springs = setting.springs.map((s) => new Spring(s, this.bodies, this.scene, sizes.view));
+    this.springs = setting.springs.map((s) => new Spring({ ...s, plane: setting.bodies[s.other] }, this.bodies, this.scene, sizes.view));
     this.marks = new Marks(motion, this.scene, sizes.radius);
     this.window = Math.min(duration, Math.max(2, duration / 6));
     this.trails = this.moving.map((b) => {
@@ -202,7 +211,7 @@ class View {
     this.travels = this.moving.map((b) => this.travel(b) > 0.05 * b.radius);
     this.light(sizes);
     this.middle = new THREE.Vector3();
-    if (sizes.radius < 0.01 * sizes.view) this.addDots();
+    this.addDots(0.008 * sizes.view);
   }
 
   light(sizes) {
@@ -218,9 +227,9 @@ class View {
   }
 
   /// Bodies that are too small to be seen.
-  addDots() {
-    for (const body of this.bodies.slice(0, this.motion.moving)) {
-      const material = new THREE.PointsMaterial({ color: body.colour, size: 6, sizeAttenuation: false });
+  addDots(least) {
+    for (const body of this.bodies.slice(0, this.motion.moving).filter((b) => b.radius < least)) {
+      const material = new THREE.PointsMaterial({ color: body.colour, size: 5, sizeAttenuation: false });
       body.group.add(new THREE.Points(new THREE.BufferGeometry().setFromPoints([new THREE.Vector3()]), material));
     }
   }
