@@ -170,9 +170,13 @@ void Marks::add_trails(std::span<const Trail> given, const ViewState& view) {
     const auto colour = [&](std::size_t i) {
       return with_alpha(dark, 0.05 + 0.9 * double(i) / double(trail.points.size() - 1));
     };
-    for (std::size_t i = 1; i < trail.points.size(); ++i) {
-      trails.push_back(
-          {view.from_eye(trail.points[i - 1]), view.from_eye(trail.points[i]), colour(i - 1), colour(i), 2.8f, 0});
+    constexpr double least_pixels = 3;  // of a segment: shorter ones are drawn as one
+    for (std::size_t i = 1, last = 0; i < trail.points.size(); ++i) {
+      const Vector3<double>&from = trail.points[last], &to = trail.points[i];
+      const bool short_yet = (to - from).norm() * view.pixels_per_metre(to) < least_pixels;
+      if (short_yet && i + 1 < trail.points.size()) continue;
+      trails.push_back({view.from_eye(from), view.from_eye(to), colour(last), colour(i), 2.8f, 0});
+      last = i;
     }
   }
 }
