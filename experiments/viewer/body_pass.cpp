@@ -21,7 +21,7 @@ layout(location = 8) in float emphasis;
 uniform mat4 to_clip;
 uniform vec3 forward;
 uniform float radius_in_pixels;  // at a metre's distance
-uniform float edges;
+uniform float edges, line_scale;
 out vec3 normal, from_edges;
 flat out vec3 colour, edge_colour;
 flat out float edge_width, edge_share;
@@ -32,7 +32,7 @@ void main() {
   from_edges = point_from_edges;
   colour = body_colour.rgb;
   float pixels = radius_in_pixels / max(dot(position, forward), 1e-20);
-  edge_width = mix(0.8, 2.0, emphasis) + 0.5;
+  edge_width = line_scale * mix(0.8, 2.0, emphasis) + 0.5;
   edge_share = edges * smoothstep(3.0, 16.0, pixels) * mix(0.75, 1.0, emphasis);
   edge_colour = mix(colour * 0.35, vec3(0.0, 0.18, 0.45), emphasis);
 }
@@ -123,6 +123,7 @@ void BodyPass::draw(const ViewState& view, bool edges) const {
   solid_.set("forward", view.forward);
   solid_.set("light", light);
   solid_.set("edges", edges ? 1.0f : 0.0f);
+  solid_.set("line_scale", view.line_scale);
   glEnable(GL_CULL_FACE);
   for (const auto& surface : surfaces_) {
     if (surface->instances == 0) continue;

@@ -17,7 +17,7 @@ layout(location = 4) in float line_width;
 layout(location = 5) in float round_ends;
 uniform mat4 to_clip;
 uniform vec2 half_size;
-uniform float nearest, lift;
+uniform float nearest, lift, line_scale;
 noperspective out vec2 place;
 flat out float line_length, half_width;
 out vec4 colour;
@@ -32,7 +32,7 @@ void main() {
   vec2 way = end - start;
   line_length = length(way);
   way = line_length > 1e-6 ? way / line_length : vec2(1, 0);
-  half_width = 0.5 * line_width;
+  half_width = 0.5 * line_scale * line_width;
   float beyond = round_ends > 0.0 ? half_width + 1.0 : 0.0, aside = half_width + 1.0;
   bool at_end = (gl_VertexID & 1) == 1;
   vec2 shift = vec2(at_end ? beyond : -beyond, (gl_VertexID & 2) == 2 ? aside : -aside);
@@ -77,6 +77,7 @@ void LinePass::draw(const ViewState& view, std::span<const LineInstance> lines, 
   program_.set("half_size", view.half_size);
   program_.set("nearest", float(0.011 * view.distance));
   program_.set("lift", float(lift));
+  program_.set("line_scale", view.line_scale);
   if (through > 0) {
     glDepthFunc(GL_GREATER);
     program_.set("share", float(through));

@@ -12,7 +12,7 @@ namespace polhode::viewer {
 struct LineInstance {
   Vector3<float> from, to;  ///< m, from the eye
   Colour colour_from, colour_to;
-  float width = 1;  ///< pixels
+  float width = 1;  ///< pixels, times the view's line_scale
   float round = 0;  ///< 1: the ends are half discs
 };
 

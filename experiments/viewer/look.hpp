@@ -28,6 +28,7 @@ struct Look {
   bool trails = true;                   ///< those given
   bool polhode = false;                 ///< of the selected body, in an inset
   double depth_scale = 1;               ///< depths are drawn so many times as long as they are
+  double line_scale = 1;                ///< of the widths of lines and dots, for screens and pictures of fine pixels
   std::optional<std::size_t> selected;  ///< a moving body: its edges are drawn stronger
   Corner polhode_corner = Corner::lower_right;
 };

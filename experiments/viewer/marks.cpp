@@ -89,7 +89,7 @@ void Marks::add_arrow(const Vector3<double>& from, const Vector3<double>& way, d
                       const ViewState& view) {
   if (!(way.squaredNorm() > 0)) return;
   constexpr double least_pixels = 1.3, most_pixels = 4.5;
-  const double pixel = 1 / view.pixels_per_metre(from);
+  const double pixel = double(view.line_scale) / view.pixels_per_metre(from);
   arrows.push_back({view.from_eye(from), way.cast<float>(),
                     float(std::clamp(radius, least_pixels * pixel, most_pixels * pixel)), colour});
 }
@@ -107,7 +107,8 @@ void Marks::add_springs(const study::Scene& scene, const Cast& cast, const Frame
     const Vector3<double> to = point_of(spring.body, spring.anchor);
     if (!((to - from).squaredNorm() > 0)) continue;
     const double radius = 0.13 * cast.typical_radius;
-    const auto width = float(std::clamp(0.22 * radius * view.pixels_per_metre((from + to) / 2), 1.4, 6.0));
+    const auto width =
+        float(std::clamp(0.22 * radius * view.pixels_per_metre((from + to) / 2) / double(view.line_scale), 1.4, 6.0));
     const Coil coil(from, to, radius);
     Vector3<float> last = view.from_eye(from);
     for (int i = 0; i <= Coil::points; ++i) {
@@ -169,9 +170,13 @@ void Marks::add_trails(std::span<const Trail> given, const ViewState& view) {
     const auto colour = [&](std::size_t i) {
       return with_alpha(dark, 0.05 + 0.9 * double(i) / double(trail.points.size() - 1));
     };
-    for (std::size_t i = 1; i < trail.points.size(); ++i) {
-      trails.push_back(
-          {view.from_eye(trail.points[i - 1]), view.from_eye(trail.points[i]), colour(i - 1), colour(i), 2.8f, 0});
+    constexpr double least_pixels = 3;  // of a segment: shorter ones are drawn as one
+    for (std::size_t i = 1, last = 0; i < trail.points.size(); ++i) {
+      const Vector3<double>&from = trail.points[last], &to = trail.points[i];
+      const bool short_yet = (to - from).norm() * view.pixels_per_metre(to) < least_pixels;
+      if (short_yet && i + 1 < trail.points.size()) continue;
+      trails.push_back({view.from_eye(from), view.from_eye(to), colour(last), colour(i), 2.8f, 0});
+      last = i;
     }
   }
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <stdexcept>
 #include <string>
 
@@ -53,6 +54,7 @@ struct Offscreen::Context {
   EGLContext context = EGL_NO_CONTEXT;
 
   Context() {
+    ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // what is wrong is said once, by us
     display = find_display();
     if (display == EGL_NO_DISPLAY) fail("EGL offers no display");
     try {

@@ -112,10 +112,10 @@ Rectangle PolhodePass::area(const Rectangle& whole, Corner corner) {
           low ? whole.bottom + margin : whole.bottom + whole.height - margin - side, side, side};
 }
 
-Camera PolhodePass::camera(const Camera& main) {
+Camera PolhodePass::camera(const Camera& main, double reach) {
   Camera camera = main;
   camera.field_of_view = 0.3;
-  camera.look_at(Vector3<double>::Zero(), 1.24);
+  camera.look_at(Vector3<double>::Zero(), std::max(1.24, 1.05 * reach));
   return camera;
 }
 

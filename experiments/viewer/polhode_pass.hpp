@@ -33,8 +33,8 @@ class PolhodePass {
   PolhodePass();
 
   static Rectangle area(const Rectangle& whole, Corner corner);
-  /// Looks at the ellipsoid from where `main` looks at the scene.
-  static Camera camera(const Camera& main);
+  /// Looks at the ellipsoid from where `main` looks at the scene, and at all within `reach` units.
+  static Camera camera(const Camera& main, double reach);
   /// Where each axis of the inset ends: x, y, z of the body, then ω; in units.
   static std::array<Vector3<double>, 4> label_points(const InertiaEllipsoid& ellipsoid);
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/viewer/renderer.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "experiments/viewer/cast.hpp"
 
@@ -48,13 +51,14 @@ void Renderer::place_bodies(const Frame& frame, const ViewState& view, const Loo
   for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
     const study::SceneBody& body = scene_.bodies[i];
     const std::size_t number = moving;
-    if (!body.fixed && moving++ >= frame.bodies.size()) continue;
+    if (!body.fixed) ++moving;
     if (!body.surface) continue;
     if (body.fixed) {
       instances_[*body.surface].push_back(
           {body.start.rotation.cast<float>(), view.from_eye(body.start.position), colours::fixed, 0});
     } else {
       const FrameBody& now = frame.bodies[number];
+      if (!now.position.allFinite() || !now.orientation.allFinite()) continue;  // the run has diverged
       instances_[*body.surface].push_back({rotation_matrix(now.orientation).cast<float>(), view.from_eye(now.position),
                                            body_colour(number), look.selected == number ? 1.0f : 0.0f});
     }
@@ -64,8 +68,12 @@ void Renderer::place_bodies(const Frame& frame, const ViewState& view, const Loo
 
 void Renderer::draw(const Frame& frame, const Camera& camera, const Look& look, const Rectangle& area,
                     const Past& past) {
+  if (frame.bodies.size() != cast_.moving.size()) {
+    throw std::invalid_argument(
+        fmt::format("a frame of {} moving bodies for a scene of {}", frame.bodies.size(), cast_.moving.size()));
+  }
   if (area.width < 1 || area.height < 1) return;
-  const ViewState view(camera, area);
+  const ViewState view(camera, area, look.line_scale);
   scales_.see(frame);
   usual_state();
   clip_to(area);
@@ -97,15 +105,15 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Look& look, 
   if (look.cells) marks_.add_cells(frame, view);
   if (look.trails) marks_.add_trails(past.trails, view);
   if (look.axes) marks_.add_axes(frame, cast_, view);
-  const double shaft = 0.032 * cast_.typical_radius;
+  const double thick = 0.032 * cast_.typical_radius, thin = 0.7 * thick;  // both seen where one lies within the other
   for (const FrameBody& body : frame.bodies) {
     if (look.angular_velocity) {
-      marks_.add_arrow(body.position, angular_velocity_arrow(body, cast_, scales_), shaft, colours::angular_velocity,
-                       view);
+      const Vector3<double> way = angular_velocity_arrow(body, cast_, scales_);
+      marks_.add_arrow(body.position, way, thick, colours::angular_velocity, view);
     }
     if (look.angular_momentum) {
-      marks_.add_arrow(body.position, angular_momentum_arrow(body, cast_, scales_), shaft, colours::angular_momentum,
-                       view);
+      const Vector3<double> way = angular_momentum_arrow(body, cast_, scales_);
+      marks_.add_arrow(body.position, way, thin, colours::angular_momentum, view);
     }
   }
   const double lift = 0.05 * cast_.typical_radius;
@@ -138,7 +146,11 @@ void Renderer::draw_polhode(const Frame& frame, const Camera& camera, const Look
   if (!shown) return;
   const Rectangle inset = polhode_area(area, look);
   clip_to(inset);
-  polhode_.draw(ViewState(PolhodePass::camera(camera), inset), *shown, past.polhode, lines_, arrows_);
+  double reach = 1;
+  for (const Vector3<double>& omega : past.polhode) reach = std::max(reach, omega.norm() / shown->unit);
+  polhode_reach_ = std::isfinite(reach) ? reach : 1;
+  const ViewState view(PolhodePass::camera(camera, polhode_reach_), inset, look.line_scale);
+  polhode_.draw(view, *shown, past.polhode, lines_, arrows_);
 }
 
 std::vector<Label> Renderer::labels(const Frame& frame, const Camera& camera, const Look& look,
@@ -181,7 +193,7 @@ std::vector<Label> Renderer::labels(const Frame& frame, const Camera& camera, co
   if (const auto shown = ellipsoid(frame, look)) {
     of_bodies = false;
     const Rectangle inset = polhode_area(area, look);
-    const Camera inset_camera = PolhodePass::camera(camera);
+    const Camera inset_camera = PolhodePass::camera(camera, polhode_reach_);
     const auto points = PolhodePass::label_points(*shown);
     for (std::size_t k = 0; k < 3; ++k) add(axis_names[k], colours::axes[k], points[k], inset_camera, inset);
     add("ω", colours::angular_velocity, points[3], inset_camera, inset);

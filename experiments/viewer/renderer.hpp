@@ -17,6 +17,7 @@ class Renderer {
  public:
   explicit Renderer(const study::Scene& scene);
 
+  /// Throws std::invalid_argument where the frame has not as many bodies as move in the scene.
   void draw(const Frame& frame, const Camera& camera, const Look& look, const Rectangle& area, const Past& past = {});
 
   /// Names at the arrows of what was drawn last with these arguments, and at the axes of the polhode's inset.
@@ -40,6 +41,7 @@ class Renderer {
   LinePass lines_;
   ArrowPass arrows_;
   PolhodePass polhode_;
+  double polhode_reach_ = 1;  // of what was drawn last
   Marks marks_;
   std::vector<Plane> planes_;                         // half-spaces
   std::vector<std::vector<BodyInstance>> instances_;  // of each surface

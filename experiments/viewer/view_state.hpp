@@ -16,13 +16,15 @@ struct ViewState {
   Eigen::Vector2f half_size;  ///< pixels
   double distance;            ///< m, from the eye to the target
   Vector3<double> target;
+  float line_scale;        ///< pixels for each that a width says
   float pixels_per_slope;  ///< pixels of a metre across at a metre ahead
 
-  ViewState(const Camera& camera, const Rectangle& area)
+  ViewState(const Camera& camera, const Rectangle& area, double scale_of_lines)
       : eye(camera.eye()),
         half_size(float(area.width) / 2, float(area.height) / 2),
         distance(camera.distance),
-        target(camera.target) {
+        target(camera.target),
+        line_scale(float(scale_of_lines)) {
     Eigen::Matrix4d turn = camera.view();
     turn.topRightCorner<3, 1>().setZero();
     to_clip = (camera.projection(double(area.width) / area.height) * turn).cast<float>();

@@ -153,6 +153,11 @@ TEST_F(LookStage, TrailsFade) {
   EXPECT_LT(darkest(trails_[0].points[2]) + 40, darkest(trails_[0].points[0]));
 }
 
+TEST_F(LookStage, LinesAreAsWideAsAskedFor) {
+  const Vector3<double> beside(0, 1.3, 1.15 + 0.05);
+  expect_switch([](Look& look, bool on) { look.trails = true, look.line_scale = on ? 8 : 1; }, {beside}, {sky, face});
+}
+
 TEST_F(LookStage, TheSelectedBodyHasStrongEdges) {
   expect_switch([](Look& look, bool on) { look.edges = true, look.selected = on ? 1 : 9; }, {{0.2, 1.2, 0.7}},
                 {sky, corner});

@@ -124,6 +124,28 @@ TEST_F(RendererStage, AThousandCubesEachInItsPlace) {
   }
 }
 
+TEST_F(RendererStage, WhatIsNotFiniteIsLeftOut) {
+  Renderer renderer(cubes(apart.size()));
+  Frame frame = standing_at(apart);
+  frame.bodies[0].position[1] = std::numeric_limits<double>::quiet_NaN();
+  frame.bodies[3].orientation[2] = std::numeric_limits<double>::infinity();
+  frame.bodies[2].angular_velocity[2] = std::numeric_limits<double>::quiet_NaN();
+  Look look;
+  look.axes = look.angular_velocity = look.angular_momentum = look.polhode = true;
+  look.selected = 2;
+  draw(renderer, frame, camera(), look);
+  const Picture picture = draw(renderer, frame, camera());
+  for (const std::size_t i : {0u, 3u}) EXPECT_EQ(find_colour(picture, body_colour(i), 0, width).pixels, 0u);
+  for (const std::size_t i : {1u, 2u}) {
+    expect_at(picture, body_colour(i), 0, width, *camera().pixel(apart[i], width, height));
+  }
+}
+
+TEST_F(RendererStage, AFrameOfAnotherSceneIsRefused) {
+  Renderer renderer(cubes(3));
+  EXPECT_THROW(renderer.draw(standing_at(apart), camera(), {}, whole), std::invalid_argument);
+}
+
 TEST_F(RendererStage, MultisamplingSmoothsWithoutMovingAnything) {
   Renderer alone(cubes(1));
   const Frame frame = standing_at({{0.4, 0.3, 0}});
