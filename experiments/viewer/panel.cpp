@@ -110,6 +110,7 @@ void Panel::time(Stage& stage, Controls& controls) {
   if (button(controls, "step", "step")) stage.each([](Session& s) { s.step(); });
   ImGui::SameLine();
   if (button(controls, "reset", "reset")) stage.each([](Session& s) { s.reset(); });
+  speed_ = first.speed;
   float speed = float(speed_);
   if (ImGui::SliderFloat("speed", &speed, 0.01F, 100, "%.3g s per s", ImGuiSliderFlags_Logarithmic)) {
     speed_ = std::clamp(double(speed), 0.01, 100.0);
