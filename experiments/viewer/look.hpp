@@ -26,7 +26,8 @@ struct Look {
   bool angular_velocity = false;
   bool angular_momentum = false;
   bool trails = true;                   ///< those given
-  bool polhode = false;                 ///< of the selected body, in an inset
+  bool polhode = false;                 ///< of the selected body (the first, if none is), in an inset: body axes
+  bool poinsot = false;                 ///< the inset in world axes, where the ellipsoid rolls on the invariable plane
   double depth_scale = 1;               ///< depths are drawn so many times as long as they are
   double line_scale = 1;                ///< of the widths of lines and dots, for screens and pictures of fine pixels
   std::optional<std::size_t> selected;  ///< a moving body: its edges are drawn stronger

@@ -67,20 +67,38 @@ void main() {
 constexpr double axis_reach = 1.2;
 constexpr int around = 48, down = 24;
 
+/// A grid on the plane that touches the ellipsoid at ω.
+void add_plane(const InertiaEllipsoid& e, const ViewState& view, std::vector<LineInstance>& lines) {
+  const Vector3<double>& up = e.momentum;
+  const Vector3<double> rough = std::abs(up[2]) < 0.8 ? Vector3<double>::UnitZ() : Vector3<double>::UnitX();
+  const Vector3<double> foot = up * up.dot(e.omega), aside = rough.cross(up).normalized(), across = up.cross(aside);
+  constexpr int cells = 8;
+  for (int i = 0; i <= cells; ++i) {
+    const double at = 2.0 * i / cells - 1;
+    const Colour colour = with_alpha(colours::angular_momentum, i == 0 || i == cells ? 0.9 : 0.4);
+    for (const auto& [shift, along] : {std::pair{aside, across}, std::pair{across, aside}}) {
+      const Vector3<double> middle = foot + at * shift;
+      lines.push_back({view.from_eye(middle - along), view.from_eye(middle + along), colour, colour, 1.2f, 0});
+    }
+  }
+}
+
 }  // namespace
 
 std::optional<InertiaEllipsoid> InertiaEllipsoid::of(const Matrix3<double>& inertia,
-                                                     const Vector3<double>& omega_in_body) {
+                                                     const Vector3<double>& omega_in_body,
+                                                     const Matrix3<double>& body) {
   const double twice_energy = omega_in_body.dot(inertia * omega_in_body);
   if (!(twice_energy > 0) || !std::isfinite(twice_energy)) return std::nullopt;
   const PrincipalAxes principal = principal_axes(inertia);
   InertiaEllipsoid e;
-  e.axes = principal.axes;
+  e.body = body;
+  e.axes = body * principal.axes;
   e.moments = principal.moments;
   e.unit = std::sqrt(twice_energy / principal.moments.minCoeff());
   e.semi_axes = (twice_energy * principal.moments.cwiseInverse()).cwiseSqrt() / e.unit;
-  e.omega = omega_in_body / e.unit;
-  e.momentum = (inertia * omega_in_body).normalized();
+  e.omega = body * omega_in_body / e.unit;
+  e.momentum = body * (inertia * omega_in_body).normalized();
   return e;
 }
 
@@ -115,18 +133,17 @@ Rectangle PolhodePass::area(const Rectangle& whole, Corner corner) {
 Camera PolhodePass::camera(const Camera& main, double reach) {
   Camera camera = main;
   camera.field_of_view = 0.3;
-  camera.look_at(Vector3<double>::Zero(), std::max(1.24, 1.05 * reach));
+  camera.look_at(Vector3<double>::Zero(), std::max(1.3, 1.05 * reach));
   return camera;
 }
 
 std::array<Vector3<double>, 4> PolhodePass::label_points(const InertiaEllipsoid& e) {
   const double reach = axis_reach + 0.06;
-  return {reach * Vector3<double>::UnitX(), reach * Vector3<double>::UnitY(), reach * Vector3<double>::UnitZ(),
-          1.12 * e.omega};
+  return {reach * e.body.col(0), reach * e.body.col(1), reach * e.body.col(2), 1.12 * e.omega};
 }
 
 void PolhodePass::draw(const ViewState& view, const InertiaEllipsoid& e, std::span<const Vector3<double>> past,
-                       LinePass& lines, ArrowPass& arrows) {
+                       bool plane, LinePass& lines, ArrowPass& arrows) {
   glDisable(GL_DEPTH_TEST);
   panel_.use();
   panel_.set("half_size", view.half_size);
@@ -156,17 +173,19 @@ void PolhodePass::draw(const ViewState& view, const InertiaEllipsoid& e, std::sp
   const Vector3<double> middle = Vector3<double>::Zero();
   vectors_.clear();
   for (int k = 0; k < 3; ++k) {
-    vectors_.push_back({view.from_eye(middle), (axis_reach * Vector3<double>::Unit(k)).cast<float>(), 0.012f,
-                        colours::axes[std::size_t(k)]});
+    vectors_.push_back(
+        {view.from_eye(middle), (axis_reach * e.body.col(k)).cast<float>(), 0.012f, colours::axes[std::size_t(k)]});
   }
   vectors_.push_back({view.from_eye(middle), e.omega.cast<float>(), 0.018f, colours::angular_velocity});
-  vectors_.push_back({view.from_eye(e.omega), (0.45 * e.momentum).cast<float>(), 0.018f, colours::angular_momentum});
+  vectors_.push_back({view.from_eye(e.omega), (0.35 * e.momentum).cast<float>(), 0.018f, colours::angular_momentum});
   arrows.draw(view, vectors_, 0.35);
 
   curve_.clear();
+  if (plane) add_plane(e, view, curve_);
+  const Matrix3<double> to_inset = e.body / e.unit;
   for (std::size_t i = 1; i < past.size(); ++i) {
-    curve_.push_back({view.from_eye(past[i - 1] / e.unit), view.from_eye(past[i] / e.unit), colours::polhode,
-                      colours::polhode, 2.2f, 0});
+    const Vector3<float> from = view.from_eye(to_inset * past[i - 1]), to = view.from_eye(to_inset * past[i]);
+    curve_.push_back({from, to, colours::polhode, colours::polhode, 2.2f, 0});
   }
   const Vector3<float> now = view.from_eye(e.omega);
   curve_.push_back({now, now, colours::ink, colours::ink, 9, 1});

@@ -136,8 +136,9 @@ std::optional<InertiaEllipsoid> Renderer::ellipsoid(const Frame& frame, const Lo
   const std::size_t body = look.selected.value_or(0);
   if (!look.polhode || body >= frame.bodies.size()) return std::nullopt;
   const FrameBody& b = frame.bodies[body];
-  return InertiaEllipsoid::of(scene_.bodies[cast_.moving[body]].inertia,
-                              rotation_matrix(b.orientation).transpose() * b.angular_velocity);
+  const Matrix3<double> rotation = rotation_matrix(b.orientation);
+  return InertiaEllipsoid::of(scene_.bodies[cast_.moving[body]].inertia, rotation.transpose() * b.angular_velocity,
+                              look.poinsot ? rotation : Matrix3<double>::Identity());
 }
 
 void Renderer::draw_polhode(const Frame& frame, const Camera& camera, const Look& look, const Rectangle& area,
@@ -146,11 +147,11 @@ void Renderer::draw_polhode(const Frame& frame, const Camera& camera, const Look
   if (!shown) return;
   const Rectangle inset = polhode_area(area, look);
   clip_to(inset);
-  double reach = 1;
+  double reach = look.poinsot ? 1.55 : 1;  // the plane's corners
   for (const Vector3<double>& omega : past.polhode) reach = std::max(reach, omega.norm() / shown->unit);
   polhode_reach_ = std::isfinite(reach) ? reach : 1;
   const ViewState view(PolhodePass::camera(camera, polhode_reach_), inset, look.line_scale);
-  polhode_.draw(view, *shown, past.polhode, lines_, arrows_);
+  polhode_.draw(view, *shown, past.polhode, look.poinsot, lines_, arrows_);
 }
 
 std::vector<Label> Renderer::labels(const Frame& frame, const Camera& camera, const Look& look,

@@ -191,6 +191,37 @@ TEST_F(LookStage, ThePolhodeStaysInItsInset) {
   }
 }
 
+TEST_F(LookStage, PoinsotsPlaneStandsInTheInset) {
+  if (!offscreen_) return;
+  Renderer renderer(scene_);
+  Look look;
+  look.polhode = true;
+  look.trails = false;
+  const Picture without = draw(renderer, frame_, camera_, look);
+  look.poinsot = true;
+  const Picture with = draw(renderer, frame_, camera_, look);
+  const Rectangle inset = Renderer::polhode_area(whole, look);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const int up = height - 1 - y;
+      if (x >= inset.left && up >= inset.bottom && x < inset.left + inset.width && up < inset.bottom + inset.height)
+        continue;
+      ASSERT_TRUE(std::equal(with.pixel(x, y), with.pixel(x, y) + 3, without.pixel(x, y))) << x << ", " << y;
+    }
+  }
+  const auto purple = [&](const Picture& picture) {
+    std::size_t pixels = 0;
+    for (int y = 0; y < height; ++y) {
+      for (int x = inset.left; x < width; ++x) {
+        const std::uint8_t* p = picture.pixel(x, y);
+        pixels += p[0] > p[1] + 25 && p[2] > p[1] + 15;
+      }
+    }
+    return pixels;
+  };
+  EXPECT_GT(purple(with), purple(without) + 200);
+}
+
 TEST_F(LookStage, LabelsStandAtTheTipsOfTheArrows) {
   if (!offscreen_) return;
   Look look;
