@@ -71,14 +71,20 @@ std::shared_ptr<const View> LiveSession::view() {
   return view_;
 }
 
-void LiveSession::tick(double seconds) {
+void LiveSession::tick(double seconds, double held_back) {
   if (!(seconds > 0)) return;
   {
     const std::lock_guard lock(mutex_);
     ticked_ += seconds;
+    held_back_ += held_back;
     news_ = true;
   }
   news_came_.notify_all();
+}
+
+double LiveSession::behind() const {
+  const std::lock_guard lock(mutex_);
+  return std::max(ticked_ - held_back_, 0.0) + behind_;
 }
 
 void LiveSession::play() {
@@ -256,6 +262,7 @@ void LiveSession::wait() {
     std::unique_lock lock(mutex_);
     if (news_) continue;
     idle_ = true;
+    behind_ = 0;
     became_idle_.notify_all();
     news_came_.wait(lock, [this] { return news_.load(); });
     idle_ = false;
@@ -265,23 +272,25 @@ void LiveSession::wait() {
 void LiveSession::apply_news() {
   if (!news_.load(std::memory_order_relaxed)) return;
   std::vector<std::function<void()>> commands;
-  double seconds = 0;
+  double seconds = 0, held_back = 0;
   {
     const std::lock_guard lock(mutex_);
     news_ = false;
     commands.swap(commands_);
     seconds = std::exchange(ticked_, 0);
+    held_back = std::exchange(held_back_, 0);
+    behind_ = playing_ ? pace_.behind() + std::max(seconds - held_back, 0.0) : 0;
   }
   for (const auto& command : commands) or_say(command);
-  if (seconds > 0) pass_time(seconds);
+  if (seconds > 0) pass_time(seconds, held_back);
   if (commands.empty()) return;
   record_steps();
   changed_ = true;
 }
 
-void LiveSession::pass_time(double seconds) {
+void LiveSession::pass_time(double seconds, double held_back) {
   if (!playing_ || at_end_) return;
-  pace_.tick(seconds, configuration_.run.dt.value_or(0));
+  pace_.tick(seconds, configuration_.run.dt.value_or(0), held_back);
   since_record_ += seconds;
   if (since_record_ >= between_records) record_steps();
 }

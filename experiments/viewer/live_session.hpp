@@ -24,7 +24,8 @@ class LiveSession final : public Session, private Observer {
 
   const study::Scenario& scenario() const override { return scenario_; }
   std::shared_ptr<const View> view() override;
-  void tick(double seconds) override;
+  void tick(double seconds, double held_back) override;
+  double behind() const override;
   void play() override;
   void pause() override;
   void step(std::int64_t count) override;
@@ -54,7 +55,7 @@ class LiveSession final : public Session, private Observer {
 
   void wait();
   void apply_news();
-  void pass_time(double seconds);
+  void pass_time(double seconds, double held_back);
   bool may_step();
   template <class F>
   void or_say(const F& act);
@@ -79,10 +80,11 @@ class LiveSession final : public Session, private Observer {
 
   // Shared
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable news_came_, became_idle_;
   std::vector<std::function<void()>> commands_;
-  double ticked_ = 0;                ///< s, not yet taken
+  double ticked_ = 0, held_back_ = 0;  ///< s, not yet taken
+  double behind_ = 0;                ///< s, of what was taken
   bool idle_ = false;
   std::shared_ptr<const View> view_;
   std::atomic<bool> view_wanted_{false}, news_{false}, quit_{false};

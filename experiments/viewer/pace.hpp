@@ -12,13 +12,13 @@ class Pace {
   double speed() const { return speed_; }
   void set_speed(double speed) { speed_ = speed; }
 
-  /// Wall time (s) passes while it plays; `step` (s) is the least that it must be able to save up for, 0 of a method that
-  /// chooses its steps.
-  void tick(double seconds, double step) {
+  /// Wall time (s) passes while it plays, but for what is held back since another session is slower; `step` (s) is the least
+  /// that it must be able to save up for, 0 of a method that chooses its steps.
+  void tick(double seconds, double step, double held_back = 0) {
     const double most_behind = std::max(longest_behind * speed_, step);
-    let_go_ = let_go_ || owed_ > most_behind || seconds > longest_tick;
+    let_go_ = let_go_ || owed_ > most_behind || seconds > longest_tick || held_back > 0;
     owed_ = std::min(owed_, most_behind);
-    owed_ += std::min(seconds, longest_tick) * speed_;
+    owed_ += std::clamp(seconds - held_back, 0.0, longest_tick) * speed_;
     wall_ += seconds;
     if (wall_ < measured_over) return;
     pace_ = went_ / wall_;
@@ -48,11 +48,16 @@ class Pace {
   /// Nothing is owed any more.
   void forget() { owed_ = wall_ = went_ = 0; }
 
+  /// s of the wall, that it would take to catch up.
+  double behind() const { return std::max(owed_, 0.0) / speed_; }
+
+  static constexpr double longest_behind = 0.25;  ///< s of the wall
+
   double pace() const { return pace_; }  ///< simulated seconds for one of the wall, over the last second
   bool slower() const { return slower_; }
 
  private:
-  static constexpr double longest_behind = 0.25, longest_tick = 1, measured_over = 1;  // s, of the wall
+  static constexpr double longest_tick = 1, measured_over = 1;  // s of the wall
   static constexpr double rounding = 1e-9;
 
   double speed_ = 1, owed_ = 0;

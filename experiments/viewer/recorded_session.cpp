@@ -49,11 +49,12 @@ class RecordedSession final : public Session {
     return view_;
   }
 
-  void tick(double seconds) override {
-    if (!playing_ || !(seconds > 0)) return;
-    go_to(t_ + seconds * speed_);
+  void tick(double seconds, double held_back) override {
+    if (!playing_ || !(seconds > held_back)) return;
+    go_to(t_ + (seconds - held_back) * speed_);
     if (t_ == motion_.times.back()) playing_ = false;
   }
+  double behind() const override { return 0; }
   void play() override { change_to(t_ < motion_.times.back()); }
   void pause() override { change_to(false); }
   void step(std::int64_t count) override {

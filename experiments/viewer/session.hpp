@@ -5,7 +5,7 @@
 //
 // Time comes from the owner alone, who may have several sessions side by side:
 //   const double dt = clock.tick();
-//   for (auto& s : sessions) s->tick(dt);
+//   for (auto& s : sessions) s->tick(dt);   // or tick_together(sessions, dt), so that none runs ahead of the others
 // Digits do not depend on it where the accumulator drives: the session goes through the loop of core/simulate, and only
 // waits between its steps. What did decide them is recorded (session_record.hpp).
 #pragma once
@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -121,8 +122,10 @@ class Session {
 
   /// The latest there is; never null, never waits.
   virtual std::shared_ptr<const View> view() = 0;
-  /// So many seconds of wall time have passed: once a frame.
-  virtual void tick(double seconds) = 0;
+  /// So many seconds of wall time have passed: once a frame. What is held back of them does not count.
+  virtual void tick(double seconds, double held_back = 0) = 0;
+  /// s of wall time that have passed and are still to be simulated.
+  virtual double behind() const = 0;
 
   virtual void play() = 0;
   virtual void pause() = 0;
@@ -139,6 +142,9 @@ class Session {
   /// films and tests; a window never calls it.
   virtual void settle() = 0;
 };
+
+/// Time passes for all of them alike: while one is behind by more than a quarter of a second, the others wait for it.
+void tick_together(std::span<const std::unique_ptr<Session>> sessions, double seconds);
 
 /// Starts paused at the scenario's start. Throws InputError with the reason where it cannot.
 std::unique_ptr<Session> live_session(const SessionSetup& setup);

@@ -125,7 +125,9 @@ study::Scenario scenario_of(const TomlCursor& root, const std::string& origin) {
     }
   }
   const std::string label = origin + ": scenario";
-  study::Scenario scenario = study::ScenarioSource::open(text_of(root, "scenario"), label).resolve(overrides);
+  std::string from = text_of(root, "scenario");
+  if (is_path(from)) from = (std::filesystem::path(origin).parent_path() / from).string();
+  study::Scenario scenario = study::ScenarioSource::open(from, label).resolve(overrides);
   const TomlCursor said = root.at("scenario_digest", "16 hexadecimal digits");
   if (said.text("16 hexadecimal digits") != digest(scenario.canonical)) {
     said.fail("the scenario is not the one that was recorded; take its old version");

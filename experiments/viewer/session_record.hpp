@@ -35,6 +35,9 @@ struct RecordedSegment {
   std::int64_t steps() const;
 };
 
+/// Whether a scenario is named by its file, which a record names as seen from its own folder.
+bool is_path(const std::string& scenario);
+
 struct SessionRecord {
   study::Scenario scenario;
   std::vector<RecordedSegment> segments;

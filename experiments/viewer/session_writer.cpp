@@ -27,7 +27,19 @@ std::string line(std::string_view key, std::string_view text) { return fmt::form
 std::string line(std::string_view key, double x) { return fmt::format("{} = {}\n", key, study::exact(x)); }
 std::string line(std::string_view key, bool on) { return fmt::format("{} = {}\n", key, on); }
 
+/// A file's path as seen from the record's folder, so that both can be moved together.
+std::string seen_from(const std::filesystem::path& record, const std::string& scenario) {
+  if (!is_path(scenario)) return scenario;
+  std::error_code error;
+  const auto folder = std::filesystem::absolute(record, error).parent_path();
+  const std::string path = std::filesystem::proximate(std::filesystem::absolute(scenario, error), folder, error).string();
+  if (error || path.empty()) return scenario;
+  return is_path(path) ? path : "./" + path;
+}
+
 }  // namespace
+
+bool is_path(const std::string& scenario) { return scenario.find('/') != std::string::npos || scenario.ends_with(".toml"); }
 
 std::int64_t RecordedSegment::steps() const {
   std::int64_t sum = 0;
@@ -42,7 +54,7 @@ SessionWriter::SessionWriter(const std::filesystem::path& path, const SessionSet
   file_ = std::fopen(path_.c_str(), "wb");
   if (!file_) throw std::runtime_error("cannot write " + path_ + ": " + std::strerror(errno));
   std::string text = "# A session of polhode's viewer, as it went; it can be carried out again.\nversion = 1\n";
-  text += line("scenario", setup.scenario) + line("scenario_digest", digest(scenario.canonical));
+  text += line("scenario", seen_from(path, setup.scenario)) + line("scenario_digest", digest(scenario.canonical));
   for (const study::Override& o : setup.overrides) {
     text += "\n[[override]]\n" + line("key", o.key) + line("value", o.value);
   }

@@ -139,6 +139,29 @@ TEST(SessionRecord, NothingIsLostWhereItIsKilled) {
   expect_no_loss();
 }
 
+// The record and its scenario can be moved together.
+TEST(SessionRecord, AScenarioOfItsOwnIsFoundFromTheRecord) {
+  const TemporaryFolder folder;
+  const auto place = folder.path() / "here", other = folder.path() / "there";
+  std::filesystem::create_directories(place);
+  write(place / "top.toml", "t_end = 1\n[[body]]\nmass = 1\ninertia = [1, 2, 3]\nangular_velocity = [0, 1, 2]\n");
+  for (const char* record : {"session.toml", "records/session.toml"}) {
+    SessionSetup setup;
+    setup.scenario = (place / "top.toml").string();
+    setup.record = place / record;
+    {
+      const auto session = live_session(setup);
+      session->step(10);
+      session->settle();
+    }
+    EXPECT_EQ(text_of(setup.record).find(folder.path().string()), std::string::npos);
+    EXPECT_EQ(rerun(setup.record.string()).mismatch, "");
+  }
+  std::filesystem::rename(place, other);
+  EXPECT_EQ(rerun((other / "session.toml").string()).mismatch, "");
+  EXPECT_EQ(rerun((other / "records/session.toml").string()).steps, 10);
+}
+
 TEST(SessionRecord, AMismatchIsSaid) {
   const TemporaryFolder folder;
   {

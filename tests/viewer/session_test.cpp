@@ -371,6 +371,32 @@ TEST(Pace, FallsBehindByNoMoreThanItsBound) {
   while (!pace.take(5)) pace.tick(0.1, 5);  // a step longer than the bound is saved up for
 }
 
+// Side by side none runs ahead: all wait for the slowest.
+TEST(Session, GoTogetherThoughOneIsSlow) {
+  constexpr double speed = 500, tick = 0.05;
+  std::vector<std::unique_ptr<Session>> sessions;
+  for (const double dt : {1.0, 1e-5}) sessions.push_back(open("peters_hsu", with("peters_hsu", "rk4", dt, 1e6)));
+  for (const auto& session : sessions) {
+    session->set_speed(speed);
+    session->play();
+    session->settle();
+  }
+  for (int k = 0; k < 200; ++k) {
+    tick_together(sessions, tick);
+    std::this_thread::yield();
+  }
+  std::vector<double> t;
+  for (const auto& session : sessions) {
+    session->pause();
+    session->settle();
+    t.push_back(session->view()->frame.t);
+  }
+  EXPECT_GT(t[0], 0);
+  EXPECT_LT(t[0] - t[1], speed * (Pace::longest_behind + tick) + 2);
+  tick_together(sessions, -1);
+  tick_together({}, 1);
+}
+
 TEST(Session, AFailedMotionStopsAndCanBeTakenBack) {
   Configuration c = with("peters_hsu", "explicit_euler", 0.5, 1000);
   const auto session = open("peters_hsu", c);
