@@ -232,6 +232,8 @@ void Panel::shown(Stage& stage, Controls& controls) {
   beside();
   check(controls, "contacts", "contacts", look.contacts);
   check(controls, "broad-phase cells", "cells", stage.cells);
+  beside();
+  if (check(controls, "Poinsot's plane", "poinsot", look.poinsot) && look.poinsot) look.polhode = true;
 }
 
 void Panel::numbers(Stage& stage) {

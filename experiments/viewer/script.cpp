@@ -186,6 +186,7 @@ std::string Script::value(Stage& stage, const std::string& of) const {
       {"angular_momentum", [&] { return truth(stage.look.angular_momentum); }},
       {"trails", [&] { return truth(stage.trails); }},
       {"polhode", [&] { return truth(stage.look.polhode); }},
+      {"poinsot", [&] { return truth(stage.look.poinsot); }},
       {"azimuth", [&] { return fmt::format("{}", stage.camera.azimuth); }},
   };
   const auto found = values.find(name);

@@ -12,14 +12,16 @@ namespace polhode::viewer {
 
 /// What is shown at first.
 struct Shown {
-  bool axes = false, angular_velocity = false, angular_momentum = false, trails = true, polhode = false, contacts = true, cells = false;
+  bool axes = false, angular_velocity = false, angular_momentum = false, trails = true, polhode = false, poinsot = false, contacts = true,
+       cells = false;
   std::optional<double> azimuth, elevation;  ///< rad; absent: as the scene asks for
   double zoom = 1;                           ///< so many times as near
 };
 void show(const Shown& shown, Stage& stage);
 
 struct WindowSettings {
-  int width = 1280, height = 720, samples = 4;
+  int width = 1280, height = 720;
+  std::optional<int> samples;    ///< a pixel; absent: 4, or 1 where the processor draws
   bool play = false;
   double speed = 1;
   std::filesystem::path script;  ///< empty: none

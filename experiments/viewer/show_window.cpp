@@ -17,6 +17,7 @@
 #include "experiments/study/text_file.hpp"
 #include "experiments/viewer/captions.hpp"
 #include "experiments/viewer/frame_clock.hpp"
+#include "experiments/viewer/offscreen.hpp"
 #include "experiments/viewer/panel.hpp"
 #include "experiments/viewer/plots.hpp"
 #include "experiments/viewer/png.hpp"
@@ -34,21 +35,20 @@ std::string glfw_fault;
 /// A window with a context of OpenGL 3.3.
 class Window {
  public:
-  Window(int width, int height, int samples) {
+  /// `samples` a pixel; none: 4, or 1 where the processor draws.
+  Window(int width, int height, std::optional<int> samples) {
     glfwSetErrorCallback([](int, const char* text) { glfw_fault = text; });
     if (!glfwInit()) fail("no display");
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-    glfwWindowHint(GLFW_SAMPLES, samples);
     glfwWindowHint(GLFW_STENCIL_BITS, 8);
-    window_ = glfwCreateWindow(width, height, "polhode", nullptr, nullptr);
-    if (!window_) {
-      glfwTerminate();
-      fail("no window with OpenGL 3.3");
+    open(width, height, samples.value_or(4));
+    if (!samples && draws_in_software()) {  // several samples a pixel cost a processor three times as much
+      glfwDestroyWindow(window_);
+      open(width, height, 1);
     }
-    glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
   }
   Window(const Window&) = delete;
@@ -60,6 +60,15 @@ class Window {
   GLFWwindow* get() const { return window_; }
 
  private:
+  void open(int width, int height, int samples) {
+    glfwWindowHint(GLFW_SAMPLES, samples > 1 ? samples : 0);
+    window_ = glfwCreateWindow(width, height, "polhode", nullptr, nullptr);
+    if (!window_) {
+      glfwTerminate();
+      fail("no window with OpenGL 3.3");
+    }
+    glfwMakeContextCurrent(window_);
+  }
   [[noreturn]] static void fail(const std::string& what) {
     throw std::runtime_error(fmt::format("{} ({}); `./run replay` makes a page that plays in any browser, and `--offscreen` "
                                          "pictures and films",
@@ -239,7 +248,8 @@ void show(const Shown& shown, Stage& stage) {
   stage.look.axes = shown.axes;
   stage.look.angular_velocity = shown.angular_velocity;
   stage.look.angular_momentum = shown.angular_momentum;
-  stage.look.polhode = shown.polhode;
+  stage.look.polhode = shown.polhode || shown.poinsot;
+  stage.look.poinsot = shown.poinsot;
   stage.look.contacts = shown.contacts;
   stage.trails = shown.trails;
   stage.cells = shown.cells;

@@ -62,7 +62,7 @@ void Stage::each(const std::function<void(Session&)>& command) {
 }
 
 void Stage::tick(double seconds) {
-  for (const auto& session : sessions_) session->tick(seconds);
+  tick_together(sessions_, seconds);
 }
 
 void Stage::add(const Configuration& configuration) {
