@@ -28,6 +28,10 @@ class BroadPhase {
 
   /// All pairs whose closed bounds overlap, sorted, none twice; valid until the next update().
   virtual std::span<const BodyPair> pairs() = 0;
+
+  /// Appends the boxes into which it divides space, or the nodes of its tree, for drawing: finite ones, which hold every finite
+  /// box of the last update(); after pairs(). None where it divides nothing.
+  virtual void cells(std::vector<Bounds>&) const {}
 };
 
 struct BroadPhaseEntry {

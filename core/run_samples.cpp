@@ -24,8 +24,8 @@ TakenSamples hand_over(std::span<const Sample> samples, Observer& observer) {
   return {taken, taken < finite ? "the energy grew beyond all bounds" : "the state ceased to be finite"};
 }
 
-std::int64_t step_of_next_look(const Observer& observer, double dt, std::int64_t k) {
-  const double at = std::ceil(observer.next_look() / dt);
+std::int64_t step_of_next_look(const Observer& observer, double t0, double dt, std::int64_t k) {
+  const double at = std::ceil((observer.next_look() - t0) / dt);
   if (!(at < 9e15)) return std::numeric_limits<std::int64_t>::max();
   return std::max(k + 1, static_cast<std::int64_t>(at));
 }

@@ -22,8 +22,8 @@ struct TakenSamples {
 /// Hands the finite ones to the observer.
 TakenSamples hand_over(std::span<const Sample> samples, Observer& observer);
 
-/// The first step of dt after the k-th at whose end the observer wants to look.
-std::int64_t step_of_next_look(const Observer& observer, double dt, std::int64_t k);
+/// The first step of dt from t0 on, after the k-th, at whose end the observer wants to look.
+std::int64_t step_of_next_look(const Observer& observer, double t0, double dt, std::int64_t k);
 
 /// "… at t = 1.25 s".
 std::string at_time(std::string what, double t);

@@ -64,6 +64,8 @@ class Loop {
         observer_(observer),
         stop_(stop),
         contact_(contact),
+        t0_(state.t),
+        observed_(state.t),
         account_(schedule.normalise && system.projection_changes_energy()) {}
 
   RunOutcome run() {
@@ -77,6 +79,7 @@ class Loop {
     observer_.look(view_.of(state_), start);
     if (take_samples({&start, 1}) && !interrupted()) {
       if (schedule_.adaptive) adaptive();
+      else if (schedule_.next_step) given();
       else fixed();
     }
     outcome_.t = state_.t;
@@ -170,17 +173,18 @@ class Loop {
     observed_ = sample.t;
     if (contact_) observer_.account(contact_->losses());
     if (!take_samples({&sample, 1})) return false;
-    if (sample.t >= observer_.next_look()) observer_.look(view_.of(state), sample);
-    return true;
+    if (sample.t < observer_.next_look()) return true;
+    observer_.look(view_.of(state), sample);
+    return !interrupted();
   }
 
   double sample_time(std::int64_t k) const {
-    return k == *schedule_.samples ? schedule_.t_end
-                                   : static_cast<double>(k) * schedule_.t_end / static_cast<double>(*schedule_.samples);
+    if (k == *schedule_.samples) return schedule_.t_end;
+    return t0_ + static_cast<double>(k) * (schedule_.t_end - t0_) / static_cast<double>(*schedule_.samples);
   }
 
   void fixed() {
-    const StepPlan plan = plan_steps(schedule_.t_end, schedule_.dt);
+    const StepPlan plan = plan_steps(schedule_.t_end - t0_, schedule_.dt);
     const std::int64_t steps = plan.whole + (plan.last > 0 ? 1 : 0);
     const std::int64_t stride = schedule_.samples ? steps / *schedule_.samples : 1;
     std::int64_t k = 0;
@@ -188,7 +192,7 @@ class Loop {
     if (integrator_.takes_stretches() && stride == 1 && !contact_) {
       const std::int64_t until = plan.last > 0 ? plan.whole : plan.whole - 1;
       while (k < until) {
-        const std::int64_t n = std::min(longest_stretch, std::min(until, step_of_next_look(observer_, schedule_.dt, k)) - k);
+        const std::int64_t n = std::min(longest_stretch, std::min(until, step_of_next_look(observer_, t0_, schedule_.dt, k)) - k);
         if (!take_stretch(k, n)) return;
         k += n;
       }
@@ -197,7 +201,7 @@ class Loop {
       ++k;
       const double h = k <= plan.whole ? schedule_.dt : plan.last;
       const bool sampled = k % stride == 0;
-      double t_after = static_cast<double>(k) * schedule_.dt;
+      double t_after = t0_ + static_cast<double>(k) * schedule_.dt;
       if (sampled && schedule_.samples) t_after = sample_time(k / stride);
       if (k == steps) t_after = schedule_.t_end;
       if (!take_step(h, t_after)) return;
@@ -206,7 +210,7 @@ class Loop {
   }
 
   bool take_stretch(std::int64_t k, std::int64_t n) {
-    const Stretch stretch{schedule_.dt, n, 0, k, schedule_.normalise, samples_.data()};
+    const Stretch stretch{schedule_.dt, n, t0_, k, schedule_.normalise, samples_.data()};
     const StepResult result = integrator_.advance(state_, stretch);
     if (!result.ok()) {
       outcome_.status = RunStatus::failed;
@@ -217,8 +221,23 @@ class Loop {
     const std::span<Sample> samples(samples_.data(), static_cast<std::size_t>(n));
     for (Sample& s : samples) s.projection = projection_energy_ += s.projection;
     if (!take_samples(samples)) return false;
-    if (samples.back().t >= observer_.next_look()) observer_.look(view_.of(state_), samples.back());
-    return outcome_.steps % steps_between_looks >= n || !interrupted();
+    const bool looks = samples.back().t >= observer_.next_look();
+    if (looks) observer_.look(view_.of(state_), samples.back());
+    return (!looks && outcome_.steps % steps_between_looks >= n) || !interrupted();
+  }
+
+  /// Steps of the sizes that are given; t adds them up.
+  void given() {
+    if (schedule_.samples) throw std::invalid_argument("steps that are given one by one are all observed; ask for no samples");
+    while (state_.t < schedule_.t_end) {
+      double h = schedule_.next_step();
+      if (h == 0) return;
+      if (!(h > 0) || !std::isfinite(h)) throw std::invalid_argument("a step must be a positive number of seconds, or 0 to end");
+      const double left = schedule_.t_end - state_.t;
+      const bool last = h >= left * (1 - whole_tolerance);
+      if (h > left * (1 + whole_tolerance)) h = left;
+      if (!take_step(h, last ? schedule_.t_end : state_.t + h) || !observe_now()) return;
+    }
   }
 
   void adaptive() {
@@ -255,10 +274,11 @@ class Loop {
   Observer& observer_;
   const std::atomic<bool>* stop_;
   ContactModel* contact_;
+  const double t0_;     ///< s, where the run starts
+  double observed_;     ///< s, when the last sample was seen that did not go by in a stretch
   const bool account_;  ///< projections can change the energy, so it is measured around them
   View<S> view_;
   double projection_energy_ = 0;
-  double observed_ = 0;  ///< s, when the last sample was seen that did not go by in a stretch
   std::int64_t surplus_steps_ = 0;
   int steps_without_progress_ = 0;
   std::array<Sample, longest_stretch> samples_;

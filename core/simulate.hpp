@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -20,8 +21,11 @@ struct Schedule {
   double t_end = 1;                     ///< s
   double dt = 1e-3;                     ///< s, of fixed-step methods; the last step is shortened if it does not divide
   bool adaptive = false;                ///< the method chooses its steps; dt is not read
-  std::optional<std::int64_t> samples;  ///< observe at k t_end/samples, hit exactly; absent: after every step
+  std::optional<std::int64_t> samples;  ///< observe at t0 + k (t_end − t0)/samples, hit exactly; absent: after every step
   bool normalise = false;               ///< project every orientation after each step
+  /// The sizes (s) of fixed steps, asked for one at a time, in the place of dt: the run ends where it gives 0, or at t_end,
+  /// beyond which no step goes. Every step is observed. Absent: all are dt.
+  std::function<double()> next_step{};
 };
 
 enum class RunStatus {
@@ -68,9 +72,10 @@ StepPlan plan_steps(double t_end, double dt);
 /// Empty if the samples of the schedule fall on whole steps; otherwise says what would.
 std::string sampling_problem(const Schedule& schedule);
 
-/// Runs from `state` (at t = 0) to schedule.t_end. Energies are measured on `truth`, the same system in double.
-/// Memory does not depend on the number of steps. `stop`, when given, is looked at every few thousand steps. `contact`, when
-/// given, takes the steps in the method's place, and may end the run; in double only, else std::invalid_argument.
+/// Runs from `state`, at its time, to schedule.t_end. Energies are measured on `truth`, the same system in double.
+/// Memory does not depend on the number of steps. `stop`, when given, is looked at every few thousand steps, and after each
+/// look of the observer, which may set it. `contact`, when given, takes the steps in the method's place, and may end the
+/// run; in double only, else std::invalid_argument. That is thrown too where next_step gives what is no step.
 template <class S>
 RunOutcome simulate(const System<S>& system, const System<double>& truth, Integrator<S>& integrator, State<S>& state,
                     const Schedule& schedule, Observer& observer, const std::atomic<bool>* stop = nullptr,

@@ -63,7 +63,7 @@ class EnsembleLoop {
         stretch.count = std::min(longest_stretch, steps - 1 - k);
         for (std::size_t i = 0; i < runs_.size(); ++i) {
           if (!lanes_[i].running) continue;
-          stretch.count = std::min(stretch.count, step_of_next_look(runs_[i].observer, schedule_.dt, k) - k);
+          stretch.count = std::min(stretch.count, step_of_next_look(runs_[i].observer, 0, schedule_.dt, k) - k);
         }
       } else if (plan.last > 0) {
         stretch = {plan.last, 1, static_cast<double>(k) * schedule_.dt, 0, schedule_.normalise};

@@ -4,11 +4,13 @@
 
 say() { printf '%s: %s\n' "${0##*/}" "$*" >&2; }
 
-# Installs what is missing of packages.txt; touches apt only if something is.
+# install_packages [PROGRAM]: what is missing of packages.txt, and of the program's own list where it has one; touches apt
+# only if something is.
 install_packages() {
   command -v dpkg-query >/dev/null || return 0 # not a Debian: CMake will name what it cannot find
-  local wanted have missing as_root started=$SECONDS
-  wanted=$(sed 's/#.*//' "$root/packages.txt" | tr -s '[:space:]' '\n')
+  local wanted have missing as_root started=$SECONDS lists=("$root/packages.txt") own="$root/experiments/${1:-}/packages.txt"
+  [ -z "${1:-}" ] || [ ! -f "$own" ] || lists+=("$own")
+  wanted=$(sed 's/#.*//' "${lists[@]}" | tr -s '[:space:]' '\n')
   have=$(dpkg-query -W -f '${db:Status-Abbrev} ${Package}\n' $wanted 2>/dev/null | sed -n 's/^.i *//p') || true
   missing=$(printf '%s\n' $wanted | grep -vxF "$have" | tr '\n' ' ') || true
   [ -n "$missing" ] || return 0
@@ -27,6 +29,7 @@ install_packages() {
     say "could not install $missing"
     exit 1
   fi
+  rm -f "$root"/build/*/configured # CMake looks again for what it did not find
   say "installed in $((SECONDS - started)) s"
 }
 

@@ -22,6 +22,10 @@ inline Box box_of(const Bounds& b) {
   return {{b.min().x(), b.min().y(), b.min().z()}, {b.max().x(), b.max().y(), b.max().z()}};
 }
 
+inline Bounds bounds_of(const Box& b) {
+  return {Vector3<double>(b.low[0], b.low[1], b.low[2]), Vector3<double>(b.high[0], b.high[1], b.high[2])};
+}
+
 /// Without the branches that && would bring.
 template <class... Truth>
 constexpr bool all(Truth... truths) {

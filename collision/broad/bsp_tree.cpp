@@ -105,7 +105,26 @@ class BspTree final : public BroadPhase {
 
   std::span<const BodyPair> pairs() override { return pairs_; }
 
+  /// The parts into which its planes cut the box around all bodies.
+  void cells(std::vector<Bounds>& all) const override {
+    Around around;
+    for (Index body = 0; body < fat_.size(); ++body) around.add(fat_.fat(body));
+    if (around.any) cells_below(0, around.box, all);
+  }
+
  private:
+  void cells_below(Index v, const Box& part, std::vector<Bounds>& all) const {
+    const Node& node = nodes_[v];
+    if (node.child == none) {
+      all.push_back(broad::bounds_of(part));
+      return;
+    }
+    Box below = part, above = part;
+    below.high[node.axis] = above.low[node.axis] = std::clamp(node.plane, part.low[node.axis], part.high[node.axis]);
+    cells_below(node.child, below, all);
+    cells_below(node.child + 1, above, all);
+  }
+
   void leave_rooms() {
     broad::leave_room(nodes_, 64 + 4 * fat_.size());
     broad::leave_room(leaves_, 64 + 4 * fat_.size());

@@ -57,7 +57,20 @@ class Bvh final : public BroadPhase {
 
   std::span<const BodyPair> pairs() override { return pairs_; }
 
+  /// Its nodes, the leaves among them.
+  void cells(std::vector<Bounds>& all) const override {
+    if (root_ != none) cells_below(root_, all);
+  }
+
  private:
+  void cells_below(Index v, std::vector<Bounds>& all) const {
+    const Node& node = nodes_[v];
+    all.push_back(broad::bounds_of(node.box));
+    if (node.leaf()) return;
+    cells_below(node.left, all);
+    cells_below(node.right, all);
+  }
+
   void begin_scene() {
     leaf_.assign(fat_.size(), none);
     nodes_.reserve(2 * fat_.size() + 2);

@@ -57,6 +57,14 @@ class LooseTree final : public BroadPhase {
     return sorted_;
   }
 
+  /// The loose cells of the nodes that hold something: a half wider on each side. A quadtree's reach over the height of the scene.
+  void cells(std::vector<Bounds>& all) const override {
+    if (nodes_.empty()) return;
+    Extent heights;
+    for (const Box& b : boxes_) heights.add(b, 2);
+    cells_below(0, heights, all);
+  }
+
  private:
   using Index = std::uint32_t;
   static constexpr Index none = ~Index(0);
@@ -265,6 +273,36 @@ class LooseTree final : public BroadPhase {
     for (Index j = node.begin; j < node.own_end; ++j) test(i, j);
     if (node.child == none) return;
     for (Index c = node.child; c < node.child + children; ++c) search(c, i);
+  }
+
+  /// How far what is finite reaches along an axis.
+  struct Extent {
+    double low = far, high = -far;
+    void add(const Box& b, std::size_t axis) {
+      if (!(b.low[axis] > -far && b.high[axis] < far)) return;
+      low = std::min(low, b.low[axis]);
+      high = std::max(high, b.high[axis]);
+    }
+  };
+
+  /// A node's cell is what its bodies may reach, stretched where one of them reaches further, as in the root.
+  void cells_below(Index v, const Extent& heights, std::vector<Bounds>& all) const {
+    const Node& node = nodes_[v];
+    if (node.empty) return;
+    Bounds cell;
+    for (std::size_t k = 0; k < 3; ++k) {
+      Extent extent = heights;
+      if (k < Dim) {
+        extent = {node.middle[k] - 2 * node.half, node.middle[k] + 2 * node.half};
+        for (Index i = node.head; i != none; i = next_[i]) extent.add(boxes_[i], k);
+      }
+      const auto axis = static_cast<Eigen::Index>(k);
+      cell.min()[axis] = extent.low;
+      cell.max()[axis] = extent.high;
+    }
+    if (cell.min()[2] <= cell.max()[2]) all.push_back(cell);
+    if (node.child == none) return;
+    for (Index c = node.child; c < node.child + children; ++c) cells_below(c, heights, all);
   }
 
   void test(Index i, Index j) {

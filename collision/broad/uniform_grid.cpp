@@ -18,6 +18,7 @@
 #include "collision/broad/boxes.hpp"
 #include "collision/broad/cell_block.hpp"
 #include "collision/broad/fat_boxes.hpp"
+#include "collision/broad/grid_cells.hpp"
 #include "collision/broad/kept_pairs.hpp"
 #include "collision/broad_phase.hpp"
 
@@ -61,6 +62,16 @@ class UniformGrid final : public BroadPhase {
   }
 
   std::span<const BodyPair> pairs() override { return pairs_; }
+
+  /// Those that bodies reach, on all levels.
+  void cells(std::vector<Bounds>& all) const override {
+    broad::GridCells reached;
+    for (Index body = 0; body < fat_.size(); ++body) {
+      const Home home = home_of(fat_.fat(body));
+      if (home.key != no_key) reached.add(level_of(home.key), home.reach);
+    }
+    reached.append_to(all, [this](std::size_t level) { return (1 << cell_bits) / per_metre_[level]; });
+  }
 
  private:
   void begin_scene() {

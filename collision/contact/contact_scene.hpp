@@ -36,6 +36,9 @@ class ContactScene {
   /// Of the near pair number k.
   Distance distance(std::size_t k, std::span<const Pose> poses);
 
+  /// Appends the cells of the broad phase as near_pairs() left them, for drawing.
+  void cells(std::vector<Bounds>& all) const { broad_->cells(all); }
+
   std::size_t size() const { return colliders_.size(); }
   const Collider& collider(std::size_t body) const { return colliders_[body]; }
   /// True where everything that can touch is a body that moves freely.

@@ -226,16 +226,32 @@ BodyStart read_start(const TomlCursor& table, const Body& body) {
   return start;
 }
 
+/// Of a body that touches nothing: the shape is only seen, so that sizes that are fit for moments alone pass.
+ShapePointer seen_shape(const TomlCursor& shape) {
+  const TomlCursor name = shape.at("kind", "the name of a shape");
+  const ShapeEntry* entry = find_collision_shape(name.text("the name of a shape"));
+  if (!entry) return nullptr;
+  try {
+    return entry->make({read_parameters(shape, entry->parameters, {"kind"}, "A " + entry->name + " has")});
+  } catch (const std::invalid_argument&) {
+    return nullptr;
+  }
+}
+
 void read_collider(const TomlCursor& table, bool contact, ReadBody& read) {
   const TomlCursor restitution = body_key(table, "restitution");
   Collider& collider = read.collider;
   collider.restitution = restitution.number("", Range::non_negative);
   if (collider.restitution > 1) restitution.refuse("a number from 0 to 1");
   collider.friction = body_key(table, "friction").number("", Range::non_negative);
-  if (!contact || !table.has("shape")) return;
+  if (!table.has("shape")) return;
   const TomlCursor shape = table.at("shape", "");
+  if (!contact) {
+    read.shape = seen_shape(shape);
+    return;
+  }
   ShapeParameters sizes;
-  collider.shape = build_shape(shape, sizes);
+  read.shape = collider.shape = build_shape(shape, sizes);
   if (!collider.shape->finite() && !read.body.fixed) {
     shape.fail("a " + std::string(collider.shape->kind()) + " has no end; its body must be static");
   }

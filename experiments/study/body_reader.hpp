@@ -12,6 +12,7 @@ struct ReadBody {
   Body body;
   BodyStart start;
   bool has_mass = false;  ///< false of a static body that is given none
+  ShapePointer shape;     ///< null where the scenario names none, or one that has moments alone
   Collider collider;      ///< without a shape where the scenario has no contact
   std::string canonical_collider{};
 };

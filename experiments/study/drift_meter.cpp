@@ -5,13 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "experiments/study/energy_scale.hpp"
+
 namespace polhode::study {
 namespace {
 
 constexpr int exact_instants = 50;
 constexpr int most_attitude_errors = 64;
 constexpr std::int64_t fewest_samples = 32;  ///< that a drift can be classified by
-constexpr double hopeless = 1e6;  ///< relative energy drift beyond which a run is called off as diverged
 
 /// max(a, |x|) that a NaN does not get lost in.
 void raise(double& worst, double x) {
@@ -84,32 +85,34 @@ DriftMeter::DriftMeter(const System<double>& system, const std::vector<std::stri
   for (const std::string& name : invariants) invariants_.push_back({find_invariant(name)});
 }
 
-void DriftMeter::start(const State<double>& state, const Sample& sample) {
-  const Measurement<double>& m = sample.seen;
-  started_ = true;
-  energy_start_ = sample.ledger(0);
-  // Against |E0|; where kinetic and potential energy cancel in it, against the larger of the two; at rest at zero
-  // potential, against 1 J.
-  const double larger = std::max(std::abs(m.kinetic), std::abs(m.potential));
-  energy_scale_ = std::abs(energy_start_) >= 1e-9 * larger ? std::abs(energy_start_) : larger;
-  if (energy_scale_ == 0) energy_scale_ = 1;
-  linear_start_ = m.linear_momentum;
-  angular_start_ = m.angular_momentum;
+DriftScales drift_scales(const System<double>& system, const State<double>& start, const Measurement<double>& m) {
+  DriftScales scales;
+  scales.energy = energy_scale_of(m);
   // Against the size of the momentum; where the bodies' momenta cancel, or nothing moves, against the sum of their
   // sizes, and then against 1 kg m/s or 1 kg m²/s.
   double linear_sum = 0, angular_sum = 0;
-  for (std::size_t i = 0; i < system_.moving(); ++i) {
-    const BodySnapshot<double> body = system_.snapshot(state.y, i);
-    const double p = system_.problem().bodies[i].mass * body.velocity.norm();
+  for (std::size_t i = 0; i < system.moving(); ++i) {
+    const BodySnapshot<double> body = system.snapshot(start.y, i);
+    const double p = system.problem().bodies[i].mass * body.velocity.norm();
     linear_sum += p;
-    angular_sum += body.angular_momentum.norm() + (system_.moving() > 1 ? p * body.position.norm() : 0.0);
+    angular_sum += body.angular_momentum.norm() + (system.moving() > 1 ? p * body.position.norm() : 0.0);
   }
   const auto scale = [](double size, double sum) {
     const double s = size >= 1e-9 * sum ? size : sum;
     return s > 0 ? s : 1.0;
   };
-  linear_scale_ = scale(linear_start_.norm(), linear_sum);
-  angular_scale_ = scale(angular_start_.norm(), angular_sum);
+  scales.linear = scale(m.linear_momentum.norm(), linear_sum);
+  scales.angular = scale(m.angular_momentum.norm(), angular_sum);
+  return scales;
+}
+
+void DriftMeter::start(const State<double>& state, const Sample& sample) {
+  const Measurement<double>& m = sample.seen;
+  started_ = true;
+  energy_start_ = sample.ledger(0);
+  scales_ = drift_scales(system_, state, m);
+  linear_start_ = m.linear_momentum;
+  angular_start_ = m.angular_momentum;
   for (Watched& w : invariants_) {
     const BodySnapshot<double> body = system_.snapshot(state.y, 0);
     w.start = w.kind->value(system_.problem(), body);
@@ -118,7 +121,7 @@ void DriftMeter::start(const State<double>& state, const Sample& sample) {
 }
 
 std::size_t DriftMeter::observe(std::span<const Sample> samples) {
-  const double bound = hopeless * energy_scale_, per_t_end = 1 / t_end_, energy_start = energy_start_;
+  const double bound = hopeless_energy_drift * scales_.energy, per_t_end = 1 / t_end_, energy_start = energy_start_;
   const ConservedMomenta conserved = conserved_;
   Sums sums = sums_;  // a copy, which the compiler can keep in registers
   std::size_t taken = 0;
@@ -195,15 +198,15 @@ void DriftMeter::measure_errors(const State<double>& state) {
 
 void DriftMeter::report(RunResult& result) {
   result.energy_initial = finite(energy_start_);
-  result.energy_drift_max_rel = finite(sums_.worst_energy / energy_scale_);
-  result.energy_drift_final_rel = finite(sums_.last_energy / energy_scale_);
+  result.energy_drift_max_rel = finite(sums_.worst_energy / scales_.energy);
+  result.energy_drift_final_rel = finite(sums_.last_energy / scales_.energy);
   const double n = static_cast<double>(sums_.samples);
   const double spread = n * sums_.tt - sums_.t * sums_.t;
   if (sums_.samples > 2 && spread > 0) {
     result.energy_drift_rate = finite((n * sums_.td - sums_.t * sums_.d) / spread / t_end_);
   }
-  if (conserved_.linear) result.linear_momentum_drift_max_rel = finite(std::sqrt(sums_.worst_linear2) / linear_scale_);
-  if (conserved_.angular) result.angular_momentum_drift_max_rel = finite(std::sqrt(sums_.worst_angular2) / angular_scale_);
+  if (conserved_.linear) result.linear_momentum_drift_max_rel = finite(std::sqrt(sums_.worst_linear2) / scales_.linear);
+  if (conserved_.angular) result.angular_momentum_drift_max_rel = finite(std::sqrt(sums_.worst_angular2) / scales_.angular);
   for (const Watched& w : invariants_) {
     if (std::isfinite(w.worst)) result.invariant_drift_max_rel[w.kind->name] = w.worst;
   }
@@ -219,7 +222,7 @@ void DriftMeter::report(RunResult& result) {
   }
   if (reference_) judge_by_reference(result);
   result.attitude_errors = attitude_errors_;
-  result.series = series_.finish(energy_scale_, linear_scale_, angular_scale_);
+  result.series = series_.finish(scales_.energy, scales_.linear, scales_.angular);
   if (result.status == "ok") classify(result);
 }
 
@@ -248,7 +251,7 @@ void DriftMeter::classify(RunResult& result) const {
     result.drift_exponent_low = growth->low;
     result.drift_exponent_high = growth->high;
   }
-  if (sums_.worst_energy <= round_off * energy_scale_) {
+  if (sums_.worst_energy <= round_off * scales_.energy) {
     result.drift_class = sums_.samples < fewest_samples ? "" : "round-off";
   } else if (growth) {
     result.drift_class = growth_class(growth->exponent, growth->secular);

@@ -39,6 +39,15 @@ class ThinnedSeries {
   std::size_t per_point_ = 1;  ///< samples in one stretch
 };
 
+/// What relative drifts of a run are taken against; none is zero.
+struct DriftScales {
+  double energy = 1;   ///< J
+  double linear = 1;   ///< kg m/s
+  double angular = 1;  ///< kg m²/s
+};
+/// From the start of the run.
+DriftScales drift_scales(const System<double>& system, const State<double>& start, const Measurement<double>& seen);
+
 class DriftMeter final : public Observer {
  public:
   /// `exact_at_samples`: the errors against the exact motion are taken at every sample; otherwise at 50 instants spread
@@ -53,7 +62,7 @@ class DriftMeter final : public Observer {
   void account(const ContactLosses& losses) override { lost_in_contact_ = losses.total(); }
 
   /// J, against which energy drifts are taken; after the first sample.
-  double energy_scale() const { return energy_scale_; }
+  double energy_scale() const { return scales_.energy; }
 
   /// Fills the measured part of the result.
   void report(RunResult& result);
@@ -81,10 +90,10 @@ class DriftMeter final : public Observer {
   bool has_exact_;  ///< or a reference
   bool started_ = false;
 
-  double energy_start_ = 0, energy_scale_ = 1;
+  DriftScales scales_;
+  double energy_start_ = 0;
   double lost_in_contact_ = 0;  ///< J
   Vector3<double> linear_start_, angular_start_;
-  double linear_scale_ = 1, angular_scale_ = 1;
   double next_exact_ = 0;
   std::int64_t exact_count_ = 0;
   ExactMotion::Error worst_error_;

@@ -47,7 +47,8 @@ const std::vector<std::string>& axis_names() {
   return names;
 }
 
-ParsedOptions parse_options(const Experiment& experiment, int argc, const char* const* argv) {
+ParsedOptions parse_options(const Experiment& experiment, int argc, const char* const* argv,
+                            const std::function<void(CLI::App&)>& more) {
   ParsedOptions parsed;
   Options& options = parsed.options;
   CLI::App app{experiment.question + "\n\nAxes take a list (a,b,c) or a range (1e-4:1e-1:10, or 1e-4:1e-1:10:log); the "
@@ -106,6 +107,7 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
           ->type_name("[WHAT]")
           ->expected(0, 1)
           ->group("Running");
+  if (more) more(app);
   parsed.exit_status = parse_command_line(app, argc, argv);
   if (parsed.exit_status) return parsed;
   if (*list_option) options.list = list;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,6 +12,10 @@
 
 #include "experiments/study/experiment.hpp"
 #include "experiments/study/trajectory.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace polhode::study {
 
@@ -44,8 +49,9 @@ struct ParsedOptions {
   std::optional<int> exit_status;
 };
 
-/// Throws InputError.
-ParsedOptions parse_options(const Experiment& experiment, int argc, const char* const* argv);
+/// `more` adds the options of one program alone, or takes away what means nothing to it. Throws InputError.
+ParsedOptions parse_options(const Experiment& experiment, int argc, const char* const* argv,
+                            const std::function<void(CLI::App&)>& more = {});
 
 /// The axes and other settings of a study file (TOML), as the command line would write them. Throws InputError.
 /// Keys: those of the options, without dashes; `vary` is a table from scenario keys to lists.

@@ -16,6 +16,7 @@
 #include "experiments/study/report/notation.hpp"
 #include "experiments/study/report/page_style.hpp"
 #include "experiments/study/report/read_file.hpp"
+#include "experiments/study/report/replay_link.hpp"
 #include "experiments/study/report/run_table.hpp"
 #include "experiments/study/report/study_figures.hpp"
 #include "experiments/study/study_view.hpp"
@@ -103,6 +104,7 @@ std::string analysis_html(const Analysis& analysis) {
 std::string what_is_seen(const StudyView& study, const Findings& findings) {
   std::string out = fmt::format("<section id=\"seen\">\n<h2>What is seen</h2>\n<p class=\"outcome\">{}</p>\n",
                                 html(findings.outcome));
+  out += replay_line(study.folder);
   if (alone(study)) return out + analysis_html(*study.analysis) + "</section>\n";
   for (const auto& caution : findings.cautions) {
     out += fmt::format("<div class=\"caution\" role=\"note\"><strong>Caution</strong> {}</div>\n", prose(caution));

@@ -17,7 +17,8 @@ namespace {
 
 /// What a study writes beside its store.
 constexpr const char* products[] = {"runs.csv",       "timings.csv", "manifest.json", "report.html", "figures", "tables",
-                                    "trajectories",   "trajectory.csv", "energy.csv",  "events.csv",  "trajectory.h5"};
+                                    "trajectories",   "trajectory.csv", "energy.csv",  "events.csv",  "trajectory.h5",
+                                    "replay.html"};
 
 bool holds_only(const std::filesystem::path& path, const std::set<std::string>& ids) {
   try {

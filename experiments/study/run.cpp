@@ -10,24 +10,13 @@
 #include "core/simulate_ensemble.hpp"
 #include "experiments/study/contact_meter.hpp"
 #include "experiments/study/drift_meter.hpp"
-#include "experiments/study/end_at_contact.hpp"
 #include "experiments/study/narrow_phase_choice.hpp"
 #include "experiments/study/report/curves.hpp"
+#include "experiments/study/run_setup.hpp"
 #include "integrators/catalogue.hpp"
-#include "integrators/compensated.hpp"
 
 namespace polhode::study {
 namespace {
-
-Schedule schedule_of(const RunConfig& config) {
-  Schedule schedule;
-  schedule.t_end = config.t_end;
-  schedule.adaptive = !config.dt.has_value();
-  schedule.dt = config.dt.value_or(0);
-  schedule.samples = config.samples;
-  schedule.normalise = config.normalise;
-  return schedule;
-}
 
 std::string_view status_text(RunStatus status) {
   switch (status) {
@@ -36,14 +25,6 @@ std::string_view status_text(RunStatus status) {
     case RunStatus::failed: return "failed";
     default: return "interrupted";
   }
-}
-
-IntegratorSettings settings_of(const RunConfig& config) {
-  return {.dt = config.dt.value_or(0),
-          .tolerance = config.tolerance.value_or(0),
-          .t_end = config.t_end,
-          .project = config.normalise,
-          .order = config.order.value_or(0)};
 }
 
 using Clock = std::chrono::steady_clock;
@@ -65,33 +46,13 @@ RunResult result_of(const RunOutcome& outcome, DriftMeter& meter, double seconds
 template <class S>
 RunOutcome run_in(const System<S>& system, const System<double>& truth, const RunConfig& config, Observer& observer,
                   const std::atomic<bool>* stop, double& seconds, ContactModel* contact = nullptr) {
-  const IntegratorEntry& entry = *find_integrator(config.integrator);
-  const auto integrator = is_compensated(config) ? make_compensated<S>(entry, system, settings_of(config))
-                                                 : entry.maker<S>()(system, settings_of(config));
+  const auto integrator = integrator_of<S>(config, system);
   State<S> state = system.start();
   const auto started = Clock::now();
   RunOutcome outcome = simulate(system, truth, *integrator, state, schedule_of(config), observer, stop, contact);
   seconds = seconds_since(started);
   return outcome;
 }
-
-/// The bodies that can touch, and how it is answered.
-struct Contact {
-  Contact(System<double>& system, const Scenario& scenario, const ContactConfig& config)
-      : scene(scenario.problem, scenario.colliders, config.broad_phase, config.narrow_phase) {
-    const ResponseEntry& response = *find_response(config.response);
-    if (!response.make) {
-      system.add_force(response.make_force(system, scene, scenario.compliance));
-      return;
-    }
-    const ImpactTimingEntry& timing = *find_impact_timing(config.impact_timing);
-    model = timing.make(system, scene, response.make());
-    if (scenario.end_at_contact) model = std::make_unique<EndAtContact>(std::move(model), !timing.fixed_steps_only);
-  }
-
-  ContactScene scene;
-  std::unique_ptr<ContactModel> model;  ///< none where the response is a force
-};
 
 RunOutcome run_on(const System<double>& truth, const RunConfig& config, Observer& observer,
                   const std::atomic<bool>* stop, double& seconds, ContactModel* contact) {
@@ -165,14 +126,15 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
 RunResult carry_out(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory,
                     const std::atomic<bool>* stop, References* references) {
   const auto truth = make_system<double>(scenario.problem, config.formulation);
-  std::optional<Contact> contact;
+  std::optional<ContactSetup> contact;
   if (config.contact) contact.emplace(*truth, scenario, *config.contact);
   DriftMeter meter(*truth, scenario.invariants, config.t_end, config.samples.has_value(),
                    reference_of(config, scenario, *truth, stop, references));
   std::optional<ContactMeter> contact_meter;
   if (config.contact) contact_meter.emplace(*truth, scenario, *config.contact, config.t_end, meter);
   Observer& measured = contact_meter ? static_cast<Observer&>(*contact_meter) : meter;
-  const auto writer = open_trajectory(trajectory.format, trajectory.folder, *truth, measured);
+  const auto writer = trajectory.open ? trajectory.open(*truth, measured)
+                                      : open_trajectory(trajectory.format, trajectory.folder, *truth, measured);
   Observer& observer = writer ? static_cast<Observer&>(*writer) : measured;
   RunOutcome outcome;
   double seconds = 0;
@@ -216,7 +178,7 @@ std::vector<RunResult> carry_out_together(std::span<const LanedRun> runs, const 
   }
   problems.resize(std::size_t(lane_count), problems.back());  // lanes that nobody looks at
   const auto system = make_ensemble(problems, config.formulation);
-  const auto integrator = find_integrator(config.integrator)->make_lanes(*system, settings_of(config));
+  const auto integrator = integrator_of<Lanes>(config, *system);
   const auto started = Clock::now();
   const auto outcomes = simulate_ensemble(*system, *integrator, lanes, schedule_of(config), stop);
   const double seconds = seconds_since(started) / static_cast<double>(runs.size());

@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +22,8 @@ std::string refusal(const RunConfig& config, const Scenario& scenario);
 struct TrajectoryRequest {
   TrajectoryFormat format = TrajectoryFormat::none;
   std::filesystem::path folder;
+  /// Where given, what it makes takes the place of files: it sees each sample and hands it on.
+  std::function<std::unique_ptr<TrajectoryWriter>(const System<double>&, Observer& next)> open{};
 };
 
 /// Never throws for what a method does; throws std::runtime_error when a trajectory cannot be written. A run stopped

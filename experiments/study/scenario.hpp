@@ -31,6 +31,7 @@ struct Scenario {
   std::string description;  ///< one line of physics; may be empty
   double t_end = 1;         ///< s
   Problem problem;          ///< moving bodies first, in the scenario's order
+  std::vector<ShapePointer> shapes;     ///< of each body, contact or not; null where the scenario names none that is known
   std::vector<Collider> colliders;      ///< of each body where the scenario has contact; else empty
   Compliance compliance;                ///< of the surfaces, for a response by forces
   bool end_at_contact = false;          ///< a run ends at its first impact, before it is answered

@@ -60,6 +60,7 @@ BodyIndex read_bodies(const TomlCursor& root, Scenario& scenario, std::string& c
     index.emplace(b.body.name, Standing{problem.bodies.size(), b.has_mass});
     problem.bodies.push_back(std::move(b.body));
     problem.starts.push_back(b.start);
+    scenario.shapes.push_back(std::move(b.shape));
     if (!contact.value().boolean) continue;
     canonical += "contact " + (b.collider.shape ? b.canonical_collider : std::string("none\n"));
     scenario.colliders.push_back(std::move(b.collider));

@@ -187,6 +187,71 @@ TEST_P(BroadPhaseLaw, BoxesThatTouchAreAPair) {
   expect_right(flat, "plates, needles and points");
 }
 
+/// Whether a box is in one cell, or in several that are disjoint and share its volume out; up to rounding.
+bool held(const Bounds& box, const std::vector<Bounds>& cells) {
+  const double slack = 1e-9 * (1 + box.min().cwiseAbs().maxCoeff() + box.max().cwiseAbs().maxCoeff());
+  double shared = 0;
+  for (const Bounds& cell : cells) {
+    if (((cell.min() - box.min()).array() <= slack).all() && ((box.max() - cell.max()).array() <= slack).all()) return true;
+    const Bounds common = cell.intersection(box);
+    if (!common.isEmpty()) shared += common.volume();
+  }
+  return shared >= (1 - 1e-9) * box.volume();
+}
+
+// For drawing only. Whatever is finite is in them, through the motion and beside what has no end.
+TEST_P(BroadPhaseLaw, ItsCellsHoldWhatIsFinite) {
+  Dice random(11);
+  std::vector<Bounds> none;
+  phase->cells(none);
+  EXPECT_TRUE(none.empty()) << "nothing has been asked";
+  const auto start = random_boxes(random, 150, 6, 0.1, 0.5);
+  bool some = false;
+  for (int k = 0; k < 20; ++k) {
+    std::vector<Bounds> boxes;
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      boxes.push_back(box(start[i].center() * (1 + 0.1 * k * double(i % 3)), 0.5 * start[i].sizes() * (i == 7 ? 20 : 1)));
+    }
+    boxes.emplace_back(Vector(-infinity, -infinity, -infinity), Vector(infinity, infinity, 0));
+    answer(*phase, boxes);
+    std::vector<Bounds> cells(1, Bounds(Vector(0, 0, 0), Vector(1, 1, 1)));
+    phase->cells(cells);
+    EXPECT_EQ(cells.front().max(), Vector(1, 1, 1)) << "they are appended";
+    cells.erase(cells.begin());
+    if (cells.empty()) break;
+    some = true;
+    for (const Bounds& cell : cells) {
+      ASSERT_TRUE(cell.min().allFinite() && cell.max().allFinite() && (cell.sizes().array() >= 0).all());
+    }
+    for (std::size_t i = 0; i + 1 < boxes.size(); ++i) ASSERT_TRUE(held(boxes[i], cells)) << "box " << i << ", step " << k;
+  }
+  const std::string& name = GetParam().name;
+  EXPECT_EQ(some, name != "all_pairs" && name != "sweep_and_prune");
+}
+
+// Of the grid two cells are apart, or one is in the other, on a coarser level; the parts of space are apart.
+TEST_P(BroadPhaseLaw, CellsThatDivideSpaceAreApart) {
+  const std::string& name = GetParam().name;
+  if (name != "uniform_grid" && name != "bsp_tree") GTEST_SKIP() << "its cells are the nodes of a tree";
+  Dice random(12);
+  auto boxes = random_boxes(random, 200, 8, 0.1, 0.5);
+  boxes[3] = box({2, 2, 2}, {3, 3, 3});
+  answer(*phase, boxes);
+  std::vector<Bounds> cells;
+  phase->cells(cells);
+  ASSERT_GT(cells.size(), 10u);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vector common = cells[i].intersection(cells[j]).sizes();
+      if (common.minCoeff() < 1e-9) continue;
+      const double smaller = std::min(cells[i].volume(), cells[j].volume());
+      ASSERT_EQ(name, "uniform_grid") << i << " and " << j;
+      ASSERT_NEAR(common.prod(), smaller, 1e-9 * smaller) << i << " and " << j;
+      ASSERT_NE(cells[i].volume(), cells[j].volume()) << "none stands twice";
+    }
+  }
+}
+
 TEST_P(BroadPhaseLaw, NegativeZeroIsZero) {
   expect_right({Bounds(Vector(-1, -1, -1), Vector(-0.0, -0.0, -0.0)), Bounds(Vector(0.0, 0.0, 0.0), Vector(1, 1, 1)),
                 Bounds(Vector(0.0, 0.0, 0.0), Vector(-0.0, -0.0, -0.0))},

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/replay/options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "experiments/study/axes.hpp"
+#include "experiments/study/input_error.hpp"
+#include "experiments/study/report/replay_link.hpp"
+
+namespace polhode::study {
+
+const Experiment& replay_experiment() {
+  static const Experiment experiment = {
+      .name = "replay",
+      .question = "What does it look like? One file that plays motion in any browser, without a network.",
+      .defaults = {{"scenario", "dzhanibekov"},
+                   {"integrator", "rk4,semi_implicit_euler"},
+                   {"dt", "1e-2"},
+                   {"tolerance", "1e-8"}}};
+  return experiment;
+}
+
+ReplayOptions parse_replay_options(int argc, const char* const* argv) {
+  ReplayOptions options;
+  std::string out, results, runs, three = "/usr/share/javascript/three";
+  double megabytes = 3;
+  const auto own = [&](CLI::App& app) {
+    for (const char* name : {"--out", "--force", "--trajectory", "--reference", "--no-figures", "--jobs", "--seed", "--dry-run"}) {
+      app.remove_option(app.get_option(name));
+    }
+    app.add_option("--results", results, "play what a study with --trajectory csv, or simulate, has kept in this folder")
+        ->type_name("FOLDER")
+        ->group("Motion");
+    app.add_option("--runs", runs, "of that study: the runs with these ids (first column of runs.csv; default: all)")
+        ->type_name("ID,…")
+        ->group("Motion");
+    app.add_option("--out", out, "the page (default: replay.html, in the folder of --results)")->type_name("FILE")->group("Page");
+    app.add_flag("--force", options.force, "overwrite a file that is no replay page")->group("Page");
+    app.add_option("--limit", megabytes, "MB, how large the page may become; motion is thinned to fit (default: 3)")
+        ->type_name("MB")
+        ->group("Page");
+    app.add_option("--three", three, "folder that holds three.min.js and examples/js/controls/OrbitControls.js (default: Debian's libjs-three)")
+        ->type_name("FOLDER")
+        ->group("Page");
+  };
+  ParsedOptions parsed = parse_options(replay_experiment(), argc, argv, own);
+  options.study = std::move(parsed.options);
+  options.exit_status = parsed.exit_status;
+  if (options.exit_status) return options;
+  if (!(megabytes > 0 && megabytes <= 1000)) throw InputError("--limit takes a number of MB above 0 and up to 1000");
+  options.limit_bytes = 1e6 * megabytes;
+  options.results = results;
+  options.three = three;
+  if (!runs.empty()) {
+    if (results.empty()) throw InputError("--runs names runs of a study; name its folder with --results");
+    options.runs = split_list(runs, ',', "--runs");
+  }
+  if (!results.empty()) {
+    const std::string preset = replay_experiment().defaults.at("scenario");
+    if (options.study.axes.at("scenario") != preset) options.scenario = options.study.axes.at("scenario");
+    auto other = options.study.axes;
+    other["scenario"] = preset;
+    if (other != replay_experiment().defaults || !options.study.vary.empty()) {
+      throw InputError("--results plays what was run already; of the axes it takes --scenario alone");
+    }
+  }
+  options.out = !out.empty() ? std::filesystem::path(out) : std::filesystem::path(results) / report::replay_page;
+  return options;
+}
+
+}  // namespace polhode::study

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/replay/page_data.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "experiments/study/report/figure_style.hpp"
+
+namespace polhode::study {
+namespace {
+
+using Json = nlohmann::ordered_json;
+static_assert(std::endian::native == std::endian::little, "typed arrays of a browser are little-endian");
+
+/// RFC 4648, section 4.
+std::string base64(std::span<const unsigned char> bytes) {
+  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t three = std::uint32_t(bytes[i]) << 16;
+    if (n > 1) three |= std::uint32_t(bytes[i + 1]) << 8;
+    if (n > 2) three |= bytes[i + 2];
+    text += digits[three >> 18];
+    text += digits[three >> 12 & 63];
+    text += n > 1 ? digits[three >> 6 & 63] : '=';
+    text += n > 2 ? digits[three & 63] : '=';
+  }
+  return text;
+}
+
+template <class T>
+std::string packed(const std::vector<T>& numbers) {
+  return base64({reinterpret_cast<const unsigned char*>(numbers.data()), numbers.size() * sizeof(T)});
+}
+
+std::vector<float> singles(const std::vector<double>& numbers) { return {numbers.begin(), numbers.end()}; }
+
+/// x of −1 to 1 in 32767 steps.
+std::int16_t step_of(double x) { return std::int16_t(std::lround(32767 * std::clamp(x, -1.0, 1.0))); }
+
+template <class V>
+Json list(const V& v) {
+  Json items = Json::array();
+  for (Eigen::Index i = 0; i < v.size(); ++i) items.push_back(v[i]);
+  return items;
+}
+
+Json surface_json(const Surface& surface) {
+  std::vector<float> points;
+  std::vector<std::int16_t> normals;
+  for (const Vector3<float>& x : surface.points) points.insert(points.end(), x.begin(), x.end());
+  for (const Vector3<float>& n : surface.normals) {
+    for (const float c : n) normals.push_back(step_of(c));
+  }
+  return {{"points", packed(points)}, {"normals", packed(normals)}, {"corners", packed(surface.corners)}};
+}
+
+Json body_json(const SceneBody& body) {
+  Json b = {{"name", body.name},
+            {"fixed", body.fixed},
+            {"position", list(body.start.position)},
+            {"orientation", list(quaternion_from_rotation_matrix(body.start.rotation))}};
+  if (body.surface) {
+    b["surface"] = *body.surface;
+    b["inferred"] = body.from_inertia;
+    b["center"] = list(body.center_of_mass);
+    b["inertia"] = list(body.inertia.reshaped());
+  } else {
+    b["normal"] = list(body.floor_normal);
+    b["offset"] = body.floor_offset;
+  }
+  return b;
+}
+
+Json scene_json(const Scene& scene) {
+  Json bodies = Json::array(), springs = Json::array(), surfaces = Json::array();
+  for (const Surface& surface : scene.surfaces) surfaces.push_back(surface_json(surface));
+  for (const SceneBody& body : scene.bodies) bodies.push_back(body_json(body));
+  for (const SceneSpring& s : scene.springs) {
+    springs.push_back({{"body", s.body},
+                       {"other", s.other ? Json(*s.other) : Json()},
+                       {"anchor", list(s.anchor)},
+                       {"anchorOther", list(s.anchor_other)}});
+  }
+  return {{"surfaces", surfaces}, {"bodies", bodies}, {"springs", springs}};
+}
+
+std::string impacts_packed(const Recording& r) {
+  std::vector<float> numbers;
+  for (const Impact& i : r.impacts) {
+    for (const double x : {i.t, double(i.a), double(i.b), i.point[0], i.point[1], i.point[2], i.normal[0], i.normal[1], i.normal[2],
+                           i.impulse.norm()}) {
+      numbers.push_back(float(x));
+    }
+  }
+  return packed(numbers);
+}
+
+/// What tells the runs of a page apart, beside method and step: "orientation matrix, gyroscopic off".
+std::string detail_of(const Recording& r, const std::vector<Recording>& all) {
+  std::string detail;
+  for (std::size_t k = 0; k < r.facts.size(); ++k) {
+    const std::string &name = r.facts[k].first, &cell = r.facts[k].second;
+    if (name == "integrator" || name == "dt_s" || name == "tolerance" || cell.empty()) continue;
+    const auto other = [&](const Recording& o) { return k < o.facts.size() && o.facts[k].second != cell; };
+    if (std::any_of(all.begin(), all.end(), other)) detail += (detail.empty() ? "" : ", ") + name + " " + cell;
+  }
+  return detail;
+}
+
+Json run_json(const Recording& r, const std::vector<Recording>& all) {
+  std::vector<float> positions;
+  std::vector<std::int16_t> orientations, rates;
+  double fastest = 0;
+  for (const Placement& p : r.placements) fastest = std::max(fastest, p.angular_velocity.cwiseAbs().maxCoeff());
+  for (const Placement& p : r.placements) {
+    for (const double x : p.position) positions.push_back(float(x));
+    const Quaternion<double> q = p.orientation.normalized();
+    for (const double c : q) orientations.push_back(step_of(c));
+    for (const double w : p.angular_velocity) rates.push_back(step_of(fastest > 0 ? w / fastest : 0));
+  }
+  Json facts = Json::array();
+  for (const auto& [name, cell] : r.facts) {
+    if (!cell.empty()) facts.push_back({name, cell});
+  }
+  facts.push_back({"status", r.status + (r.message.empty() ? "" : ": " + r.message)});
+  if (!r.energy_drift_max.empty()) facts.push_back({"energy_drift_max_rel", r.energy_drift_max});
+  const char* const momentum = r.momentum == ShownMomentum::angular ? "angular" : r.momentum == ShownMomentum::linear ? "linear" : "";
+  return {{"id", r.id},
+          {"label", label_of(r)},
+          {"detail", detail_of(r, all)},
+          {"status", r.status},
+          {"message", r.message},
+          {"facts", facts},
+          {"moving", r.moving},
+          {"instants", r.times.size()},
+          {"instantsSeen", r.instants_seen},
+          {"impactsSeen", r.impacts_seen},
+          {"momentum", momentum},
+          {"fastest", fastest},
+          {"times", packed(r.times)},
+          {"positions", packed(positions)},
+          {"orientations", packed(orientations)},
+          {"rates", packed(rates)},
+          {"energy", packed(singles(r.energy_drift))},
+          {"momentumDrift", r.momentum == ShownMomentum::none ? "" : packed(singles(r.momentum_drift))},
+          {"impacts", impacts_packed(r)}};
+}
+
+}  // namespace
+
+double bytes_of_instant(const Recording& r) {
+  const double series = r.momentum == ShownMomentum::none ? 8 + 4 : 8 + 4 + 4;
+  return 4.0 / 3 * (series + double(r.moving) * (3 * 4 + 4 * 2 + 3 * 2));
+}
+
+std::string page_data(const PageWords& words, const std::vector<Recording>& recordings) {
+  Json scenes = Json::array(), runs = Json::array(), colours = Json::array();
+  for (const std::string_view colour : report::style::colours) colours.push_back("#" + std::string(colour));
+  for (const Recording& r : recordings) {
+    Json scene = scene_json(r.scene);
+    const auto known = std::find(scenes.begin(), scenes.end(), scene);
+    runs.push_back(run_json(r, recordings));
+    runs.back()["scene"] = known - scenes.begin();
+    if (known == scenes.end()) scenes.push_back(std::move(scene));
+  }
+  const Json data = {{"scenario", words.scenario},     {"title", words.title},     {"description", words.description},
+                     {"paragraphs", words.paragraphs}, {"madeBy", words.made_by}, {"colours", colours},
+                     {"scenes", scenes},               {"runs", runs}};
+  std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace), safe;
+  for (const char c : text) {
+    if (c == '<') safe += "\\u003c";
+    else safe += c;
+  }
+  return safe;
+}
+
+}  // namespace polhode::study

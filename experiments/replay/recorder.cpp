@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/replay/recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/study/csv.hpp"
+#include "experiments/study/run.hpp"
+
+namespace polhode::study {
+namespace {
+
+class Recorder final : public TrajectoryWriter {
+ public:
+  Recorder(const System<double>& system, Observer& next, std::size_t most, Recording& recording)
+      : system_(system), next_(next), most_(most), recording_(recording) {}
+
+  std::size_t observe(std::span<const Sample> samples) override { return next_.observe(samples); }
+  void slides_end(std::span<const Transition> transitions) override { next_.slides_end(transitions); }
+  double next_look() const override { return 0; }
+
+  void meet(std::span<const Impact> impacts) override {
+    recording_.impacts.insert(recording_.impacts.end(), impacts.begin(), impacts.end());
+    recording_.impacts_seen += std::int64_t(impacts.size());
+    if (recording_.impacts.size() > 2 * most_) keep_impacts(recording_, most_);
+    next_.meet(impacts);
+  }
+
+  void account(const ContactLosses& losses) override {
+    contact_ = losses;
+    next_.account(losses);
+  }
+
+  void look(const State<double>& state, const Sample& sample) override {
+    if (recording_.instants_seen == 0) start(state, sample);
+    last_state_ = state;
+    last_sample_ = sample;
+    last_kept_ = recording_.instants_seen++ % stride_ == 0;
+    if (last_kept_) keep();
+    if (recording_.times.size() > most_) halve();
+    if (state.t >= next_.next_look() || state.t == 0) next_.look(state, sample);
+  }
+
+  void close() override {
+    if (!last_kept_) keep();
+  }
+
+ private:
+  void start(const State<double>& state, const Sample& sample) {
+    recording_.moving = system_.moving();
+    scales_ = drift_scales(system_, state, sample.seen);
+    energy_start_ = sample.ledger(contact_.total());
+    momentum_start_ = momentum(sample);
+  }
+
+  Vector3<double> momentum(const Sample& sample) const {
+    return recording_.momentum == ShownMomentum::linear ? sample.seen.linear_momentum : sample.seen.angular_momentum;
+  }
+
+  void keep() {
+    recording_.times.push_back(last_state_.t);
+    recording_.energy_drift.push_back((last_sample_.ledger(contact_.total()) - energy_start_) / scales_.energy);
+    const double scale = recording_.momentum == ShownMomentum::linear ? scales_.linear : scales_.angular;
+    const bool shown = recording_.momentum != ShownMomentum::none;
+    recording_.momentum_drift.push_back(shown ? (momentum(last_sample_) - momentum_start_).norm() / scale : 0);
+    for (std::size_t i = 0; i < system_.moving(); ++i) {
+      const BodySnapshot<double> s = system_.snapshot(last_state_.y, i);
+      recording_.placements.push_back({s.position, s.orientation, s.angular_velocity});
+    }
+  }
+
+  void halve() {
+    const std::size_t moving = recording_.moving;
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < recording_.times.size(); k += 2, ++n) {
+      recording_.times[n] = recording_.times[k];
+      recording_.energy_drift[n] = recording_.energy_drift[k];
+      recording_.momentum_drift[n] = recording_.momentum_drift[k];
+      std::copy_n(recording_.placements.begin() + std::ptrdiff_t(k * moving), moving,
+                  recording_.placements.begin() + std::ptrdiff_t(n * moving));
+    }
+    last_kept_ = recording_.times[n - 1] == last_state_.t;
+    recording_.times.resize(n);
+    recording_.energy_drift.resize(n);
+    recording_.momentum_drift.resize(n);
+    recording_.placements.resize(n * moving);
+    stride_ *= 2;
+  }
+
+  const System<double>& system_;
+  Observer& next_;
+  std::size_t most_;
+  Recording& recording_;
+  ContactLosses contact_;
+  DriftScales scales_;
+  double energy_start_ = 0;
+  Vector3<double> momentum_start_ = Vector3<double>::Zero();
+  std::int64_t stride_ = 1;
+  State<double> last_state_;
+  Sample last_sample_;
+  bool last_kept_ = true;
+};
+
+}  // namespace
+
+Recording record(const PlannedRun& run, std::size_t most) {
+  Recording recording;
+  recording.scene = scene_of(*run.scenario);
+  TrajectoryRequest request;
+  request.open = [&](const System<double>& system, Observer& next) {
+    recording.momentum = shown_momentum(system, *run.scenario);
+    return std::make_unique<Recorder>(system, next, std::max<std::size_t>(most, 4), recording);
+  };
+  const RunResult result = carry_out(run.config, *run.scenario, request, nullptr);
+  std::vector<std::string> keys;
+  for (const Override& o : run.config.varied) keys.push_back(o.key);
+  const NamedOptions named{.order = run.config.order.has_value(), .summation = run.config.summation.has_value()};
+  const auto columns = config_columns(keys, named), cells = config_cells(run.config);
+  for (std::size_t k = 0; k < columns.size(); ++k) recording.facts.emplace_back(columns[k], cells[k]);
+  recording.id = run.id;
+  recording.status = result.status;
+  recording.message = result.message;
+  recording.energy_drift_max = csv_cell(result.energy_drift_max_rel);
+  return recording;
+}
+
+}  // namespace polhode::study

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/replay/recording.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace polhode::study {
+
+std::string label_of(const Recording& r) {
+  std::string method, step;
+  for (const auto& [name, cell] : r.facts) {
+    if (name == "integrator") method = cell;
+    if (name == "dt_s" && !cell.empty()) step = ", dt = " + cell + " s";
+    if (name == "tolerance" && !cell.empty()) step = ", tolerance " + cell;
+  }
+  return method + step;
+}
+
+ShownMomentum shown_momentum(const System<double>& system, const Scenario& scenario) {
+  const auto& bodies = scenario.problem.bodies;
+  for (std::size_t i = 0; i < scenario.colliders.size(); ++i) {
+    if (scenario.colliders[i].shape && bodies[i].fixed) return ShownMomentum::none;
+  }
+  const ConservedMomenta conserved = conserved_momenta(system);
+  return conserved.angular ? ShownMomentum::angular : conserved.linear ? ShownMomentum::linear : ShownMomentum::none;
+}
+
+void keep_instants(Recording& recording, std::size_t n) {
+  const std::size_t all = recording.times.size(), moving = recording.moving;
+  if (all <= n) return;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t k = (i * (all - 1) + (n - 1) / 2) / (n - 1);
+    recording.times[i] = recording.times[k];
+    recording.energy_drift[i] = recording.energy_drift[k];
+    recording.momentum_drift[i] = recording.momentum_drift[k];
+    std::copy_n(recording.placements.begin() + std::ptrdiff_t(k * moving), moving,
+                recording.placements.begin() + std::ptrdiff_t(i * moving));
+  }
+  recording.times.resize(n);
+  recording.energy_drift.resize(n);
+  recording.momentum_drift.resize(n);
+  recording.placements.resize(n * moving);
+}
+
+void keep_impacts(Recording& recording, std::size_t n) {
+  auto& impacts = recording.impacts;
+  if (impacts.size() <= n) return;
+  std::vector<std::size_t> order(impacts.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return impacts[a].impulse.squaredNorm() > impacts[b].impulse.squaredNorm();
+  });
+  order.resize(n);
+  std::sort(order.begin(), order.end());
+  for (std::size_t i = 0; i < n; ++i) impacts[i] = impacts[order[i]];
+  impacts.resize(n);
+}
+
+double longest_spacing(const Recording& recording) {
+  double longest = 0;
+  for (std::size_t k = 1; k < recording.times.size(); ++k) {
+    longest = std::max(longest, recording.times[k] - recording.times[k - 1]);
+  }
+  return longest;
+}
+
+double largest_turn(const Recording& recording) {
+  double largest = 0;
+  for (std::size_t k = 1; k < recording.times.size(); ++k) {
+    const double spacing = recording.times[k] - recording.times[k - 1];
+    for (std::size_t i = 0; i < recording.moving; ++i) {
+      const double a = recording.placements[(k - 1) * recording.moving + i].angular_velocity.norm();
+      const double b = recording.placements[k * recording.moving + i].angular_velocity.norm();
+      largest = std::max(largest, std::max(a, b) * spacing);
+    }
+  }
+  return largest;
+}
+
+}  // namespace polhode::study

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The time between two frames, Δt = t_current − t_previous, as the engine slides have it.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <utility>
+
+namespace polhode::viewer {
+
+class FrameClock {
+ public:
+  /// `now` (s) may be any clock that does not jump.
+  explicit FrameClock(std::function<double()> now = steady_seconds) : now_(std::move(now)) {}
+
+  /// s since the call before; 0 at the first.
+  double tick() {
+    const double current = now_(), previous = previous_.value_or(current);
+    previous_ = current;
+    return std::max(current - previous, 0.0);
+  }
+
+  static double steady_seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  }
+
+ private:
+  std::function<double()> now_;
+  std::optional<double> previous_;
+};
+
+}  // namespace polhode::viewer

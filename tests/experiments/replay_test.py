@@ -1,0 +1,253 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""replay as a user meets it: pages of runs and of studies, how large they are and what they say, and played in a browser
+that has no network. POLHODE_BIN_DIR is the folder of replay, energy_drift and simulate."""
+import json
+import math
+import pathlib
+import re
+import unittest
+
+from browser import PROGRAM, Browser
+from programs import call, read, temporary_folder
+
+THREE = pathlib.Path("/usr/share/javascript/three/three.min.js")
+WITHOUT_THREE = "three.js is not installed (Debian's libjs-three)"
+WITHOUT_BROWSER = "there is no Chromium to play the page in"
+STUDY = ["--scenario", "dzhanibekov", "--integrator", "rk4,semi_implicit_euler", "--dt", "0.02", "--t-end", "8",
+         "--trajectory", "csv", "--no-figures", "--out", "study"]
+
+
+def data_of(page):
+    return json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', page.read_text(), re.S)[1])
+
+
+@unittest.skipUnless(THREE.exists(), WITHOUT_THREE)
+class Pages(unittest.TestCase):
+    def setUp(self):
+        self.folder = temporary_folder(self.addCleanup)
+
+    def refused(self, *arguments):
+        done = call("replay", *arguments, folder=self.folder, status=2)
+        self.assertRegex(done.stderr, r"\Areplay: [^\n]+\n\Z")
+        return done.stderr
+
+    def test_each_page_is_one_file_that_asks_for_nothing(self):
+        cases = [("dzhanibekov", ["lie_euler", "rk4"]), ("spring_box", ["odeint_dopri5"]), ("lagrange_top", ["rk4"]),
+                 ("bouncing_ball", ["semi_implicit_euler"]), ("simbenchmark_rolling", ["semi_implicit_euler"])]
+        for scenario, methods in cases:
+            with self.subTest(scenario):
+                name = scenario + ".html"
+                done = call("replay", "--scenario", scenario, "--integrator", ",".join(methods), "--dt", "0.01", "--t-end", "2",
+                            "--out", name, folder=self.folder)
+                page = self.folder / name
+                *_, line, last = done.stdout.splitlines()
+                self.assertEqual(last, name)
+                self.assertRegex(line, rf"(one view|{len(methods)} views side by side), {page.stat().st_size / 1e6:.2f} MB$")
+                text = page.read_text()
+                self.assertIn("default-src 'none'", text)
+                self.assertEqual(re.findall(r'<(?:script|link|img|iframe)[^>]*(?:src|href)=', text.split('id="data"')[0]), [])
+                data = data_of(page)
+                self.assertEqual([run["label"].split(",")[0] for run in data["runs"]], methods)
+                self.assertEqual({run["instants"] for run in data["runs"]} & {0, 1}, set())
+
+    def test_a_minute_of_ten_bodies_fits_and_says_what_is_left_out(self):
+        done = call("replay", "--scenario", "pile_10", "--integrator", "semi_implicit_euler", "--dt", "0.005", "--t-end", "60",
+                    "--out", "pile.html", folder=self.folder)
+        page = self.folder / "pile.html"
+        self.assertLess(page.stat().st_size, 3e6)
+        self.assertGreater(page.stat().st_size, 2.8e6)
+        kept, seen, apart = re.search(r"(\d+) of (\d+) instants are kept, at most (\S+) s apart", done.stdout).groups()
+        self.assertEqual(int(seen), 12001)
+        self.assertLess(float(apart), 0.0151)
+        data = data_of(page)
+        self.assertEqual(data["runs"][0]["instants"], int(kept))
+        self.assertTrue(any(f"{kept} of {seen} instants" in text for text in data["paragraphs"]))
+        whole = call("replay", "--scenario", "pile_10", "--integrator", "semi_implicit_euler", "--dt", "0.005", "--t-end", "60",
+                     "--limit", "9", "--out", "pile.html", folder=self.folder)
+        self.assertNotIn("instants are kept", whole.stdout)
+        self.assertIn("--limit", self.refused("--limit", "0.5"))
+
+    def test_a_study_gets_a_page_and_its_report_a_link(self):
+        call("energy_drift", *STUDY, folder=self.folder)
+        report = self.folder / "study" / "report.html"
+        self.assertIn("<code>./run replay --results study</code>", report.read_text())
+        call("replay", "--results", "study", folder=self.folder)
+        page = self.folder / "study" / "replay.html"
+        linked = report.read_bytes()
+        self.assertIn(b'<a href="replay.html">', linked)
+        first = page.read_bytes()
+        call("replay", "--results", "study", folder=self.folder)
+        self.assertEqual(page.read_bytes(), first, "the same study, the same bytes")
+        call("energy_drift", *STUDY, folder=self.folder)
+        self.assertEqual(report.read_bytes(), linked, "a report that is written again keeps its link")
+        rows = read(self.folder / "study" / "runs.csv")
+        call("replay", "--results", "study", "--runs", rows[1]["run"], "--out", "one.html", folder=self.folder)
+        (run,) = data_of(self.folder / "one.html")["runs"]
+        self.assertEqual((run["id"], run["label"]), (rows[1]["run"], "semi_implicit_euler, dt = 0.02 s"))
+        self.assertIn("no run 77", self.refused("--results", "study", "--runs", "77"))
+
+    def test_runs_and_their_files_give_the_same_motion(self):
+        axes = ["--scenario", "two_cubes", "--integrator", "rk4", "--dt", "0.01", "--t-end", "2"]
+        call("simulate", *axes, "--no-figures", "--out", "run", folder=self.folder)
+        call("replay", "--results", "run", "--out", "kept.html", folder=self.folder)
+        call("replay", *axes, "--out", "run.html", folder=self.folder)
+        kept, run = (data_of(self.folder / name)["runs"][0] for name in ("kept.html", "run.html"))
+        for part in ("times", "positions", "orientations", "rates", "impacts", "instants", "momentum", "energy", "facts"):
+            self.assertEqual(kept[part], run[part], part)
+
+    def test_a_scenario_of_its_own_is_found_again_and_must_be_the_same(self):
+        scenario = self.folder / "mine.toml"
+        scenario.write_text("t_end = 1\n[[body]]\nmass = 1\ninertia = [1, 2, 3]\nangular_velocity = [0, 1, 0.1]\n")
+        call("simulate", "--scenario", "mine.toml", "--dt", "0.1", "--no-figures", "--out", "run", folder=self.folder)
+        call("replay", "--results", "run", folder=self.folder)
+        scenario.rename(self.folder / "moved.toml")
+        self.assertIn("--scenario", self.refused("--results", "run"))
+        call("replay", "--results", "run", "--scenario", "moved.toml", folder=self.folder)
+        (self.folder / "moved.toml").write_text(scenario.with_name("moved.toml").read_text().replace("3]", "2.9]"))
+        self.assertIn("changed", self.refused("--results", "run", "--scenario", "moved.toml"))
+
+    def test_what_is_refused(self):
+        self.assertIn("`./run replay` installs", self.refused("--three", "nowhere"))
+        (self.folder / "three.min.js").write_text('REVISION="150"')
+        (self.folder / "examples" / "js" / "controls").mkdir(parents=True)
+        (self.folder / "examples" / "js" / "controls" / "OrbitControls.js").write_text("")
+        self.assertIn("revision 111", self.refused("--three", "."))
+        (self.folder / "notes.txt").write_text("mine")
+        self.assertIn("no replay page", self.refused("--out", "notes.txt"))
+        self.assertEqual((self.folder / "notes.txt").read_text(), "mine")
+        call("replay", "--t-end", "1", "--out", "notes.txt", "--force", folder=self.folder)
+        call("replay", "--t-end", "2", "--out", "notes.txt", folder=self.folder)
+        call("simulate", "--trajectory", "hdf5", "--dt", "0.1", "--no-figures", "--out", "h5", folder=self.folder)
+        self.assertIn("HDF5", self.refused("--results", "h5"))
+        call("simulate", "--trajectory", "none", "--dt", "0.1", "--no-figures", "--out", "none", folder=self.folder)
+        self.assertIn("no trajectory", self.refused("--results", "none"))
+        self.assertIn("no study", self.refused("--results", "."))
+        self.assertIn("at most 16 runs", self.refused("--dt", "0.1:0.2:17", "--integrator", "rk4"))
+        self.assertEqual(sorted(p.name for p in self.folder.glob("*.html")), [])
+
+
+def turn_between(a, b):
+    """rad, between two orientations."""
+    cosine = abs(sum(x * y for x, y in zip(a, b))) / math.hypot(*a) / math.hypot(*b)
+    return 2 * math.acos(min(1, cosine))
+
+
+@unittest.skipUnless(THREE.exists(), WITHOUT_THREE)
+@unittest.skipUnless(PROGRAM, WITHOUT_BROWSER)
+class Played(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = temporary_folder(cls.addClassCleanup)
+        cls.browser = cls.enterClassContext(Browser())
+
+    def open(self, page, **how):
+        self.browser.errors.clear()
+        self.browser.requests.clear()
+        self.browser.open(page, **how)
+
+    def check_quiet(self):
+        self.assertEqual(self.browser.errors, [])
+        self.assertEqual([url for url in self.browser.requests if not url.startswith("file:")], [])
+
+    def colours(self, left, top, width, height):
+        """How many colours there are in a part of the picture, given in shares of it."""
+        return self.browser.run(f"""(() => {{
+            const from = document.getElementById("scene"), copy = document.createElement("canvas");
+            copy.width = from.width; copy.height = from.height;
+            const pen = copy.getContext("2d");
+            pen.drawImage(from, 0, 0);
+            const part = pen.getImageData({left} * copy.width, {top} * copy.height, {width} * copy.width, {height} * copy.height).data;
+            const seen = new Set();
+            for (let i = 0; i < part.length; i += 4) seen.add(part[i] << 16 | part[i + 1] << 8 | part[i + 2]);
+            return seen.size;
+        }})()""")
+
+    def test_shows_the_recorded_motion(self):
+        call("energy_drift", *STUDY, folder=self.folder)
+        call("replay", "--results", "study", folder=self.folder)
+        self.open(self.folder / "study" / "replay.html")
+        for view, run in enumerate(read(self.folder / "study" / "runs.csv")):
+            rows = read(self.folder / "study" / "trajectories" / run["run"] / "trajectory.csv")
+            for row in rows[::37] + rows[-1:]:
+                seen = self.browser.run(f"(replay.seek({row['t_s']}), replay.body({view}, 0))")
+                for have, name in zip(seen["position"], ("px_m", "py_m", "pz_m")):
+                    self.assertAlmostEqual(have, float(row[name]), delta=6e-8 * abs(float(row[name])))
+                q = [float(row[name]) for name in ("qw", "qx", "qy", "qz")]
+                self.assertLess(turn_between(seen["orientation"], q), 5e-5)
+            before, after = rows[100:102]
+            middle = (float(before["t_s"]) + float(after["t_s"])) / 2
+            seen = self.browser.run(f"(replay.seek({middle}), replay.body({view}, 0))")["orientation"]
+            halves = [turn_between(seen, [float(row[n]) for n in ("qw", "qx", "qy", "qz")]) for row in (before, after)]
+            self.assertAlmostEqual(halves[0], halves[1], delta=1e-4)
+        end = self.browser.run("(replay.seek(100), replay.time)")
+        self.assertEqual(end, 8, "nothing is shown beyond what was recorded")
+        self.browser.frames(2)
+        for half in (0, 0.5):
+            self.assertGreater(self.colours(half, 0.1, 0.5, 0.9), 50)
+        self.check_quiet()
+
+    def test_plays_and_obeys_the_keys(self):
+        call("replay", "--t-end", "4", "--out", "keys.html", folder=self.folder)
+        self.open(self.folder / "keys.html", dark=True)
+        here, time = self.browser, "replay.time"
+        self.assertEqual(here.run(time), 0)
+        before = self.colours(0, 0.1, 1, 0.9)
+        here.key(" ", code="Space")
+        here.wait_for("replay.playing && replay.time > 0.3")
+        here.key(" ", code="Space")
+        self.assertFalse(here.run("replay.playing"))
+        here.key("Home")
+        self.assertEqual(here.run(time), 0)
+        for expected in (0.01, 0.02):
+            here.key("ArrowRight")
+            self.assertAlmostEqual(here.run(time), expected, delta=1e-12)
+        here.key("ArrowLeft")
+        self.assertAlmostEqual(here.run(time), 0.01, delta=1e-12)
+        here.key("End")
+        self.assertAlmostEqual(here.run(time), 4, delta=1e-12)
+        self.assertGreater(before, 50)
+        for toggle in here.run("[...document.querySelectorAll('#toggles input')].map((box) => box.id)"):
+            here.run(f"document.getElementById('{toggle}').click()")
+            here.frames(2)
+        self.check_quiet()
+
+    def test_pauses_where_bodies_meet(self):
+        call("simulate", "--scenario", "bouncing_ball", "--dt", "0.005", "--no-figures", "--out", "ball", folder=self.folder)
+        call("replay", "--results", "ball", folder=self.folder)
+        self.open(self.folder / "ball" / "replay.html")
+        first = float(read(self.folder / "ball" / "events.csv")[0]["t_s"])
+        self.browser.run("document.getElementById('show-pause').click()")
+        self.browser.run(f"(replay.seek({first - 0.2}), replay.play())")
+        self.browser.wait_for("!replay.playing")
+        self.assertAlmostEqual(self.browser.run("replay.time"), first, delta=1e-6)
+        self.check_quiet()
+
+    def test_a_run_that_is_lost_stands_still_and_says_so(self):
+        done = call("replay", "--scenario", "coursework", "--integrator", "explicit_euler,rk4", "--dt", "1.5", "--t-end", "60",
+                    "--out", "lost.html", folder=self.folder)
+        self.assertRegex(done.stdout, "explicit_euler, dt = 1.5 s a body turns by up to .* is a guess")
+        self.open(self.folder / "lost.html")
+        end = data_of(self.folder / "lost.html")["runs"][0]["facts"]
+        self.assertIn("diverged", dict(end)["status"])
+        self.browser.run("replay.seek(40)")
+        self.browser.frames(2)
+        self.assertRegex(self.browser.run("document.querySelector('.ended').textContent"), r"diverged at \d")
+        there = self.browser.run("replay.body(0, 0).position")
+        self.assertEqual(self.browser.run("(replay.seek(60), replay.body(0, 0).position)"), there)
+        self.check_quiet()
+
+    def test_fits_a_phone(self):
+        call("replay", "--scenario", "lagrange_top", "--integrator", "rk4,lie_euler,velocity_verlet", "--dt", "0.01", "--t-end", "1",
+             "--out", "phone.html", folder=self.folder)
+        self.open(self.folder / "phone.html", width=390, height=844)
+        self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), 390)
+        boxes = self.browser.run("[...document.querySelectorAll('.view')].map((v) => v.getBoundingClientRect().width)")
+        self.assertEqual(len(boxes), 3)
+        self.assertGreater(min(boxes), 350, "one below the other")
+        for third in (0, 1, 2):
+            self.assertGreater(self.colours(0, third / 3 + 0.05, 1, 0.25), 50)
+        self.check_quiet()
+
+
+if __name__ == "__main__":
+    unittest.main()
