@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/viewer/script.hpp"
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -18,7 +20,8 @@ namespace {
 /// How many words stand after each.
 const std::map<std::string, std::vector<std::size_t>> commands = {
     {"click", {1}}, {"choose", {2}}, {"drag", {2}}, {"type", {2}}, {"wait", {1}}, {"until", {1, 2}},
-    {"expect", {2, 3}}, {"orbit", {2}}, {"picture", {1}}, {"places", {1}}};
+    {"expect", {2, 3}}, {"pull", {2}}, {"key", {1}}, {"picture", {1}}, {"places", {1}}};
+const std::map<std::string, int> keys = {{"space", GLFW_KEY_SPACE}, {"right", GLFW_KEY_RIGHT}, {"home", GLFW_KEY_HOME}};
 constexpr int most_frames = 20000;  // of waiting
 
 }  // namespace
@@ -57,12 +60,13 @@ void Script::before_frame() {
     now_ = inputs_.front();
     inputs_.pop_front();
   } else {
-    now_.pressed = now_.enter = false;
+    now_.pressed = false;
+    now_.key = 0;
     now_.typed.clear();
   }
   io.MousePos = {now_.x, now_.y};
   io.MouseDown[0] = now_.pressed;
-  io.KeysDown[io.KeyMap[ImGuiKey_Enter]] = now_.enter;
+  for (const int key : {GLFW_KEY_ENTER, GLFW_KEY_SPACE, GLFW_KEY_RIGHT, GLFW_KEY_HOME}) io.KeysDown[key] = key == now_.key;
   if (!now_.typed.empty()) io.AddInputCharactersUTF8(now_.typed.c_str());
 }
 
@@ -128,15 +132,37 @@ void Script::take(Stage& stage, Controls& controls) {
     again.typed = w[2];
     inputs_.push_back(again);
     again.typed.clear();
-    again.enter = true;
+    again.key = GLFW_KEY_ENTER;
     inputs_.push_back(again);
-    again.enter = false;
+    again.key = 0;
     inputs_.push_back(again);
     inputs_.push_back(again);
   } else if (w[0] == "expect") {
     if (!holds(stage, w)) fail(fmt::format("expected {}; it is {}", fmt::join(w.begin() + 1, w.end(), " "), value(stage, w[1])));
-  } else if (w[0] == "orbit") {
-    stage.camera.orbit(number(w[1]), number(w[2]));
+  } else if (w[0] == "pull") {
+    Input at;
+    at.x = view_x_;
+    at.y = view_y_;
+    inputs_.push_back(at);
+    at.pressed = true;
+    inputs_.push_back(at);
+    for (int n = 0; n < 10; ++n) {
+      at.x += float(number(w[1])) / 10;
+      at.y += float(number(w[2])) / 10;
+      inputs_.push_back(at);
+    }
+    at.pressed = false;
+    inputs_.push_back(at);
+    inputs_.push_back(at);
+  } else if (w[0] == "key") {
+    const auto found = keys.find(w[1]);
+    if (found == keys.end()) fail("no key '" + w[1] + "'; there are home, right and space");
+    Input at = now_;
+    at.key = found->second;
+    inputs_.push_back(at);
+    at.key = 0;
+    inputs_.push_back(at);
+    inputs_.push_back(at);
   } else if (w[0] == "picture") {
     take_picture_(w[1]);
   } else if (w[0] == "places") {
@@ -180,12 +206,13 @@ std::string Script::value(Stage& stage, const std::string& of) const {
       {"broad_phase", [&] { return run.contact ? run.contact->broad_phase : "none"; }},
       {"narrow_phase", [&] { return run.contact ? run.contact->narrow_phase : "none"; }},
       {"response", [&] { return run.contact ? run.contact->response : "none"; }},
-      {"impact_timing", [&] { return run.contact ? run.contact->impact_timing : "none"; }},
+      {"impact_timing", [&] { return run.contact && !run.contact->impact_timing.empty() ? run.contact->impact_timing : "none"; }},
       {"axes", [&] { return truth(stage.look.axes); }},
       {"angular_velocity", [&] { return truth(stage.look.angular_velocity); }},
       {"angular_momentum", [&] { return truth(stage.look.angular_momentum); }},
       {"trails", [&] { return truth(stage.trails); }},
       {"polhode", [&] { return truth(stage.look.polhode); }},
+      {"contacts_shown", [&] { return truth(stage.look.contacts); }},
       {"poinsot", [&] { return truth(stage.look.poinsot); }},
       {"azimuth", [&] { return fmt::format("{}", stage.camera.azimuth); }},
   };

@@ -10,7 +10,8 @@
 //   until t 1.5                frames, until it is at least so; also `until paused`
 //   expect integrator heun     else the script fails; see Script::value() for what can be asked
 //   expect t < 0.5
-//   orbit 0.5 0.1              rad, the camera
+//   pull 100 -30               with the left button, so many pixels right and down, in the middle of the runs
+//   key space                  space, right, home
 //   picture FILE
 //   places FILE                CSV: run, body, the pixel where its mass centre is in the picture, and its colour
 #pragma once
@@ -31,6 +32,9 @@ class Script {
   /// Throws InputError with the line.
   Script(const std::string& file, FileMaker take_picture, FileMaker write_places);
 
+  /// Where the runs are: pixels from the window's left and upper edge.
+  void set_view(float middle_x, float middle_y) { view_x_ = middle_x, view_y_ = middle_y; }
+
   /// Before a frame of Dear ImGui: what mouse and keyboard do in it.
   void before_frame();
   /// After a frame. Throws InputError with the line where an expectation does not hold or a control is not there.
@@ -45,7 +49,8 @@ class Script {
   /// What one frame sees of mouse and keyboard.
   struct Input {
     float x = 0, y = 0;
-    bool pressed = false, enter = false;
+    bool pressed = false;
+    int key = 0;  ///< as GLFW numbers them; 0: none
     std::string typed{};
   };
 
@@ -60,6 +65,7 @@ class Script {
   std::deque<Line> lines_;
   std::deque<Input> inputs_;
   Input now_;
+  float view_x_ = 0, view_y_ = 0;
   Line line_{};
   int waited_ = 0;
   std::string opened_;  ///< the item to be taken from a list that is open

@@ -177,6 +177,7 @@ class Show {
     const Rectangle area = {panel_width, plots_height, std::max(width - panel_width, 1), std::max(height - plots_height, 1)};
     area_ = area;
     height_ = height;
+    if (script_) script_->set_view(float(area.left) + float(area.width) / 2, float(height - area.bottom) - float(area.height) / 2);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     painter_->draw(*stage_, area);
     glDisable(GL_SCISSOR_TEST);

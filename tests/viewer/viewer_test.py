@@ -58,7 +58,7 @@ class Viewer(unittest.TestCase):
 
     def test_every_control(self):
         self.window("every_control.txt")
-        for name in ("several.png", "collision.png"):
+        for name in ("several.png", "collision.png", "results/viewer-dzhanibekov/picture_1.png"):
             self.assert_not_blank(self.folder / name)
         for session in sorted(self.folder.glob("results/*/session_*.toml")):
             with self.subTest(session=session.name):
@@ -92,6 +92,7 @@ class Viewer(unittest.TestCase):
 
     def test_digits_are_those_without_a_window(self):
         for scenario, *options in (("tumbling_cube", "--integrator", "rk4", "--dt", "0.001"),
+                                   ("pile_10", "--integrator", "semi_implicit_euler", "--dt", "0.01", "--t-end", "3"),
                                    ("dzhanibekov", "--integrator", "cvode_adams", "--tolerance", "1e-9", "--t-end", "20")):
             with self.subTest(scenario=scenario):
                 self.window("to_the_end.txt", "--scenario", scenario, *options, "--speed", "30", "--record", "off",
