@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "experiments/study/axes.hpp"
+#include "experiments/study/csv_reader.hpp"
 #include "experiments/viewer/default_camera.hpp"
 
 namespace polhode::viewer {
@@ -20,6 +21,23 @@ std::filesystem::path free_name(const std::filesystem::path& folder) {
   }
 }
 
+/// The run that a study kept there, by its method and step; of any other file its folder's name.
+std::string title_of(const std::filesystem::path& trajectory) {
+  const std::filesystem::path folder = std::filesystem::absolute(trajectory).parent_path();
+  const std::filesystem::path table = folder.parent_path().parent_path() / "runs.csv";
+  const std::string name = folder.filename().string();
+  if (folder.parent_path().filename() != "trajectories" || !std::filesystem::exists(table)) return name;
+  study::CsvReader runs(table.string());
+  const std::size_t run = runs.column("run"), integrator = runs.column("integrator"), dt = runs.column("dt_s"),
+                    tolerance = runs.column("tolerance");
+  while (runs.next()) {
+    if (runs.text(run) != name) continue;
+    return runs.text(dt).empty() ? fmt::format("{}, tolerance {}", runs.text(integrator), runs.text(tolerance))
+                                 : fmt::format("{}, dt = {} s", runs.text(integrator), runs.text(dt));
+  }
+  return name;
+}
+
 }  // namespace
 
 Stage::Stage(StageSetup setup) : setup_(std::move(setup)) {
@@ -28,6 +46,7 @@ Stage::Stage(StageSetup setup) : setup_(std::move(setup)) {
   } else {
     for (const std::string& file : setup_.trajectories) {
       sessions_.push_back(recorded_session(file, setup_.scenario, setup_.overrides));
+      titles_.push_back(title_of(file));
     }
   }
   const study::Scenario& scenario = sessions_.front()->scenario();
@@ -50,7 +69,7 @@ std::unique_ptr<Session> Stage::open(const Configuration& configuration) {
 }
 
 std::string Stage::title(std::size_t k, const View& view) const {
-  if (!live()) return std::filesystem::path(setup_.trajectories[k]).parent_path().filename().string();
+  if (!live()) return titles_[k];
   const study::RunConfig& run = view.configuration.run;
   if (view.configuration.drive == Drive::frame_clock) return run.integrator + ", frame clock";
   return run.dt ? fmt::format("{}, dt = {} s", run.integrator, study::exact(*run.dt))

@@ -67,6 +67,7 @@ class Stage {
   StageSetup setup_;
   study::Scene scene_;
   std::vector<std::string> moving_;
+  std::vector<std::string> titles_;  ///< of recorded runs
   std::vector<std::unique_ptr<Session>> sessions_;
   std::vector<std::shared_ptr<const View>> views_;
   std::optional<Wanted> wanted_;  ///< as the sessions were told

@@ -28,15 +28,30 @@ def colours(path):
 
 @unittest.skipUnless((BIN / "viewer").exists(), "skipped, because the viewer's packages are not installed: ./run viewer installs them")
 class Viewer(unittest.TestCase):
+    display = None
+
+    @classmethod
+    def setUpClass(cls):
+        if not shutil.which("Xvfb"):
+            return
+        ours, its = os.pipe()  # through which it says the number of the display that it took
+        server = subprocess.Popen(["Xvfb", "-displayfd", str(its), "-screen", "0", "1280x720x24", "-nolisten", "tcp"],
+                                  pass_fds=[its], stderr=subprocess.DEVNULL)
+        os.close(its)
+        cls.addClassCleanup(server.wait)
+        cls.addClassCleanup(server.terminate)
+        with os.fdopen(ours) as number:
+            cls.display = ":" + number.readline().strip()
+
     def setUp(self):
         self.folder = temporary_folder(self.addCleanup)
 
     def window(self, script, *arguments, status=0):
-        if not shutil.which("xvfb-run"):
-            self.skipTest("skipped, because xvfb-run is not installed")
-        done = subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 1280x720x24", str(BIN / "viewer"), "--script",
-                               str(HERE / script), *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
-                              timeout=PATIENCE, env={**os.environ, "LIBGL_ALWAYS_SOFTWARE": "1"})
+        if not self.display:
+            self.skipTest("skipped, because Xvfb is not installed")
+        done = subprocess.run([str(BIN / "viewer"), "--script", str(HERE / script), *map(str, arguments)], cwd=self.folder,
+                              capture_output=True, text=True, timeout=PATIENCE,
+                              env={**os.environ, "DISPLAY": self.display, "LIBGL_ALWAYS_SOFTWARE": "1"})
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done
 
@@ -116,6 +131,17 @@ class Viewer(unittest.TestCase):
         shape = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=width,height,nb_read_frames",
                                 "-of", "csv=p=0", "film.mp4"], cwd=self.folder, capture_output=True, text=True, check=True).stdout
         self.assertEqual(shape.strip().strip(","), "1280,720,31")
+
+    def test_recorded_trajectories_of_a_study(self):
+        call("energy_drift", "--scenario", "lagrange_top", "--integrator", "rk4,semi_implicit_euler", "--dt", "0.01", "--t-end", "1",
+             "--trajectory", "csv", "--no-figures", "--out", "study", folder=self.folder)
+        files = sorted((self.folder / "study/trajectories").glob("*/trajectory.csv"))
+        self.assertEqual(len(files), 2)
+        (self.folder / "play.txt").write_text("click play\nuntil t#2 0.5\nclick pause\nwait 5\nexpect runs 2\npicture picture.png\n"
+                                              "drag time 0.5\nwait 5\nexpect t < 0.6\nclick reset\nwait 5\nexpect t 0\n")
+        arguments = [word for file in files for word in ("--trajectory", file)]
+        self.window(self.folder / "play.txt", "--scenario", "lagrange_top", *arguments)
+        self.assert_not_blank(self.folder / "picture.png")
 
     def test_bad_input_is_one_line(self):
         for arguments, expected in ((("--integrator", "rk5"), "no integrator is called 'rk5'"),
