@@ -28,7 +28,7 @@ bool is_count(const std::string& trait) { return trait == "evaluations_per_step"
 
 /// The number in a cell: "4.00", "1.3e-16", "exact".
 std::string measured_text(const Finding& finding) {
-  if (!finding.measured) return is_order(finding.trait) && finding.verdict == Verdict::holds ? "exact" : "";
+  if (!finding.measured) return is_order(finding.trait) && finding.verdict == TraitVerdict::holds ? "exact" : "";
   if (is_order(finding.trait)) return fmt::format("{:.2f}", *finding.measured);
   if (is_count(finding.trait)) return number(*finding.measured);
   return number(*finding.measured, 2);
@@ -36,17 +36,17 @@ std::string measured_text(const Finding& finding) {
 
 /// What a mark says is in the caption of the overview.
 std::string mark(const Finding& finding) {
-  const bool claims_nothing = finding.declared.empty() && finding.verdict == Verdict::absent;
+  const bool claims_nothing = finding.declared.empty() && finding.verdict == TraitVerdict::absent;
   switch (finding.verdict) {
-    case Verdict::holds:
+    case TraitVerdict::holds:
       return is_order(finding.trait) || is_count(finding.trait) ? "" : "yes ";
-    case Verdict::does_not_hold:
+    case TraitVerdict::does_not_hold:
       return "NOT ";
-    case Verdict::undeclared:
+    case TraitVerdict::undeclared:
       return "(yes) ";
-    case Verdict::absent:
+    case TraitVerdict::absent:
       return claims_nothing ? "" : "no ";
-    case Verdict::undecided:
+    case TraitVerdict::undecided:
       return "? ";
     default:
       return "";
@@ -54,9 +54,9 @@ std::string mark(const Finding& finding) {
 }
 
 std::string cell(const Finding& finding) {
-  if (finding.verdict == Verdict::not_applicable) return "";
+  if (finding.verdict == TraitVerdict::not_applicable) return "";
   std::string text = mark(finding) + measured_text(finding);
-  if (finding.verdict == Verdict::does_not_hold && (is_order(finding.trait) || is_count(finding.trait))) {
+  if (finding.verdict == TraitVerdict::does_not_hold && (is_order(finding.trait) || is_count(finding.trait))) {
     text += fmt::format(", declared {}", finding.declared);
   }
   // "bounded", "linear", …, or "diverged" without its message.
@@ -104,14 +104,14 @@ class Report {
   enum class Share { any, some, all };  ///< of the formulations
 
   /// "rk4: order, forced 3.20, declared 4, in matrix, velocity_body", one for each method and trait.
-  std::vector<std::string> of_verdict(Verdict verdict, Share share) const {
+  std::vector<std::string> of_verdict(TraitVerdict verdict, Share share) const {
     std::vector<std::string> items;
     for (const std::string& method : methods()) {
       for (std::size_t k = 0; k < trait_columns().size(); ++k) {
         std::vector<const Certificate*> those;
         std::size_t all = 0;
         for (const Certificate& c : certificates_) {
-          if (name_of(c) != method || c.findings[k].verdict == Verdict::not_applicable) continue;
+          if (name_of(c) != method || c.findings[k].verdict == TraitVerdict::not_applicable) continue;
           ++all;
           if (c.findings[k].verdict == verdict) those.push_back(&c);
         }
@@ -120,8 +120,8 @@ class Report {
         const Finding& first = those.front()->findings[k];
         std::string text = fmt::format("{}: {}", method, trait_columns()[k].heading);
         if (const std::string shown = measured_text(first); !shown.empty()) text += " " + shown;
-        if (verdict == Verdict::does_not_hold) text += fmt::format(", declared {}", first.declared);
-        if (verdict == Verdict::undecided && !first.note.empty()) text += fmt::format(" ({})", first.note);
+        if (verdict == TraitVerdict::does_not_hold) text += fmt::format(", declared {}", first.declared);
+        if (verdict == TraitVerdict::undecided && !first.note.empty()) text += fmt::format(" ({})", first.note);
         if (those.size() < all) {
           text += those.size() == 1 ? fmt::format(" in {}", those.front()->variant)
                                     : fmt::format(" in {} of {} formulations", those.size(), all);
@@ -142,29 +142,29 @@ class Report {
   }
 
   std::vector<std::string> sentences() const {
-    std::map<Verdict, std::size_t> counts;
+    std::map<TraitVerdict, std::size_t> counts;
     for (const Certificate& c : certificates_) {
       for (const Finding& f : c.findings) ++counts[f.verdict];
     }
-    const auto declared = counts[Verdict::holds] + counts[Verdict::does_not_hold];
+    const auto declared = counts[TraitVerdict::holds] + counts[TraitVerdict::does_not_hold];
     std::vector<std::string> all = {fmt::format("{} of {} of {}{} that were decided by a measurement hold.",
-                                                counts[Verdict::holds], count(declared, "declared trait"),
+                                                counts[TraitVerdict::holds], count(declared, "declared trait"),
                                                 count(methods().size(), "method"),
                                                 several_variants() ? ", counted in every formulation," : "")};
-    if (const auto items = of_verdict(Verdict::does_not_hold, Share::any); !items.empty()) {
+    if (const auto items = of_verdict(TraitVerdict::does_not_hold, Share::any); !items.empty()) {
       all.push_back("Declared, and measured not to hold: " + joined(items) + ".");
     }
-    if (const auto items = of_verdict(Verdict::undeclared, Share::all); !items.empty()) {
+    if (const auto items = of_verdict(TraitVerdict::undeclared, Share::all); !items.empty()) {
       all.push_back(fmt::format("Not declared, and measured to hold{}: {}.",
                                 several_variants() ? " in every formulation" : "", joined(items)));
     }
-    if (const auto items = of_verdict(Verdict::undeclared, Share::some); !items.empty()) {
+    if (const auto items = of_verdict(TraitVerdict::undeclared, Share::some); !items.empty()) {
       all.push_back(fmt::format(
           "In some formulations only, {} hold that {} not declared: where the world’s momentum is the state nothing "
           "moves it without a torque, and in body axes energy and Casimir are quadratic.",
           count(items.size(), "trait"), items.size() == 1 ? "is" : "are"));
     }
-    if (const auto items = of_verdict(Verdict::undecided, Share::any); !items.empty()) {
+    if (const auto items = of_verdict(TraitVerdict::undecided, Share::any); !items.empty()) {
       all.push_back("Undecided: " + joined(items) + ".");
     }
     all.emplace_back(
@@ -187,12 +187,12 @@ class Report {
     std::size_t held = 0, all = 0;
     for (const Certificate* c : those) {
       findings.push_back(c->findings[k]);
-      if (c->findings[k].verdict == Verdict::not_applicable) continue;
+      if (c->findings[k].verdict == TraitVerdict::not_applicable) continue;
       ++all;
-      held += c->findings[k].verdict == Verdict::undeclared || c->findings[k].verdict == Verdict::holds ? 1 : 0;
+      held += c->findings[k].verdict == TraitVerdict::undeclared || c->findings[k].verdict == TraitVerdict::holds ? 1 : 0;
     }
     const Finding found = worst(findings);
-    if (found.verdict == Verdict::absent && held > 0) more = fmt::format(" ({} of {})", held, all);
+    if (found.verdict == TraitVerdict::absent && held > 0) more = fmt::format(" ({} of {})", held, all);
     return found;
   }
 

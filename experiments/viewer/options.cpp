@@ -141,18 +141,22 @@ Options parse(const std::string& question, int argc, const char* const* argv) {
   add("--t-end", said.t_end, "duration in s (default: the scenario's)", "S", scene);
   add("--vary", said.vary, "a key of the scenario: body.0.mass=2", "KEY=VALUE", scene);
   add("--drive", said.drive,
-      "accumulator: steps of dt as time passes; frame_clock: one step a frame, of the time between two (default: accumulator)", "NAME", scene);
+      "accumulator: steps of dt as time passes; frame_clock: one step a frame, of the time between two (default: accumulator)",
+      "NAME", scene);
   add("--trajectory", trajectories, "play recorded trajectories of the scenario instead: trajectory.csv of a study", "FILE", scene);
   add("--rerun", options.rerun, "carry a recorded session out again, without window and pace, and compare its end", "FILE", scene);
   const char* const look = "What is seen";
   add("--size", said.size, "in pixels (default: 1280x720)", "WxH", look);
-  add("--show", said.show, "axes, omega, momentum, trails, polhode, poinsot (rolling on its plane), contacts, cells, or none (default: trails,contacts)", "LIST", look);
+  add("--show", said.show,
+      "axes, omega, momentum, trails, polhode, poinsot (rolling on its plane), contacts, cells, or none (default: trails,contacts)",
+      "LIST", look);
   add("--azimuth", said.azimuth, "of the camera about z in rad (default: as the scene asks for)", "RAD", look);
   add("--elevation", said.elevation, "of the camera in rad", "RAD", look);
   add("--zoom", options.window.shown.zoom, "so many times as near (default: 1)", "X", look)->check(CLI::Range(1e-3, 1e3).description(""));
   add("--speed", options.window.speed, "simulated seconds to one of the wall, or of the film (default: 1)", "X", look)
       ->check(CLI::Range(1e-6, 1e6).description(""));
-  add("--samples", options.window.samples, "a pixel: 1, 2, 4 or 8 (default: 4; 1 in a window that the processor draws)", "N", look)->check(CLI::IsMember({1, 2, 4, 8}).description(""));
+  add("--samples", options.window.samples, "a pixel: 1, 2, 4 or 8 (default: 4; 1 in a window that the processor draws)", "N", look)
+      ->check(CLI::IsMember({1, 2, 4, 8}).description(""));
   app.add_flag("--play", options.window.play, "begin at once")->group(look);
   add("--script", options.window.script, "clicks and looks as this file says, then ends", "FILE", look);
   const char* const pictures = "Pictures and films, without a display";

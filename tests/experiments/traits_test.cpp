@@ -129,17 +129,17 @@ TEST(Certificate, WhatIsDeclaredRightHolds) {
   const auto splitting = verdicts("mclachlan_reich");
   for (const char* trait : {"order_free", "order_forced", "order_time_dependent", "time_reversibility",
                             "time_reversibility_many", "symplecticity", "angular_momentum", "casimir", "orientation"}) {
-    EXPECT_EQ(splitting.at(trait).verdict, Verdict::holds) << trait << ": " << splitting.at(trait).note;
+    EXPECT_EQ(splitting.at(trait).verdict, TraitVerdict::holds) << trait << ": " << splitting.at(trait).note;
   }
-  EXPECT_EQ(splitting.at("energy_free").verdict, Verdict::absent);
+  EXPECT_EQ(splitting.at("energy_free").verdict, TraitVerdict::absent);
   EXPECT_LT(*splitting.at("symplecticity").measured, 1e-14);
 
   const auto textbook = verdicts("rk4");
   for (const char* trait : {"order_free", "order_forced", "order_time_dependent", "evaluations_per_step"}) {
-    EXPECT_EQ(textbook.at(trait).verdict, Verdict::holds) << trait << ": " << textbook.at(trait).note;
+    EXPECT_EQ(textbook.at(trait).verdict, TraitVerdict::holds) << trait << ": " << textbook.at(trait).note;
   }
   for (const char* trait : {"time_reversibility", "symplecticity", "energy_free", "casimir", "orientation"}) {
-    EXPECT_EQ(textbook.at(trait).verdict, Verdict::absent) << trait;
+    EXPECT_EQ(textbook.at(trait).verdict, TraitVerdict::absent) << trait;
   }
   EXPECT_NE(textbook.at("symplecticity").note.find("h^5"), std::string::npos) << textbook.at("symplecticity").note;
 }
@@ -154,7 +154,7 @@ TEST(Certificate, AWrongDeclarationDoesNotHold) {
   });
   for (const auto& [trait, finding] : wrong) {
     if (trait == "energy_forced") continue;  // of which nothing is declared
-    EXPECT_EQ(finding.verdict, Verdict::does_not_hold) << trait << ": " << finding.note;
+    EXPECT_EQ(finding.verdict, TraitVerdict::does_not_hold) << trait << ": " << finding.note;
   }
 }
 
@@ -165,7 +165,7 @@ TEST(Certificate, WhatIsNotDeclaredIsSeenToHold) {
   });
   for (const char* trait : {"time_reversibility", "time_reversibility_many", "symplecticity", "angular_momentum",
                             "casimir", "orientation"}) {
-    EXPECT_EQ(silent.at(trait).verdict, Verdict::undeclared) << trait;
+    EXPECT_EQ(silent.at(trait).verdict, TraitVerdict::undeclared) << trait;
   }
 }
 
@@ -177,10 +177,10 @@ TEST(OrderFinding, CountsWhatTheOrdersTendTo) {
     wrong.push_back({h, std::pow(h, 4.5), 0});
   }
   const Finding tends = order_finding("order_free", false, 4, late);
-  EXPECT_EQ(order_finding("order_free", false, 4, wrong).verdict, Verdict::does_not_hold);
-  EXPECT_EQ(order_finding("order_free", false, 3, late).verdict, Verdict::does_not_hold);
+  EXPECT_EQ(order_finding("order_free", false, 4, wrong).verdict, TraitVerdict::does_not_hold);
+  EXPECT_EQ(order_finding("order_free", false, 3, late).verdict, TraitVerdict::does_not_hold);
   ASSERT_TRUE(tends.measured);
-  EXPECT_NE(tends.verdict, Verdict::undecided);
+  EXPECT_NE(tends.verdict, TraitVerdict::undecided);
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/temporary_folder.hpp"
+
 namespace polhode::viewer {
 namespace {
 
@@ -37,9 +39,15 @@ std::string film(const fs::path& path, int width, int height) {
   return bytes;
 }
 
-fs::path somewhere() { return fs::path(testing::TempDir()) / "polhode_viewer_test.mp4"; }
+class FilmTest : public testing::Test {
+ protected:
+  fs::path somewhere() const { return folder_.path() / "film.mp4"; }
 
-TEST(Film, TheSamePicturesGiveTheSameFileOfOddSizesToo) {
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(FilmTest, TheSamePicturesGiveTheSameFileOfOddSizesToo) {
   if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
   const std::string first = film(somewhere(), 161, 93);
   EXPECT_GT(first.size(), 500u);
@@ -47,7 +55,7 @@ TEST(Film, TheSamePicturesGiveTheSameFileOfOddSizesToo) {
   EXPECT_TRUE(first == film(somewhere(), 161, 93));
 }
 
-TEST(Film, OneThatIsNotFinishedLeavesNothing) {
+TEST_F(FilmTest, OneThatIsNotFinishedLeavesNothing) {
   if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
   {
     Film film(somewhere(), 64, 64, 25);
@@ -57,7 +65,7 @@ TEST(Film, OneThatIsNotFinishedLeavesNothing) {
   EXPECT_FALSE(fs::exists(somewhere().string() + ".new"));
 }
 
-TEST(Film, SaysWhatFfmpegSays) {
+TEST_F(FilmTest, SaysWhatFfmpegSays) {
   if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
   try {
     Film film("/nowhere/at/all.mp4", 64, 64, 25);
@@ -72,7 +80,7 @@ TEST(Film, SaysWhatFfmpegSays) {
   }
 }
 
-TEST(Film, WithoutFfmpegOneLineNamesThePackage) {
+TEST_F(FilmTest, WithoutFfmpegOneLineNamesThePackage) {
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", "/nowhere", 1);
   std::string said;

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "tests/temporary_folder.hpp"
+
 namespace polhode::viewer {
 namespace {
 
@@ -16,7 +18,8 @@ namespace fs = std::filesystem;
 TEST(Png, ReadsBackAsWritten) {
   Picture picture{37, 23, {}};
   for (int i = 0; i < 37 * 23 * 3; ++i) picture.rgb.push_back(std::uint8_t(i * 7 + i / 256));
-  const fs::path path = fs::path(testing::TempDir()) / "polhode_viewer_test.png";
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "picture.png";
   write_png(path, picture);
   EXPECT_FALSE(fs::exists(path.string() + ".new"));
 
@@ -29,7 +32,6 @@ TEST(Png, ReadsBackAsWritten) {
   std::vector<std::uint8_t> rgb(PNG_IMAGE_SIZE(image));
   ASSERT_TRUE(png_image_finish_read(&image, nullptr, rgb.data(), 0, nullptr)) << image.message;
   EXPECT_TRUE(rgb == picture.rgb);
-  fs::remove(path);
 }
 
 TEST(Png, AnErrorNamesTheFile) {

@@ -9,17 +9,17 @@
 namespace polhode::study {
 namespace {
 
-int gravity_of(Verdict verdict) {
+int gravity_of(TraitVerdict verdict) {
   switch (verdict) {
-    case Verdict::does_not_hold:
+    case TraitVerdict::does_not_hold:
       return 5;
-    case Verdict::absent:
+    case TraitVerdict::absent:
       return 4;
-    case Verdict::undeclared:
+    case TraitVerdict::undeclared:
       return 3;
-    case Verdict::holds:
+    case TraitVerdict::holds:
       return 2;
-    case Verdict::undecided:
+    case TraitVerdict::undecided:
       return 1;
     default:
       return 0;
@@ -33,17 +33,17 @@ bool worse(const Finding& a, const Finding& b) {
 
 }  // namespace
 
-std::string text(Verdict verdict) {
+std::string text(TraitVerdict verdict) {
   switch (verdict) {
-    case Verdict::holds:
+    case TraitVerdict::holds:
       return "holds";
-    case Verdict::does_not_hold:
+    case TraitVerdict::does_not_hold:
       return "does not hold";
-    case Verdict::undeclared:
+    case TraitVerdict::undeclared:
       return "holds, not declared";
-    case Verdict::absent:
+    case TraitVerdict::absent:
       return "not declared";
-    case Verdict::undecided:
+    case TraitVerdict::undecided:
       return "undecided";
     default:
       return "not applicable";
@@ -86,7 +86,8 @@ Finding kept(std::string trait, bool declared, double defect, double limit, std:
                   .note = {}};
   const bool holds = defect <= limit;  // false of what is no number
   finding.verdict =
-      declared ? (holds ? Verdict::holds : Verdict::does_not_hold) : (holds ? Verdict::undeclared : Verdict::absent);
+      declared ? (holds ? TraitVerdict::holds : TraitVerdict::does_not_hold)
+               : (holds ? TraitVerdict::undeclared : TraitVerdict::absent);
   return finding;
 }
 

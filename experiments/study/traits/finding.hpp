@@ -8,7 +8,7 @@
 
 namespace polhode::study {
 
-enum class Verdict {
+enum class TraitVerdict {
   holds,           ///< declared, and so it is
   does_not_hold,   ///< declared, and it is not so
   undeclared,      ///< not declared, but measured to hold
@@ -16,7 +16,7 @@ enum class Verdict {
   undecided,       ///< the measurement says nothing either way
   not_applicable,  ///< it makes no sense of this method, or on these motions
 };
-std::string text(Verdict verdict);
+std::string text(TraitVerdict verdict);
 
 struct Finding {
   std::string trait;               ///< one of trait_columns(): "symplecticity"
@@ -24,7 +24,7 @@ struct Finding {
   std::optional<double> measured;  ///< absent: at round-off, or not measured
   std::string unit;                ///< "1", "rad", …
   std::optional<double> limit;     ///< it holds up to here
-  Verdict verdict = Verdict::not_applicable;
+  TraitVerdict verdict = TraitVerdict::not_applicable;
   std::string on;    ///< the scenario that showed the worst
   std::string note;  ///< why, or what else was seen
 };

@@ -19,25 +19,25 @@ constexpr double tolerance_margin = 0.4;  // of the slope against a tolerance, a
 constexpr double straightness = 0.03;     // of ln(error): methods of several steps come to their order late
 constexpr double lost = 0.5;              // rad, or m: such an error says nothing about an order
 
-Verdict verdict_of(OrderVerdict seen) {
+TraitVerdict verdict_of(OrderVerdict seen) {
   switch (seen) {
     case OrderVerdict::as_declared:
     case OrderVerdict::exact_here:
-      return Verdict::holds;
+      return TraitVerdict::holds;
     case OrderVerdict::higher:
     case OrderVerdict::lower:
-      return Verdict::does_not_hold;
+      return TraitVerdict::does_not_hold;
     default:
-      return Verdict::undecided;
+      return TraitVerdict::undecided;
   }
 }
 
-Verdict against_tolerance(const OrderEstimate& estimate) {
-  if (estimate.exact) return Verdict::holds;
-  if (!estimate.line) return Verdict::undecided;
+TraitVerdict against_tolerance(const OrderEstimate& estimate) {
+  if (estimate.exact) return TraitVerdict::holds;
+  if (!estimate.line) return TraitVerdict::undecided;
   const double off = std::abs(estimate.line->order - 1);
-  if (off <= tolerance_margin) return Verdict::holds;
-  return off <= estimate.line->half_width_95 ? Verdict::undecided : Verdict::does_not_hold;
+  if (off <= tolerance_margin) return TraitVerdict::holds;
+  return off <= estimate.line->half_width_95 ? TraitVerdict::undecided : TraitVerdict::does_not_hold;
 }
 
 /// The order between the two smallest steps above round-off, where the orders between steps have come nearer to
@@ -95,14 +95,14 @@ Finding order_finding(std::string trait, bool adaptive, int declared, std::vecto
   const auto seen = judge(estimate, exact ? std::nullopt : std::optional<double>(declared));
   finding.verdict = verdict_of(seen);
   finding.note = note_of(estimate, seen);
-  if (exact || finding.verdict == Verdict::holds) return finding;
+  if (exact || finding.verdict == TraitVerdict::holds) return finding;
   const auto limit = limit_order(std::move(ladder), settings.lost, declared);
   if (limit && std::abs(*limit - declared) <= order_margin) {
     finding.note =
         fmt::format("a line through all points has {:.2f}; this is between the last two, and they tend to {}",
                     finding.measured.value_or(0), declared);
     finding.measured = limit;
-    finding.verdict = Verdict::holds;
+    finding.verdict = TraitVerdict::holds;
   }
   return finding;
 }

@@ -94,7 +94,7 @@ class RunTraits {
   static Finding without_run(const std::string& trait, const RunRecord& run) {
     Finding finding = not_applicable(trait, run.result.message);
     finding.on = run.config.scenario;
-    if (run.result.status != "refused") finding.verdict = Verdict::undecided;
+    if (run.result.status != "refused") finding.verdict = TraitVerdict::undecided;
     return finding;
   }
 

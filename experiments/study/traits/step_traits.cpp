@@ -39,7 +39,7 @@ Finding over_stages(const std::string& trait, const Subject& subject, std::span<
 
 Finding failed(const std::string& trait, const std::string& why) {
   Finding finding = not_applicable(trait, "a step failed: " + why);
-  finding.verdict = Verdict::undecided;
+  finding.verdict = TraitVerdict::undecided;
   return finding;
 }
 
@@ -304,10 +304,10 @@ Finding evaluations_per_step(const Subject& subject, std::span<const Stage> stag
         }
         Finding finding = not_applicable(trait, "not constant, by its declaration");
         finding.measured = static_cast<double>(asked) / steps;
-        finding.verdict = Verdict::absent;
+        finding.verdict = TraitVerdict::absent;
         if (declared > 0) {
           finding.declared = std::to_string(declared);
-          finding.verdict = *finding.measured == declared ? Verdict::holds : Verdict::does_not_hold;
+          finding.verdict = *finding.measured == declared ? TraitVerdict::holds : TraitVerdict::does_not_hold;
           finding.note.clear();
         }
         return finding;
