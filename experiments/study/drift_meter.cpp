@@ -12,6 +12,7 @@ namespace {
 
 constexpr int exact_instants = 50;
 constexpr int most_attitude_errors = 64;
+constexpr double round_off = 1e-13;  ///< of the energy scale
 constexpr std::int64_t fewest_samples = 32;  ///< that a drift can be classified by
 
 /// max(a, |x|) that a NaN does not get lost in.
@@ -198,6 +199,9 @@ void DriftMeter::measure_errors(const State<double>& state) {
 
 void DriftMeter::report(RunResult& result) {
   result.energy_initial = finite(energy_start_);
+  result.energy_scale = scales_.energy;
+  result.energy_drift_max = finite(sums_.worst_energy);
+  result.energy_round_off = round_off * scales_.energy;
   result.energy_drift_max_rel = finite(sums_.worst_energy / scales_.energy);
   result.energy_drift_final_rel = finite(sums_.last_energy / scales_.energy);
   const double n = static_cast<double>(sums_.samples);
@@ -243,7 +247,6 @@ void DriftMeter::judge_by_reference(RunResult& result) const {
 }
 
 void DriftMeter::classify(RunResult& result) const {
-  constexpr double round_off = 1e-13;
   const auto growth = growth_of(blocks_.finish(), sums_.worst_energy);
   if (growth) {
     result.energy_drift_rate_ci = growth->slope_half_width_95;

@@ -23,9 +23,10 @@ PATIENCE = 120  # s; a loaded machine is slow, a hanging program is not waited f
 
 RUNS_START = ["run", "scenario", "integrator", "orientation", "angular_state", "gyroscopic", "normalize", "rotation_from",
               "precision", "dt_s", "tolerance", "t_end_s", "broad_phase", "narrow_phase", "response", "impact_timing"]
-RUNS_RESULTS = ["status", "message", "steps", "rhs_evaluations", "energy_initial_J", "energy_drift_max_rel",
+RUNS_RESULTS = ["status", "message", "steps", "rhs_evaluations", "energy_initial_J", "energy_scale_J",
+                "energy_drift_max_J", "energy_round_off_J", "energy_drift_max_rel",
                 "energy_drift_final_rel", "energy_drift_rate_W", "drift_class", "energy_drift_rate_ci_W", "drift_exponent",
-                "drift_exponent_low", "drift_exponent_high", "linear_momentum_drift_max_rel",
+                "drift_exponent_low", "drift_exponent_high", "drift_decided_after_s", "linear_momentum_drift_max_rel",
                 "angular_momentum_drift_max_rel"]
 RUNS_END = ["orientation_defect_max", "position_error_max_m", "attitude_error_max_rad", "angular_velocity_error_max_rel",
             "polhode_phase_error_max_s", "polhode_phase_error_max_rad", "polhode_off_error_max_rel"]
