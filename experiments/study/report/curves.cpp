@@ -222,6 +222,10 @@ Quantity energy_drift() {
   return {
       "energy_drift_max_rel", "energy drift", "largest energy drift (relative)", "", 0, true, [](const RunResult& r) {
         return r.energy_drift_max_rel;
+      },
+      [](const RunResult& r) -> std::optional<double> {
+        if (!r.energy_round_off || !r.energy_scale) return std::nullopt;
+        return *r.energy_round_off / *r.energy_scale;
       }};
 }
 Quantity linear_momentum_drift() {
@@ -314,7 +318,8 @@ double round_off_level(const RunRecord& run) {
 }
 
 double round_off_level(const RunRecord& run, const Quantity& quantity) {
-  return std::max(round_off_level(run), quantity.round_off);
+  const auto own = quantity.round_off_of ? quantity.round_off_of(run.result) : std::nullopt;
+  return std::max({round_off_level(run), quantity.round_off, own.value_or(0)});
 }
 
 std::optional<Slope> observed_slope(const Curve& curve, const Quantity& quantity) {

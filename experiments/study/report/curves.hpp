@@ -52,6 +52,8 @@ struct Quantity {
   double round_off = 0;  ///< a value below this is round-off whatever the number of steps
   bool bounded = true;   ///< a value of 1 or more says that the motion is lost: relative drifts, defects, angles
   std::function<std::optional<double>(const RunResult&)> of;
+  /// The level of round-off where a run tells it itself; may be empty.
+  std::function<std::optional<double>(const RunResult&)> round_off_of{};
 };
 namespace quantity {
 Quantity energy_drift();

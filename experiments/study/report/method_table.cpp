@@ -47,7 +47,7 @@ std::string range_of_steps(const Curve& curve) {
 std::string energy_trend(const RunRecord& run) {
   const auto most = value(run, quantity::energy_drift());
   if (!most) return "";
-  if (*most <= round_off_level(run)) return "round-off";
+  if (*most <= round_off_level(run, quantity::energy_drift())) return "round-off";
   const double end = run.result.energy_drift_final_rel.value_or(0);
   if (!(std::abs(end) >= 0.1 * *most)) return "comes back";
   return end > 0 ? "gains" : "loses";

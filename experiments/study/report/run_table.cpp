@@ -94,6 +94,8 @@ std::vector<Field> results(const StudyView& study) {
       std::all_of(study.runs.begin(), study.runs.end(), [](const auto& r) { return r.result.status == "ok"; });
   fields.push_back({{"status", "", Kind::text}, [](const RunRecord& r) { return r.result.status; }, false, !all_ok});
   add("largest energy drift", "relative", &RunResult::energy_drift_max_rel);
+  add("largest energy drift", "J", &RunResult::energy_drift_max, false);
+  add("rounding of the energy", "J", &RunResult::energy_round_off, false);
   add("final energy drift", "relative", &RunResult::energy_drift_final_rel, false);
   add("energy drift rate", "W", &RunResult::energy_drift_rate, false);
   add("±", "W", &RunResult::energy_drift_rate_ci, false);

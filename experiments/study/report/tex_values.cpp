@@ -130,6 +130,8 @@ void define_count(std::string& out, const std::string& command, std::int64_t n) 
 
 void define_run(std::string& out, const std::string& run, const RunResult& r) {
   define(out, run + "EnergyDriftMax", r.energy_drift_max_rel);
+  define(out, run + "EnergyDriftMaxJ", r.energy_drift_max);
+  define(out, run + "EnergyScale", r.energy_scale);
   define(out, run + "EnergyDriftFinal", r.energy_drift_final_rel);
   define(out, run + "EnergyDriftRate", r.energy_drift_rate);
   define(out, run + "EnergyDriftRateInterval", r.energy_drift_rate_ci);
