@@ -81,10 +81,8 @@ bool is_measured(const Curve& curve, const Quantity& quantity);
 /// That number as tables and sentences print it; empty where there is none.
 std::string printed(const RunRecord& run, const Quantity& quantity);
 
-/// The distance from 1 to the next number of that arithmetic.
-double epsilon(Precision precision);
-
-/// The relative drift below which rounding alone may stand: 16 ε √steps, a random walk of rounding errors.
+/// The relative drift below which rounding alone may stand: 16 ε √steps, a random walk of rounding errors. Of the energy
+/// what the run says itself (energy_round_off), where it does.
 double round_off_level(const RunRecord& run);
 double round_off_level(const RunRecord& run, const Quantity& quantity);
 
