@@ -9,7 +9,9 @@
 namespace polhode::study {
 namespace {
 
-double size_of(const char* scenario, double t_end) { return motion_size(ScenarioSource::open(scenario).resolve(), t_end); }
+double size_of(const char* scenario, double seconds) {
+  return motion_size(ScenarioSource::open(scenario).resolve(), seconds);
+}
 
 TEST(MotionSize, IsHowFarAMassCentreGets) {
   // Thrown at 45° with 10 m/s each way: after 2 s at 20 m, 20 m − ½ g 4 s².
