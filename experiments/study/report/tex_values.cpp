@@ -11,7 +11,7 @@
 #include <map>
 #include <string_view>
 
-#include "experiments/study/report/curves.hpp"
+#include "experiments/study/report/error_ladder.hpp"
 #include "experiments/study/report/notation.hpp"
 
 namespace polhode::study::report {
@@ -166,7 +166,7 @@ void define_slopes(std::string& out, const StudyView& study) {
     for (const auto& [quantity, ending] : {std::pair(quantity::energy_drift(), "EnergyDriftSlope"),
                                            std::pair(quantity::angular_momentum_drift(), "AngularMomentumDriftSlope"),
                                            std::pair(quantity::attitude_error(), "AttitudeErrorSlope")}) {
-      if (const auto slope = observed_slope(curve, quantity)) define(lines, name + ending, slope->p);
+      if (const auto line = told_line(observed_order(curve, quantity))) define(lines, name + ending, line->order);
     }
   }
   if (!lines.empty()) out += "\n% Observed slopes against the step (Tolerance: against the tolerance).\n" + lines;
