@@ -32,7 +32,7 @@ struct Texts {
 Texts texts_of(const RunConfig& c) {
   const auto& f = c.formulation;
   return {
-      {c.scenario, fmt::format("t_end = {} s", number(c.t_end, 6)),
+      {c.scenario, fmt::format("t_end = {} s", rounded(c.t_end)),
        c.samples ? fmt::format("{} samples", *c.samples) : "every step seen", c.reference ? "with a reference" : ""},
       {std::string(name(f.orientation)), std::string(name(f.angular_state)),
        f.gyroscopic ? "gyroscopic on" : "gyroscopic off", fmt::format("rotation {}", name(f.rotation_from)),

@@ -75,7 +75,7 @@ class Durations {
 
   std::vector<std::string> describe(const RunConfig& config) const {
     std::vector<std::string> details;
-    if (ends_.at(config.scenario).size() > 1) details.push_back(fmt::format("t_end = {} s", number(config.t_end, 6)));
+    if (ends_.at(config.scenario).size() > 1) details.push_back(fmt::format("t_end = {} s", rounded(config.t_end)));
     if (samples_.at(config.scenario).size() > 1) {
       details.push_back(config.samples ? fmt::format("{} samples", *config.samples) : "every step seen");
     }
@@ -103,18 +103,11 @@ Options variant_options(const std::vector<RunRecord>& runs) {
            [](const RunConfig& c) { return c.summation ? std::string(name(*c.summation)) : std::string(); }}};
 }
 
-/// A TOML value; of a number no more than six digits, for a range has values like 2.4000000000000004.
-std::string shown_value(const std::string& text) {
-  char* end = nullptr;
-  const double number_in_it = std::strtod(text.c_str(), &end);
-  return end != text.c_str() && *end == '\0' ? number(number_in_it, 6) : text;
-}
-
 Case case_of(const RunConfig& config, const Durations& durations) {
   Case found{.scenario = config.scenario, .details = {}};
   for (const auto& varied : config.varied) {
     if (varied.value.empty()) continue;
-    found.details.push_back(fmt::format("{} = {}", varied.key, shown_value(varied.value)));
+    found.details.push_back(fmt::format("{} = {}", varied.key, rounded(varied.value)));
   }
   for (auto& text : durations.describe(config)) found.details.push_back(std::move(text));
   return found;
@@ -259,8 +252,8 @@ std::optional<double> abscissa(const RunRecord& run) {
 }
 
 std::string step_label(const RunRecord& run) {
-  if (run.config.tolerance) return fmt::format("tolerance = {}", number(*run.config.tolerance, 6));
-  return run.config.dt ? fmt::format("dt = {} s", number(*run.config.dt, 6)) : "no step";
+  if (run.config.tolerance) return fmt::format("tolerance = {}", rounded(*run.config.tolerance));
+  return run.config.dt ? fmt::format("dt = {} s", rounded(*run.config.dt)) : "no step";
 }
 
 std::string run_label(const Grouping& grouping, const Curve& curve, const RunRecord& run) {

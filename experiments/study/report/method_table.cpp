@@ -53,7 +53,7 @@ std::string largest(const Curve& curve, const Quantity& quantity) {
 std::string range_of_steps(const Curve& curve) {
   const auto first = abscissa(*curve.runs.front()), last = abscissa(*curve.runs.back());
   if (!first || !last) return "";
-  const auto range = *first == *last ? number(*first, 6) : fmt::format("{} … {}", number(*first, 6), number(*last, 6));
+  const auto range = *first == *last ? rounded(*first) : fmt::format("{} … {}", rounded(*first), rounded(*last));
   return curve.adaptive ? "tol. " + range : range + " s";
 }
 
