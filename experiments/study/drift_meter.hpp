@@ -51,6 +51,7 @@ class DriftMeter final : public Observer {
   void look(const State<double>& state, const Sample& sample) override;
   double next_look() const override;
   void account(const ContactLosses& losses) override { lost_in_contact_ = losses.total(); }
+  void meet(std::span<const Impact> impacts) override;
 
   /// J, against which energy drifts are told; 0: against none.
   double energy_scale() const { return scales_.energy; }
@@ -104,6 +105,7 @@ class DriftMeter final : public Observer {
   Sums sums_;
   ThinnedSeries series_;
   BlockMeans blocks_;
+  std::vector<double> impacts_;  ///< s, thinned
 };
 
 }  // namespace polhode::study

@@ -104,8 +104,8 @@ struct RunResult {
   std::optional<double> energy_drift_final_rel; ///< signed
   std::optional<double> energy_drift_rate;      ///< W, least-squares slope of the drift
   std::optional<double> energy_drift_rate_ci;   ///< W, half its 95 % confidence interval
-  std::string drift_class;                      ///< "round-off", or growth_class() of drift_growth.hpp; or empty
-  std::optional<double> drift_exponent;         ///< p of |drift| ~ t^p, and its 95 % confidence interval
+  std::string drift_class;                      ///< as drift_class.hpp has them; empty where the run is not ok
+  std::optional<double> drift_exponent;         ///< p of |drift| ~ t^p, and its 95 % confidence interval, of a class that has one
   std::optional<double> drift_exponent_low, drift_exponent_high;
   std::optional<double> drift_decided_after;    ///< s, of "undecided": the duration that would decide, by estimate
   std::optional<double> linear_momentum_drift_max_rel;   ///< absent: the forces do not conserve it

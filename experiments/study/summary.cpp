@@ -114,7 +114,7 @@ std::string summary_table(const StudyView& study) {
   const auto columns = shown_columns(cells, names);
   std::vector<std::vector<std::string>> table(1);
   for (const std::size_t k : columns) table[0].push_back(names[k]);
-  for (const char* h : {"status", "energy drift", "grows", "ang. momentum", "defect", "attitude rad"}) table[0].emplace_back(h);
+  for (const char* h : {"status", "energy drift", "its class", "ang. momentum", "defect", "attitude rad"}) table[0].emplace_back(h);
   const auto rows = shown_rows(study.runs.size());
   for (const std::size_t i : rows) {
     const RunResult& r = study.runs[i].result;
@@ -122,7 +122,9 @@ std::string summary_table(const StudyView& study) {
     for (const std::size_t k : columns) row.push_back(report::rounded(cells[i][k]));
     row.push_back(r.status);
     row.push_back(number(r.energy_drift_max_rel));
-    row.push_back(r.drift_class.empty() ? "-" : r.drift_class);
+    row.push_back(r.drift_class.empty()     ? "-"
+                  : r.drift_decided_after ? fmt::format("{} (try {:.2g} s)", r.drift_class, *r.drift_decided_after)
+                                          : r.drift_class);
     for (const auto& x : {r.angular_momentum_drift_max_rel, r.orientation_defect_max, r.attitude_error_max}) {
       row.push_back(number(x));
     }

@@ -54,10 +54,10 @@ std::string drift_phrase(const RunRecord& run) {
     text += fmt::format(" (of an initial energy of {} J)", number(*run.result.energy_initial, 6));
   const auto trend = energy_trend(run);
   if (trend == "gains" || trend == "loses") text += fmt::format("; the run {} energy", trend);
-  if (trend == "comes back") text += "; at the end the drift is back below a tenth of that";
+  if (trend == "comes back" && run.result.drift_class != "bounded") text += "; at the end the drift is back below a tenth of that";
   if (trend == "round-off") text += ", which is round-off";
   if (!run.result.drift_class.empty() && trend != "round-off")
-    text += fmt::format(", and the drift's growth is {}", growth_words(run.result));
+    text += fmt::format("; the drift's class is {}", growth_words(run.result));
   return text;
 }
 
@@ -94,14 +94,15 @@ std::vector<std::string> run_sentences(const StudyView& study, const Grouping& g
   return sentences;
 }
 
-constexpr std::array<std::pair<const char*, const char*>, 5> trend_words = {
+constexpr std::array<std::pair<const char*, const char*>, 6> trend_words = {
     {{"gains", "gained"},
      {"loses", "lost"},
      {"gains or loses", "gained or lost, depending on the step,"},
-     {"comes back", "neither gained nor lost for good (the drift comes back below a tenth of its largest value)"},
+     {"comes back", "neither gained nor lost for good (the drift is bounded, or back below a tenth of its largest value)"},
+     {"undecided", "not told from an oscillation"},
      {"round-off", "kept to round-off"}}};
 
-/// "Energy at the end of the runs: gained by a and b; lost by c." Of many motions and formulations: numbers of curves.
+/// "Energy over the runs: gained by a and b; lost by c." Of many motions and formulations: numbers of curves.
 std::vector<std::string> trends(const Grouping& grouping) {
   std::map<std::string, std::vector<const Curve*>> by_trend;
   std::vector<const Curve*> all;
@@ -124,9 +125,9 @@ std::vector<std::string> trends(const Grouping& grouping) {
     by_number.push_back(fmt::format("{} in {}", text, curves.size()));
   }
   if (by_name.empty()) return {};
-  auto sentence = fmt::format("Energy at the end of the runs: {}.", fmt::join(by_name, "; "));
+  auto sentence = fmt::format("Energy over the runs: {}.", fmt::join(by_name, "; "));
   if (sentence.size() <= most_characters) return {sentence};
-  return {fmt::format("Energy at the end of the runs, of {}: {}. The table method by method says which.",
+  return {fmt::format("Energy over the runs, of {}: {}. The table method by method says which.",
                       count(all.size(), "curve"), fmt::join(by_number, "; "))};
 }
 

@@ -60,10 +60,16 @@ std::string range_of_steps(const Curve& curve) {
 }  // namespace
 
 std::string energy_trend(const RunRecord& run) {
+  const RunResult& r = run.result;
   const auto most = value(run, quantity::energy_drift());
   if (!most) return "";
-  if (*most <= round_off_level(run, quantity::energy_drift())) return "round-off";
-  const double end = run.result.energy_drift_final_rel.value_or(0);
+  const std::string& c = r.drift_class;
+  if (*most <= round_off_level(run, quantity::energy_drift()) || c == "round-off") return "round-off";
+  if (c == "bounded") return "comes back";
+  if (c == "undecided") return "undecided";
+  const double end = r.energy_drift_final_rel.value_or(0);
+  const bool one_way = c == "sublinear" || c == "linear" || c == "quadratic" || c == "faster";
+  if (one_way) return r.energy_drift_rate.value_or(end) > 0 ? "gains" : "loses";
   if (!(std::abs(end) >= 0.1 * *most)) return "comes back";
   return end > 0 ? "gains" : "loses";
 }
@@ -74,6 +80,7 @@ std::string energy_trend(const Curve& curve) {
     if (auto trend = energy_trend(*run); !trend.empty()) trends.insert(std::move(trend));
   }
   if (trends.size() > 1) trends.erase("round-off");
+  if (trends.size() > 1) trends.erase("undecided");
   if (trends.size() > 1) trends.erase("comes back");
   return fmt::format("{}", fmt::join(trends, " or "));
 }
@@ -83,7 +90,7 @@ Table method_table(const Grouping& grouping) {
   Table table{
       .caption = "In brackets: the number of points behind a slope. In its place where the data do not tell it: round-off, errors "
                  "at round-off; lost, steps too large (an attitude off by more than half a radian, a drift above 0.5, or a "
-                 "run that did not end); uncertain, points on no line or too few of them. The energy column says where the energy ends",
+                 "run that did not end); uncertain, points on no line or too few of them. The energy column says what becomes of the energy",
       .columns = {{"method", "", Kind::name},
                   {"motion", "", Kind::text},
                   {"formulation", "", Kind::text},

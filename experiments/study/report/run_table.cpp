@@ -99,12 +99,13 @@ std::vector<Field> results(const StudyView& study) {
   add("final energy drift", "relative", &RunResult::energy_drift_final_rel, false);
   add("energy drift rate", "W", &RunResult::energy_drift_rate, false);
   add("±", "W", &RunResult::energy_drift_rate_ci, false);
-  fields.push_back({{"drift grows", "", Kind::text}, [](const RunRecord& r) { return r.result.drift_class; }});
+  fields.push_back({{"class of the drift", "", Kind::text}, [](const RunRecord& r) { return r.result.drift_class; }});
   add("exponent of its growth", "", &RunResult::drift_exponent, false);
   fields.push_back({{"95 % interval", "", Kind::text},
                     [](const RunRecord& r) { return exponent_interval(r.result); },
                     false,
                     false});
+  add("class decided after", "s", &RunResult::drift_decided_after, false);
   add("linear momentum drift", "relative", &RunResult::linear_momentum_drift_max_rel);
   add("angular momentum drift", "relative", &RunResult::angular_momentum_drift_max_rel);
   for (const auto& name : study.invariants) {
