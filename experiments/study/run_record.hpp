@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -17,6 +18,13 @@ namespace polhode::study {
 enum class Precision { single, dual, extended };
 constexpr std::string_view name(Precision p) {
   return p == Precision::single ? "float" : p == Precision::dual ? "double" : "long_double";
+}
+
+/// The distance from 1 to the next number of that arithmetic.
+constexpr double epsilon(Precision p) {
+  return p == Precision::single ? std::numeric_limits<float>::epsilon()
+         : p == Precision::dual ? std::numeric_limits<double>::epsilon()
+                                : static_cast<double>(std::numeric_limits<long double>::epsilon());
 }
 
 /// How the increments of the state are added up.

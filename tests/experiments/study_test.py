@@ -844,12 +844,13 @@ class Simulate(StudyTest):
                 _, rows = self.columns(out / "energy.csv")
                 run = read_table(out / "runs.csv").rows[0]
                 start = float(run["energy_initial_J"])
-                scale = abs(start)  # none of these cancels
+                scale = float(run["energy_scale_J"])
                 for t, kinetic, potential, work, impact, friction, penetration, projection, drift in rows:
                     ledger = kinetic + potential - work + impact + friction - penetration - projection - start
                     self.assertAlmostEqual(ledger, drift, delta=1e-12 * max(kinetic, abs(potential), scale))
-                self.assertAlmostEqual(max(abs(r[8]) for r in rows), float(run["energy_drift_max_rel"]) * scale,
-                                       delta=1e-14 * scale)
+                largest = max(abs(r[8]) for r in rows)
+                self.assertAlmostEqual(largest, float(run["energy_drift_max_J"]), delta=1e-14 * scale)
+                self.assertAlmostEqual(largest, float(run["energy_drift_max_rel"]) * scale, delta=1e-14 * scale)
                 self.assertAlmostEqual(rows[-1][8], float(run["energy_drift_final_rel"]) * scale, delta=1e-14 * scale)
                 energies = {r[0]: r[18] for r in self.columns(out / "trajectory.csv")[1]}
                 for r in rows:
