@@ -85,8 +85,8 @@ class Stability {
                     number(100 * verdict::slow), number(verdict::counted)),
         fmt::format("The motion is followed by a run as long as asked for in which the attitude error stays below {} "
                     "rad and the position error below {} of the largest displacement, both against the exact motion or "
-                    "a reference, the relative drift of momenta and further invariants below {}, and the orientation "
-                    "defect below {}. The largest step at which it is followed is looked for from below, like the "
+                    "a reference, the relative drift of momenta and further invariants below {} (of the energy too, "
+                    "where the motion is not known), and the orientation defect below {}. The largest step at which it is followed is looked for from below, like the "
                     "critical step.",
                     number(followed::attitude), number(followed::position), number(followed::momentum),
                     number(followed::defect)),
@@ -319,8 +319,8 @@ class Stability {
     }
     const auto unknown = all_passed(where, [](const auto& f) { return !f.ladder.measured; }, limit);
     if (!unknown.empty()) {
-      all.push_back(fmt::format("{}: no exact motion is known, so that momenta and the orientation alone say whether it is "
-                                "followed; --reference measures the motion.",
+      all.push_back(fmt::format("{}: no exact motion is known, so that invariants and the orientation alone say up to where it "
+                                "is followed at most; --reference measures the motion.",
                                 where));
     }
     return all;

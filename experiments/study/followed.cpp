@@ -9,7 +9,7 @@
 namespace polhode::study {
 namespace {
 
-constexpr int instants = 200;
+constexpr int path_instants = 200;
 
 /// A reference leaves out an error that is less than a hundred times its own uncertainty.
 constexpr double left_out_below = 100;
@@ -38,7 +38,9 @@ Lost what_is_lost(const RunRecord& run, double displacement) {
   if (std::any_of(further.begin(), further.end(), [](const auto& i) { return i.second > followed::momentum; })) {
     return Lost::invariant;
   }
-  return r.orientation_defect_max.value_or(0) > followed::defect ? Lost::orientation : Lost::nothing;
+  if (r.orientation_defect_max.value_or(0) > followed::defect) return Lost::orientation;
+  const bool energy = !is_measured(run) && r.energy_drift_max_rel.value_or(0) > followed::momentum;
+  return energy ? Lost::energy : Lost::nothing;
 }
 
 bool is_measured(const RunRecord& run) {
@@ -54,8 +56,8 @@ double exact_displacement(const Problem& problem, const Formulation& formulation
     if (problem.bodies[i].pinned) continue;
     const ExactPath path = exact_path(*system, i);
     if (!path) return 0;
-    for (int k = 0; k <= instants; ++k) {
-      largest = std::max(largest, (path(t_end * k / instants).position - problem.starts[i].position).norm());
+    for (int k = 0; k <= path_instants; ++k) {
+      largest = std::max(largest, (path(t_end * k / path_instants).position - problem.starts[i].position).norm());
     }
   }
   return largest;

@@ -13,11 +13,12 @@ namespace polhode::study {
 namespace followed {
 inline constexpr double attitude = 1;    ///< rad, error against the exact motion or a reference
 inline constexpr double position = 0.25;  ///< error over the largest displacement of the exact path: half an amplitude
-inline constexpr double momentum = 0.1;  ///< relative drift of momenta and of the scenario's further invariants
+inline constexpr double momentum = 0.1;  ///< relative drift of momenta and of the scenario's further invariants; of the energy too, where
+                                         ///< the motion is not known
 inline constexpr double defect = 0.1;    ///< of the orientation
 }  // namespace followed
 
-/// What was lost, the first of these that is beyond its bound.
+/// What was lost: the first of these that is beyond its bound.
 enum class Lost {
   nothing,
   end,          ///< the run diverged or failed
@@ -26,6 +27,7 @@ enum class Lost {
   momentum,
   invariant,
   orientation,  ///< its defect
+  energy,       ///< judged only where the motion is not known
 };
 constexpr std::string_view name(Lost lost) {
   switch (lost) {
@@ -35,6 +37,7 @@ constexpr std::string_view name(Lost lost) {
     case Lost::momentum: return "momentum";
     case Lost::invariant: return "invariant";
     case Lost::orientation: return "orientation defect";
+    case Lost::energy: return "energy";
     default: return "";
   }
 }
