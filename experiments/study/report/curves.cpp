@@ -308,17 +308,6 @@ std::string printed(const RunRecord& run, const Quantity& quantity) {
   return found ? number(*found) : "";
 }
 
-double epsilon(Precision precision) {
-  switch (precision) {
-    case Precision::single:
-      return std::numeric_limits<float>::epsilon();
-    case Precision::dual:
-      return std::numeric_limits<double>::epsilon();
-    default:
-      return static_cast<double>(std::numeric_limits<long double>::epsilon());
-  }
-}
-
 double round_off_level(const RunRecord& run) {
   const auto steps = static_cast<double>(std::max<std::int64_t>(run.result.steps, 1));
   return 16 * epsilon(run.config.precision) * std::sqrt(steps);

@@ -77,9 +77,6 @@ std::optional<double> value(const RunRecord& run, const Quantity& quantity);
 /// That number as tables and sentences print it; empty where there is none.
 std::string printed(const RunRecord& run, const Quantity& quantity);
 
-/// The distance from 1 to the next number of that arithmetic.
-double epsilon(Precision precision);
-
 /// The relative drift below which rounding alone may stand: 16 ε √steps, a random walk of rounding errors.
 double round_off_level(const RunRecord& run);
 double round_off_level(const RunRecord& run, const Quantity& quantity);
