@@ -42,6 +42,8 @@ struct ScenarioSource::Parsed {
 
 namespace {
 
+constexpr std::string_view list_scenarios = "./run energy_drift --list scenarios";
+
 std::vector<std::string_view> builtin_names() {
   std::vector<std::string_view> all;
   for (const BuiltinScenario& scenario : builtin_scenarios()) all.push_back(scenario.name);
@@ -54,8 +56,7 @@ std::string text_of(const std::string& path) {
   std::error_code error;
   if (path.find('/') == std::string::npos && !std::filesystem::exists(path, error)) {
     const std::string stem = std::filesystem::path(path).stem().string();
-    throw InputError(path + ": no such file, or it cannot be read" +
-                     suggestion(stem, "Built-in scenarios, without .toml", builtin_names()));
+    throw InputError(path + ": no such file, or it cannot be read" + suggestion_of_many(stem, builtin_names(), list_scenarios));
   }
   return read_text(path);
 }
@@ -119,7 +120,7 @@ ScenarioSource ScenarioSource::open(const std::string& name_or_path, const std::
     return ScenarioSource(std::make_unique<Parsed>(name_or_path, "builtin " + name_or_path, scenario.text));
   }
   throw InputError(label + ": no built-in scenario is called '" + name_or_path + "'" +
-                   suggestion(name_or_path, "There are", builtin_names()) + "; a file's name holds a '/' or ends in .toml");
+                   suggestion_of_many(name_or_path, builtin_names(), list_scenarios) + "; a file's name holds a '/' or ends in .toml");
 }
 
 ScenarioSource ScenarioSource::parse(std::string text, std::string origin) {
