@@ -15,6 +15,7 @@
 #include "experiments/study/listing.hpp"
 #include "experiments/study/options.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/program.hpp"
 #include "experiments/study/progress.hpp"
 #include "experiments/study/references.hpp"
 #include "experiments/study/report/notation.hpp"
@@ -28,7 +29,7 @@
 namespace polhode::study {
 namespace {
 
-constexpr int bad_input = 2, not_carried_out = 3, interrupted = 130;
+constexpr int interrupted = 130;  ///< exit status
 
 std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free);  // so that a signal handler may set it
@@ -256,7 +257,7 @@ int run_study(const Experiment& experiment, const Options& options) {
 }  // namespace
 
 int run_experiment(const Experiment& experiment, int argc, const char* const* argv) {
-  try {
+  const auto program = [&] {
     const ParsedOptions parsed = parse_options(experiment, argc, argv);
     if (parsed.exit_status) return *parsed.exit_status;
     if (parsed.options.list) {
@@ -264,16 +265,8 @@ int run_experiment(const Experiment& experiment, int argc, const char* const* ar
       return 0;
     }
     return run_study(experiment, parsed.options);
-  } catch (const InputError& error) {
-    std::string line = error.what();
-    std::replace(line.begin(), line.end(), '\n', ' ');
-    fmt::print(stderr, "{}: {}\n", experiment.name, line);
-    return bad_input;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}; finished runs are kept, and the same command goes on from there\n", experiment.name,
-               error.what());
-    return not_carried_out;
-  }
+  };
+  return run_program(experiment.name, program, "; finished runs are kept, and the same command goes on from there");
 }
 
 }  // namespace polhode::study
