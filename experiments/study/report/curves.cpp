@@ -314,7 +314,10 @@ double round_off_level(const RunRecord& run) {
 }
 
 double round_off_level(const RunRecord& run, const Quantity& quantity) {
-  return std::max(round_off_level(run), quantity.round_off);
+  const double level = std::max(round_off_level(run), quantity.round_off);
+  const auto &round_off = run.result.energy_round_off, &scale = run.result.energy_scale;
+  const bool of_energy = quantity.column == "energy_drift_max_rel" && round_off && scale && *scale > 0;
+  return of_energy ? std::max(level, *round_off / *scale) : level;
 }
 
 std::optional<Slope> observed_slope(const Curve& curve, const Quantity& quantity) {

@@ -49,7 +49,7 @@ std::string energy_trend(const RunRecord& run) {
   const auto most = value(run, quantity::energy_drift());
   if (!most) return "";
   const std::string& c = r.drift_class;
-  if (*most <= round_off_level(run) || c == "round-off") return "round-off";
+  if (*most <= round_off_level(run, quantity::energy_drift()) || c == "round-off") return "round-off";
   if (c == "bounded") return "comes back";
   if (c == "undecided") return "undecided";
   const double end = r.energy_drift_final_rel.value_or(0);
