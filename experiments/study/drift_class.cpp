@@ -14,6 +14,7 @@ constexpr double seen_beside = 0.16;     // of an oscillation that was taken out
 constexpr double still = 0.02;           // of the largest drift: what is left is negligible
 constexpr double nearly_still = 0.1;     // the same, where no growth of half as much can hide in it
 constexpr double bounded_limit = 0.15;   // of the largest drift: more of a growth would have been seen
+constexpr double large = 0.1;            // of the energy scale: the method blows up
 constexpr double swells = 1.5;           // times the largest drift of the first half
 constexpr double periods_enough = 6;
 constexpr double longest = 1000, shortest = 1.5;  // runs, of the duration that would decide
@@ -96,9 +97,16 @@ void decide(DriftClass& c, const char* name, double exponent, double low, double
   c.high = high;
 }
 
+/// The duration in which there would be enough periods of the slowest oscillation that is known.
+std::optional<double> more_periods(const DriftRecord& record, const DriftGrowth& g) {
+  constexpr double fewest = 1.5;  // a change over the whole run counts as so many
+  const double periods = g.slow_periods > 0 ? g.slow_periods : g.slowest_line;
+  return periods > 0 ? duration(record, periods_enough / std::max(periods, fewest)) : std::nullopt;
+}
+
 void classify_one_way(const DriftRecord& record, const DriftGrowth& g, DriftClass& c) {
   if (g.slow_periods > 0) {
-    c.decided_after = duration(record, periods_enough / g.slow_periods);
+    c.decided_after = more_periods(record, g);
     return;
   }
   // What is not known of the oscillations, and what is left of the growth, bend p by so much at most.
@@ -106,19 +114,16 @@ void classify_one_way(const DriftRecord& record, const DriftGrowth& g, DriftClas
   const double bent = bends * (unknown_of_oscillations(g) + g.misfit) / g.change;
   const double half_width = std::hypot((g.high - g.low) / 2, bent);
   const double low = std::max(g.exponent - half_width, 0.0), high = g.exponent + half_width;
-  // A run-away in the last moments is one of the drift, not a rest of the oscillations.
-  constexpr double sudden = 8;
-  if (g.exponent > sudden && g.change < record.largest / 2) return;
+  // What rises at the end of a run may be the first of many pulses, as where a body turns over.
+  constexpr double sudden = 5, twice = 2;
+  if (high > sudden && record.largest < large * record.scale) {
+    c.decided_after = duration(record, twice);
+    return;
+  }
   for (const Bounds& b : one_way) {
     if (low >= b.from && high < b.to) return decide(c, b.name, g.exponent, low, high);
   }
   if (g.exponent > 0) c.decided_after = duration(record, std::pow(half_width / narrow, 1 / (g.exponent + 0.5)));
-}
-
-/// The duration in which there would be enough periods of the slowest oscillation that is known.
-std::optional<double> more_periods(const DriftRecord& record, const DriftGrowth& g) {
-  const double periods = g.slow_periods > 0 ? g.slow_periods : g.slowest_line;
-  return periods > 0 ? duration(record, periods_enough / periods) : std::nullopt;
 }
 
 void classify_both_ways(const DriftRecord& record, const DriftGrowth& g, DriftClass& c) {

@@ -65,10 +65,10 @@ std::function<double(double)> growth(Chance& chance, const std::string& kind) {
   if (kind == "quadratic") return [](double s) { return s * s; };
   if (kind == "sublinear") return [](double s) { return std::sqrt(s); };
   if (chance.one_in(2)) {
-    const double p = chance.uniform(3.5, 6);
+    const double p = chance.uniform(3, 4.5);
     return [p](double s) { return std::pow(s, p); };
   }
-  const double rate = chance.uniform(6, 12);
+  const double rate = chance.uniform(4, 10);
   return [rate](double s) { return std::expm1(rate * s) / std::expm1(rate); };
 }
 
@@ -154,7 +154,7 @@ Drift drift(const std::string& kind, Chance& chance) {
   d.law = [=](double s) { return size * (grows(s) + share * beside(s)); };
   if (chance.one_in(3)) d.walk = std::max(d.walk, std::abs(size) * chance.logarithmic(1e-3, 0.1));
   if (chance.one_in(3)) d.noise = std::abs(size) * chance.logarithmic(1e-3, 0.1);
-  d.clear = above > 100 && d.samples >= 100 && (alone || (periods >= 8 && share < 3)) && kind != "sublinear";
+  d.clear = above > 100 && d.samples >= 100 && (alone || (periods >= 8 && share < 3)) && kind != "sublinear" && kind != "faster";
   return d;
 }
 
