@@ -27,8 +27,8 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double unknown = std::numeric_limits<double>::infinity();
 /// rad: what a program in double precision cannot do better is right.
 constexpr double flawless = 1e-7;
-/// rad, of half a radian: rows that miss more do not follow the equations at all.
-constexpr double astray = 0.05;
+/// For each rad of a span, and at most: rows that miss by more do not follow the equations at all.
+constexpr double astray_per_rad = 0.1, most_astray = 0.5;
 /// rad and relative: an error of the whole run below this needs no cause in the size of the steps.
 constexpr double small_error = 0.01;
 
@@ -62,7 +62,6 @@ Hypothesis both(const Hypothesis& a, const Hypothesis& b) {
   h.causes.insert(h.causes.end(), b.causes.begin(), b.causes.end());
   h.words.insert(h.words.end(), b.words.begin(), b.words.end());
   h.touched.insert(b.touched.begin(), b.touched.end());
-  h.excused = a.excused || b.excused;
   if (b.touched.contains('q')) h.reading.transposed = b.reading.transposed, h.reading.order = b.reading.order;
   if (b.touched.contains('w')) h.reading.rates_in_body = b.reading.rates_in_body;
   if (b.touched.contains('u')) h.reading.rate_unit = b.reading.rate_unit;
@@ -532,14 +531,15 @@ class Trial {
     return h;
   }
 
-  /// The motion runs faster or slower than t_s: the factor that fits best. A method of second order that takes a turn of x
-  /// rad in a step is slow or fast by x²/12 and more: what steps as large as the rows are apart excuse, up to 0.7 rad, is
-  /// no sign of a wrong clock.
+  /// The motion runs faster or slower than t_s: the factor that fits best. A method of second order that turns by x rad in
+  /// a step is slow or fast by x²/12 to x²/4, dmv exactly so but for the attitude: what steps as large as the rows are
+  /// apart excuse is no sign of a wrong clock, unless the fit is far better than such a method's and the axis moves.
   std::optional<Hypothesis> rescaled(const Hypothesis& base) const {
     constexpr double reach = 0.3, grid = 0.01;
     const auto& t = raw_.times;
     const double row = (t.back() - t.front()) / static_cast<double>(t.size() - 1) * rate_;
-    const double excusable = std::clamp(row * row / 12, 2e-3, 0.04);
+    constexpr double least_excusable = 2e-3, most_excusable = 0.08, far_better = 100;
+    const double excusable = std::clamp(row * row / 4, least_excusable, most_excusable);
     const std::size_t stride = std::max<std::size_t>(1, spans_.size() / 6);
     Hypothesis h = base;
     const auto miss = [&](double log_clock) {
@@ -561,10 +561,24 @@ class Trial {
                               number(clock, 5))};
     only.touched = {'t'};
     only.clock = clock;
-    only.excused = std::abs(clock - 1) <= excusable;
     h = both(base, only);
     settle(h);
+    const double off = std::abs(clock - 1);
+    h.excused = off <= least_excusable || (off <= excusable && (h.miss * far_better > base.miss || steady(base)));
     return h;
+  }
+
+  /// Whether ω hardly changes over the spans: then a turn is all there is to see.
+  bool steady(const Hypothesis& h) const {
+    constexpr double little = 0.1;  // of the turn
+    double changes = 0;
+    for (const auto& [from, to] : spans_) {
+      const VectorX<double> a = state_of(from, h.reading), b = state_of(to, h.reading);
+      for (const Layout::Slot& s : right_.system().layout().slots) {
+        changes += (a.segment<3>(s.angular) - b.segment<3>(s.angular)).norm() / rate_;
+      }
+    }
+    return changes < little * span_ * static_cast<double>(spans_.size() * raw_.moving);
   }
 
   /// The lowest point of a function between two places, by the golden section.
@@ -593,6 +607,8 @@ class Trial {
     if (large(r.attitude_error_max) || large(r.energy_drift_max_rel) || large(r.angular_momentum_drift_max_rel)) return true;
     return miss / span_ * rate_ * (raw_.times.back() - raw_.times.front()) > small_error;
   }
+
+  double astray() const { return std::min(astray_per_rad * span_, most_astray); }
 
   static bool same_causes(const Hypothesis& a, const Hypothesis& b) { return a.causes == b.causes; }
 
@@ -627,7 +643,7 @@ class Trial {
     const bool explains = best->miss * naming_factor <= plain.miss;
     // Two things at once are looked for where one alone leaves much to explain.
     constexpr double much = 1e-3;
-    if (explains ? best->miss > much : plain.miss > astray || material(plain.miss)) {
+    if (explains ? best->miss > much : plain.miss > astray() || material(plain.miss)) {
       const std::vector<Hypothesis> double_faults = pairs(plain, single, std::min(best->miss, plain.miss));
       if (!double_faults.empty()) {
         const auto [pair, other_pair] = best_two(double_faults);
@@ -637,7 +653,7 @@ class Trial {
       }
     }
     if (explains && !best->excused) return named(*best, other, plain, plain);
-    if (plain.miss > astray) result.name = "unexplained";
+    if (plain.miss > astray()) result.name = "unexplained";
     return result;
   }
 

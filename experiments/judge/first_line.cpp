@@ -27,7 +27,8 @@ std::string invariants_words(const RunResult& r) {
   for (const auto& [name, drift] : r.invariant_drift_max_rel) add(name, drift);
   std::vector<std::string> holds, lost;
   for (const auto& [name, drift] : drifts) {
-    if (drift <= held) holds.push_back(fmt::format("{} {} {}", name, holds.empty() ? "holds to" : "to", report::number(drift)));
+    const std::string to = drift > 0 ? "to " + report::number(drift) : "exactly";
+    if (drift <= held) holds.push_back(fmt::format("{}{} {}", name, holds.empty() ? " holds" : "", to));
     else lost.push_back(fmt::format("{} {} {} %", name, lost.empty() ? "is lost by" : "by", report::number(100 * drift)));
   }
   holds.insert(holds.end(), lost.begin(), lost.end());
@@ -37,13 +38,16 @@ std::string invariants_words(const RunResult& r) {
 /// "attitude is right to 1e-9 rad, angular velocity is off by 20 %"
 std::string errors_words(const RunResult& r) {
   std::vector<std::string> words;
-  if (r.position_error_max) words.push_back(fmt::format("position is right to {} m", report::number(*r.position_error_max)));
+  if (r.position_error_max == 0.0) words.emplace_back("position is exact");
+  else if (r.position_error_max) words.push_back(fmt::format("position is right to {} m", report::number(*r.position_error_max)));
   if (r.attitude_error_max) {
     const bool right = *r.attitude_error_max <= held;
-    words.push_back(fmt::format("attitude is {} {} rad", right ? "right to" : "off by", report::number(*r.attitude_error_max)));
+    if (*r.attitude_error_max == 0) words.emplace_back("attitude is exact");
+    else words.push_back(fmt::format("attitude is {} {} rad", right ? "right to" : "off by", report::number(*r.attitude_error_max)));
   }
   if (const auto& e = r.angular_velocity_error_max_rel) {
-    words.push_back(*e <= held ? fmt::format("angular velocity to {}", report::number(*e))
+    if (*e == 0) words.emplace_back("angular velocity is exact");
+    else words.push_back(*e <= held ? fmt::format("angular velocity is right to {}", report::number(*e))
                                : fmt::format("angular velocity is off by {} %", report::number(100 * *e)));
   }
   return fmt::format("{}", fmt::join(words, ", "));
@@ -81,7 +85,7 @@ std::string pace_words(const TrajectoryScore& score) {
 }
 
 void append(std::string& text, const std::string& clause) {
-  if (!clause.empty()) text += (text.ends_with(' ') ? "" : "; ") + clause;
+  if (!clause.empty()) text += (text.ends_with(": ") ? "" : "; ") + clause;
 }
 
 }  // namespace
@@ -107,24 +111,27 @@ std::string first_line(const Judged& judged) {
   const bool off = large(r.energy_drift_max_rel) || large(r.linear_momentum_drift_max_rel) ||
                    large(r.angular_momentum_drift_max_rel) || large(r.attitude_error_max) ||
                    large(r.angular_velocity_error_max_rel);
-  if (d.name.empty()) text += off ? "not sound" : "sound";
-  else if (d.name == "unexplained") {
+  const std::string measured = invariants_words(r) + errors_words(r);
+  if (d.name.empty()) {
+    text += measured.empty() ? "nothing can be measured" : off ? "off, and no cause is sought" : "sound";
+  } else if (d.name == "unexplained") {
     text += fmt::format("wrong, and no cause that was tried explains it (its rows miss the scenario's motion by {} rad in "
                         "{} rad)", report::number(d.miss), report::number(d.span));
   } else if (d.name != "none") {
     text += d.words;
     if (d.factor) {
-      text += fmt::format(" (fits {} times better than the scenario's motion", report::number(*d.factor, 2));
+      text += fmt::format(" (fits {} times better than the scenario's own motion", report::number(*d.factor, 2));
       const bool alone = d.margin && *d.margin >= naming_factor;
       text += alone ? fmt::format(", {} times better than any other cause tried)", report::number(*d.margin, 2)) : ")";
     }
   } else if (off) {
-    text += fmt::format("no wrong convention or equation: the rows follow the scenario's motion to {} rad in {} rad, and "
-                        "such errors have grown", report::number(d.miss), report::number(d.span));
+    text += fmt::format("no wrong convention or equation: {} rad of the motion are right to {} rad, and the errors add up",
+                        report::number(d.span, 2), report::number(d.miss));
   } else {
     text += "sound";
   }
   if (!d.untried.empty()) text += " (" + d.untried + ")";
+  text += ": ";
   append(text, invariants_words(r));
   append(text, errors_words(r));
   append(text, pace_words(score));
@@ -138,6 +145,10 @@ std::string first_line(const Judged& judged) {
       return parts;
     }(), ", ")));
   }
+  if (!r.attitude_error_max && !score.record.config.reference) {
+    append(text, "no exact motion is known, --reference measures the errors");
+  }
+  if (text.ends_with(": ")) text.resize(text.size() - 2);
   return text + ".";
 }
 
