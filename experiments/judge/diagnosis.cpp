@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -17,6 +18,7 @@
 #include "experiments/judge/faulty_motion.hpp"
 #include "experiments/study/characteristic_rate.hpp"
 #include "experiments/study/report/notation.hpp"
+#include "integrators/catalogue.hpp"
 
 namespace polhode::study {
 namespace {
@@ -31,6 +33,8 @@ constexpr double flawless = 1e-7;
 constexpr double astray_per_rad = 0.1, most_astray = 0.5;
 /// rad and relative: an error of the whole run below this needs no cause in the size of the steps.
 constexpr double small_error = 0.01;
+
+constexpr double finest_step = 1e-3;  ///< rad, of the first-order steps that are tried
 
 /// A first-order method with so many steps from row to row.
 struct Steps {
@@ -159,10 +163,65 @@ class Trial {
         if (elsewhere.name != "unexplained") return elsewhere;
       }
     }
+    if (result.name == "none") check_columns(result);
     return result;
   }
 
  private:
+  /// A free motion is the same with half the inertia; the program's own angular momentum and energy are not.
+  void check_columns(Diagnosis& result) const {
+    constexpr double least = 1e-3;
+    const System<double>& system = right_.system();
+    const std::size_t n = raw_.times.size(), stride = std::max<std::size_t>(1, n / 256);
+    struct Column {
+      const char* what;
+      double factor;       ///< of the inertia behind it
+      bool in_body;
+      double miss = 0;     ///< squared
+    };
+    std::vector<Column> momenta, energies;
+    for (const double factor : {1.0, 0.25, 0.5, 2.0, 4.0}) {
+      momenta.push_back({"angular momentum", factor, false});
+      energies.push_back({"energy", factor, false});
+    }
+    momenta.push_back({"angular momentum", 1, true});
+    double size_l = 0, size_e = 0;
+    for (std::size_t k = 0; k < n; k += stride) {
+      const VectorX<double> y = state_of(k, {});
+      double rotation = 0;
+      for (std::size_t i = 0; i < raw_.moving; ++i) {
+        const BodySnapshot<double> body = system.snapshot(y, i);
+        const Vector3<double>& l = body.angular_momentum;
+        rotation += 0.5 * body.angular_velocity.dot(l);
+        size_l += l.squaredNorm();
+        const Vector3<double>& own = raw_.bodies[k * raw_.moving + i].angular_momentum;
+        for (Column& c : momenta) {
+          const Vector3<double> meant = c.in_body ? Vector3<double>(body.rotation.transpose() * l) : Vector3<double>(c.factor * l);
+          c.miss += (own - meant).squaredNorm();
+        }
+      }
+      if (!raw_.has_energy) continue;
+      size_e += rotation * rotation;
+      const double energy = system.measure(y).energy();
+      for (Column& c : energies) c.miss += std::pow(raw_.energy[k] - energy - (c.factor - 1) * rotation, 2);
+    }
+    const auto look = [&](std::vector<Column>& columns, double size) {
+      const double plain = columns.front().miss;
+      const auto best = std::min_element(columns.begin(), columns.end(), [](const auto& a, const auto& b) { return a.miss < b.miss; });
+      if (!(plain > least * least * size) || best->miss * naming_factor * naming_factor > plain) return false;
+      result.factor = std::sqrt(plain / std::max(best->miss, 1e-24 * size));
+      result.name = best->in_body ? "momentum_frame" : "inertia";
+      result.words = best->in_body ? "its angular momentum is in body axes"
+                                   : fmt::format("its {} is that of {} times the scenario's inertia, though the motion is right",
+                                                 best->what, number(best->factor));
+      return true;
+    };
+    const bool has_l = raw_.has_angular_velocity && raw_.has_angular_momentum;
+    if (has_l && look(momenta, size_l)) return;
+    const bool knows_energy = (raw_.has_position && raw_.has_velocity) || !any_path() || exact_.has_position();
+    if (raw_.has_energy && knows_energy) look(energies, size_e);
+  }
+
   bool any_path() const {
     const auto& bodies = scenario_.problem.bodies;
     for (std::size_t i = 0; i < raw_.moving; ++i) {
@@ -422,12 +481,11 @@ class Trial {
 
   /// The best whole number of steps from row to row for each first-order method, and the best of these.
   std::optional<Hypothesis> stepped(const Hypothesis& base) const {
-    constexpr double finest = 1e-3;  // rad in a step
     constexpr std::size_t refined = 6;
     const std::size_t stride = std::max<std::size_t>(1, spans_.size() / 6);
     const auto& t = raw_.times;
     const double row = (t.back() - t.front()) / static_cast<double>(t.size() - 1) * rate_;
-    const int most = static_cast<int>(std::clamp(row / finest, 1.0, 4096.0));
+    const int most = static_cast<int>(std::clamp(row / finest_step, 1.0, 4096.0));
     std::vector<Hypothesis> tried;
     using Step = FirstOrderStep;
     for (const auto state : {Step::State::velocity_world, Step::State::velocity_body, Step::State::momentum_world}) {
@@ -461,6 +519,88 @@ class Trial {
     Hypothesis h = both(base, only);
     h.miss = best.miss;
     return h;
+  }
+
+  /// The same with a rotation matrix that no step brings back to a rotation, by the catalogue's methods.
+  std::optional<Hypothesis> stepped_as_stored(const Hypothesis& plain) const {
+    if (!raw_.has_matrix || !raw_.has_angular_velocity) return std::nullopt;
+    const auto& t = raw_.times;
+    const std::size_t stride = std::max<std::size_t>(1, spans_.size() / 6);
+    const double row = (t.back() - t.front()) / static_cast<double>(t.size() - 1) * rate_;
+    const int most = static_cast<int>(std::clamp(row / finest_step, 1.0, 4096.0));
+    Hypothesis best = plain;
+    best.miss = unknown;
+    for (const auto state : {AngularState::velocity_world, AngularState::velocity_body, AngularState::momentum_world}) {
+      for (const char* method : {"explicit_euler", "semi_implicit_euler"}) {
+        const auto system = make_system<double>(scenario_.problem, {Orientation::matrix, state, true});
+        const auto integrator = find_integrator(method)->make(*system, {});
+        const auto miss = [&](int n, std::size_t each) { return miss_as_stored(*system, *integrator, n, each); };
+        for (int n = 1; n <= most; n = n < 16 ? n + 1 : n + n / 8) {
+          const double here = miss(n, stride);
+          if (here >= best.miss) continue;
+          best.miss = here;
+          best.steps.per_row = n;
+          best.words = {fmt::format("its steps are those of a first-order method, {} Euler on {} and a rotation matrix "
+                                    "that is never brought back to a rotation, with {} s",
+                                    method[0] == 'e' ? "explicit" : "semi-implicit",
+                                    state == AngularState::velocity_world  ? "ω in world axes"
+                                    : state == AngularState::velocity_body ? "ω in body axes"
+                                                                           : "L",
+                                    number(row / rate_ / n))};
+        }
+      }
+    }
+    best.causes = {"first_order_step"};
+    best.touched = {'m'};
+    return best;
+  }
+
+  double miss_as_stored(const System<double>& system, Integrator<double>& integrator, int per_row, std::size_t stride) const {
+    const auto& t = raw_.times;
+    std::vector<double> misses;
+    for (std::size_t k = 0; k < spans_.size(); k += stride) {
+      const auto [from, to] = spans_[k];
+      State<double> state{t[from], state_as_stored(system, from)};
+      bool followed = true;
+      for (std::size_t j = from; j < to && followed; ++j) {
+        integrator.begin(state);
+        followed = integrator.advance(state, (t[j + 1] - t[j]) / per_row, per_row).ok();
+        state.t = t[j + 1];
+      }
+      double sum = 0;
+      for (std::size_t i = 0; i < raw_.moving; ++i) {
+        const BodySnapshot<double> now = system.snapshot(state.y, i);
+        const TrajectoryBody& row = raw_.bodies[to * raw_.moving + i];
+        const double size = std::sqrt(2.0 / 3) * row.rotation.norm();  // √2 of a rotation
+        sum += (now.rotation - row.rotation).squaredNorm() / (size * size) +
+               (now.angular_velocity - row.angular_velocity).squaredNorm() / (rate_ * rate_);
+      }
+      const double d = std::sqrt(sum / static_cast<double>(raw_.moving));
+      misses.push_back(followed && d < std::numbers::pi ? d : std::numbers::pi);
+    }
+    return typical(std::move(misses));
+  }
+
+  /// A row with its matrix as it is.
+  VectorX<double> state_as_stored(const System<double>& system, std::size_t k) const {
+    VectorX<double> y = system.start().y;
+    const VectorX<double> plain = state_of(k, {});
+    for (std::size_t i = 0; i < raw_.moving; ++i) {
+      const TrajectoryBody& body = raw_.bodies[k * raw_.moving + i];
+      const Layout::Slot s = system.layout().slots[i], from = right_.system().layout().slots[i];
+      Eigen::Map<Matrix3<double>>{y.data() + s.orientation} = body.rotation;
+      Vector3<double> angular = plain.segment<3>(from.angular);
+      const AngularState kind = system.formulation().angular_state;
+      if (kind != AngularState::velocity_world) angular = (body.rotation.inverse() * angular).eval();
+      if (kind == AngularState::momentum_world) {
+        angular = (body.rotation.transpose().inverse() * (system.problem().bodies[i].inertia * angular)).eval();
+      }
+      y.segment<3>(s.angular) = angular;
+      if (s.position < 0) continue;
+      y.segment<3>(s.position) = plain.segment<3>(from.position);
+      y.segment<3>(s.velocity) = plain.segment<3>(from.velocity);
+    }
+    return y;
   }
 
   /// The number of steps near the one found: the miss falls to one side of the best and rises on the other.
@@ -637,7 +777,9 @@ class Trial {
       if (fit) single.push_back(*fit);
     }
     if (material(plain.miss)) {
-      if (const auto fit = stepped(plain)) single.push_back(*fit);
+      for (const auto& fit : {stepped(plain), stepped_as_stored(plain)}) {
+        if (fit) single.push_back(*fit);
+      }
     }
     const auto [best, other] = best_two(single);
     const bool explains = best->miss * naming_factor <= plain.miss;
