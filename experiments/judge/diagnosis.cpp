@@ -132,7 +132,10 @@ class Trial {
     if (!raw_.has_angular_velocity && !raw_.has_angular_momentum) {
       return "without angular velocity or momentum no reading can be tried";
     }
-    if (!scenario_.colliders.empty()) return "the forces of contact are not in the file, so no reading can be tried";
+    if (!scenario_.colliders.empty()) {
+      return "what its contacts do is not in the file, so energy, momenta and errors are against a motion without them and "
+             "no reading can be tried";
+    }
     const System<double>& system = right_.system();
     const bool place_matters = system.forces_exert_torques() && !(raw_.has_position && raw_.has_velocity) &&
                                !exact_.has_position() && any_path();
@@ -488,9 +491,9 @@ class Trial {
     const int most = static_cast<int>(std::clamp(row / finest_step, 1.0, 4096.0));
     std::vector<Hypothesis> tried;
     using Step = FirstOrderStep;
-    for (const auto state : {Step::State::velocity_world, Step::State::velocity_body, Step::State::momentum_world}) {
-      if (state == Step::State::momentum_world && base.equations.gyroscopic != 1) continue;
-      for (const auto order : {Step::Order::together, Step::Order::velocity_first, Step::Order::attitude_first}) {
+    for (const auto order : {Step::Order::together, Step::Order::velocity_first, Step::Order::attitude_first}) {
+      for (const auto state : {Step::State::velocity_world, Step::State::velocity_body, Step::State::momentum_world}) {
+        if (state == Step::State::momentum_world && base.equations.gyroscopic != 1) continue;
         for (const auto turn : {Step::Turn::quaternion, Step::Turn::exponential, Step::Turn::matrix}) {
           Hypothesis best = base;
           best.miss = unknown;
@@ -504,10 +507,16 @@ class Trial {
         }
       }
     }
-    std::stable_sort(tried.begin(), tried.end(), [](const auto& a, const auto& b) { return a.miss < b.miss; });
-    tried.resize(std::min(tried.size(), refined));
-    for (Hypothesis& h : tried) refine(h, most, stride);
-    Hypothesis best = *std::min_element(tried.begin(), tried.end(), [](const auto& a, const auto& b) { return a.miss < b.miss; });
+    std::vector<double> misses;
+    for (const Hypothesis& h : tried) misses.push_back(h.miss);
+    std::nth_element(misses.begin(), misses.begin() + refined - 1, misses.end());
+    double least = unknown;
+    for (Hypothesis& h : tried) {
+      if (h.miss <= misses[refined - 1]) refine(h, most, stride);
+      least = std::min(least, h.miss);
+    }
+    // Some of them are the same in a free motion: the first in the list is the plainest.
+    Hypothesis best = *std::find_if(tried.begin(), tried.end(), [&](const auto& h) { return h.miss <= 2 * least + 1e-9; });
     settle(best);
     const double size = row / rate_ / best.steps.per_row;
     Hypothesis only;
@@ -795,6 +804,9 @@ class Trial {
       }
     }
     if (explains && !best->excused) return named(*best, other, plain, plain);
+    if (explains && std::abs(best->clock - 1) > 2e-3) {
+      result.remark = fmt::format("at t_s it is where it should be at {} t_s, by its steps or its clock", number(best->clock, 5));
+    }
     if (plain.miss > astray()) result.name = "unexplained";
     return result;
   }
@@ -839,10 +851,15 @@ class Trial {
     result.factor = plain.miss / least;
     const double rival = std::min(other ? other->miss : unknown, simpler.miss);
     result.margin = rival / least;
-    result.name = joined(h.causes, "+");
+    const auto name = [](const Hypothesis& of) {
+      std::vector<std::string> causes = of.causes;
+      causes.erase(std::unique(causes.begin(), causes.end()), causes.end());
+      return joined(causes, "+");
+    };
+    result.name = name(h);
     result.words = joined(h.words, ", and ");
     if (other && *result.margin < naming_factor) {
-      result.name += "|" + joined(other->causes, "+");
+      result.name += "|" + name(*other);
       result.words = "either " + result.words + ", or " + joined(other->words, ", and ");
       return result;
     }

@@ -25,6 +25,7 @@ struct Diagnosis {
   std::string name;
   std::string words;               ///< what is wrong, as a clause; empty for "none"
   std::string untried;             ///< why nothing, or not all, could be tried; may be empty
+  std::string remark;              ///< what fits but may have another cause than a fault; may be empty
   double miss = 0;                 ///< rad, of the plain reading, over half a radian
   double span = 0;                 ///< rad, of the spans over which it was taken
   std::optional<double> factor;    ///< how much better the named reading fits than the plain one

@@ -113,14 +113,15 @@ std::string first_line(const Judged& judged) {
                    large(r.angular_velocity_error_max_rel);
   const std::string measured = invariants_words(r) + errors_words(r);
   if (d.name.empty()) {
-    text += measured.empty() ? "nothing can be measured" : off ? "off, and no cause is sought" : "sound";
+    text += measured.empty() ? "nothing can be measured" : off ? "off, and no cause can be sought" : "sound as far as can be seen";
   } else if (d.name == "unexplained") {
     text += fmt::format("wrong, and no cause that was tried explains it (its rows miss the scenario's motion by {} rad in "
                         "{} rad)", report::number(d.miss), report::number(d.span));
   } else if (d.name != "none") {
     text += d.words;
     if (d.factor) {
-      text += fmt::format(" (fits {} times better than the scenario's own motion", report::number(*d.factor, 2));
+      text += fmt::format(" (fits {} times better than the scenario's {}", report::number(*d.factor, 2),
+                          d.margin ? "own motion" : "inertia");
       const bool alone = d.margin && *d.margin >= naming_factor;
       text += alone ? fmt::format(", {} times better than any other cause tried)", report::number(*d.margin, 2)) : ")";
     }
@@ -135,6 +136,7 @@ std::string first_line(const Judged& judged) {
   append(text, invariants_words(r));
   append(text, errors_words(r));
   append(text, pace_words(score));
+  append(text, d.remark);
   if (judged.meant) {
     const RunResult& m = judged.meant->record.result;
     append(text, "read rightly, " + fmt::format("{}", fmt::join([&] {

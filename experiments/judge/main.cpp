@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far is a trajectory, from whatever program, from the exact motion, and how does its energy drift?
+// How far is a trajectory, from whatever program, from the exact motion, and what is wrong with it?
 #include <fmt/format.h>
 
 #include <algorithm>
