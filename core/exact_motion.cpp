@@ -16,7 +16,7 @@ bool torque_free(const System<double>& system, std::size_t body) {
 ExactMotion::ExactMotion(const System<double>& system) {
   const Problem& problem = system.problem();
   double fastest = 0;
-  bool any_path = false, all_paths = true;
+  bool all_paths = true;
   for (std::size_t i = 0; i < system.moving(); ++i) {
     rotations_.push_back(exact_rotation(system, i));
     paths_.push_back(exact_path(system, i));
@@ -24,10 +24,10 @@ ExactMotion::ExactMotion(const System<double>& system) {
     has_attitude_ = has_attitude_ && rotations_[i] && rotations_[i](0).orientation;
     fastest = std::max(fastest, problem.starts[i].angular_velocity.norm());
     if (problem.bodies[i].pinned) continue;
-    any_path = true;
+    any_path_ = true;
     all_paths = all_paths && paths_[i];
   }
-  has_position_ = any_path && all_paths;
+  has_position_ = any_path_ && all_paths;
   if (fastest > 0) speed_scale_ = fastest;
 }
 

@@ -20,6 +20,8 @@ class ExactMotion {
   bool has_attitude() const { return has_attitude_; }                  ///< for every moving body
   bool has_angular_velocity() const { return has_angular_velocity_; }  ///< for every moving body
   bool has_position() const { return has_position_; }  ///< for every moving body that is not pinned, if there is one
+  /// Attitude and position of every moving body.
+  bool is_complete() const { return has_attitude_ && (has_position_ || !any_path_); }
   bool has_anything() const { return has_attitude_ || has_angular_velocity_ || has_position_; }
 
   struct BodyAt {
@@ -38,6 +40,7 @@ class ExactMotion {
 
  private:
   bool has_attitude_ = true, has_angular_velocity_ = true, has_position_ = false;
+  bool any_path_ = false;  ///< a body is not pinned
   std::vector<ExactRotation> rotations_;
   std::vector<ExactPath> paths_;
   double speed_scale_ = 1;  ///< rad/s

@@ -51,12 +51,6 @@ bool equal(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std:
 
 bool has_principal_axes(const Body& body) { return body.inertia.isDiagonal(0); }
 
-/// J, the weight's greatest potential energy m g l about the pivot; 0 for a body that is not pinned.
-double weight_energy(const Problem& problem) {
-  const Body& body = problem.bodies.front();
-  return body.mass * gravity(problem).norm() * body.center_of_mass.norm();
-}
-
 // Refusals: empty, or the reason.
 
 std::string refuse_unless_alone(const Problem& problem) {
@@ -122,27 +116,14 @@ double kovalevskaya(const Problem& problem, const Snapshot& s) {
 
 double casimir(const Problem&, const Snapshot& s) { return s.angular_momentum.norm(); }
 
-// Scales: the value at the start, or where that is round-off the size of what it is made of.
+// Scales: the size of the terms, never that of their difference.
 
-/// kg m²/s: |L|, of a top at rest what gravity can make of it in one swing, √(m g l I).
-double momentum_scale(const Problem& problem, const Snapshot& s) {
-  const double l = s.angular_momentum.norm();
-  if (l > 0) return l;
-  const double swing = std::sqrt(weight_energy(problem) * problem.bodies.front().inertia.trace());
-  return swing > 0 ? swing : 1;
-}
-
-double scale_or(double value, double size) { return std::abs(value) > 1e-9 * size ? std::abs(value) : size; }
-
-double p_phi_scale(const Problem& p, const Snapshot& s) { return scale_or(p_phi(p, s), momentum_scale(p, s)); }
-double p_psi_scale(const Problem& p, const Snapshot& s) { return scale_or(p_psi(p, s), momentum_scale(p, s)); }
+double momentum_scale(const Problem&, const Snapshot& s) { return s.angular_momentum.norm(); }
 
 double kovalevskaya_scale(const Problem& problem, const Snapshot& s) {
   const double size = angular_velocity_body(s).squaredNorm() + std::abs(kovalevskaya_k(problem));
-  return size > 0 ? scale_or(kovalevskaya(problem, s), size * size) : 1;
+  return size * size;
 }
-
-double casimir_scale(const Problem& problem, const Snapshot& s) { return momentum_scale(problem, s); }
 
 }  // namespace
 
@@ -150,14 +131,14 @@ const std::vector<InvariantKind>& invariant_catalogue() {
   static const std::vector<InvariantKind> invariants = {
       {"p_phi", "kg m^2/s",
        "vertical component of a top's angular momentum about its pivot, against gravity or along z", refuse_unless_top,
-       p_phi, p_phi_scale},
+       p_phi, momentum_scale},
       {"p_psi", "kg m^2/s", "I3 W3, a symmetric top's angular momentum along body axis 3", refuse_p_psi, p_psi,
-       p_psi_scale},
+       momentum_scale},
       {"kovalevskaya", "1/s^4",
        "(W1^2 - W2^2 - k g1)^2 + (2 W1 W2 - k g2)^2, g the vertical in body axes, k = m g l/I3, inertia [2, 2, 1] I3",
        refuse_kovalevskaya, kovalevskaya, kovalevskaya_scale},
       {"casimir", "kg m^2/s", "|L| about the mass centre, or the pivot, of a body without torque", refuse_casimir,
-       casimir, casimir_scale},
+       casimir, momentum_scale},
   };
   return invariants;
 }

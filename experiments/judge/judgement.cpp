@@ -33,7 +33,7 @@ Table table_of(const std::vector<Judged>& judged) {
                           {"energy drift", "relative"},
                           {"drift rate", "W"},
                           {"±", "W"},
-                          {"grows", "", Kind::text},
+                          {"its class", "", Kind::text},
                           {"p"},
                           {"95 %", "", Kind::text},
                           {"linear momentum", "relative"},

@@ -5,14 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "experiments/study/energy_scale.hpp"
-
 namespace polhode::study {
 namespace {
 
 constexpr int exact_instants = 50;
 constexpr int most_attitude_errors = 64;
-constexpr std::int64_t fewest_samples = 32;  ///< that a drift can be classified by
 
 /// max(a, |x|) that a NaN does not get lost in.
 void raise(double& worst, double x) {
@@ -63,66 +60,48 @@ void ThinnedSeries::merge() {
 std::vector<SeriesPoint> ThinnedSeries::finish(double energy_scale, double linear_scale, double angular_scale) {
   std::vector<SeriesPoint> points = points_;
   if (in_open_ > 0) points.push_back(open_);
+  const auto over = [](double drift, double scale) { return scale > 0 ? drift / scale : 0.0; };
   for (SeriesPoint& p : points) {
-    p.energy_drift_rel /= energy_scale;
-    p.linear_momentum_drift_rel = std::sqrt(p.linear_momentum_drift_rel) / linear_scale;
-    p.angular_momentum_drift_rel = std::sqrt(p.angular_momentum_drift_rel) / angular_scale;
+    p.energy_drift_rel = over(p.energy_drift_rel, energy_scale);
+    p.linear_momentum_drift_rel = over(std::sqrt(p.linear_momentum_drift_rel), linear_scale);
+    p.angular_momentum_drift_rel = over(std::sqrt(p.angular_momentum_drift_rel), angular_scale);
   }
   return points;
 }
 
 DriftMeter::DriftMeter(const System<double>& system, const std::vector<std::string>& invariants, double t_end,
-                       bool exact_at_samples, std::shared_ptr<const ReferenceMotion> reference)
+                       bool exact_at_samples, TrueMotion motion, Precision precision)
     : system_(system),
       t_end_(t_end),
       exact_at_samples_(exact_at_samples),
       conserved_(conserved_momenta(system)),
       exact_(system),
-      reference_(std::move(reference)),
+      reference_(std::move(motion.reference)),
       has_exact_(exact_.has_anything() || reference_),
+      scales_(std::move(motion.scales)),
+      precision_(precision),
       polhode_(PolhodeError::of(system)) {
   if (reference_) follower_.emplace(reference_);
   for (const std::string& name : invariants) invariants_.push_back({find_invariant(name)});
-}
-
-DriftScales drift_scales(const System<double>& system, const State<double>& start, const Measurement<double>& m) {
-  DriftScales scales;
-  scales.energy = energy_scale_of(m);
-  // Against the size of the momentum; where the bodies' momenta cancel, or nothing moves, against the sum of their
-  // sizes, and then against 1 kg m/s or 1 kg m²/s.
-  double linear_sum = 0, angular_sum = 0;
-  for (std::size_t i = 0; i < system.moving(); ++i) {
-    const BodySnapshot<double> body = system.snapshot(start.y, i);
-    const double p = system.problem().bodies[i].mass * body.velocity.norm();
-    linear_sum += p;
-    angular_sum += body.angular_momentum.norm() + (system.moving() > 1 ? p * body.position.norm() : 0.0);
-  }
-  const auto scale = [](double size, double sum) {
-    const double s = size >= 1e-9 * sum ? size : sum;
-    return s > 0 ? s : 1.0;
-  };
-  scales.linear = scale(m.linear_momentum.norm(), linear_sum);
-  scales.angular = scale(m.angular_momentum.norm(), angular_sum);
-  return scales;
 }
 
 void DriftMeter::start(const State<double>& state, const Sample& sample) {
   const Measurement<double>& m = sample.seen;
   started_ = true;
   energy_start_ = sample.ledger(0);
-  scales_ = drift_scales(system_, state, m);
   linear_start_ = m.linear_momentum;
   angular_start_ = m.angular_momentum;
   for (Watched& w : invariants_) {
     const BodySnapshot<double> body = system_.snapshot(state.y, 0);
     w.start = w.kind->value(system_.problem(), body);
-    w.scale = w.kind->scale(system_.problem(), body);
   }
 }
 
 std::size_t DriftMeter::observe(std::span<const Sample> samples) {
-  const double bound = hopeless_energy_drift * scales_.energy, per_t_end = 1 / t_end_, energy_start = energy_start_;
+  const double bound = scales_.energy > 0 ? hopeless_drift * scales_.energy : std::numeric_limits<double>::max();
+  const double per_t_end = 1 / t_end_, energy_start = energy_start_;
   const ConservedMomenta conserved = conserved_;
+  const bool several = system_.moving() > 1;
   Sums sums = sums_;  // a copy, which the compiler can keep in registers
   std::size_t taken = 0;
   for (; taken < samples.size(); ++taken) {
@@ -130,7 +109,12 @@ std::size_t DriftMeter::observe(std::span<const Sample> samples) {
     const Measurement<double>& m = sample.seen;
     const double energy = sample.ledger(lost_in_contact_) - energy_start;
     const double linear2 = conserved.linear ? (m.linear_momentum - linear_start_).squaredNorm() : 0.0;
-    const double angular2 = conserved.angular ? (m.angular_momentum - angular_start_).squaredNorm() : 0.0;
+    double angular2 = 0;
+    if (conserved.angular) {
+      Vector3<double> change = m.angular_momentum - angular_start_;
+      if (several) change -= scales_.mass_center.cross(m.linear_momentum - linear_start_);
+      angular2 = change.squaredNorm();
+    }
     raise(sums.worst_energy, energy);
     raise(sums.worst_linear2, linear2);
     raise(sums.worst_angular2, angular2);
@@ -144,7 +128,7 @@ std::size_t DriftMeter::observe(std::span<const Sample> samples) {
     sums.d += energy;
     sums.td += s * energy;
     ++sums.samples;
-    if (!(std::abs(energy) <= bound)) break;
+    if (!(std::abs(energy) <= bound && m.kinetic <= bound)) break;
   }
   sums_ = sums;
   return taken;
@@ -170,10 +154,11 @@ void DriftMeter::look(const State<double>& state, const Sample& sample) {
 
 void DriftMeter::measure_further(const State<double>& state) {
   const BodySnapshot<double> body = system_.snapshot(state.y, 0);
-  for (Watched& w : invariants_) raise(w.worst, (w.kind->value(system_.problem(), body) - w.start) / w.scale);
+  for (Watched& w : invariants_) raise(w.worst, w.kind->value(system_.problem(), body) - w.start);
 }
 
 void DriftMeter::measure_errors(const State<double>& state) {
+  errors_until_ = state.t;
   ExactMotion::Error e = exact_.error(system_, state);
   const double next_kept = t_end_ * static_cast<double>(attitude_errors_.size()) / most_attitude_errors;
   if (e.attitude && state.t >= next_kept * (1 - 1e-12)) attitude_errors_.push_back({state.t, *e.attitude});
@@ -198,6 +183,9 @@ void DriftMeter::measure_errors(const State<double>& state) {
 
 void DriftMeter::report(RunResult& result) {
   result.energy_initial = finite(energy_start_);
+  if (scales_.energy > 0) result.energy_scale = scales_.energy;
+  result.energy_drift_max = finite(sums_.worst_energy);
+  result.energy_round_off = scales_.energy_round_off(precision_, result.steps);
   result.energy_drift_max_rel = finite(sums_.worst_energy / scales_.energy);
   result.energy_drift_final_rel = finite(sums_.last_energy / scales_.energy);
   const double n = static_cast<double>(sums_.samples);
@@ -207,8 +195,9 @@ void DriftMeter::report(RunResult& result) {
   }
   if (conserved_.linear) result.linear_momentum_drift_max_rel = finite(std::sqrt(sums_.worst_linear2) / scales_.linear);
   if (conserved_.angular) result.angular_momentum_drift_max_rel = finite(std::sqrt(sums_.worst_angular2) / scales_.angular);
-  for (const Watched& w : invariants_) {
-    if (std::isfinite(w.worst)) result.invariant_drift_max_rel[w.kind->name] = w.worst;
+  for (std::size_t k = 0; k < invariants_.size(); ++k) {
+    const auto drift = finite(invariants_[k].worst / scales_.invariants[k]);
+    if (drift) result.invariant_drift_max_rel[invariants_[k].kind->name] = *drift;
   }
   result.orientation_defect_max = finite(sums_.worst_defect);
   const auto only_finite = [](const std::optional<double>& x) { return x ? finite(*x) : std::nullopt; };
@@ -222,8 +211,17 @@ void DriftMeter::report(RunResult& result) {
   }
   if (reference_) judge_by_reference(result);
   result.attitude_errors = attitude_errors_;
+  // What was seen before a run broke off, often its start alone, says nothing of how wrong it was in the end.
+  const bool broke_off = result.status != "ok" && !(errors_until_ >= result.t_reached && result.t_reached > 0);
+  if (broke_off) forget_errors(result);
   result.series = series_.finish(scales_.energy, scales_.linear, scales_.angular);
   if (result.status == "ok") classify(result);
+}
+
+void DriftMeter::forget_errors(RunResult& result) {
+  result.position_error_max = result.attitude_error_max = result.angular_velocity_error_max_rel = std::nullopt;
+  result.polhode_phase_error_max = result.polhode_phase_error_max_rad = result.polhode_off_error_max_rel = std::nullopt;
+  result.attitude_errors.clear();
 }
 
 void DriftMeter::judge_by_reference(RunResult& result) const {
@@ -242,20 +240,33 @@ void DriftMeter::judge_by_reference(RunResult& result) const {
         result.angular_velocity_reference_rel);
 }
 
+void DriftMeter::meet(std::span<const Impact> impacts) {
+  constexpr double apart = 1e-3;  // of the run: less than a block
+  for (const Impact& impact : impacts) {
+    if (impacts_.empty() || impact.t > impacts_.back() + apart * t_end_) impacts_.push_back(impact.t);
+  }
+}
+
 void DriftMeter::classify(RunResult& result) const {
-  constexpr double round_off = 1e-13;
-  const auto growth = growth_of(blocks_.finish(), sums_.worst_energy);
-  if (growth) {
-    result.energy_drift_rate_ci = growth->slope_half_width_95;
-    result.drift_exponent = growth->exponent;
-    result.drift_exponent_low = growth->low;
-    result.drift_exponent_high = growth->high;
+  DriftRecord record;
+  record.blocks = blocks_.finish();
+  record.largest = sums_.worst_energy;
+  if (!(scales_.energy > 0)) record.largest_early = record.largest;  // then the series has no energies
+  for (const SeriesPoint& p : result.series) {
+    if (p.t <= t_end_ / 2) record.largest_early = std::max(record.largest_early, std::abs(p.energy_drift_rel) * scales_.energy);
   }
-  if (sums_.worst_energy <= round_off * scales_.energy) {
-    result.drift_class = sums_.samples < fewest_samples ? "" : "round-off";
-  } else if (growth) {
-    result.drift_class = growth_class(growth->exponent, growth->secular);
-  }
+  record.round_off = result.energy_round_off.value_or(0);
+  record.scale = scales_.energy;
+  record.samples = sums_.samples;
+  record.t_end = t_end_;
+  record.impacts = impacts_;
+  const DriftClass found = polhode::study::classify(record);
+  result.drift_class = found.name;
+  result.energy_drift_rate_ci = found.slope_half_width;
+  result.drift_exponent = found.exponent;
+  result.drift_exponent_low = found.low;
+  result.drift_exponent_high = found.high;
+  result.drift_decided_after = found.decided_after;
 }
 
 }  // namespace polhode::study

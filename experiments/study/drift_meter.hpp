@@ -2,8 +2,7 @@
 // Watches a run and measures how far its invariants drift and how far it is from the exact motion.
 //
 // Energy is a ledger: E = kinetic + potential − work of non-conservative forces + energy lost in contact − energy injected
-// by projection. Its drift is what the ledger cannot explain. Each relative drift is taken against a scale that is never
-// zero.
+// by projection. Its drift is what the ledger cannot explain. Relative drifts are told against the scales of the motion.
 #pragma once
 
 #include <memory>
@@ -16,6 +15,7 @@
 #include "core/simulate.hpp"
 #include "experiments/study/drift_growth.hpp"
 #include "experiments/study/polhode_error.hpp"
+#include "experiments/study/references.hpp"
 #include "experiments/study/run_record.hpp"
 
 namespace polhode::study {
@@ -39,44 +39,38 @@ class ThinnedSeries {
   std::size_t per_point_ = 1;  ///< samples in one stretch
 };
 
-/// What relative drifts of a run are taken against; none is zero.
-struct DriftScales {
-  double energy = 1;   ///< J
-  double linear = 1;   ///< kg m/s
-  double angular = 1;  ///< kg m²/s
-};
-/// From the start of the run.
-DriftScales drift_scales(const System<double>& system, const State<double>& start, const Measurement<double>& seen);
-
 class DriftMeter final : public Observer {
  public:
   /// `exact_at_samples`: the errors against the exact motion are taken at every sample; otherwise at 50 instants spread
   /// evenly over the run (the first sample at or after each) and at its end, since they cost more than a step.
-  /// `reference`: stands for what is not known exactly; may be null.
+  /// `motion.reference`: stands for what is not known exactly; may be null. `precision`: of the run.
   DriftMeter(const System<double>& system, const std::vector<std::string>& invariants, double t_end,
-             bool exact_at_samples, std::shared_ptr<const ReferenceMotion> reference = nullptr);
+             bool exact_at_samples, TrueMotion motion, Precision precision = Precision::dual);
 
   std::size_t observe(std::span<const Sample> samples) override;
   void look(const State<double>& state, const Sample& sample) override;
   double next_look() const override;
   void account(const ContactLosses& losses) override { lost_in_contact_ = losses.total(); }
+  void meet(std::span<const Impact> impacts) override;
 
-  /// J, against which energy drifts are taken; after the first sample.
+  /// J, against which energy drifts are told; 0: against none.
   double energy_scale() const { return scales_.energy; }
 
-  /// Fills the measured part of the result.
+  /// Fills the measured part of the result, which has its status and its steps. Of a run that broke off there are errors
+  /// against the exact motion only where they were measured at its last state.
   void report(RunResult& result);
 
  private:
   void start(const State<double>& state, const Sample& sample);
   void measure_further(const State<double>& state);
   void measure_errors(const State<double>& state);
+  static void forget_errors(RunResult& result);
   void judge_by_reference(RunResult& result) const;
   void classify(RunResult& result) const;
 
   struct Watched {
     const InvariantKind* kind;
-    double start = 0, scale = 1, worst = 0;
+    double start = 0, worst = 0;
   };
 
   const System<double>& system_;
@@ -90,13 +84,15 @@ class DriftMeter final : public Observer {
   bool has_exact_;  ///< or a reference
   bool started_ = false;
 
-  DriftScales scales_;
+  MotionScales scales_;
+  Precision precision_;
   double energy_start_ = 0;
   double lost_in_contact_ = 0;  ///< J
   Vector3<double> linear_start_, angular_start_;
   double next_exact_ = 0;
   std::int64_t exact_count_ = 0;
   ExactMotion::Error worst_error_;
+  double errors_until_ = 0;  ///< s, when they were measured last
   std::vector<AttitudeError> attitude_errors_;
   std::optional<PolhodeError> polhode_;
   PolhodeError::At worst_polhode_;
@@ -109,6 +105,7 @@ class DriftMeter final : public Observer {
   Sums sums_;
   ThinnedSeries series_;
   BlockMeans blocks_;
+  std::vector<double> impacts_;  ///< s, thinned
 };
 
 }  // namespace polhode::study

@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The reference motions of a study (--reference): one for each variant of a scenario and each duration, shared by all
-// runs of it, made when the first of them needs it and let go after the last. Like the exact motion, it is that of the
-// full equations, whether a run leaves the gyroscopic term out or not.
+// What the runs of a study share about the true motion: the scales of its drifts and, with --reference, a reference motion.
+// There is one of each for each variant of a scenario and each duration, made when the first run needs it and let go after
+// the last. Like the exact motion, both are of the full equations, whether a run leaves the gyroscopic term out or not.
 #pragma once
 
 #include <atomic>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "core/reference_motion.hpp"
+#include "experiments/study/motion_scales.hpp"
 #include "experiments/study/run_record.hpp"
 
 namespace polhode::study {
+
+struct TrueMotion {
+  MotionScales scales;
+  std::shared_ptr<const ReferenceMotion> reference;  ///< null unless the run asks for one and no exact motion stands for it
+};
 
 class References {
  public:
@@ -22,20 +29,19 @@ class References {
   References(const References&) = delete;
   References& operator=(const References&) = delete;
 
-  /// Announces a run, so that its reference is kept until it has asked for it. Cheap.
+  /// Announces a run, so that what it shares is kept until it has asked for it. Cheap.
   void expect(const RunConfig& config, const Scenario& scenario);
 
-  /// The reference of a run that asks for one (config.reference) and whose exact motion is not known in full; null for
-  /// any other. From any thread; whoever comes while it is being made waits. Null too when `stop` is set meanwhile.
-  std::shared_ptr<const ReferenceMotion> of(const RunConfig& config, const Scenario& scenario,
-                                            const System<double>& system, const std::atomic<bool>* stop);
+  /// From any thread; whoever comes while it is being made waits. Incomplete when `stop` is set meanwhile.
+  TrueMotion of(const RunConfig& config, const Scenario& scenario, const std::atomic<bool>* stop);
 
  private:
   using Key = std::pair<std::string, double>;  ///< canonical text, t_end
   struct Entry {
     std::size_t expected = 0;
     std::mutex making;
-    std::shared_ptr<const ReferenceMotion> made;
+    std::optional<MotionScales> scales;
+    std::shared_ptr<const ReferenceMotion> reference;
   };
   static Key key(const RunConfig& config, const Scenario& scenario);
 

@@ -67,9 +67,10 @@ void write_runs_csv(const StudyView& study) {
     row.insert(row.end(), cells.begin(), cells.end());
   };
   add(header, config_columns(study.varied_keys, study.named));
-  add(header, {"status", "message", "steps", "rhs_evaluations", "energy_initial_J", "energy_drift_max_rel",
+  add(header, {"status", "message", "steps", "rhs_evaluations", "energy_initial_J", "energy_scale_J", "energy_drift_max_J",
+               "energy_round_off_J", "energy_drift_max_rel",
                "energy_drift_final_rel", "energy_drift_rate_W", "drift_class", "energy_drift_rate_ci_W", "drift_exponent",
-               "drift_exponent_low", "drift_exponent_high", "linear_momentum_drift_max_rel",
+               "drift_exponent_low", "drift_exponent_high", "drift_decided_after_s", "linear_momentum_drift_max_rel",
                "angular_momentum_drift_max_rel"});
   for (const std::string& invariant : study.invariants) header.push_back(invariant + "_drift_max_rel");
   add(header, {"orientation_defect_max", "position_error_max_m", "attitude_error_max_rad",
@@ -88,9 +89,11 @@ void write_runs_csv(const StudyView& study) {
     std::vector<std::string> row = {run.id};
     add(row, config_cells(run.config));
     add(row, {r.status, r.message, std::to_string(r.steps), std::to_string(r.evaluations), csv_cell(r.energy_initial),
+              csv_cell(r.energy_scale), csv_cell(r.energy_drift_max), csv_cell(r.energy_round_off),
               csv_cell(r.energy_drift_max_rel), csv_cell(r.energy_drift_final_rel), csv_cell(r.energy_drift_rate),
               r.drift_class, csv_cell(r.energy_drift_rate_ci), csv_cell(r.drift_exponent),
-              csv_cell(r.drift_exponent_low), csv_cell(r.drift_exponent_high), csv_cell(r.linear_momentum_drift_max_rel), csv_cell(r.angular_momentum_drift_max_rel)});
+              csv_cell(r.drift_exponent_low), csv_cell(r.drift_exponent_high), csv_cell(r.drift_decided_after),
+              csv_cell(r.linear_momentum_drift_max_rel), csv_cell(r.angular_momentum_drift_max_rel)});
     for (const std::string& invariant : study.invariants) {
       const auto found = r.invariant_drift_max_rel.find(invariant);
       row.push_back(found == r.invariant_drift_max_rel.end() ? "" : exact(found->second));

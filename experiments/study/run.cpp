@@ -11,7 +11,6 @@
 #include "experiments/study/contact_meter.hpp"
 #include "experiments/study/drift_meter.hpp"
 #include "experiments/study/narrow_phase_choice.hpp"
-#include "experiments/study/report/curves.hpp"
 #include "experiments/study/run_setup.hpp"
 #include "integrators/catalogue.hpp"
 
@@ -67,11 +66,10 @@ RunOutcome run_on(const System<double>& truth, const RunConfig& config, Observer
   }
 }
 
-std::shared_ptr<const ReferenceMotion> reference_of(const RunConfig& config, const Scenario& scenario,
-                                                    const System<double>& truth, const std::atomic<bool>* stop,
-                                                    References* shared) {
+TrueMotion true_motion_of(const RunConfig& config, const Scenario& scenario, const std::atomic<bool>* stop,
+                          References* shared) {
   References own;
-  return (shared ? *shared : own).of(config, scenario, truth, stop);
+  return (shared ? *shared : own).of(config, scenario, stop);
 }
 
 }  // namespace
@@ -85,9 +83,9 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
                    : config.precision == Precision::extended ? static_cast<bool>(entry->make_long_double)
                                                              : static_cast<bool>(entry->make);
   if (!has) return config.integrator + " works in double only, not in " + std::string(name(config.precision));
-  if (config.tolerance && *config.tolerance < report::epsilon(config.precision)) {
+  if (config.tolerance && *config.tolerance < epsilon(config.precision)) {
     return fmt::format("{}: a tolerance of {:g} is below the {:.2g} to which numbers are kept in {}", config.integrator,
-                       *config.tolerance, report::epsilon(config.precision), name(config.precision));
+                       *config.tolerance, epsilon(config.precision), name(config.precision));
   }
   const Declaration& declared = entry->declaration;
   if (const int order = config.order.value_or(0); order > 0 && (order < declared.lowest_order || order > declared.highest_order)) {
@@ -129,7 +127,7 @@ RunResult carry_out(const RunConfig& config, const Scenario& scenario, const Tra
   std::optional<ContactSetup> contact;
   if (config.contact) contact.emplace(*truth, scenario, *config.contact);
   DriftMeter meter(*truth, scenario.invariants, config.t_end, config.samples.has_value(),
-                   reference_of(config, scenario, *truth, stop, references));
+                   true_motion_of(config, scenario, stop, references), config.precision);
   std::optional<ContactMeter> contact_meter;
   if (config.contact) contact_meter.emplace(*truth, scenario, *config.contact, config.t_end, meter);
   Observer& measured = contact_meter ? static_cast<Observer&>(*contact_meter) : meter;
@@ -173,7 +171,7 @@ std::vector<RunResult> carry_out_together(std::span<const LanedRun> runs, const 
     truths.push_back(make_system<double>(run.scenario.problem, config.formulation));
     meters.push_back(std::make_unique<DriftMeter>(
         *truths.back(), run.scenario.invariants, config.t_end, false,
-        reference_of(run.config, run.scenario, *truths.back(), stop, references)));
+        true_motion_of(run.config, run.scenario, stop, references)));
     lanes.push_back({*truths.back(), *meters.back()});
   }
   problems.resize(std::size_t(lane_count), problems.back());  // lanes that nobody looks at

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -17,6 +18,13 @@ namespace polhode::study {
 enum class Precision { single, dual, extended };
 constexpr std::string_view name(Precision p) {
   return p == Precision::single ? "float" : p == Precision::dual ? "double" : "long_double";
+}
+
+/// The distance from 1 to the next number of that arithmetic.
+constexpr double epsilon(Precision p) {
+  return p == Precision::single ? std::numeric_limits<float>::epsilon()
+         : p == Precision::dual ? std::numeric_limits<double>::epsilon()
+                                : static_cast<double>(std::numeric_limits<long double>::epsilon());
 }
 
 /// How the increments of the state are added up.
@@ -89,18 +97,22 @@ struct RunResult {
   std::int64_t steps = 0;
   std::int64_t evaluations = 0;
   std::optional<double> energy_initial;         ///< J
-  std::optional<double> energy_drift_max_rel;   ///< max |E − E0| over the declared scale, E from the ledger
+  std::optional<double> energy_scale;           ///< J, of the motion (motion_scales.hpp); absent where nothing moves
+  std::optional<double> energy_drift_max;       ///< J, max |E − E0|, E from the ledger
+  std::optional<double> energy_round_off;       ///< J, up to which a drift can be rounding alone
+  std::optional<double> energy_drift_max_rel;   ///< energy_drift_max over energy_scale
   std::optional<double> energy_drift_final_rel; ///< signed
   std::optional<double> energy_drift_rate;      ///< W, least-squares slope of the drift
   std::optional<double> energy_drift_rate_ci;   ///< W, half its 95 % confidence interval
-  std::string drift_class;                      ///< "round-off", or growth_class() of drift_growth.hpp; or empty
-  std::optional<double> drift_exponent;         ///< p of |drift| ~ t^p, and its 95 % confidence interval
+  std::string drift_class;                      ///< as drift_class.hpp has them; empty where the run is not ok
+  std::optional<double> drift_exponent;         ///< p of |drift| ~ t^p, and its 95 % confidence interval, of a class that has one
   std::optional<double> drift_exponent_low, drift_exponent_high;
+  std::optional<double> drift_decided_after;    ///< s, of "undecided": the duration that would decide, by estimate
   std::optional<double> linear_momentum_drift_max_rel;   ///< absent: the forces do not conserve it
   std::optional<double> angular_momentum_drift_max_rel;
   std::map<std::string, double> invariant_drift_max_rel; ///< by name, of the scenario's declared invariants
   std::optional<double> orientation_defect_max;
-  std::optional<double> position_error_max;     ///< m, absent without an exact solution or a proven reference
+  std::optional<double> position_error_max;     ///< m, absent without an exact solution or a proven reference, and of a run that broke off
   std::optional<double> attitude_error_max;     ///< rad
   std::optional<double> angular_velocity_error_max_rel;
   /// Of the momentum in the body of a single free one (polhode_error.hpp): along its polhode and off it.

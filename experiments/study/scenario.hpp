@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -35,6 +36,7 @@ struct Scenario {
   std::vector<Collider> colliders;      ///< of each body where the scenario has contact; else empty
   Compliance compliance;                ///< of the surfaces, for a response by forces
   bool end_at_contact = false;          ///< a run ends at its first impact, before it is answered
+  std::optional<double> energy_scale;   ///< J, that relative energy drifts are told against; absent: the motion's own
   std::vector<std::string> invariants;  ///< declared beyond energy and momenta; names of core/invariants
   /// Everything that decides how a run goes, and nothing else, as text with every default filled in and numbers that
   /// read back exactly; t_end is not in it, since it is an option of the run. Part of a run's identity.

@@ -231,6 +231,10 @@ Scenario read_scenario(const TomlValue& tree, const std::string& name) {
   read_forces(root, index, scenario.problem);
   scenario.invariants = read_invariants(root, scenario.problem);
   scenario.canonical = canonical_text(scenario.problem, scenario.invariants) + contact;
+  if (root.has("energy_scale")) {
+    scenario.energy_scale = root.at("energy_scale", "").number("J", Parameter::Range::positive);
+    scenario.canonical += "energy_scale " + exact(*scenario.energy_scale) + "\n";
+  }
   return scenario;
 }
 

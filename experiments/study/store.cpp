@@ -109,6 +109,11 @@ constexpr std::optional<double> RunResult::*drift_members[] = {&RunResult::energ
                                                                &RunResult::polhode_phase_error_max_rad,
                                                                &RunResult::polhode_off_error_max_rel};
 
+/// The columns of the table `energies`, in their order.
+constexpr std::optional<double> RunResult::*energy_members[] = {&RunResult::energy_scale, &RunResult::energy_drift_max,
+                                                                &RunResult::energy_round_off,
+                                                                &RunResult::drift_decided_after};
+
 /// The columns of the table `contacts`, in their order.
 constexpr std::optional<double> ContactMeasures::*contact_members[] = {
     &ContactMeasures::first_impact,    &ContactMeasures::impact_loss,       &ContactMeasures::friction_loss,
@@ -144,6 +149,10 @@ Store::Store(const std::filesystem::path& folder) : path_(folder / file_name) {
       "CREATE TABLE IF NOT EXISTS drifts (id TEXT PRIMARY KEY, energy_drift_rate_ci_W REAL, drift_exponent REAL,"
       " drift_exponent_low REAL, drift_exponent_high REAL, polhode_phase_error_max_s REAL,"
       " polhode_phase_error_max_rad REAL, polhode_off_error_max_rel REAL)");
+  // What energy drifts are judged by.
+  execute(
+      "CREATE TABLE IF NOT EXISTS energies (id TEXT PRIMARY KEY, energy_scale_J REAL, energy_drift_max_J REAL,"
+      " energy_round_off_J REAL, drift_decided_after_s REAL)");
   // Of the runs that were judged by a reference, how uncertain it is.
   execute(
       "CREATE TABLE IF NOT EXISTS references_used (id TEXT PRIMARY KEY, position_m REAL, attitude_rad REAL,"
@@ -193,6 +202,11 @@ std::map<std::string, RunResult> Store::load() const {
     RunResult& r = results[drifts.text()];
     for (const auto member : drift_members) r.*member = drifts.optional_real();
   }
+  Statement energies(path_, db_.get(), "SELECT * FROM energies WHERE id IN (SELECT id FROM runs)");
+  while (energies.step()) {
+    RunResult& r = results[energies.text()];
+    for (const auto member : energy_members) r.*member = energies.optional_real();
+  }
   Statement used(path_, db_.get(), "SELECT * FROM references_used WHERE id IN (SELECT id FROM runs)");
   while (used.step()) {
     RunResult& r = results[used.text()];
@@ -219,6 +233,7 @@ void Store::keep(std::span<const RunRecord> records) {
     Statement insert(path_, db_.get(),
                      "INSERT OR REPLACE INTO runs VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
     Statement drifts(path_, db_.get(), "INSERT OR REPLACE INTO drifts VALUES (?,?,?,?,?,?,?,?)");
+    Statement energies(path_, db_.get(), "INSERT OR REPLACE INTO energies VALUES (?,?,?,?,?)");
     Statement used(path_, db_.get(), "INSERT OR REPLACE INTO references_used VALUES (?,?,?,?)");
     Statement contacts(path_, db_.get(), "INSERT OR REPLACE INTO contacts VALUES (?,?,?,?,?,?,?,?,?,?,?)");
     Statement errors(path_, db_.get(), "INSERT OR REPLACE INTO attitude_errors VALUES (?,?)");
@@ -256,6 +271,10 @@ void Store::keep(std::span<const RunRecord> records) {
       for (const auto member : drift_members) drifts.bind(r.*member);
       drifts.step();
       drifts.reset();
+      energies.bind(record.id);
+      for (const auto member : energy_members) energies.bind(r.*member);
+      energies.step();
+      energies.reset();
       if (r.contact.energy_change_max) {
         contacts.bind(record.id);
         for (const auto member : contact_members) contacts.bind(r.contact.*member);

@@ -170,8 +170,9 @@ TrajectoryScore score(const Trajectory& trajectory, const Scenario& scenario, Ru
   const auto system = make_system<double>(scenario.problem, config.formulation);
   const ExactMotion exact(*system);
   References own;
-  const auto reference = (references ? *references : own).of(config, scenario, *system, stop);
-  DriftMeter meter(*system, scenario.invariants, config.t_end, true, reference);
+  const TrueMotion truth = (references ? *references : own).of(config, scenario, stop);
+  const auto reference = truth.reference;
+  DriftMeter meter(*system, scenario.invariants, config.t_end, true, truth);
   std::optional<ReferenceMotion::Follower> follower;
   if (reference) follower.emplace(reference);
   auto polhode = PolhodeError::of(*system);

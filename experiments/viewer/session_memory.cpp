@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/study/energy_scale.hpp"
+#include "experiments/study/motion_scales.hpp"
 
 namespace polhode::viewer {
 namespace {
@@ -31,7 +31,7 @@ const System<double>& SessionMemory::system(const Formulation& f) {
 
 void SessionMemory::begin(const Kept& start) {
   energy_start_ = start.sample.ledger(start.losses.total());
-  energy_scale_ = study::energy_scale_of(start.sample.seen);
+  kinetic_start_ = start.sample.seen.kinetic;
   momentum_start_ = start.sample.seen.angular_momentum;
   history_ = Thinned<Kept>(capacity_);
   plot_ = Thinned<PlotPoint>(most_points);
@@ -53,8 +53,12 @@ void SessionMemory::forget_after(std::int64_t step) {
   for (Traced& t : traced_) t.points.forget_after(step);
 }
 
-bool SessionMemory::hopeless(double energy_drift) const {
-  return !(std::abs(energy_drift) <= study::hopeless_energy_drift * energy_scale_);
+bool SessionMemory::hopeless(double energy_drift) {
+  // The scale is at least the kinetic energy at the start, unless the scenario fixes it.
+  if (!energy_scale_ && !scenario_.energy_scale && std::abs(energy_drift) <= study::hopeless_drift * kinetic_start_) return false;
+  if (!energy_scale_) energy_scale_ = study::motion_scales(scenario_, scenario_.t_end).energy;
+  const double bound = *energy_scale_ > 0 ? study::hopeless_drift * *energy_scale_ : std::numeric_limits<double>::max();
+  return !(std::abs(energy_drift) <= bound);
 }
 
 double SessionMemory::first_time() const { return history_.items().empty() ? 0 : history_.items().front().value.state.t; }

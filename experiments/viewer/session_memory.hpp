@@ -5,6 +5,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,7 +42,7 @@ class SessionMemory {
   double energy_drift(const Sample& sample, const ContactLosses& losses) const {
     return sample.ledger(losses.total()) - energy_start_;
   }
-  bool hopeless(double energy_drift) const;
+  bool hopeless(double energy_drift);
 
   double first_time() const;  ///< s
   /// The one nearest in time, `now` among them; of two as near the later.
@@ -67,7 +68,8 @@ class SessionMemory {
     Thinned<TracePoint> points;
   };
   std::vector<Traced> traced_;
-  double energy_start_ = 0, energy_scale_ = 1;  ///< J
+  double energy_start_ = 0, kinetic_start_ = 0;  ///< J
+  std::optional<double> energy_scale_;           ///< J, found when it is first needed: it can take a second
   Vector3<double> momentum_start_ = Vector3<double>::Zero();
 };
 
