@@ -120,6 +120,9 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   if (study_file.empty() && !given.contains("scenario")) options.vary = experiment.vary;
   options.plain = given.empty() && vary.empty() && study_file.empty();
   if (!study_file.empty()) read_study_file(study_file, options);
+  for (const std::string& axis : axis_names()) {
+    if (given.contains(axis) || options.places.contains(axis)) options.said.insert(axis);
+  }
   for (const auto& [name, text] : given) {
     options.axes[name] = text;
     options.places.erase(name);
