@@ -32,7 +32,7 @@ Table table_of(const std::vector<TrajectoryScore>& scores) {
                           {"energy drift", "relative"},
                           {"drift rate", "W"},
                           {"±", "W"},
-                          {"grows", "", Kind::text},
+                          {"its class", "", Kind::text},
                           {"p"},
                           {"95 %", "", Kind::text},
                           {"linear momentum", "relative"},

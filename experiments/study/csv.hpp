@@ -15,6 +15,8 @@ namespace polhode::study {
 std::string csv_row(const std::vector<std::string>& cells);
 
 /// All digits; empty where there is no number, or one that is not finite.
-inline std::string csv_cell(const std::optional<double>& x) { return x && std::isfinite(*x) ? exact(*x) : std::string(); }
+inline std::string csv_cell(const std::optional<double>& x) {
+  return x && std::isfinite(*x) ? study::exact(*x) : std::string();
+}
 
 }  // namespace polhode::study

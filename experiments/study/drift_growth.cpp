@@ -20,18 +20,16 @@ using Eigen::Index;
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
-constexpr std::size_t fewest_blocks = 32;
 constexpr Index most_cosines = 64, fewest_cosines = 9, most_regressors = 6;
 using Spectrum = Vector;    ///< over the cosines
 using Regressors = Matrix;  ///< a column each, over the cosines
 using Normal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_regressors, most_regressors>;
 using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_regressors, 1>;
 constexpr double significance = 0.005;  // of the test for a secular drift
-/// Noise with a larger exponent, where nothing goes one way, is an oscillation of which the run holds a few periods only:
-/// nothing can be said of longer times.
-constexpr double steepest_walk = 0.75;
-/// Walks and secular drifts count from this share of the largest drift: below it the run is bounded as it stands.
-constexpr double visible = 1e-3;
+/// Fewer half periods than this in the run: no line is looked for, since it would not be told from a trend.
+constexpr Index lowest_line = 8;
+/// A number that comes once in some 3000 normal ones, in squares of their deviation.
+constexpr double stands_out = 13;
 
 /// What depends on the number n of blocks alone.
 class Cosines {
@@ -199,7 +197,7 @@ Spectrum whitened(const Cosines& cosines, const Spectrum& power) {
 /// below it, or of the noise there. `rest`: of a fit by t and t², which takes the first cosines.
 std::optional<Index> line_in(const Cosines& cosines, const Spectrum& rest) {
   constexpr double line = 25;
-  constexpr Index lowest = 8, gap = 3;  // four oscillations in the run; a line's flank
+  constexpr Index lowest = lowest_line, gap = 3;  // four oscillations in the run; a line's flank
   const Spectrum power = rest.cwiseAbs2();
   if (!(power.maxCoeff() > 0)) return std::nullopt;
   const Spectrum white = whitened(cosines, power);
@@ -279,10 +277,10 @@ class Estimator {
     return f > fisher_f_exceeded(2, with.degrees, significance);
   }
 
-  /// What t and t² add up to over the run.
-  double secular_change() const {
-    const Fit f = fit(c_, with_edges(trend_), v_);
-    return std::abs(f.coefficients[0] + f.coefficients[1]);
+  /// What a change in proportion to time comes to over the run at most, with 97.5 % confidence.
+  double change_limit() const {
+    const Fit f = fit(c_, with_edges(trend_.leftCols(1)), v_);
+    return std::abs(f.coefficients[0]) + students_t_95(f.degrees) * std::sqrt(f.scale2() * f.covariance(0, 0));
   }
 
   /// Of the slope by ordinary least squares, which feels the oscillations too.
@@ -307,18 +305,67 @@ class Estimator {
       }
       if (pass + 1 < passes) v_ = noise_shape(cosines_, c_, power_regressors(p));
     }
-    const Fit f = fit(c_, power_regressors(p), v_);
+    const Regressors x = power_regressors(p);
+    const Fit f = fit(c_, x, v_);
+    change_ = std::abs(f.coefficients[0]) * (1 - std::pow(t_[0], p));
+    misfit_ = c_ - x.col(0) * f.coefficients[0];
     const double error = std::sqrt(f.scale2() * f.covariance(1, 1)) / std::abs(f.coefficients[0]);
     return {p, students_t_95(f.degrees) * error};
   }
 
+  /// What t^p comes to over the run; after power_law().
+  double change() const { return change_; }
+
+  /// Half of the number of the strongest cosine beside t^p, where those that are too slow for a line come to half of the
+  /// change from peak to peak.
+  double slow_periods_beside_growth() const {
+    const Spectrum low = misfit_.head(lowest_line - 1).cwiseAbs2();
+    Index at = 0;
+    low.maxCoeff(&at);
+    return peak_to_peak(low.sum()) > change_ / 2 ? static_cast<double>(at + 1) / 2 : 0;
+  }
+
+  /// From peak to peak, of what t^p leaves, where that is smooth.
+  double smooth_misfit() const {
+    constexpr Index smooth = 4;
+    constexpr double far_above = 20;
+    const Spectrum power = misfit_.cwiseAbs2();
+    const double low = power.head(smooth).sum(), high = power.tail(power.size() - smooth).sum();
+    return low > far_above * high ? peak_to_peak(low) : 0;
+  }
+
+  /// Half of the number of the strongest cosine that is too slow for a line; 0: a faster one is stronger.
+  double slow_periods() const {
+    Index at = 0;
+    c_.cwiseAbs2().maxCoeff(&at);
+    return at + 1 < lowest_line ? static_cast<double>(at + 1) / 2 : 0;
+  }
+
+  /// Whether what is left is noise of the exponent h throughout: no cosine stands out, no third of them (by logarithm) has
+  /// more than its part, and no block's change stands out of those of a random walk.
+  bool is_even(double h) const {
+    const Spectrum per_h = cosines_.log_averaging.head(below_.size()) - 2 * cosines_.log_frequency.head(below_.size());
+    const Spectrum white = below_.cwiseAbs2().cwiseQuotient(((h + 0.5) * per_h).array().exp().matrix());
+    const Vector steps = (smooth_.tail(smooth_.size() - 1) - smooth_.head(smooth_.size() - 1)).cwiseAbs2();
+    const auto its_part = [&](Index from, Index to) {
+      // The mean of m squares of normal numbers has the standard deviation √(2/m).
+      const double part = white.segment(from, to - from).mean() / white.mean();
+      return std::abs(part - 1) < 2 * std::sqrt(2 / static_cast<double>(to - from));
+    };
+    constexpr Index fewest = 48;
+    const Index n = white.size();
+    return n >= fewest && its_part(0, 4) && its_part(4, 16) && its_part(16, n) && white.maxCoeff() < stands_out * white.mean() &&
+           steps.maxCoeff() < stands_out * steps.mean();
+  }
+
   /// H of v_k = s² (2 sin(θ/2))^−(1+2H).
   Exponent noise_exponent() const {
-    const Index used = c_.size();
+    const Index used = below_.size();
     const Spectrum per_h = cosines_.log_averaging.head(used) - 2 * cosines_.log_frequency.head(used);
+    const Regressors edges = cosines_.edges(used);
     const auto minus_likelihood = [&](double h) {
       const Spectrum log_v = (h + 0.5) * per_h;
-      return -fit(c_, edges_, log_v.array().exp(), log_v.sum()).restricted;
+      return -fit(below_, edges, log_v.array().exp(), log_v.sum()).restricted;
     };
     constexpr double least = -1.5, most = 2.5;
     constexpr int bits = 16;
@@ -328,9 +375,17 @@ class Estimator {
   }
 
   /// Of what is left without the oscillations that were taken out.
-  double largest_rest() const { return largest_rest_; }
+  double largest_rest() const { return (smooth_.array() - smooth_.mean()).abs().maxCoeff(); }
+  double largest_oscillation() const { return largest_oscillation_; }
+  /// How many periods the run has of it.
+  double slowest_line() const { return static_cast<double>(slowest_line_) / 2; }
 
  private:
+  /// Of what has these squares of cosines in all, if it is a sine.
+  double peak_to_peak(double squares) const {
+    return 2 * std::sqrt(2 * squares / static_cast<double>(t_.size()));
+  }
+
   Spectrum without_polynomial(const Spectrum& c) const {
     return c - polynomial_ * fit(c, polynomial_, Spectrum::Ones(c.size())).coefficients;
   }
@@ -347,11 +402,14 @@ class Estimator {
       const auto line = line_in(cosines_, rest);
       if (!line) break;
       smooth -= fitted_oscillation(smooth, trend, *line);
+      slowest_line_ = i == 0 ? *line : std::min(slowest_line_, *line);
       c = cosines_.transform(smooth);
       rest = without_polynomial(c);
     }
-    c_ = c.head(std::min(most_cosines, below_lines(cosines_, rest)));
-    largest_rest_ = (smooth.array() - smooth.mean()).abs().maxCoeff();
+    below_ = c.head(below_lines(cosines_, rest));
+    c_ = below_.head(std::min(most_cosines, below_.size()));
+    largest_oscillation_ = (drift - smooth).cwiseAbs().maxCoeff();
+    smooth_ = std::move(smooth);
   }
 
   Regressors with_edges(const Regressors& x) const {
@@ -385,9 +443,13 @@ class Estimator {
   Vector t_, log_t_;
   Regressors polynomial_;  ///< t and t², all cosines
   Spectrum with_lines_;    ///< the drift's cosines below its lowest line
-  Spectrum c_, v_;         ///< the drift's cosines without its lines, and the shape of their variance
+  Spectrum below_;         ///< the drift's cosines without its lines, those that are well below what is left of them
+  Spectrum c_, v_;         ///< the first of these, which trends are fitted to, and the shape of their variance
   Regressors trend_, edges_;
-  double largest_rest_ = 0;
+  Vector smooth_;   ///< the drift without its lines
+  Spectrum misfit_; ///< c_ without t^p
+  double largest_oscillation_ = 0, change_ = 0;
+  Index slowest_line_ = 0;
 };
 
 /// Kept for later calls, since many runs of a study have as many blocks: at most half a megabyte each.
@@ -423,7 +485,7 @@ std::vector<BlockMean> BlockMeans::finish() const {
   return means;
 }
 
-std::optional<DriftGrowth> growth_of(const std::vector<BlockMean>& blocks, double largest) {
+std::optional<DriftGrowth> growth_of(const std::vector<BlockMean>& blocks) {
   if (blocks.size() < fewest_blocks) return std::nullopt;
   const auto n = static_cast<Index>(blocks.size());
   Vector t(n), drift(n);
@@ -431,39 +493,37 @@ std::optional<DriftGrowth> growth_of(const std::vector<BlockMean>& blocks, doubl
     t[i] = blocks[static_cast<std::size_t>(i)].t;
     drift[i] = blocks[static_cast<std::size_t>(i)].value;
   }
-  const double end = t[n - 1];
-  if (!drift.allFinite() || !t.allFinite() || !std::isfinite(largest) || !(largest > 0)) return std::nullopt;
-  if (!(t[0] >= 0) || !(end > t[0])) return std::nullopt;
+  const double end = t[n - 1], largest = drift.cwiseAbs().maxCoeff();
+  if (!drift.allFinite() || !t.allFinite() || !(t[0] >= 0) || !(end > t[0])) return std::nullopt;
   t = (t / end).cwiseMax(std::numeric_limits<double>::min());
   drift.array() -= drift.mean();
   const double size = drift.cwiseAbs().maxCoeff();
-  if (size <= std::numeric_limits<double>::epsilon() * largest) return DriftGrowth{};  // constant
+  if (!(size > std::numeric_limits<double>::epsilon() * largest)) return std::nullopt;
   drift /= size;
 
   Estimator estimate(cosines_of(n), t, drift);
   DriftGrowth growth;
   growth.slope_half_width_95 = estimate.slope_half_width() * size / end;
   growth.secular = estimate.secular();
-  const double counted = growth.secular ? estimate.secular_change() : estimate.largest_rest();
-  const bool hidden = counted * size < visible * largest;
-  if (hidden && !growth.secular) return growth;
-  const Exponent p = growth.secular ? estimate.power_law() : estimate.noise_exponent();
-  if (hidden || (!growth.secular && p.value - p.half_width > steepest_walk)) {
-    growth.high = hidden ? std::max(p.value + p.half_width, 0.0) : 1;
-    return growth;
+  growth.change_limit = estimate.change_limit() * size;
+  growth.rest = estimate.largest_rest() * size;
+  growth.oscillation = estimate.largest_oscillation() * size;
+  growth.slowest_line = estimate.slowest_line();
+  Exponent p;
+  if (growth.secular) {
+    p = estimate.power_law();
+    growth.change = estimate.change() * size;
+    growth.slow_periods = estimate.slow_periods_beside_growth();
+    growth.misfit = estimate.smooth_misfit() * size;
+  } else {
+    p = estimate.noise_exponent();
+    growth.slow_periods = estimate.slow_periods();
+    growth.even = estimate.is_even(p.value);
   }
-  growth.exponent = std::max(p.value, 0.0);
-  growth.low = std::max(p.value - p.half_width, 0.0);
-  growth.high = std::max(p.value + p.half_width, 0.0);
+  growth.exponent = p.value;
+  growth.low = p.value - p.half_width;
+  growth.high = p.value + p.half_width;
   return growth;
-}
-
-std::string growth_class(double exponent, bool secular) {
-  if (exponent < 0.25) return "bounded";
-  if (exponent < 0.75) return secular ? "sublinear" : "random walk";
-  if (exponent < 1.5) return "linear";
-  if (exponent < 2.5) return "quadratic";
-  return "faster";
 }
 
 }  // namespace polhode::study

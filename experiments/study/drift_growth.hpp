@@ -11,7 +11,6 @@
 //   a secular drift: by an F test of t and t² against that noise, at 0.5 %. Where there is one, p is that of
 //     constant + t^p by generalised least squares; where there is none, p is the exponent H of v_k ~ k^−(1+2H) by
 //     Whittle's likelihood, which is ½ for a random walk and below 0, here told as 0, for what stays bounded;
-//   what comes to less than a thousandth of the largest drift over the run is hidden in it: the run is bounded.
 // The slope is that of ordinary least squares over all samples; its interval counts the oscillations as noise.
 // Sources: Harvey, Forecasting, Structural Time Series Models and the Kalman Filter (1989), ch. 2 and 4 (local level);
 // Müller & Watson, Econometrica 76 (2008) 979–1016 (low-frequency cosines); Beran, Statistics for Long-Memory Processes
@@ -20,7 +19,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace polhode::study {
@@ -50,19 +48,26 @@ class BlockMeans {
   std::size_t in_open_ = 0, per_block_ = 1;
 };
 
+/// What a class is found from (drift_class.hpp); sizes in the unit of the drift.
 struct DriftGrowth {
-  double exponent = 0;             ///< p of |drift| ~ t^p; 0: bounded
-  double low = 0, high = 0;        ///< its 95 % confidence interval
   bool secular = false;            ///< the drift goes one way: told from noise with 99.5 % confidence
-  double slope_half_width_95 = 0;  ///< of the least-squares slope, unit of the drift per s
+  double exponent = 0;             ///< p of a drift that goes one way, else H of what is left, below 0 where that is bounded
+  double low = 0, high = 0;        ///< its 95 % confidence interval
+  double slope_half_width_95 = 0;  ///< of the least-squares slope, per s
+  double change = 0;               ///< what goes one way comes to over the run
+  double change_limit = 0;         ///< what a change in proportion to time may come to, with 97.5 % confidence
+  double rest = 0;                 ///< the largest of what is left without the oscillations that were taken out, from its mean
+  double oscillation = 0;          ///< the largest of these
+  /// How many periods the run has of an oscillation that is too slow to be told from growth; 0: there is none.
+  double slow_periods = 0;
+  double slowest_line = 0;  ///< how many periods it has of the slowest oscillation that was taken out; 0: none was
+  double misfit = 0;        ///< what t^p leaves from peak to peak, where that is smooth
+  bool even = true;       ///< no instant and no frequency stands out of what is left, as none does of a random walk
 };
 
-/// `largest`: the largest |drift|, which the means do not show. Absent: fewer than 32 blocks, a drift that is zero
-/// throughout, or numbers that are not finite. Costs some 0.3 ms.
-std::optional<DriftGrowth> growth_of(const std::vector<BlockMean>& blocks, double largest);
-
-/// "bounded" (p < 0.25), "random walk" (p < 0.75; "sublinear" where the drift goes one way), "linear" (p < 1.5),
-/// "quadratic" (p < 2.5), "faster".
-std::string growth_class(double exponent, bool secular);
+/// Absent: fewer than `fewest_blocks`, a drift that is constant to its last digit, or numbers that are not finite. Costs some
+/// 0.3 ms.
+std::optional<DriftGrowth> growth_of(const std::vector<BlockMean>& blocks);
+inline constexpr std::size_t fewest_blocks = 32;
 
 }  // namespace polhode::study

@@ -10,7 +10,6 @@ namespace {
 
 constexpr int exact_instants = 50;
 constexpr int most_attitude_errors = 64;
-constexpr std::int64_t fewest_samples = 32;  ///< that a drift can be classified by
 
 /// max(a, |x|) that a NaN does not get lost in.
 void raise(double& worst, double x) {
@@ -159,6 +158,7 @@ void DriftMeter::measure_further(const State<double>& state) {
 }
 
 void DriftMeter::measure_errors(const State<double>& state) {
+  errors_until_ = state.t;
   ExactMotion::Error e = exact_.error(system_, state);
   const double next_kept = t_end_ * static_cast<double>(attitude_errors_.size()) / most_attitude_errors;
   if (e.attitude && state.t >= next_kept * (1 - 1e-12)) attitude_errors_.push_back({state.t, *e.attitude});
@@ -211,8 +211,17 @@ void DriftMeter::report(RunResult& result) {
   }
   if (reference_) judge_by_reference(result);
   result.attitude_errors = attitude_errors_;
+  // What was seen before a run broke off, often its start alone, says nothing of how wrong it was in the end.
+  const bool broke_off = result.status != "ok" && !(errors_until_ >= result.t_reached && result.t_reached > 0);
+  if (broke_off) forget_errors(result);
   result.series = series_.finish(scales_.energy, scales_.linear, scales_.angular);
   if (result.status == "ok") classify(result);
+}
+
+void DriftMeter::forget_errors(RunResult& result) {
+  result.position_error_max = result.attitude_error_max = result.angular_velocity_error_max_rel = std::nullopt;
+  result.polhode_phase_error_max = result.polhode_phase_error_max_rad = result.polhode_off_error_max_rel = std::nullopt;
+  result.attitude_errors.clear();
 }
 
 void DriftMeter::judge_by_reference(RunResult& result) const {
@@ -231,19 +240,33 @@ void DriftMeter::judge_by_reference(RunResult& result) const {
         result.angular_velocity_reference_rel);
 }
 
+void DriftMeter::meet(std::span<const Impact> impacts) {
+  constexpr double apart = 1e-3;  // of the run: less than a block
+  for (const Impact& impact : impacts) {
+    if (impacts_.empty() || impact.t > impacts_.back() + apart * t_end_) impacts_.push_back(impact.t);
+  }
+}
+
 void DriftMeter::classify(RunResult& result) const {
-  const auto growth = growth_of(blocks_.finish(), sums_.worst_energy);
-  if (growth) {
-    result.energy_drift_rate_ci = growth->slope_half_width_95;
-    result.drift_exponent = growth->exponent;
-    result.drift_exponent_low = growth->low;
-    result.drift_exponent_high = growth->high;
+  DriftRecord record;
+  record.blocks = blocks_.finish();
+  record.largest = sums_.worst_energy;
+  if (!(scales_.energy > 0)) record.largest_early = record.largest;  // then the series has no energies
+  for (const SeriesPoint& p : result.series) {
+    if (p.t <= t_end_ / 2) record.largest_early = std::max(record.largest_early, std::abs(p.energy_drift_rel) * scales_.energy);
   }
-  if (sums_.worst_energy <= result.energy_round_off.value_or(0)) {
-    result.drift_class = sums_.samples < fewest_samples ? "" : "round-off";
-  } else if (growth) {
-    result.drift_class = growth_class(growth->exponent, growth->secular);
-  }
+  record.round_off = result.energy_round_off.value_or(0);
+  record.scale = scales_.energy;
+  record.samples = sums_.samples;
+  record.t_end = t_end_;
+  record.impacts = impacts_;
+  const DriftClass found = polhode::study::classify(record);
+  result.drift_class = found.name;
+  result.energy_drift_rate_ci = found.slope_half_width;
+  result.drift_exponent = found.exponent;
+  result.drift_exponent_low = found.low;
+  result.drift_exponent_high = found.high;
+  result.drift_decided_after = found.decided_after;
 }
 
 }  // namespace polhode::study

@@ -120,7 +120,9 @@ std::string metrics() {
          line("displacement_after_2s_max_m", "of a mass centre from where it was after 2 s") +
          line("left_place_s", "when one was a tenth of its body's radius away from where it started") +
          line("drift_exponent*", "p of |drift| ~ t^p, oscillations set aside, and its 95 % confidence interval") +
-         line("drift_class", "by that exponent: round-off, bounded, random walk or sublinear, linear, quadratic, faster");
+         line("drift_class", "by that exponent: bounded, random walk or sublinear, linear, quadratic, faster; round-off,") +
+         line("", "saturated, jumps (at impacts alone), undecided, with") +
+         line("drift_decided_after_s", "the duration that would decide it, by estimate");
 }
 
 struct Section {

@@ -105,15 +105,15 @@ struct RunResult {
   std::optional<double> energy_drift_final_rel; ///< signed
   std::optional<double> energy_drift_rate;      ///< W, least-squares slope of the drift
   std::optional<double> energy_drift_rate_ci;   ///< W, half its 95 % confidence interval
-  std::string drift_class;                      ///< "round-off", or growth_class() of drift_growth.hpp; or empty
-  std::optional<double> drift_exponent;         ///< p of |drift| ~ t^p, and its 95 % confidence interval
+  std::string drift_class;                      ///< as drift_class.hpp has them; empty where the run is not ok
+  std::optional<double> drift_exponent;         ///< p of |drift| ~ t^p, and its 95 % confidence interval, of a class that has one
   std::optional<double> drift_exponent_low, drift_exponent_high;
   std::optional<double> drift_decided_after;    ///< s, of "undecided": the duration that would decide, by estimate
   std::optional<double> linear_momentum_drift_max_rel;   ///< absent: the forces do not conserve it
   std::optional<double> angular_momentum_drift_max_rel;
   std::map<std::string, double> invariant_drift_max_rel; ///< by name, of the scenario's declared invariants
   std::optional<double> orientation_defect_max;
-  std::optional<double> position_error_max;     ///< m, absent without an exact solution or a proven reference
+  std::optional<double> position_error_max;     ///< m, absent without an exact solution or a proven reference, and of a run that broke off
   std::optional<double> attitude_error_max;     ///< rad
   std::optional<double> angular_velocity_error_max_rel;
   /// Of the momentum in the body of a single free one (polhode_error.hpp): along its polhode and off it.

@@ -44,6 +44,7 @@ namespace {
 
 /// A scenario of more than this is a mistake, such as the name of a device.
 constexpr std::size_t most_bytes = 16 << 20;
+constexpr std::string_view list_scenarios = "./run energy_drift --list scenarios";
 
 std::vector<std::string_view> builtin_names() {
   std::vector<std::string_view> all;
@@ -63,7 +64,7 @@ std::string read_file(const std::string& path) {
     const std::string stem = std::filesystem::path(path).stem().string();
     std::string message = path + ": no such file, or it cannot be read";
     if (path.find('/') == std::string::npos) {
-      message += suggestion(stem, "Built-in scenarios, without .toml", builtin_names());
+      message += suggestion_of_many(stem, builtin_names(), list_scenarios);
     }
     throw InputError(one_line(message));
   }
@@ -135,7 +136,7 @@ ScenarioSource ScenarioSource::open(const std::string& name_or_path, const std::
     return ScenarioSource(std::make_unique<Parsed>(name_or_path, "builtin " + name_or_path, scenario.text));
   }
   throw InputError(one_line(label + ": no built-in scenario is called '" + name_or_path + "'" +
-                            suggestion(name_or_path, "There are", builtin_names()) +
+                            suggestion_of_many(name_or_path, builtin_names(), list_scenarios) +
                             "; a file's name holds a '/' or ends in .toml"));
 }
 

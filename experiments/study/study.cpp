@@ -18,6 +18,7 @@
 #include "experiments/study/plan.hpp"
 #include "experiments/study/progress.hpp"
 #include "experiments/study/references.hpp"
+#include "experiments/study/report/notation.hpp"
 #include "experiments/study/result_folder.hpp"
 #include "experiments/study/results.hpp"
 #include "experiments/study/run.hpp"
@@ -51,14 +52,14 @@ std::filesystem::path folder_of(const Experiment& experiment, const Options& opt
 
 std::string plan_text(const Experiment& experiment, const Plan& plan, const std::filesystem::path& folder) {
   double cost = 0;
-  std::size_t refused = 0;
+  std::vector<Unfinished> refused;
   for (const PlannedRun& run : plan.runs) {
     cost += run.cost;
-    refused += run.refusal.empty() ? 0 : 1;
+    if (!run.refusal.empty()) refused.push_back({"will be refused", run.refusal});
   }
   std::string text = fmt::format("{}: {} runs, about {:.2g} right-hand sides, into {}\n", experiment.name,
                                  plan.runs.size(), cost, folder.string());
-  if (refused > 0) text += fmt::format("{} of them make no sense and will be refused\n", refused);
+  text += reasons(refused);
   const auto names = config_columns(plan.varied_keys, plan.named);
   std::vector<std::vector<std::string>> cells;
   if (experiment.refine) text += "further runs follow from the results of these\n";
@@ -70,7 +71,7 @@ std::string plan_text(const Experiment& experiment, const Plan& plan, const std:
     }
     if (values.empty()) continue;
     std::string line;
-    for (const std::string& v : values) line += (line.empty() ? "" : ", ") + v;
+    for (const std::string& v : values) line += (line.empty() ? "" : ", ") + report::rounded(v);
     text += fmt::format("  {:<15} {}\n", names[k], line);
   }
   return text;

@@ -8,6 +8,7 @@
 #include "experiments/study/axes.hpp"
 #include "experiments/study/input_error.hpp"
 #include "experiments/study/options.hpp"
+#include "experiments/study/suggestion.hpp"
 
 namespace polhode::study {
 namespace {
@@ -77,7 +78,8 @@ void read_study_file(const std::string& path, Options& options) {
     }
     std::replace(name.begin(), name.end(), '_', '-');
     if (std::find(names.begin(), names.end(), name) == names.end()) {
-      throw InputError(where + "no such axis; a study file takes the options that are axes, vary and reference");
+      throw InputError(where + "no such axis" + suggestion(name, "There are", {names.begin(), names.end()}) +
+                       "; a study file takes vary and reference too");
     }
     options.axes[name] = as_list(value, ',', where);
     options.places[name] = place(path, value.source()) + std::string(key.str());

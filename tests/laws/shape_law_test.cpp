@@ -195,6 +195,12 @@ TEST_P(ShapeLaw, MassIsThatOfItsPoints) {
   EXPECT_EQ(inertia_fault(m.inertia), "");
 }
 
+// A body is placed by its mass centre. Vertices of a file stand where the file has them, and a scenario checks them.
+TEST_P(ShapeLaw, HasItsMassCentreAtItsOrigin) {
+  if (!shape()->finite() || given().sizes.contains("file")) return;
+  EXPECT_LT(shape()->mass_properties().centroid.norm(), 1e-15);
+}
+
 TEST_P(ShapeLaw, RefusesBadSizes) {
   const double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
   const auto refused = [&](const std::string& key, const ParameterValue& value) {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 
-#include "experiments/study/drift_growth.hpp"
 #include "experiments/study/report/curves.hpp"
 #include "experiments/study/report/notation.hpp"
 
@@ -16,17 +16,6 @@ namespace polhode::study::report {
 namespace {
 
 std::string exponent(double p) { return fmt::format("{:.3f}", p); }
-
-/// The classes at the ends of the interval, where they are not the one of the estimate.
-std::vector<std::string> other_classes(const RunResult& r) {
-  std::vector<std::string> others;
-  if (!r.drift_exponent || r.drift_class == "round-off") return others;
-  const bool secular = r.drift_class != "random walk" && r.drift_class != "bounded";
-  for (const auto& end : {r.drift_exponent_low, r.drift_exponent_high}) {
-    if (std::string c = growth_class(*end, secular); c != r.drift_class) others.push_back(std::move(c));
-  }
-  return others;
-}
 
 /// "rk4, heun and 3 more".
 std::string some(const std::set<std::string>& names) {
@@ -48,42 +37,57 @@ std::string exponent_interval(const RunResult& r) {
 }
 
 std::string growth_words(const RunResult& r) {
-  if (r.drift_class.empty() || !r.drift_exponent) return r.drift_class;
-  std::string text = fmt::format("{}: p = {}, 95 % between {} and {}", r.drift_class, exponent(*r.drift_exponent),
-                                 exponent(*r.drift_exponent_low), exponent(*r.drift_exponent_high));
-  if (const auto others = other_classes(r); !others.empty()) text += fmt::format(" (perhaps {})", fmt::join(others, " or "));
-  return text;
+  if (r.drift_decided_after) return fmt::format("{}, which some {} s would decide", r.drift_class, number(*r.drift_decided_after, 2));
+  if (r.drift_class.empty() || !r.drift_exponent || r.drift_class == "bounded") return r.drift_class;
+  return fmt::format("{}: p = {}, 95 % between {} and {}", r.drift_class, exponent(*r.drift_exponent),
+                     exponent(*r.drift_exponent_low), exponent(*r.drift_exponent_high));
 }
 
 std::vector<std::string> growth_sentences(const StudyView& study) {
-  std::map<std::string, std::pair<std::size_t, std::set<std::string>>> classes;
-  std::size_t unsure = 0;
+  struct Found {
+    std::size_t runs = 0;
+    std::set<std::string> methods;
+  };
+  std::map<std::string, Found> classes;
+  std::vector<double> durations;  // s
   for (const RunRecord& run : study.runs) {
     const RunResult& r = run.result;
     if (r.drift_class.empty()) continue;
-    auto& [n, methods] = classes[r.drift_class];
-    ++n;
-    methods.insert(run.config.integrator);
-    unsure += other_classes(r).empty() ? 0 : 1;
+    Found& found = classes[r.drift_class];
+    ++found.runs;
+    found.methods.insert(run.config.integrator);
+    if (r.drift_decided_after) durations.push_back(*r.drift_decided_after);
   }
   std::vector<std::string> sentences;
-  for (const auto& [name, phrase] : {std::pair("bounded", "The energy drift stays bounded in {}: {}."),
-                                     std::pair("random walk", "It grows like a random walk, ∝ √t, in {}: {}."),
-                                     std::pair("sublinear", "It grows one way, more slowly than t, in {}: {}."),
-                                     std::pair("linear", "It grows linearly in {}: {}."),
-                                     std::pair("quadratic", "It grows quadratically in {}: {}."),
-                                     std::pair("faster", "It grows faster than that in {}: {}."),
-                                     std::pair("round-off", "It never leaves round-off in {}: {}.")}) {
+  for (const auto& [name, phrase] :
+       {std::pair("bounded", "The energy drift stays bounded in {}: {}."),
+        std::pair("random walk", "It grows like a random walk, ∝ √t, in {}: {}."),
+        std::pair("sublinear", "It grows one way, more slowly than t, in {}: {}."),
+        std::pair("linear", "It grows linearly in {}: {}."),
+        std::pair("quadratic", "It grows quadratically in {}: {}."),
+        std::pair("faster", "It grows faster than that in {}: {}."),
+        std::pair("saturated", "It has come to rest, or is as large as the energy that moves, in {}: {}."),
+        std::pair("jumps", "It changes at impacts, and not between them, in {}: {}."),
+        std::pair("round-off", "It never leaves round-off in {}: {}."),
+        std::pair("undecided", "How it grows cannot be told from {}: {}.")}) {
     const auto found = classes.find(name);
     if (found == classes.end()) continue;
-    const auto& [n, methods] = found->second;
-    std::string text = fmt::format(fmt::runtime(phrase), count(n, "run"), some(methods));
-    if (sentences.empty() && text.starts_with("It ")) text = "The energy drift " + text.substr(3);
+    std::string text = fmt::format(fmt::runtime(phrase), count(found->second.runs, "run"), some(found->second.methods));
+    if (sentences.empty()) {
+      constexpr std::string_view it = "It ", how = "How it ", drift = "he energy drift ";
+      if (text.starts_with(it)) text = fmt::format("T{}{}", drift, text.substr(it.size()));
+      if (text.starts_with(how)) text = fmt::format("How t{}{}", drift, text.substr(how.size()));
+    }
     sentences.push_back(std::move(text));
   }
-  if (unsure > 0) {
-    sentences.push_back(fmt::format("In {} the interval of the exponent reaches into another class.", count(unsure, "run")));
-  }
+  if (durations.empty()) return sentences;
+  std::sort(durations.begin(), durations.end());
+  const std::string least = number(durations.front(), 2), most = number(durations.back(), 2);
+  sentences.push_back(fmt::format("{} would decide {}, by estimate.",
+                                  least == most ? fmt::format("Some {} s", least) : fmt::format("Between {} and {} s", least, most),
+                                  durations.size() == classes["undecided"].runs
+                                      ? (durations.size() == 1 ? std::string("it") : std::string("them"))
+                                      : fmt::format("{} of them", durations.size())));
   return sentences;
 }
 

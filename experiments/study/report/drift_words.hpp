@@ -12,10 +12,10 @@ namespace polhode::study::report {
 /// "0.998 … 1.004", empty where there is none.
 std::string exponent_interval(const RunResult& result);
 
-/// "linear: p = 1.001, 95 % between 0.998 and 1.004", and how it stands between two classes; empty without a class.
+/// "linear: p = 1.001, 95 % between 0.998 and 1.004", "undecided, which some 60 s would decide"; empty without a class.
 std::string growth_words(const RunResult& result);
 
-/// Which methods' drifts grow how, and in how many runs the interval reaches into another class.
+/// Which methods' drifts grow how, of how many it cannot be told, and what duration would.
 std::vector<std::string> growth_sentences(const StudyView& study);
 
 /// Whose error is one of phase alone.
