@@ -163,10 +163,11 @@ DriftClass classify(const DriftRecord& record) {
     if (part == ImpactPart::alone && record.largest > clear_of_round_off * record.round_off) c.name = "jumps";
     return c;
   }
-  if (!growth) {  // constant
+  if (!growth && std::isfinite(record.largest)) {  // constant
     decide_as(c, "bounded", 0, 0, 0);
     return c;
   }
+  if (!growth) return c;
   if (has_settled(record.blocks, record.largest)) {
     if (record.largest > clear_of_round_off * record.round_off) c.name = "saturated";
     return c;
