@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -22,7 +21,6 @@ namespace {
 
 using namespace report;
 
-constexpr double lost_attitude = 0.5;   ///< rad: beyond it an attitude says nothing about an order
 constexpr std::size_t most_items = 16;  // of a sentence
 
 bool is_attitude(const Quantity& quantity) { return quantity.unit == " rad"; }
@@ -36,16 +34,7 @@ struct Order {
 };
 
 Order order_of(const Curve& curve, const Quantity& quantity, std::optional<double> declared) {
-  OrderSettings settings;
-  if (is_attitude(quantity)) settings.lost = lost_attitude;
-  settings.epsilon = epsilon(curve.runs.front()->config.precision);
-  // A method that chooses its steps does not follow a line as closely as one that is given them: the whole ladder
-  // counts.
-  if (curve.adaptive) {
-    settings.straightness = std::numeric_limits<double>::infinity();
-    settings.least_fall = 0;
-  }
-  const auto estimate = estimate_order(error_ladder(curve, quantity), settings);
+  const auto estimate = observed_order(curve, quantity);
   return {&curve, quantity, declared, estimate, judge(estimate, declared)};
 }
 
@@ -114,7 +103,9 @@ class Orders {
 
   static std::string observed(const Order& o) {
     if (o.estimate.exact) return "round-off";
-    if (!o.estimate.line) return fmt::format("{} left", count(o.estimate.points, "point"));
+    if (!o.estimate.line) {
+      return fmt::format("{} left: {}", count(o.estimate.points, "point"), why_not_told(*o.curve, o.quantity, o.estimate));
+    }
     return fmt::format("{:.2f} ± {:.2f} over {}", o.estimate.line->order, o.estimate.line->half_width_95,
                        count(o.estimate.points, "point"));
   }

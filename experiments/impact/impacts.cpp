@@ -230,7 +230,7 @@ class Impacts {
     for (const auto& [key, errors] : curves_) {
       const auto& [where, method, response, timing] = key;
       const Errors& e = errors.front();
-      table.rows.push_back({method, where, timing, response, study::report::exact(e.step), cell(e.time),
+      table.rows.push_back({method, where, timing, response, study::report::rounded(e.step), cell(e.time),
                             order_text(order(errors, &Errors::time, time_floor)), cell(e.energy),
                             order_text(order(errors, &Errors::energy, energy_floor)), cell(e.linear), cell(e.angular)});
     }

@@ -24,11 +24,12 @@ using Value = std::optional<double>;
 
 std::string printed(const Value& x) { return x && std::isfinite(*x) ? number(*x) : ""; }
 
-Table table_of(const std::vector<TrajectoryScore>& scores) {
+Table table_of(const std::vector<Judged>& judged) {
   Table table{.caption = "Each trajectory beside the exact motion, or the reference",
               .columns = {{"trajectory", "", Kind::name},
                           {"instants"},
                           {"status", "", Kind::text},
+                          {"diagnosis", "", Kind::text},
                           {"energy drift", "relative"},
                           {"drift rate", "W"},
                           {"±", "W"},
@@ -45,9 +46,10 @@ Table table_of(const std::vector<TrajectoryScore>& scores) {
                           {"off it", "relative"},
                           {"its own energy differs", "relative"}},
               .rows = {}};
-  for (const TrajectoryScore& s : scores) {
+  for (const Judged& one : judged) {
+    const TrajectoryScore& s = one.score;
     const RunResult& r = s.record.result;
-    table.rows.push_back({s.record.config.integrator, std::to_string(s.instants), r.status,
+    table.rows.push_back({s.record.config.integrator, std::to_string(s.instants), r.status, one.diagnosis.name,
                           printed(r.energy_drift_max_rel), printed(r.energy_drift_rate), printed(r.energy_drift_rate_ci),
                           r.drift_class, r.drift_exponent ? fmt::format("{:.3f}", *r.drift_exponent) : "", exponent_interval(r),
                           printed(r.linear_momentum_drift_max_rel), printed(r.angular_momentum_drift_max_rel),
@@ -59,9 +61,9 @@ Table table_of(const std::vector<TrajectoryScore>& scores) {
   return without_empty_columns(std::move(table));
 }
 
-std::string csv_of(const StudyView& study, const std::vector<TrajectoryScore>& scores) {
+std::string csv_of(const StudyView& study, const std::vector<Judged>& judged) {
   std::vector<std::string> header = {"trajectory", "scenario", "status", "message", "instants", "t_first_s", "t_last_s",
-                                     "spacing_max_s", "energy_initial_J", "energy_drift_max_rel",
+                                     "spacing_max_s", "diagnosis", "diagnosis_factor", "diagnosis_margin", "polhode_pace", "energy_initial_J", "energy_drift_max_rel",
                                      "energy_drift_final_rel", "energy_drift_rate_W", "drift_class",
                                      "energy_drift_rate_ci_W", "drift_exponent", "drift_exponent_low",
                                      "drift_exponent_high", "linear_momentum_drift_max_rel",
@@ -74,11 +76,14 @@ std::string csv_of(const StudyView& study, const std::vector<TrajectoryScore>& s
     header.emplace_back(c);
   }
   std::string text = csv_row(header);
-  for (const TrajectoryScore& s : scores) {
+  for (const Judged& one : judged) {
+    const TrajectoryScore& s = one.score;
     const RunResult& r = s.record.result;
     std::vector<std::string> row = {s.record.config.integrator, s.record.config.scenario, r.status, r.message,
                                     std::to_string(s.instants), study::exact(s.t_first), study::exact(s.record.config.t_end),
-                                    csv_cell(s.record.config.dt), csv_cell(r.energy_initial),
+                                    csv_cell(s.record.config.dt), one.diagnosis.name,
+                                    csv_cell(one.diagnosis.factor), csv_cell(one.diagnosis.margin), polhode_pace(s),
+                                    csv_cell(r.energy_initial),
                                     csv_cell(r.energy_drift_max_rel), csv_cell(r.energy_drift_final_rel),
                                     csv_cell(r.energy_drift_rate), r.drift_class, csv_cell(r.energy_drift_rate_ci),
                                     csv_cell(r.drift_exponent), csv_cell(r.drift_exponent_low),
@@ -106,7 +111,7 @@ struct ErrorQuantity {
 };
 
 /// One panel for each kind of error that is known, signed where it has a sign.
-Figure errors_against_time(const StudyView& study, const std::vector<TrajectoryScore>& scores) {
+Figure errors_against_time(const StudyView& study, const std::vector<Judged>& judged) {
   Figure figure{.name = "errors_against_time",
                 .title = "Errors against time",
                 .caption = "The distance of each trajectory from the exact motion, or the reference, at up to 257 of its "
@@ -120,10 +125,10 @@ Figure errors_against_time(const StudyView& study, const std::vector<TrajectoryS
         ErrorQuantity{"polhode_off_rel", "off the polhode (relative)", &ErrorPoint::off}}) {
     Panel panel{.x_column = "t_s", .y_column = q.column};
     double low = 0, high = 0, quietest = std::numeric_limits<double>::infinity(), end = 0;
-    for (std::size_t i = 0; i < scores.size(); ++i) {
-      PlottedCurve curve{.label = scores[i].record.config.integrator, .method = i};
+    for (std::size_t i = 0; i < judged.size(); ++i) {
+      PlottedCurve curve{.label = judged[i].score.record.config.integrator, .method = i};
       double largest = 0;
-      for (const ErrorPoint& p : scores[i].errors) {
+      for (const ErrorPoint& p : judged[i].score.errors) {
         const Value& y = p.*q.member;
         if (!y || !std::isfinite(*y)) continue;
         curve.points.push_back({p.t, *y, 0, Mark::value});
@@ -150,10 +155,12 @@ Figure errors_against_time(const StudyView& study, const std::vector<TrajectoryS
   return figure;
 }
 
-std::vector<std::string> sentences_of(const std::vector<TrajectoryScore>& scores) {
+std::vector<std::string> sentences_of(const std::vector<Judged>& judged) {
   std::vector<std::string> sentences;
   constexpr double same = 1e-9;
-  for (const TrajectoryScore& s : scores) {
+  for (const Judged& one : judged) sentences.push_back(first_line(one));
+  for (const Judged& one : judged) {
+    const TrajectoryScore& s = one.score;
     const RunResult& r = s.record.result;
     const std::string& name = s.record.config.integrator;
     if (!r.message.empty()) sentences.push_back(fmt::format("{}: {}.", name, r.message));
@@ -170,16 +177,16 @@ std::vector<std::string> sentences_of(const std::vector<TrajectoryScore>& scores
 
 }  // namespace
 
-Analysis judgement(const StudyView& study, const std::vector<TrajectoryScore>& scores) {
+Analysis judgement(const StudyView& study, const std::vector<Judged>& judged) {
   Analysis analysis{.heading = "Scores",
-                    .sentences = sentences_of(scores),
+                    .sentences = sentences_of(judged),
                     .method = {"Energy, momenta and invariants are computed from the states in the file with the "
                                "scenario's inertia and forces; drifts are against the first row, errors against the "
                                "motion that starts as the scenario says. What is called dt on this page is the largest "
                                "spacing of the rows."},
-                    .tables = {{"scores", table_of(scores)}},
-                    .files = {{"scores.csv", csv_of(study, scores)}}};
-  if (Figure figure = errors_against_time(study, scores); !figure.panels.empty()) {
+                    .tables = {{"scores", table_of(judged)}},
+                    .files = {{"scores.csv", csv_of(study, judged)}}};
+  if (Figure figure = errors_against_time(study, judged); !figure.panels.empty()) {
     analysis.figures.push_back(std::move(figure));
   }
   return analysis;

@@ -4,12 +4,12 @@
 
 #include <vector>
 
+#include "experiments/judge/first_line.hpp"
 #include "experiments/study/study_view.hpp"
-#include "experiments/study/trajectory_score.hpp"
 
 namespace polhode::study {
 
-/// The scores in the order of the runs of the study.
-Analysis judgement(const StudyView& study, const std::vector<TrajectoryScore>& scores);
+/// The trajectories in the order of the runs of the study. Its first sentences are their first lines.
+Analysis judgement(const StudyView& study, const std::vector<Judged>& judged);
 
 }  // namespace polhode::study

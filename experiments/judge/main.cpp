@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far is a trajectory, from whatever program, from the exact motion, and how does its energy drift?
+// How far is a trajectory, from whatever program, from the exact motion, and what is wrong with it?
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 #include "experiments/judge/judgement.hpp"
 #include "experiments/judge/options.hpp"
 #include "experiments/study/csv.hpp"
-#include "experiments/study/input_error.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/program.hpp"
 #include "experiments/study/result_folder.hpp"
 #include "experiments/study/results.hpp"
 #include "experiments/study/store.hpp"
@@ -34,20 +34,23 @@ std::vector<std::string> labels_of(const std::vector<std::string>& files) {
   return labels;
 }
 
-std::vector<TrajectoryScore> scores_of(const JudgeOptions& options, const Scenario& scenario) {
+std::vector<Judged> judged_of(const JudgeOptions& options, const Scenario& scenario) {
   std::vector<Trajectory> trajectories;  // all are read before anything is made of one
   for (const std::string& file : options.files) trajectories.push_back(read_trajectory(file, scenario.problem));
   const auto labels = labels_of(options.files);
-  std::vector<TrajectoryScore> scores;
+  std::vector<Judged> judged;
   for (std::size_t i = 0; i < trajectories.size(); ++i) {
     RunConfig config;
     config.scenario = scenario.name;
     config.integrator = labels[i];
     config.formulation.rotation_from = options.rotation_from;
     config.reference = options.reference;
-    scores.push_back(score(trajectories[i], scenario, config));
+    Judged one{score(trajectories[i], scenario, config), {}, {}};
+    one.diagnosis = diagnose(trajectories[i], scenario, one.score);
+    if (one.diagnosis.meant) one.meant = score(*one.diagnosis.meant, scenario, config);
+    judged.push_back(std::move(one));
   }
-  return scores;
+  return judged;
 }
 
 int judge(const JudgeOptions& options) {
@@ -59,10 +62,11 @@ int judge(const JudgeOptions& options) {
   const Scenario& scenario = view.scenarios.front();
   view.invariants = scenario.invariants;
   std::sort(view.invariants.begin(), view.invariants.end());
-  const auto scores = scores_of(options, scenario);
+  const auto judged = judged_of(options, scenario);
   Plan plan;
   std::set<std::string> ids;
-  for (const TrajectoryScore& s : scores) {
+  for (const Judged& one : judged) {
+    const TrajectoryScore& s = one.score;
     view.runs.push_back(s.record);
     // The score itself says which run it is: another trajectory has another one.
     std::string text = scenario.canonical + s.record.config.integrator + std::to_string(s.instants);
@@ -78,7 +82,7 @@ int judge(const JudgeOptions& options) {
                                     : std::filesystem::path(options.out);
   const ResultFolder held(view.folder, ids, options.force);
   Store(view.folder).keep(view.runs);
-  view.analysis = judgement(view, scores);
+  view.analysis = judgement(view, judged);
   write_runs_csv(view);
   write_timings_csv(view);
   Options written;
@@ -89,6 +93,10 @@ int judge(const JudgeOptions& options) {
     if (const std::string skipped = write_figures(view); !skipped.empty()) fmt::print(stderr, "judge: {}\n", skipped);
   }
   write_report(view);
+  auto& sentences = view.analysis->sentences;  // what is wrong comes first, above the table
+  const auto rest = sentences.begin() + static_cast<std::ptrdiff_t>(judged.size());
+  fmt::print("{}\n\n", fmt::join(sentences.begin(), rest, "\n"));
+  sentences.erase(sentences.begin(), rest);
   fmt::print("{}\n{}\n", summary_table(view), (view.folder / "report.html").string());
   return 0;
 }
@@ -98,17 +106,8 @@ int judge(const JudgeOptions& options) {
 
 int main(int argc, char** argv) {
   using namespace polhode::study;
-  constexpr int bad_input = 2, not_carried_out = 3;
-  try {
+  return run_program("judge", [&] {
     const JudgeOptions options = parse_judge_options(argc, argv);
     return options.exit_status ? *options.exit_status : judge(options);
-  } catch (const InputError& error) {
-    std::string line = error.what();
-    std::replace(line.begin(), line.end(), '\n', ' ');
-    fmt::print(stderr, "judge: {}\n", line);
-    return bad_input;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "judge: {}\n", error.what());
-    return not_carried_out;
-  }
+  });
 }

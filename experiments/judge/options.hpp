@@ -25,6 +25,6 @@ struct JudgeOptions {
 JudgeOptions parse_judge_options(int argc, const char* const* argv);
 
 inline constexpr const char* judge_question =
-    "How far is a trajectory, from whatever program, from the exact motion, and how does its energy drift?";
+    "How far is a trajectory, from whatever program, from the exact motion, and what is wrong with it?";
 
 }  // namespace polhode::study

@@ -16,9 +16,7 @@ namespace {
 
 using namespace report;
 
-constexpr double lost_attitude = 0.5;     ///< rad
 constexpr double agrees = 1.25;           ///< a run within this factor of the more precise one shows truncation alone
-constexpr double widest_interval = 0.5;   ///< of an order
 constexpr double dominates = 3;           ///< rounding of at least that many times the truncation error
 constexpr double clearly_dominates = 10;  ///< so that the growth in time is that of rounding
 // Errors are measured in double: the energy of a state to about its ε, the exact motion to some.
@@ -34,7 +32,7 @@ struct Texts {
 Texts texts_of(const RunConfig& c) {
   const auto& f = c.formulation;
   return {
-      {c.scenario, fmt::format("t_end = {} s", number(c.t_end, 6)),
+      {c.scenario, fmt::format("t_end = {} s", rounded(c.t_end)),
        c.samples ? fmt::format("{} samples", *c.samples) : "every step seen", c.reference ? "with a reference" : ""},
       {std::string(name(f.orientation)), std::string(name(f.angular_state)),
        f.gyroscopic ? "gyroscopic on" : "gyroscopic off", fmt::format("rotation {}", name(f.rotation_from)),
@@ -165,26 +163,28 @@ std::optional<Split> split(const Family& family, const Quantity& quantity) {
   std::vector<LadderPoint> truncated;
   std::vector<std::pair<double, double>> rounded;
   bool rounding_so_far = false;
+  const double lost = quantity.bounded ? motion_lost : std::numeric_limits<double>::infinity();
   found.least_error = std::numeric_limits<double>::infinity();
   for (const Rung& rung : family.rungs) {
-    const auto error = error_of(rung, quantity), exact = truncation_of(rung, quantity);
+    auto error = error_of(rung, quantity);
+    const auto exact = truncation_of(rung, quantity);
     if (!error) continue;
+    if (!(*error < lost)) error = std::numeric_limits<double>::infinity();
     if (*error < found.least_error) found.least_error = *error, found.at_step = rung.step;
     found.has_yardstick = found.has_yardstick || exact;
     if (!exact || !(std::isfinite(*error)) || (*error <= agrees * *exact && *exact <= agrees * *error)) {
       truncated.push_back({rung.step, *error, motion_in_double});
     }
-    if (exact && *error > dominates * *exact) rounded.emplace_back(rung.step, *error);
-    const bool now = exact && *error > 2 * *exact;  // as much rounding again as there is truncation
+    if (exact && std::isfinite(*error) && *error > dominates * *exact) rounded.emplace_back(rung.step, *error);
+    const bool now = exact && *exact < lost && *error > 2 * *exact;  // as much rounding again as there is truncation
     if (now && !rounding_so_far) found.takes_over = rung.step;
     if (!now) found.takes_over.reset();
     rounding_so_far = now;
   }
   if (!std::isfinite(found.least_error)) return std::nullopt;
-  OrderSettings settings;
-  if (quantity.unit == " rad") settings.lost = lost_attitude;
-  found.truncation = estimate_order(std::move(truncated), settings);
-  if (found.truncation.line && found.truncation.line->half_width_95 > widest_interval) found.truncation.line.reset();
+  found.truncation = estimate_order(std::move(truncated), {.lost = quantity.bounded ? lost_to_fits : lost});
+  const auto& line = found.truncation.line;
+  if (line && line->half_width_95 > widest_order_interval) found.truncation.line.reset();
   found.rounding_power = power(rounded);
   return found;
 }
@@ -198,7 +198,7 @@ bool is_rounding(const Rung::Run& run) {
 bool is_rounding_in_attitude(const Rung::Run& run) {
   if (!is_rounding(run)) return false;
   const auto error = run.run->result.attitude_error_max, exact = run.exact->result.attitude_error_max;
-  return error && exact && *error > clearly_dominates * *exact;
+  return error && exact && *error < motion_lost && *error > clearly_dominates * *exact;
 }
 
 }  // namespace polhode::study::precision

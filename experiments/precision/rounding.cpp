@@ -60,8 +60,8 @@ Rise rise_of(const Problem& problem, const Family& family) {
 }
 
 std::string step_text(const Family& family, double step) {
-  return family.adaptive() ? fmt::format("tolerance {}", report::exact(step))
-                           : fmt::format("dt = {} s", report::exact(step));
+  return family.adaptive() ? fmt::format("tolerance {}", report::rounded(step))
+                           : fmt::format("dt = {} s", report::rounded(step));
 }
 std::string words_of(const Quantity& quantity) {
   return quantity.unit == " rad" ? "attitude" : quantity.unit == " m" ? "position" : "energy";

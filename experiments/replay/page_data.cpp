@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/study/report/figure_style.hpp"
+#include "experiments/study/report/notation.hpp"
 
 namespace polhode::study {
 namespace {
@@ -107,7 +108,7 @@ std::string detail_of(const Recording& r, const std::vector<Recording>& all) {
     const std::string &name = r.facts[k].first, &cell = r.facts[k].second;
     if (name == "integrator" || name == "dt_s" || name == "tolerance" || cell.empty()) continue;
     const auto other = [&](const Recording& o) { return k < o.facts.size() && o.facts[k].second != cell; };
-    if (std::any_of(all.begin(), all.end(), other)) detail += (detail.empty() ? "" : ", ") + name + " " + cell;
+    if (std::any_of(all.begin(), all.end(), other)) detail += (detail.empty() ? "" : ", ") + name + " " + report::rounded(cell);
   }
   return detail;
 }

@@ -4,14 +4,16 @@
 #include <algorithm>
 #include <numeric>
 
+#include "experiments/study/report/notation.hpp"
+
 namespace polhode::study {
 
 std::string label_of(const Recording& r) {
   std::string method, step;
   for (const auto& [name, cell] : r.facts) {
     if (name == "integrator") method = cell;
-    if (name == "dt_s" && !cell.empty()) step = ", dt = " + cell + " s";
-    if (name == "tolerance" && !cell.empty()) step = ", tolerance " + cell;
+    if (name == "dt_s" && !cell.empty()) step = ", dt = " + report::rounded(cell) + " s";
+    if (name == "tolerance" && !cell.empty()) step = ", tolerance " + report::rounded(cell);
   }
   return method + step;
 }

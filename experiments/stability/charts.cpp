@@ -25,10 +25,14 @@ constexpr std::size_t most_map_figures = 4;
 constexpr double row_height = 17;        // pixels
 constexpr double logarithmic_from = 30;  // largest over smallest value of the varied key
 
-/// In the order of Verdict. Blue holds, orange to brown grows; the four differ in lightness as well as in hue.
+/// In the order of Verdict: blue holds, yellow gains slowly, orange to brown grows, and all differ in lightness as well as
+/// in hue. Then the mark of the motion's limit.
 std::vector<Shade> shades() {
-  return {{"stable", "3B8FC4"}, {"damped", "BFE0F2"}, {"gaining", "F5B041"}, {"blown up", "7B2D12"}};
+  return {{"stable", "3B8FC4"},         {"damped", "BFE0F2"}, {"gaining slowly", "FBEFA5"}, {"gaining", "F5A431"},
+          {"blown up", "7B2D12"},       {"motion followed up to here", "000000"}};
 }
+constexpr std::size_t limit_shade = 5;
+constexpr double limit_width = 0.006;  // of a mark, as a part of the axis
 
 struct Interval {
   double low, high;
@@ -59,17 +63,34 @@ struct Band {
 
 std::vector<Band> bands(const StabilityFinding& f) {
   std::vector<double> steps;
-  for (const auto& step : f.ladder.steps) steps.push_back(step.dt * f.rate.value_or(1));
+  std::vector<Verdict> verdicts;
+  for (const auto& step : f.ladder.steps) {
+    if (step.verdict == Verdict::none) continue;
+    steps.push_back(step.dt * f.rate.value_or(1));
+    verdicts.push_back(step.verdict);
+  }
   const auto about = cells_about(steps, true);
   std::vector<Band> all;
   for (std::size_t i = 0; i < about.size(); ++i) {
-    const Verdict v = f.ladder.steps[i].verdict;
+    const Verdict v = verdicts[i];
     if (!all.empty() && all.back().verdict == v)
       all.back().step.high = about[i].high;
     else
       all.push_back({about[i], v});
   }
   return all;
+}
+
+/// The step, in h|ω| or s, up to which the motion is followed, as a thin stretch of an axis of steps; at an end of the
+/// axis where it is followed nowhere or everywhere. Absent where no motion is known to measure it by.
+std::optional<Interval> motion_limit(const StabilityFinding& f, const Axis& axis) {
+  if (!f.ladder.measured) return std::nullopt;
+  const double half = std::pow(axis.high / axis.low, limit_width / 2);
+  const double at = f.motion.kind == CriticalStep::Kind::from_start ? axis.low
+                    : f.motion.kind == CriticalStep::Kind::none     ? axis.high
+                                                                    : f.motion.holds * f.rate.value_or(1);
+  const double middle = std::clamp(at, axis.low * half, axis.high / half);
+  return Interval{middle / half, middle * half};
 }
 
 Axis axis_of_steps(const std::vector<const StabilityFinding*>& found) {
@@ -113,6 +134,9 @@ Panel chart_panel(const Grouping& grouping, const std::vector<const StabilityFin
       panel.cells.push_back(
           {band.step.low, band.step.high, top - 0.92, top - 0.08, static_cast<std::size_t>(band.verdict)});
     }
+    if (const auto limit = motion_limit(*f, panel.x)) {
+      panel.cells.push_back({limit->low, limit->high, top - 1, top, limit_shade});
+    }
   }
   return panel;
 }
@@ -151,6 +175,9 @@ Panel map_panel(const Grouping& grouping, const Columns& columns, const std::str
       panel.cells.push_back(
           {about[i].low, about[i].high, band.step.low, band.step.high, static_cast<std::size_t>(band.verdict)});
     }
+    if (const auto limit = motion_limit(*f, steps)) {
+      panel.cells.push_back({about[i].low, about[i].high, limit->low, limit->high, limit_shade});
+    }
     ++i;
   }
   return panel;
@@ -177,7 +204,8 @@ std::vector<Figure> stability_charts(const Grouping& grouping, const std::vector
     const std::string which = panels.size() > 1 ? fmt::format("_{}", figures.size() + 1) : "";
     Figure figure{.name = "stability_chart" + which,
                   .title = fmt::format("Stability on {}", grouping.cases[place.first].scenario),
-                  .caption = "What becomes of the energy against the step; blown up: or the method failed."};
+                  .caption = "What becomes of the energy against the step; blown up: or the method failed. Right of its mark a "
+                             "method no longer follows the motion, whatever the energy does."};
     if (methods.size() < used.size()) {
       figure.caption += fmt::format(" {} methods are left out.", used.size() - methods.size());
     }
@@ -195,7 +223,7 @@ std::vector<Figure> stability_maps(const Grouping& grouping, const std::vector<S
   std::map<std::string, std::map<std::pair<std::size_t, std::size_t>, Columns>> maps;
   for (const auto& f : found) {
     const Curve& curve = *f.ladder.curve;
-    const RunConfig& config = f.ladder.steps.front().run->config;
+    const RunConfig& config = f.ladder.steps.front().longest().config;
     if (const auto x = number_of(config, key)) {
       maps[config.scenario][{curve.variant_index, curve.method_index}][*x] = &f;
     }
@@ -217,7 +245,8 @@ std::vector<Figure> stability_maps(const Grouping& grouping, const std::vector<S
       Figure figure{.name = fmt::format("stability_map_{}", figures.size() + 1),
                     .title = fmt::format("Stability of {} over {}", scenario, key),
                     .caption = fmt::format("What becomes of the energy over {} (SI units) and the step, one panel for each "
-                                           "method; blown up: or the method failed.",
+                                           "method; blown up: or the method failed. Above its mark a method no longer "
+                                           "follows the motion, whatever the energy does.",
                                            key)};
       if (drawn.size() > maps_in_figure) {
         figure.caption += fmt::format(" Methods {} to {} of {}.", first + 1, last, drawn.size());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Up to which step is each method stable on a motion, and what becomes of the energy beyond it?
-#include "experiments/stability/ladder.hpp"
+// Up to which step is each method stable on a motion and follows it, and what becomes of the energy beyond it?
+#include <fmt/format.h>
+
+#include "experiments/study/step_ladder.hpp"
 #include "experiments/stability/stability.hpp"
 #include "experiments/study/study.hpp"
 
@@ -14,11 +16,23 @@ const polhode::study::FurtherAxes map_over_inertia = {
     .vary = {{"body.0.inertia.1", "0.42:1.58:16"}},
     .by_default_only = true};
 
+std::string meaning() {
+  using namespace polhode::study;
+  return fmt::format("Two limits, each the largest step below which it holds: the energy does not grow (a gain of less than "
+                     "{:g} % of its scale in a turn 2π/|ω| is slow and no growth, but where the system is linear), and the "
+                     "motion is followed for the duration asked for: attitude error below {:g} rad, position error below "
+                     "{:g} of the largest displacement, relative drift of momenta and further invariants below {:g}, "
+                     "orientation defect below {:g}. Errors are against the exact motion or, with --reference, against a "
+                     "reference.",
+                     100 * verdict::slow, followed::attitude, followed::position, followed::momentum, followed::defect);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   return polhode::study::run_experiment({.name = "stability",
-                                         .question = "Up to which step is each method stable?",
+                                         .question = "Up to which step is each method stable, and follows the motion?",
+                                         .meaning = meaning(),
                                          .defaults = {{"scenario", "oscillator,hairer_vilmart"},
                                                       {"integrator", "all"},
                                                       {"dt", "0.02:100:38:log"},

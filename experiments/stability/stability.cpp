@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -25,7 +26,10 @@ using Kind = CriticalStep::Kind;
 
 constexpr std::size_t most_items = 16;  // of a sentence
 
-std::string four(double x) { return fmt::format("{:.4g}", x); }
+constexpr int rough = 3;  // digits of a limit of the motion
+
+std::string digits_of(double x, int digits) { return fmt::format("{:.{}g}", x, digits); }
+std::string four(double x) { return digits_of(x, 4); }
 
 /// A radius so that its distance from 1 is seen.
 std::string radius_text(double r) {
@@ -64,37 +68,45 @@ class Stability {
  private:
   static std::vector<std::string> method() {
     return {
-        fmt::format(
-            "Critical step: the smallest step at which the energy of a run grows (gaining or blown up), looked for "
-            "from "
-            "below among the steps of --dt and then by bisection until the bracket is {} % wide. A window of growth "
-            "narrower than the distance of two steps of that scan may be missed. Each run takes whole steps, and 500 "
-            "at "
-            "least.",
-            number(100 * bracket_width)),
-        fmt::format(
-            "Verdicts, from the signed energy drift in the four quarters of a run: blown up: diverged, failed or a "
-            "relative drift above {}; gaining or damped: the middle of the range moves the same way from quarter to "
-            "quarter, by more than {} of the widest range, or that of the last quarter is more than {} of its ranges "
-            "away from the start; stable: neither, or a change below {} (or 64 ε √steps).",
-            number(verdict::lost), number(verdict::trend), number(verdict::settled), number(verdict::counted)),
+        fmt::format("Critical step: the smallest step at which the energy of a run grows (gaining or blown up), looked "
+                    "for from below among the steps of --dt and then by bisection until the bracket is {} % wide. A "
+                    "window of growth narrower than the distance of two steps of that scan may be missed. Each run "
+                    "takes whole steps, and 500 at least. Where the energy is gained at the critical step but not at "
+                    "the next larger one, a run {} times as long decides.",
+                    number(100 * bracket_width), number(confirmed_by)),
+        fmt::format("Verdicts, from the signed energy drift in the four quarters of a run: blown up: diverged, failed, a "
+                    "relative drift or an orientation defect above {}; gaining or damped: the middle of the range moves "
+                    "the same way from quarter to quarter, by more than {} of the widest range, or that of the last "
+                    "quarter is more than {} of its ranges away from the start; gaining slowly: by less than {} % of "
+                    "the energy scale in a turn 2π/|ω|, which in a system that is not linear is an error of "
+                    "truncation, not an instability; stable: neither, or a change below {} (or 64 ε √steps, or what "
+                    "rounding may add up to).",
+                    number(verdict::lost), number(verdict::trend), number(verdict::settled),
+                    number(100 * verdict::slow), number(verdict::counted)),
+        fmt::format("The motion is followed by a run as long as asked for in which the attitude error stays below {} "
+                    "rad and the position error below {} of the largest displacement, both against the exact motion or "
+                    "a reference, the relative drift of momenta and further invariants below {} (of the energy too, "
+                    "where the motion is not known), and the orientation defect below {}. The largest step at which it is followed is looked for from below, like the "
+                    "critical step.",
+                    number(followed::attitude), number(followed::position), number(followed::momentum),
+                    number(followed::defect)),
         "|ω|: the largest √(k/m) of the springs, |ω| of the bodies at the start, √(m g l/I) of a pinned body under "
-        "gravity and √(GM/r³) of a pair. Spectral radius: the largest modulus of the eigenvalues of the map of one "
-        "step, "
-        "taken from the method itself, where the system is linear."};
+        "gravity and √(GM/r³) of a pair. Gain: the least-squares slope of the energy drift over the energy scale. "
+        "Spectral radius: the largest modulus of the eigenvalues of the map of one step, taken from the method "
+        "itself, where the system is linear."};
   }
 
   std::string label(const StabilityFinding& f) const { return grouping_.label(*f.ladder.curve); }
-  const std::string& motion(const StabilityFinding& f) const { return f.ladder.steps.front().run->config.scenario; }
+  const std::string& motion(const StabilityFinding& f) const { return f.ladder.steps.front().longest().config.scenario; }
 
   /// A step as h|ω| where there is a rate, in s otherwise.
-  static std::string in_units(const StabilityFinding& f, double dt) {
-    return f.rate ? four(dt * *f.rate) : four(dt) + " s";
+  static std::string in_units(const StabilityFinding& f, double dt, int digits = 4) {
+    return f.rate ? digits_of(dt * *f.rate, digits) : digits_of(dt, digits) + " s";
   }
-  std::string symbol() const {
-    const bool all = std::all_of(found_.begin(), found_.end(), [](const auto& f) { return f.rate.has_value(); });
-    return all ? "h|ω|" : "h";
+  bool all_have_rates() const {
+    return std::all_of(found_.begin(), found_.end(), [](const auto& f) { return f.rate.has_value(); });
   }
+  std::string symbol() const { return all_have_rates() ? "h|ω|" : "h"; }
 
   static std::string step_text(const StabilityFinding& f, const CriticalStep& c, bool seconds) {
     const auto& steps = f.ladder.steps;
@@ -109,22 +121,21 @@ class Stability {
     }
   }
 
-  /// What the energy does at the steps below the critical one: what most of them do.
-  static std::string below(const StabilityFinding& f) {
-    std::size_t damped = 0, all = 0;
-    for (const auto& step : f.ladder.steps) {
-      if (f.growth.kind != Kind::none && step.dt >= f.growth.fails) break;
-      ++all;
-      damped += step.verdict == Verdict::damped ? 1 : 0;
-    }
-    return all == 0 ? "" : 2 * damped > all ? "damped" : "stable";
+  /// Up to which step the motion is followed.
+  static std::string followed_text(const StabilityFinding& f, bool seconds) {
+    const CriticalStep& c = f.motion;
+    const auto as = [&](double dt) { return seconds ? digits_of(dt, rough) : in_units(f, dt, rough); };
+    if (c.kind == Kind::from_start) return fmt::format("below {}", as(c.fails));
+    if (c.kind == Kind::none) return f.ladder.measured ? fmt::format("all to {}", as(c.holds)) : "";
+    return (f.ladder.measured ? "" : "at most ") + as(c.holds);
   }
 
-  static std::string at_critical(const StabilityFinding& f) {
-    for (const auto& step : f.ladder.steps) {
-      if (f.growth.kind != Kind::none && step.dt == f.growth.fails) return std::string(name(step.verdict));
-    }
-    return "";
+  /// How much energy is gained, over its scale, in a turn where there is a rate, in a second otherwise.
+  double in_a_turn(const StabilityFinding& f, double per_second) const {
+    return all_have_rates() ? per_second * 2 * std::numbers::pi / *f.rate : per_second;
+  }
+  std::string gain_text(const StabilityFinding& f) const {
+    return f.gain ? number(in_a_turn(f, f.gain->per_second), 2) : "";
   }
 
   static std::string radius_range(const StabilityFinding& f) {
@@ -141,17 +152,22 @@ class Stability {
     using C = Column::Kind;
     const auto unit = symbol();
     Table table{
-        .caption = fmt::format("Critical steps{}; every step: the energy grows at the smallest step tried and at "
-                               "all others",
+        .caption = fmt::format("Critical steps{}, and up to which step the motion is followed; every step: the energy "
+                               "grows at the smallest step tried and at all others; gain: of energy over its scale at "
+                               "the largest step at which it does not grow and the motion is followed, or else at the "
+                               "smallest step",
                                varied ? " with varied keys" : ""),
         .columns = {{"method", "", C::name},
                     {"motion", "", C::text},
                     {"formulation", "", C::text},
                     {"critical " + unit},
                     {"critical step", "s"},
-                    {"below", "", C::text},
-                    {"there", "", C::text},
                     {"blows up from " + unit},
+                    {"energy below", "", C::text},
+                    {all_have_rates() ? "gain per turn" : "gain per s"},
+                    {"followed up to " + unit},
+                    {"followed up to", "s"},
+                    {"then lost", "", C::text},
                     {"linear theory"},
                     {"spectral radius"}},
         .rows = {}};
@@ -161,8 +177,10 @@ class Stability {
       table.rows.push_back({grouping_.methods[curve.method_index],
                             grouping_.cases.size() > 1 ? grouping_.cases[curve.case_index].label() : "",
                             grouping_.variants[curve.variant_index], step_text(f, f.growth, false),
-                            f.rate ? step_text(f, f.growth, true) : "", below(f), at_critical(f),
-                            step_text(f, f.blow_up, false), f.linear ? step_text(f, f.linear->critical, false) : "",
+                            f.rate ? step_text(f, f.growth, true) : "", step_text(f, f.blow_up, false),
+                            std::string(name(f.below)), gain_text(f), followed_text(f, false),
+                            f.rate ? followed_text(f, true) : "", std::string(name(f.lost)),
+                            f.linear ? step_text(f, f.linear->critical, false) : "",
                             radius_range(f)});
     }
     return without_empty_columns(std::move(table));
@@ -208,8 +226,9 @@ class Stability {
   static std::optional<Passed> passed(const Group& group, const Test& test, CriticalStep StabilityFinding::*limit) {
     std::vector<std::pair<double, std::string>> at;
     for (const auto* f : group.members) {
-      const double dt = (f->*limit).fails;
-      if (test(*f)) at.emplace_back(dt * f->rate.value_or(1), in_units(*f, dt));
+      const bool of_motion = limit == &StabilityFinding::motion;
+      const double dt = of_motion ? f->motion.holds : (f->*limit).fails;
+      if (test(*f)) at.emplace_back(dt * f->rate.value_or(1), in_units(*f, dt, of_motion ? rough : 4));
     }
     if (at.empty()) return std::nullopt;
     std::sort(at.begin(), at.end());
@@ -259,17 +278,68 @@ class Stability {
       const auto say = [&](const std::string& start, const std::string& items) {
         if (!items.empty()) all.push_back(fmt::format("{}, {}: {}.", where, start, items));
       };
-      say(fmt::format("critical {}", symbol()), limits_of(all_passed(where, grows(Kind::found))));
+      for (auto& text : motion_sentences(where)) all.push_back(std::move(text));
+      say(fmt::format("critical {} of the energy", symbol()), limits_of(all_passed(where, grows(Kind::found))));
       say("no critical step up to the largest tried", names_of(all_passed(where, grows(Kind::none))));
       say("the energy grows at the smallest step tried already", names_of(all_passed(where, grows(Kind::from_start))));
       say(fmt::format("the energy grows before the run breaks down, which it does from {}", symbol()),
           limits_of(all_passed(where, breaks, &StabilityFinding::blow_up)));
       say("the energy stays bounded again at some larger step",
           names_of(all_passed(where, [](const auto& f) { return f.growth.holds_again; })));
+      for (const Verdict v : {Verdict::gaining_slowly, Verdict::damped}) {
+        say(fmt::format("{} below the critical step, over its scale {}",
+                        v == Verdict::damped ? "energy is lost" : "energy is gained slowly, not by an instability,",
+                        all_have_rates() ? "in a turn" : "in a second"),
+            gains(where, v));
+      }
       if (auto text = linear_sentence(where); !text.empty()) all.push_back(std::move(text));
     }
     if (auto text = left_out(); !text.empty()) all.push_back(std::move(text));
     return all;
+  }
+
+  std::vector<std::string> motion_sentences(const std::string& where) const {
+    const auto known = [](Kind k) {
+      return [k](const StabilityFinding& f) { return f.motion.kind == k && f.ladder.measured; };
+    };
+    const auto limit = &StabilityFinding::motion;
+    const auto at = std::find_if(found_.begin(), found_.end(), [&](const auto& f) { return motion(f) == where; });
+    if (at == found_.end()) return {};
+    std::vector<std::string> parts;
+    const auto add = [&](const std::string& start, const std::string& items) {
+      if (!items.empty()) parts.push_back(start + items);
+    };
+    add(fmt::format("up to {} ", symbol()), limits_of(all_passed(where, known(Kind::found), limit)));
+    add("at all steps tried by ", names_of(all_passed(where, known(Kind::none), limit)));
+    add("not even at the smallest step tried by ", names_of(all_passed(where, known(Kind::from_start), limit)));
+    std::vector<std::string> all;
+    if (!parts.empty()) {
+      all.push_back(fmt::format("{}, the motion is followed for {} s: {}.", where, number(at->ladder.duration),
+                                fmt::join(parts, "; ")));
+    }
+    const auto unknown = all_passed(where, [](const auto& f) { return !f.ladder.measured; }, limit);
+    if (!unknown.empty()) {
+      all.push_back(fmt::format("{}: no exact motion is known, so that invariants and the orientation alone say up to where it "
+                                "is followed at most; --reference measures the motion.",
+                                where));
+    }
+    return all;
+  }
+
+  /// "rk4 (4.3e-10 at h|ω| 0.063 to 1.1e-5 at h|ω| 0.72, ∝ h^5.0)", where no key is varied.
+  std::string gains(const std::string& where, Verdict verdict) const {
+    std::vector<std::string> items;
+    for (const auto& f : found_) {
+      if (motion(f) != where || is_varied(f) || f.below != verdict || !f.gain) continue;
+      const auto at = [&](double dt, double per_second) {
+        return fmt::format("{} at {} {}", number(std::abs(in_a_turn(f, per_second)), 2), symbol(), in_units(f, dt, rough));
+      };
+      std::string text = at(f.gain->smallest_dt, f.gain->smallest_per_second);
+      if (f.gain->dt != f.gain->smallest_dt) text += " to " + at(f.gain->dt, f.gain->per_second);
+      if (f.gain->exponent) text += fmt::format(", ∝ h^{:.1f}", *f.gain->exponent);
+      items.push_back(fmt::format("{} ({})", label(f), text));
+    }
+    return items.empty() ? "" : listed(std::move(items));
   }
 
   static bool agrees(const StabilityFinding& f) {
@@ -334,13 +404,16 @@ class Stability {
          {"characteristic_rate_rad_per_s", "smallest_step_s", "largest_step_s", "growth", "largest_holding_step_s",
           "critical_step_s", "critical_h_omega", "holds_again", "blow_up", "largest_step_before_blow_up_s",
           "blow_up_step_s", "blow_up_h_omega", "linear_theory", "linear_largest_holding_step_s",
-          "linear_critical_step_s", "linear_critical_h_omega", "spectral_radius_min", "spectral_radius_max"}) {
+          "linear_critical_step_s", "linear_critical_h_omega", "spectral_radius_min", "spectral_radius_max",
+          "energy_below", "energy_gain_per_s", "energy_gain_step_s", "energy_gain_exponent", "motion_duration_s",
+          "motion_measured", "motion", "largest_following_step_s", "motion_lost_step_s", "motion_lost_h_omega",
+          "motion_lost_by"}) {
       header.emplace_back(c);
     }
     std::string text = csv_row(header);
     for (const auto& f : found_) {
       const auto& steps = f.ladder.steps;
-      auto row = without_step(config_cells(steps.front().run->config));
+      auto row = without_step(config_cells(steps.front().longest().config));
       for (auto& cell : {csv_cell(f.rate), study::exact(steps.front().dt), study::exact(steps.back().dt)})
         row.push_back(cell);
       add_limit(row, f, f.growth);
@@ -350,8 +423,17 @@ class Stability {
         add_limit(row, f, f.linear->critical);
         row.push_back(study::exact(f.linear->smallest));
         row.push_back(study::exact(f.linear->largest));
+      } else {
+        row.resize(row.size() + 6);
       }
-      row.resize(header.size());
+      row.emplace_back(name(f.below));
+      row.push_back(f.gain ? study::exact(f.gain->per_second) : "");
+      row.push_back(f.gain ? study::exact(f.gain->dt) : "");
+      row.push_back(f.gain ? csv_cell(f.gain->exponent) : "");
+      row.push_back(study::exact(f.ladder.duration));
+      row.emplace_back(f.ladder.measured ? "yes" : "no");
+      add_limit(row, f, f.motion);
+      row.emplace_back(name(f.lost));
       text += csv_row(row);
     }
     return text;
@@ -360,18 +442,24 @@ class Stability {
   std::string runs_csv() const {
     std::vector<std::string> header = {"run"};
     for (auto& c : config_columns(study_.varied_keys, study_.named)) header.push_back(std::move(c));
-    for (const char* c : {"steps", "h_omega", "verdict", "spectral_radius"}) header.emplace_back(c);
+    for (const char* c : {"steps", "h_omega", "verdict", "spectral_radius", "energy_gain_per_s", "motion_lost"}) {
+      header.emplace_back(c);
+    }
     std::string text = csv_row(header);
     for (const auto& f : found_) {
       for (std::size_t i = 0; i < f.ladder.steps.size(); ++i) {
         const auto& step = f.ladder.steps[i];
-        std::vector<std::string> row = {step.run->id};
-        for (auto& cell : config_cells(step.run->config)) row.push_back(std::move(cell));
-        row.push_back(std::to_string(step.run->result.steps));
-        row.push_back(f.rate ? study::exact(step.dt * *f.rate) : "");
-        row.emplace_back(name(step.verdict));
-        row.push_back(f.linear ? csv_cell(f.linear->radius[i]) : "");
-        text += csv_row(row);
+        for (const RunRecord* run : step.runs) {
+          std::vector<std::string> row = {run->id};
+          for (auto& cell : config_cells(run->config)) row.push_back(std::move(cell));
+          row.push_back(std::to_string(run->result.steps));
+          row.push_back(f.rate ? study::exact(step.dt * *f.rate) : "");
+          row.emplace_back(name(energy_verdict(*run, f.ladder.turn)));
+          row.push_back(f.linear ? csv_cell(f.linear->radius[i]) : "");
+          row.push_back(csv_cell(energy_gain_rate(*run)));
+          row.emplace_back(name(what_is_lost(*run, f.ladder.displacement)));
+          text += csv_row(row);
+        }
       }
     }
     return text;

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "experiments/study/input_error.hpp"
+#include "experiments/study/suggestion.hpp"
 
 namespace polhode::study {
 namespace {
@@ -18,6 +19,21 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
+/// What is wrong with the first word that no option takes; CLI11 says them all, the last one first.
+std::string unknown_word(const CLI::App& app, const std::string& word) {
+  if (word.empty() || word.front() != '-') {
+    return "'" + word + "' belongs to no option; items of a list have commas between them, see --help";
+  }
+  const std::string name = word.substr(0, word.find('='));
+  std::vector<std::string> known;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& long_name : option->get_lnames()) known.push_back(long_name);
+  }
+  const auto first_letter = std::min(name.find_first_not_of('-'), name.size());
+  const std::string near = did_you_mean(name.substr(first_letter), {known.begin(), known.end()}, "--");
+  return "there is no option '" + name + "'" + (near.empty() ? "; see" : near + " See") + " --help";
+}
+
 }  // namespace
 
 CLI::Option* add_no_figures(CLI::App& app, bool& figures) {
@@ -29,6 +45,8 @@ std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);
+  } catch (const CLI::ExtrasError&) {
+    throw InputError(unknown_word(app, app.remaining().front()));
   } catch (const CLI::ParseError& error) {
     const std::string text = error.what();
     throw InputError(text.substr(0, text.find('\n')) + "; see --help");
@@ -37,7 +55,7 @@ std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const
 }
 
 std::string command_text(const std::string& program, int argc, const char* const* argv) {
-  std::string command = program;
+  std::string command = "./run " + program;
   for (int i = 1; i < argc; ++i) command += " " + quoted(argv[i]);
   return command;
 }

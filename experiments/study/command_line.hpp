@@ -19,7 +19,7 @@ CLI::Option* add_no_figures(CLI::App& app, bool& figures);
 /// for and printed; throws InputError, of one line, for what no option takes.
 std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const* argv);
 
-/// The call, quoted so that a shell takes it again.
+/// The call, "./run PROGRAM …", quoted so that a shell takes it again.
 std::string command_text(const std::string& program, int argc, const char* const* argv);
 
 }  // namespace polhode::study

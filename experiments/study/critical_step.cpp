@@ -21,9 +21,9 @@ CriticalStep critical_step(std::vector<TriedStep> steps) {
   return found;
 }
 
-std::optional<double> next_step(const CriticalStep& critical) {
+std::optional<double> next_step(const CriticalStep& critical, double width) {
   if (critical.kind != CriticalStep::Kind::found) return std::nullopt;
-  if (critical.fails - critical.holds <= bracket_width * critical.fails) return std::nullopt;
+  if (critical.fails - critical.holds <= width * critical.fails) return std::nullopt;
   return std::sqrt(critical.holds * critical.fails);
 }
 

@@ -34,6 +34,6 @@ CriticalStep critical_step(std::vector<TriedStep> steps);
 inline constexpr double bracket_width = 0.003;
 
 /// The step to try next, so that the bracket is halved (in its logarithm); absent: narrow enough, or none.
-std::optional<double> next_step(const CriticalStep& critical);
+std::optional<double> next_step(const CriticalStep& critical, double width = bracket_width);
 
 }  // namespace polhode::study

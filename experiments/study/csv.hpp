@@ -14,6 +14,6 @@ namespace polhode::study {
 std::string csv_row(const std::vector<std::string>& cells);
 
 /// All digits; empty where there is no number.
-inline std::string csv_cell(const std::optional<double>& x) { return x ? exact(*x) : std::string(); }
+inline std::string csv_cell(const std::optional<double>& x) { return x ? study::exact(*x) : std::string(); }
 
 }  // namespace polhode::study

@@ -23,4 +23,8 @@ std::optional<double> declared_order(const Declaration& method, const Scenario& 
   return order == Declaration::exact_order ? std::nullopt : std::optional<double>(order);
 }
 
+std::optional<double> declared_order(const Declaration& method, const RunRecord& run, bool attitude) {
+  return run.scenario ? declared_order(method, *run.scenario, run.config, attitude) : std::optional<double>(method.order);
+}
+
 }  // namespace polhode::study

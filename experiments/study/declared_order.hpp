@@ -14,4 +14,7 @@ namespace polhode::study {
 std::optional<double> declared_order(const Declaration& method, const Scenario& scenario, const RunConfig& config,
                                      bool attitude);
 
+/// For a run's own motion; the order under forces where its scenario is not known.
+std::optional<double> declared_order(const Declaration& method, const RunRecord& run, bool attitude);
+
 }  // namespace polhode::study

@@ -158,6 +158,7 @@ void DriftMeter::measure_further(const State<double>& state) {
 }
 
 void DriftMeter::measure_errors(const State<double>& state) {
+  errors_until_ = state.t;
   ExactMotion::Error e = exact_.error(system_, state);
   const double next_kept = t_end_ * static_cast<double>(attitude_errors_.size()) / most_attitude_errors;
   if (e.attitude && state.t >= next_kept * (1 - 1e-12)) attitude_errors_.push_back({state.t, *e.attitude});
@@ -210,8 +211,17 @@ void DriftMeter::report(RunResult& result) {
   }
   if (reference_) judge_by_reference(result);
   result.attitude_errors = attitude_errors_;
+  // What was seen before a run broke off, often its start alone, says nothing of how wrong it was in the end.
+  const bool broke_off = result.status != "ok" && !(errors_until_ >= result.t_reached && result.t_reached > 0);
+  if (broke_off) forget_errors(result);
   result.series = series_.finish(scales_.energy, scales_.linear, scales_.angular);
   if (result.status == "ok") classify(result);
+}
+
+void DriftMeter::forget_errors(RunResult& result) {
+  result.position_error_max = result.attitude_error_max = result.angular_velocity_error_max_rel = std::nullopt;
+  result.polhode_phase_error_max = result.polhode_phase_error_max_rad = result.polhode_off_error_max_rel = std::nullopt;
+  result.attitude_errors.clear();
 }
 
 void DriftMeter::judge_by_reference(RunResult& result) const {

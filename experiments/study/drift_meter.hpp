@@ -56,13 +56,15 @@ class DriftMeter final : public Observer {
   /// J, against which energy drifts are told; 0: against none.
   double energy_scale() const { return scales_.energy; }
 
-  /// Fills the measured part of the result, which has its status and its steps.
+  /// Fills the measured part of the result, which has its status and its steps. Of a run that broke off there are errors
+  /// against the exact motion only where they were measured at its last state.
   void report(RunResult& result);
 
  private:
   void start(const State<double>& state, const Sample& sample);
   void measure_further(const State<double>& state);
   void measure_errors(const State<double>& state);
+  static void forget_errors(RunResult& result);
   void judge_by_reference(RunResult& result) const;
   void classify(RunResult& result) const;
 
@@ -90,6 +92,7 @@ class DriftMeter final : public Observer {
   double next_exact_ = 0;
   std::int64_t exact_count_ = 0;
   ExactMotion::Error worst_error_;
+  double errors_until_ = 0;  ///< s, when they were measured last
   std::vector<AttitudeError> attitude_errors_;
   std::optional<PolhodeError> polhode_;
   PolhodeError::At worst_polhode_;

@@ -24,6 +24,7 @@ struct FurtherAxes {
 struct Experiment {
   std::string name;
   std::string question;  ///< one sentence
+  std::string meaning{};  ///< of its answer, for --help: one paragraph; empty: the question says it all
   /// The values of options that are not given, as the command line writes them: {"dt", "1e-3,1e-2"}.
   std::map<std::string, std::string> defaults;
   /// An ensemble of starts, as --vary writes it; taken where neither a scenario, a study file nor that key is given.

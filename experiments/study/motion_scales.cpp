@@ -7,6 +7,7 @@
 #include <exception>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "core/exact_motion.hpp"
 #include "core/invariants.hpp"
@@ -20,8 +21,9 @@ namespace {
 /// Takes states of the true motion and keeps the largest of everything.
 class LargestScales final : public Observer {
  public:
-  LargestScales(const System<double>& system, const std::vector<std::string>& invariants)
-      : system_(system) {
+  /// `radii`: of the moving bodies that can touch, m; empty without contact.
+  LargestScales(const System<double>& system, const std::vector<std::string>& invariants, std::vector<double> radii = {})
+      : system_(system), radii_(std::move(radii)) {
     found_.mass_center = mass_center_of_start(system);
     for (const std::string& name : invariants) kinds_.push_back(find_invariant(name));
     found_.invariants.resize(kinds_.size());
@@ -60,7 +62,8 @@ class LargestScales final : public Observer {
     raise(found_.linear, linear);
     raise(found_.angular, angular);
     raise(found_.steady_terms, steady);
-    raise(found_.energy_terms, seen.kinetic + force_terms(state));
+    raise(found_.kinetic_terms, seen.kinetic);
+    raise(found_.force_terms, force_terms(state));
     const BodySnapshot<double> first = system_.snapshot(state.y, 0);
     for (std::size_t k = 0; k < kinds_.size(); ++k) {
       raise(found_.invariants[k], kinds_[k]->scale(system_.problem(), first));
@@ -88,26 +91,32 @@ class LargestScales final : public Observer {
     return sum / mass;
   }
 
-  /// J: Σ |V| over the forces, and Σ |f| |p| + |τ| over forces and bodies, which times ε is what the rounding of a position
-  /// and of an attitude makes of V.
+  /// J, MotionScales::force_terms of this state.
   double force_terms(const State<double>& state) {
-    if (!system_.has_forces()) return 0;
+    double sum = 0;
+    for (std::size_t i = 0; i < radii_.size(); ++i) {
+      if (!(radii_[i] > 0)) continue;
+      const BodySnapshot<double> now = system_.snapshot(state.y, i);
+      sum += system_.problem().bodies[i].mass * now.velocity.squaredNorm() / 2 * now.position.norm() / radii_[i];
+    }
+    if (!system_.has_forces()) return sum;
     const std::size_t bodies = system_.problem().bodies.size();
     motions_.clear();
     for (std::size_t i = 0; i < bodies; ++i) motions_.push_back(system_.motion_of(state.y, i));
-    double sum = 0;
     for (const auto& force : system_.forces()) {
       wrenches_.assign(bodies, {});
       force->add_wrench(state.t, motions_, wrenches_);
-      sum += std::abs(force->potential_energy(motions_));
+      double moved = 0;
       for (std::size_t i = 0; i < system_.moving(); ++i) {
-        sum += wrenches_[i].force.norm() * motions_[i].position.norm() + wrenches_[i].torque.norm();
+        moved += wrenches_[i].force.norm() * motions_[i].position.norm() + wrenches_[i].torque.norm();
       }
+      sum += std::max(std::abs(force->potential_energy(motions_)), moved);
     }
     return sum;
   }
 
   const System<double>& system_;
+  std::vector<double> radii_;
   std::vector<const InvariantKind*> kinds_;
   std::vector<bool> steady_;  ///< by moving body: its mass centre is under a constant force, and under no other
   std::optional<double> potential_start_;
@@ -157,8 +166,12 @@ MotionScales along_exact(const Scenario& scenario, const System<double>& system,
 MotionScales along_steps(const Scenario& scenario, const RunConfig& config, const std::atomic<bool>* stop) {
   const auto system = make_system<double>(scenario.problem, config.formulation);
   std::optional<ContactSetup> contact;
-  if (config.contact) contact.emplace(*system, scenario, *config.contact);
-  LargestScales largest(*system, scenario.invariants);
+  std::vector<double> radii;
+  if (config.contact) {
+    contact.emplace(*system, scenario, *config.contact);
+    for (std::size_t i = 0; i < system->moving(); ++i) radii.push_back(contact->scene.radius(i));
+  }
+  LargestScales largest(*system, scenario.invariants, std::move(radii));
   const auto integrator = integrator_of<double>(config, *system);
   State<double> state = system->start();
   try {
@@ -214,13 +227,13 @@ MotionScales along_true_motion(const Scenario& scenario, double t_end, const std
 double MotionScales::energy_round_off(Precision precision, std::int64_t steps) const {
   // Energies are measured in double, whatever the precision of the run.
   const double unit = std::max(epsilon(precision), epsilon(Precision::dual)), n = static_cast<double>(std::max<std::int64_t>(steps, 1));
-  return unit * (16 * std::sqrt(n) * energy_terms + n * steady_terms);
+  return unit * (std::sqrt(n) * (16 * kinetic_terms + force_terms) + 4 * force_terms + n * steady_terms);
 }
 
 MotionScales motion_scales(const Scenario& scenario, double t_end, const std::atomic<bool>* stop) {
   MotionScales scales = along_true_motion(scenario, t_end, stop);
   // What rounding alone moves is no motion.
-  if (scales.energy <= 1e3 * epsilon(Precision::dual) * scales.energy_terms) scales.energy = 0;
+  if (scales.energy <= 1e3 * epsilon(Precision::dual) * scales.force_terms) scales.energy = 0;
   if (scenario.energy_scale) scales.energy = *scenario.energy_scale;
   double mass = 0, inertia = 0;
   for (std::size_t i = 0; i < scenario.problem.moving(); ++i) {

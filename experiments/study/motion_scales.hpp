@@ -29,15 +29,19 @@ struct MotionScales {
   Vector3<double> mass_center = Vector3<double>::Zero();  ///< m, of all moving bodies at the start
   std::vector<double> invariants;  ///< the largest InvariantKind::scale, in the order of the scenario's invariants
 
-  /// J: the largest sum of the sizes of all terms of the energy, and of what a rounding of the positions makes of them.
-  double energy_terms = 0;
+  double kinetic_terms = 0;  ///< J: the largest kinetic energy
+  /// J: the largest sum, over the forces, of |V| or of Σ |f| |p| + |τ| over the bodies, whichever is larger: times ε, what the
+  /// rounding of positions and attitudes makes of the energy. With contact also Σ ½ m v² |p|/r, r the radius of the body:
+  /// what it makes of the places where bodies touch.
+  double force_terms = 0;
   /// J: the largest kinetic energy of translation under constant forces, whose increments are all rounded alike.
   double steady_terms = 0;
 
   /// J: up to which an energy drift can be rounding alone after so many steps,
-  ///   16 ε √steps energy_terms + ε steps steady_terms.
-  /// The first term is a random walk of rounding errors (Brouwer, Astronomical Journal 46 (1937) 149–153), the second its
-  /// counterpart of one sign.
+  ///   ε (√steps (16 kinetic_terms + force_terms) + 4 force_terms + steps steady_terms).
+  /// √steps is that of a random walk of rounding errors (Brouwer, Astronomical Journal 46 (1937) 149–153): some sixteen in the
+  /// velocities, one in the positions of each step. The energy itself is rounded when it is measured. The last term is a walk
+  /// whose roundings have one sign.
   double energy_round_off(Precision precision, std::int64_t steps) const;
 };
 

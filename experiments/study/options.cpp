@@ -51,7 +51,8 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
                             const std::function<void(CLI::App&)>& more) {
   ParsedOptions parsed;
   Options& options = parsed.options;
-  CLI::App app{experiment.question + "\n\nAxes take a list (a,b,c) or a range (1e-4:1e-1:10, or 1e-4:1e-1:10:log); the "
+  const std::string meaning = experiment.meaning.empty() ? "" : "\n\n" + experiment.meaning;
+  CLI::App app{experiment.question + meaning + "\n\nAxes take a list (a,b,c) or a range (1e-4:1e-1:10, or 1e-4:1e-1:10:log); the "
                                      "study is their product. SI units throughout.",
                experiment.name};
   app.get_formatter()->column_width(40);
@@ -119,6 +120,9 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   if (study_file.empty() && !given.contains("scenario")) options.vary = experiment.vary;
   options.plain = given.empty() && vary.empty() && study_file.empty();
   if (!study_file.empty()) read_study_file(study_file, options);
+  for (const std::string& axis : axis_names()) {
+    if (given.contains(axis) || options.places.contains(axis)) options.said.insert(axis);
+  }
   for (const auto& [name, text] : given) {
     options.axes[name] = text;
     options.places.erase(name);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,7 @@ namespace polhode::study {
 struct Options {
   /// By option name without dashes, as written: {"dt", "1e-3,1e-2"}; defaults filled in.
   std::map<std::string, std::string> axes;
+  std::set<std::string> said;  ///< the axes that the command line or a study file names
   std::vector<std::pair<std::string, std::string>> vary;  ///< key of the scenario and its values, as written
   /// Where a study file sets an axis, or "vary." and a key: "study.toml:3:8: dt".
   std::map<std::string, std::string> places;

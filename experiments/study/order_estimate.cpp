@@ -12,7 +12,7 @@ namespace {
 
 constexpr double above_rounding = 10;  ///< so that rounding adds no more than a tenth to an error
 constexpr std::size_t least_points = 3, wanted_points = 4;
-constexpr double margin = 0.25, widest_interval = 0.5;
+constexpr double margin = 0.25;
 
 struct LogPoint {
   double x, y;  ///< ln step, ln error
@@ -53,18 +53,37 @@ void drop_round_off(std::vector<LadderPoint>& points, const OrderSettings& setti
   const auto before = points.size();
   std::erase_if(points, [](const LadderPoint& p) { return p.error <= above_rounding * p.round_off; });
   double floor = 0;
-  while (points.size() >= 2 && points.back().error < std::sqrt(settings.epsilon) &&
-         local_slope(points[points.size() - 2], points.back()) < settings.least_fall) {
+  // Rounding goes up and down from step to step: two of them see it where one does not.
+  const auto falls_from = [&](std::size_t back) {
+    return points.size() <= back ||
+           local_slope(points[points.size() - 1 - back], points.back()) >= settings.least_fall;
+  };
+  while (points.size() >= 2 && points.back().error < std::sqrt(settings.epsilon) && !(falls_from(1) && falls_from(2))) {
     floor = std::max(floor, points.back().error);
     points.pop_back();
   }
   std::erase_if(points, [&](const LadderPoint& p) { return p.error <= above_rounding * floor; });
+  estimate.floor = floor;
   estimate.at_round_off = before - points.size();
+}
+
+bool is_straight(std::span<const LogPoint> points, double straightness) { return fit(points).worst <= straightness; }
+
+/// Where the smallest steps bend a line that is straight before them, below √ε, rounding begins to show.
+void drop_bent_end(std::vector<LogPoint>& logs, const OrderSettings& settings, OrderEstimate& estimate) {
+  const double rounding_shows = 0.5 * std::log(settings.epsilon);
+  const auto straight_without = [&](std::size_t n) {
+    return is_straight(std::span(logs).first(logs.size() - n).last(least_points), settings.straightness);
+  };
+  while (logs.size() > least_points && logs.back().y < rounding_shows && !straight_without(0) && straight_without(1)) {
+    logs.pop_back();
+    ++estimate.at_round_off;
+  }
 }
 
 /// The longest straight stretch that ends at the smallest step.
 std::span<const LogPoint> straight_stretch(std::span<const LogPoint> points, double straightness) {
-  const auto straight = [&](std::size_t n) { return fit(points.last(n)).worst <= straightness; };
+  const auto straight = [&](std::size_t n) { return is_straight(points.last(n), straightness); };
   std::size_t n = std::min(wanted_points, points.size());
   if (!straight(n) && straight(least_points)) n = least_points;
   while (n < points.size() && straight(n + 1)) ++n;
@@ -82,7 +101,9 @@ OrderEstimate estimate_order(std::vector<LadderPoint> points, const OrderSetting
   drop_blown_up(points, settings.lost, estimate);
   const bool any = !points.empty();
   estimate.exact = any && std::all_of(points.begin(), points.end(),
-                                      [](const LadderPoint& p) { return p.error <= above_rounding * p.round_off; });
+                                      [](const LadderPoint& p) {
+                                        return std::isfinite(p.round_off) && p.error <= above_rounding * p.round_off;
+                                      });
   drop_round_off(points, settings, estimate);
   estimate.points = points.size();
   if (points.empty()) return estimate;
@@ -92,8 +113,12 @@ OrderEstimate estimate_order(std::vector<LadderPoint> points, const OrderSetting
 
   std::vector<LogPoint> logs;
   for (const LadderPoint& p : points) logs.push_back({std::log(p.step), std::log(p.error)});
+  drop_bent_end(logs, settings, estimate);
+  points.resize(logs.size());
+  estimate.smallest = points.back().step;
   const auto stretch = straight_stretch(logs, settings.straightness);
   const Fit line = fit(stretch);
+  estimate.straight = line.worst <= settings.straightness;
   estimate.not_straight = logs.size() - stretch.size();
   estimate.points = stretch.size();
   estimate.largest = points[estimate.not_straight].step;
@@ -123,7 +148,7 @@ OrderVerdict judge(const OrderEstimate& estimate, std::optional<double> declared
   if (estimate.exact) return declared ? OrderVerdict::exact_here : OrderVerdict::as_declared;
   if (!estimate.line) return OrderVerdict::too_few;
   const auto& [order, standard_error, half_width] = *estimate.line;
-  if (half_width > widest_interval) return OrderVerdict::scattered;
+  if (half_width > widest_order_interval) return OrderVerdict::scattered;
   if (!declared) return OrderVerdict::lower;
   const double off = order - *declared;
   if (std::abs(off) <= margin) return OrderVerdict::as_declared;

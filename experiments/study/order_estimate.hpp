@@ -6,8 +6,8 @@
 // long as the points stay on one straight line. Left out are
 //   blown up:      steps at and above the smallest one whose run has no finite error or one of `lost` or more;
 //   round-off:     errors below ten times what rounding alone may add up to in that run, and, below √ε, the smallest
-//                  steps at which the error no longer falls (local slope under `least_fall`) with all errors below ten
-//                  times theirs;
+//                  steps at which the error no longer falls (slope under `least_fall` from the step before, or from the
+//                  one before that) with all errors below ten times theirs;
 //   not straight:  the largest steps, from the first one on that would put a point further than `straightness` from the
 //                  fitted line.
 // The interval is that of Student's t with points − 2 degrees of freedom: it says how well the points lie on a line.
@@ -21,10 +21,16 @@
 
 namespace polhode::study {
 
+/// rad of an attitude, or 1 of what is relative: from here on the motion is lost. Angles beyond are wrapped or saturated, and
+/// which of two is the less is chance.
+inline constexpr double motion_lost = 1;
+/// From half of that on an error bends away from a power law, and tells no order.
+inline constexpr double lost_to_fits = 0.5 * motion_lost;
+
 struct LadderPoint {
   double step = 0;       ///< or a tolerance; positive
-  double error = 0;      ///< not finite: the run diverged or failed
-  double round_off = 0;  ///< what rounding alone may add up to in that run
+  double error = 0;      ///< not finite: the motion is lost, or the run diverged or failed
+  double round_off = 0;  ///< what rounding alone may add up to in that run; infinite: no digit of the error is proven
 };
 
 struct OrderSettings {
@@ -34,6 +40,12 @@ struct OrderSettings {
   double least_fall = 0.5;    ///< the lowest order is 1
 };
 
+/// A method that chooses its steps does not follow a line as closely as one that is given them: the whole ladder counts.
+inline constexpr OrderSettings of_chosen_steps = {.straightness = std::numeric_limits<double>::infinity(), .least_fall = 0};
+
+/// Of a line that tells an order: half its 95 % confidence interval at most.
+inline constexpr double widest_order_interval = 0.5;
+
 struct OrderEstimate {
   struct Line {
     double order = 0;
@@ -41,6 +53,8 @@ struct OrderEstimate {
     double half_width_95 = 0;  ///< of the confidence interval
   };
   std::optional<Line> line;                                      ///< absent with fewer than three points
+  bool straight = false;                                         ///< no point is further than `straightness` from the line
+  double floor = 0;  ///< the largest error, below √ε, of the smallest steps at which the error no longer falls
   bool exact = false;                                            ///< every error that was not blown up is round-off
   std::size_t points = 0;                                        ///< behind the line, or that there are for one
   double smallest = 0, largest = 0;                              ///< the steps of the stretch

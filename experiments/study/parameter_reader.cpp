@@ -21,6 +21,17 @@ std::string must_be(const Parameter& p) {
   return (std::holds_alternative<double>(p.value) ? "a number" : "3 numbers") + (p.unit.empty() ? "" : " of " + p.unit);
 }
 
+/// A table whose keys may all be left out, and are numbers that are then 0, does nothing until one of them is given.
+void expect_an_effect(const TomlCursor& table, const std::vector<Parameter>& parameters) {
+  std::string keys;
+  for (const Parameter& p : parameters) {
+    const double* number = std::get_if<double>(&p.value);
+    if (p.need == Parameter::Need::required || !number || *number != 0 || table.has(p.key)) return;
+    keys += (keys.empty() ? "" : ", ") + p.key;
+  }
+  if (!keys.empty()) table.fail("has no effect without any of its keys " + keys + "; give at least one of them");
+}
+
 ParameterValue read(const TomlCursor& value, const Parameter& p) {
   if (std::holds_alternative<double>(p.value)) return value.number(p.unit, p.range);
   if (std::holds_alternative<Vector3<double>>(p.value)) return value.vector(p.unit, p.range);
@@ -37,6 +48,7 @@ std::map<std::string, ParameterValue> read_parameters(const TomlCursor& table, c
                                                       std::size_t bodies) {
   for (const Parameter& p : parameters) also.push_back(p.key);
   table.table(introduction, also);
+  expect_an_effect(table, parameters);
   std::map<std::string, ParameterValue> values;
   for (const Parameter& p : parameters) {
     if (!table.has(p.key) && p.need == Parameter::Need::optional) {

@@ -26,6 +26,7 @@ namespace {
 /// Raised whenever a change of the code changes a digit of a result: stored runs of an older version are then made anew.
 constexpr int results_version = 4;
 constexpr std::size_t most_runs = 10'000'000;
+constexpr std::size_t most_listed = 20;  // names in an error
 
 std::string hash(std::string_view text) { return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size())); }
 
@@ -37,7 +38,10 @@ std::vector<std::string> names(const Options& options, const std::string& axis, 
   for (const std::string& item : split_list(found->second, ',', options.label(axis))) {
     if (std::find(known.begin(), known.end(), item) == known.end()) {
       if (known.empty()) throw InputError(options.label(axis) + ": there is none in this version; leave the option out");
-      throw InputError(options.label(axis) + ": no '" + item + "'" + suggestion(item, "There are", {known.begin(), known.end()}));
+      const std::vector<std::string_view> all(known.begin(), known.end());
+      throw InputError(options.label(axis) + ": no '" + item + "'" +
+                       (all.size() > most_listed ? suggestion_of_many(item, all, "--list " + axis + "s")
+                                                 : suggestion(item, "There are", all)));
     }
     if (std::find(items.begin(), items.end(), item) == items.end()) items.push_back(item);
   }
@@ -404,6 +408,43 @@ Options further(const Experiment& experiment, const Options& options, const Furt
   return other;
 }
 
+/// An axis that some runs leave aside, to which of them it means something, why it may mean nothing to any, and what then
+/// to do but leave it out.
+struct PartialAxis {
+  const char* name;
+  bool (*matters)(const RunConfig&);
+  const char *reason, *remedy;
+};
+
+bool has_contact(const RunConfig& c) { return c.contact.has_value(); }
+
+constexpr const char *no_contact = "no scenario here has contact = true", *take_contact = "or take a scenario with contact";
+constexpr PartialAxis partial_axes[] = {
+    {"dt", [](const RunConfig& c) { return c.dt.has_value(); },
+     "every method here chooses its own steps, by --tolerance", "or name a method of a fixed step"},
+    {"tolerance", [](const RunConfig& c) { return c.tolerance.has_value(); },
+     "every method here has a fixed step, --dt", "or name a method that chooses its own steps"},
+    {"order", [](const RunConfig& c) { return c.order.value_or(0) > 0; }, "no method here offers several orders",
+     "or name one that does, such as arkode_erk"},
+    {"rotation-from", [](const RunConfig& c) { return c.formulation.orientation == Orientation::quaternion; },
+     "a matrix is used as it is stored", "or take --orientation quaternion"},
+    {"broad-phase", has_contact, no_contact, take_contact},
+    {"narrow-phase", has_contact, no_contact, take_contact},
+    {"response", has_contact, no_contact, take_contact},
+    {"impact-timing", [](const RunConfig& c) { return c.contact && !c.contact->impact_timing.empty(); },
+     "no run here answers impacts one by one",
+     "or take a scenario with contact and a response other than compliant"}};
+
+/// An axis that was asked for and changes no run is a misunderstanding.
+void refuse_axes_without_effect(const Options& options, const std::vector<PlannedRun>& runs) {
+  for (const PartialAxis& axis : partial_axes) {
+    const auto matters = [&](const PlannedRun& run) { return axis.matters(run.config); };
+    if (!options.said.contains(axis.name) || std::any_of(runs.begin(), runs.end(), matters)) continue;
+    throw InputError(fmt::format("{}: it has no effect, because {}; leave it out, {}", options.label(axis.name),
+                                 axis.reason, axis.remedy));
+  }
+}
+
 }  // namespace
 
 Plan make_plan(const Experiment& experiment, const Options& options) {
@@ -421,6 +462,7 @@ Plan make_plan(const Experiment& experiment, const Options& options) {
     throw InputError(fmt::format("{} makes one run, and this is {}; give each axis one value, or use energy_drift",
                                  experiment.name, plan.runs.size()));
   }
+  refuse_axes_without_effect(options, plan.runs);
   const auto sense = [](const PlannedRun& r) { return r.refusal.empty(); };
   sort_by_configuration(plan.runs);
   if (std::none_of(plan.runs.begin(), plan.runs.end(), sense)) {

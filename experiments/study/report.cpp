@@ -213,7 +213,7 @@ std::string bodies_and_forces(const Scenario& scenario) {
     }
     bodies.push_back(body.fixed
                          ? fmt::format("{} (static)", body.name)
-                         : fmt::format("{} ({} kg{})", body.name, exact(body.mass), body.pinned ? ", pinned" : ""));
+                         : fmt::format("{} ({} kg{})", body.name, rounded(body.mass), body.pinned ? ", pinned" : ""));
   }
   std::set<std::string> forces;
   for (const auto& force : scenario.problem.forces) forces.insert(force.kind);
@@ -258,7 +258,7 @@ std::string catalogue_table(const Grouping& grouping) {
 std::string value_list(const std::set<double, std::greater<>>& values) {
   constexpr std::size_t most = 12;
   std::vector<std::string> texts;
-  for (const double value : values) texts.push_back(number(value, 6));
+  for (const double value : values) texts.push_back(rounded(value));
   if (texts.size() <= most) return fmt::format("{}", fmt::join(texts, ", "));
   return fmt::format("{} values from {} to {}", texts.size(), texts.front(), texts.back());
 }
@@ -300,7 +300,7 @@ std::string options_html(const StudyView& study) {
     std::set<std::string> values;
     for (const auto& run : study.runs) {
       for (const auto& varied : run.config.varied) {
-        if (varied.key == key && !varied.value.empty()) values.insert(varied.value);
+        if (varied.key == key && !varied.value.empty()) values.insert(rounded(varied.value));
       }
     }
     add(html(key).c_str(), values.size() <= 12 ? texts(values) : fmt::format("{} values", values.size()));

@@ -112,7 +112,7 @@ struct RunResult {
   std::optional<double> angular_momentum_drift_max_rel;
   std::map<std::string, double> invariant_drift_max_rel; ///< by name, of the scenario's declared invariants
   std::optional<double> orientation_defect_max;
-  std::optional<double> position_error_max;     ///< m, absent without an exact solution or a proven reference
+  std::optional<double> position_error_max;     ///< m, absent without an exact solution or a proven reference, and of a run that broke off
   std::optional<double> attitude_error_max;     ///< rad
   std::optional<double> angular_velocity_error_max_rel;
   /// Of the momentum in the body of a single free one (polhode_error.hpp): along its polhode and off it.

@@ -15,8 +15,10 @@
 #include "experiments/study/listing.hpp"
 #include "experiments/study/options.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/program.hpp"
 #include "experiments/study/progress.hpp"
 #include "experiments/study/references.hpp"
+#include "experiments/study/report/notation.hpp"
 #include "experiments/study/result_folder.hpp"
 #include "experiments/study/results.hpp"
 #include "experiments/study/run.hpp"
@@ -27,7 +29,7 @@
 namespace polhode::study {
 namespace {
 
-constexpr int bad_input = 2, not_carried_out = 3, interrupted = 130;
+constexpr int interrupted = 130;  ///< exit status
 
 std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free);  // so that a signal handler may set it
@@ -50,14 +52,14 @@ std::filesystem::path folder_of(const Experiment& experiment, const Options& opt
 
 std::string plan_text(const Experiment& experiment, const Plan& plan, const std::filesystem::path& folder) {
   double cost = 0;
-  std::size_t refused = 0;
+  std::vector<Unfinished> refused;
   for (const PlannedRun& run : plan.runs) {
     cost += run.cost;
-    refused += run.refusal.empty() ? 0 : 1;
+    if (!run.refusal.empty()) refused.push_back({"will be refused", run.refusal});
   }
   std::string text = fmt::format("{}: {} runs, about {:.2g} right-hand sides, into {}\n", experiment.name,
                                  plan.runs.size(), cost, folder.string());
-  if (refused > 0) text += fmt::format("{} of them make no sense and will be refused\n", refused);
+  text += reasons(refused);
   const auto names = config_columns(plan.varied_keys, plan.named);
   std::vector<std::vector<std::string>> cells;
   if (experiment.refine) text += "further runs follow from the results of these\n";
@@ -69,7 +71,7 @@ std::string plan_text(const Experiment& experiment, const Plan& plan, const std:
     }
     if (values.empty()) continue;
     std::string line;
-    for (const std::string& v : values) line += (line.empty() ? "" : ", ") + v;
+    for (const std::string& v : values) line += (line.empty() ? "" : ", ") + report::rounded(v);
     text += fmt::format("  {:<15} {}\n", names[k], line);
   }
   return text;
@@ -255,7 +257,7 @@ int run_study(const Experiment& experiment, const Options& options) {
 }  // namespace
 
 int run_experiment(const Experiment& experiment, int argc, const char* const* argv) {
-  try {
+  const auto program = [&] {
     const ParsedOptions parsed = parse_options(experiment, argc, argv);
     if (parsed.exit_status) return *parsed.exit_status;
     if (parsed.options.list) {
@@ -263,16 +265,8 @@ int run_experiment(const Experiment& experiment, int argc, const char* const* ar
       return 0;
     }
     return run_study(experiment, parsed.options);
-  } catch (const InputError& error) {
-    std::string line = error.what();
-    std::replace(line.begin(), line.end(), '\n', ' ');
-    fmt::print(stderr, "{}: {}\n", experiment.name, line);
-    return bad_input;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}; finished runs are kept, and the same command goes on from there\n", experiment.name,
-               error.what());
-    return not_carried_out;
-  }
+  };
+  return run_program(experiment.name, program, "; finished runs are kept, and the same command goes on from there");
 }
 
 }  // namespace polhode::study

@@ -12,7 +12,9 @@
 namespace polhode::study {
 namespace {
 
-constexpr std::size_t most_rows = 40;
+constexpr std::size_t most_rows = 100;  // that a terminal shows in full
+constexpr std::size_t rows_of_more = 40;
+constexpr std::size_t most_reasons = 10;
 
 std::string number(const std::optional<double>& x) { return x ? fmt::format("{:.3g}", *x) : "-"; }
 
@@ -32,9 +34,15 @@ std::vector<std::size_t> shown_columns(const std::vector<std::vector<std::string
 /// Runs to show: all, or evenly spread ones.
 std::vector<std::size_t> shown_rows(std::size_t n) {
   std::vector<std::size_t> rows;
-  const std::size_t m = std::min(n, most_rows);
+  const std::size_t m = n <= most_rows ? n : rows_of_more;
   for (std::size_t i = 0; i < m; ++i) rows.push_back(m == n ? i : i * (n - 1) / (m - 1));
   return rows;
+}
+
+/// "(40 of 120 runs, evenly spread; the other 80 are in runs.csv)", or nothing where all are shown.
+std::string left_out(std::size_t n, const char* what, const std::string& where) {
+  if (n <= most_rows) return {};
+  return fmt::format("({} of {} {}, evenly spread; the other {} are in {})\n", rows_of_more, n, what, n - rows_of_more, where);
 }
 
 /// Columns of equal width, on the left or on the right.
@@ -71,16 +79,23 @@ std::string plain(const report::Table& table) {
   return aligned(cells, left);
 }
 
+/// Why runs were refused, or failed.
+std::string reasons_of(const StudyView& study) {
+  std::vector<Unfinished> runs;
+  for (const RunRecord& run : study.runs) {
+    if (run.result.status == "refused" || run.result.status == "failed") runs.push_back({run.result.status, run.result.message});
+  }
+  const std::string text = reasons(runs);
+  return text.empty() ? "" : "\n" + text;
+}
+
 /// The answer of the experiment in place of the table of runs.
 std::string analysis_summary(const Analysis& analysis) {
   std::string text;
   if (!analysis.tables.empty()) {
     const report::Table& table = analysis.tables.front().table;
     text += plain(table);
-    if (table.rows.size() > most_rows) {
-      text += fmt::format("({} of {} rows, evenly spread; all are in tables/{}.md)\n", most_rows, table.rows.size(),
-                          analysis.tables.front().name);
-    }
+    text += left_out(table.rows.size(), "rows", "tables/" + analysis.tables.front().name + ".md");
   }
   for (const auto* sentences : {&analysis.sentences, &analysis.timed.sentences}) {
     for (const std::string& sentence : *sentences) text += "\n" + sentence + "\n";
@@ -91,7 +106,8 @@ std::string analysis_summary(const Analysis& analysis) {
 }  // namespace
 
 std::string summary_table(const StudyView& study) {
-  if (study.analysis) return analysis_summary(*study.analysis);
+  // Where the analysis is the result, a refusal is one of its answers and stands in its table.
+  if (study.analysis) return analysis_summary(*study.analysis) + (study.analysis->alone ? "" : reasons_of(study));
   const std::vector<std::string> names = config_columns(study.varied_keys, study.named);
   std::vector<std::vector<std::string>> cells;
   for (const RunRecord& run : study.runs) cells.push_back(config_cells(run.config));
@@ -103,7 +119,7 @@ std::string summary_table(const StudyView& study) {
   for (const std::size_t i : rows) {
     const RunResult& r = study.runs[i].result;
     auto& row = table.emplace_back();
-    for (const std::size_t k : columns) row.push_back(cells[i][k]);
+    for (const std::size_t k : columns) row.push_back(report::rounded(cells[i][k]));
     row.push_back(r.status);
     row.push_back(number(r.energy_drift_max_rel));
     row.push_back(r.drift_class.empty()     ? "-"
@@ -119,8 +135,25 @@ std::string summary_table(const StudyView& study) {
                    (k < columns.size() && names[columns[k]] != "dt_s" && names[columns[k]] != "tolerance"));
   }
   std::string text = aligned(table, left);
-  if (rows.size() < study.runs.size()) {
-    text += fmt::format("({} of {} runs, evenly spread; all are in runs.csv)\n", rows.size(), study.runs.size());
+  return text + left_out(study.runs.size(), "runs", "runs.csv") + reasons_of(study);
+}
+
+std::string reasons(const std::vector<Unfinished>& runs) {
+  std::vector<std::pair<Unfinished, std::size_t>> found;  // each once, with its count
+  for (Unfinished run : runs) {
+    run.message = run.message.substr(0, run.message.find(" at t = "));  // which is another one in each run
+    const auto same = [&](const auto& f) { return f.first.status == run.status && f.first.message == run.message; };
+    const auto known = std::find_if(found.begin(), found.end(), same);
+    if (known == found.end()) found.emplace_back(std::move(run), 1);
+    else ++known->second;
+  }
+  std::string text;
+  for (std::size_t i = 0; i < std::min(found.size(), most_reasons); ++i) {
+    text += fmt::format("{} {}: {}\n", report::count(found[i].second, "run"), found[i].first.status, found[i].first.message);
+  }
+  if (found.size() > most_reasons) {
+    text += fmt::format("… and {} more; all are in the column message of runs.csv\n",
+                        report::count(found.size() - most_reasons, "reason"));
   }
   return text;
 }

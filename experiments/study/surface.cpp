@@ -82,6 +82,7 @@ class SmoothGroups {
       });
       if (p.faces[edge->left].normal.dot(p.faces[edge->right].normal) >= sharp) join(place(edge->left), place(edge->right));
     }
+    part_tips(p);
   }
 
   std::span<const std::uint32_t> faces() const { return faces_; }
@@ -94,6 +95,19 @@ class SmoothGroups {
   void join(std::size_t a, std::size_t b) {
     const std::uint32_t keep = group_[a], gone = group_[b];
     std::replace(group_.begin(), group_.end(), gone, keep);
+  }
+  /// Round the tip of a cone each face goes smoothly into the next, and yet none has the direction of their sum.
+  void part_tips(const Polytope& p) {
+    std::vector<Vector3<double>> sums(faces_.size(), Vector3<double>::Zero());
+    for (std::uint32_t i = 0; i < faces_.size(); ++i) sums[group_[i]] += p.faces[faces_[i]].normal;
+    std::vector<bool> tip(faces_.size());
+    for (std::uint32_t i = 0; i < faces_.size(); ++i) {
+      const Vector3<double>& sum = sums[group_[i]];
+      if (p.faces[faces_[i]].normal.dot(sum) < sharp * sum.norm()) tip[group_[i]] = true;
+    }
+    for (std::uint32_t i = 0; i < faces_.size(); ++i) {
+      if (tip[group_[i]]) group_[i] = i;
+    }
   }
 
   std::span<const std::uint32_t> faces_;

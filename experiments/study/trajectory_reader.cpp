@@ -7,13 +7,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <optional>
 
 #include "experiments/study/input_error.hpp"
-#include "experiments/study/report/read_file.hpp"
+#include "experiments/study/legible.hpp"
 #include "experiments/study/suggestion.hpp"
+#include "experiments/study/text_file.hpp"
 
 namespace polhode::study {
 namespace {
@@ -61,12 +61,7 @@ std::vector<Cell> cells_of(std::string_view line) {
   }
 }
 
-std::string shown(std::string_view text) {
-  constexpr std::size_t most = 40;
-  std::string clean;
-  for (const char c : text.substr(0, most)) clean += c < ' ' || c == '\x7f' ? '?' : c;
-  return "'" + clean + (text.size() > most ? "…'" : "'");
-}
+std::string shown(std::string_view text) { return "'" + shortened(text) + "'"; }
 
 class Parser {
  public:
@@ -272,13 +267,7 @@ Trajectory parse_trajectory(std::string_view text, const std::string& origin, co
 }
 
 Trajectory read_trajectory(const std::string& path, const Problem& problem) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw InputError(path + " is a folder; name the trajectory.csv in it");
-  }
-  const auto text = report::read_file(path);
-  if (!text) throw InputError(path + ": no such file, or it cannot be read");
-  return parse_trajectory(*text, path, problem);
+  return parse_trajectory(read_text(path, 2048 * mebibyte), path, problem);
 }
 
 }  // namespace polhode::study

@@ -208,9 +208,14 @@ TrajectoryScore score(const Trajectory& trajectory, const Scenario& scenario, Ru
       const double difference = std::abs(trajectory.energy[k] - sample.seen.energy());
       if (!(difference <= worst_difference)) worst_difference = difference;
     }
-    if (k % stride != 0 && k + 1 != n) continue;
     ErrorPoint point;
     point.t = state.t;
+    if (polhode) {  // at every row, for it follows the phase from row to row
+      const PolhodeError::At at = polhode->at(state.t, system->snapshot(state.y, 0));
+      point.phase = at.phase;
+      point.off = at.off;
+    }
+    if (k % stride != 0 && k + 1 != n) continue;
     ExactMotion::Error e = exact.error(*system, state);
     if (follower) {
       const ExactMotion::Error by_reference = follower->error(*system, state);
@@ -221,11 +226,6 @@ TrajectoryScore score(const Trajectory& trajectory, const Scenario& scenario, Ru
     point.position = e.position;
     point.attitude = e.attitude;
     point.angular_velocity = e.angular_velocity;
-    if (polhode) {
-      const PolhodeError::At at = polhode->at(state.t, system->snapshot(state.y, 0));
-      point.phase = at.phase;
-      point.off = at.off;
-    }
     result.errors.push_back(point);
   }
   meter.report(r);

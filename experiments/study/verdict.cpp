@@ -44,20 +44,43 @@ double change_for_good(const std::array<Range, 4>& q) {
   return std::abs(q[3].middle()) > verdict::settled * q[3].width() ? q[3].middle() : 0;
 }
 
+/// The relative change of the energy that rounding may explain.
+double rounding(const RunRecord& run) {
+  const RunResult& r = run.result;
+  const bool measured = r.energy_round_off && r.energy_scale && *r.energy_scale > 0;
+  return std::max(4 * report::round_off_level(run), measured ? *r.energy_round_off / *r.energy_scale : 0);
+}
+
+/// 1/s
+std::optional<double> slope(const RunResult& r) {
+  if (!r.energy_drift_rate || !r.energy_scale) return std::nullopt;
+  return *r.energy_drift_rate / *r.energy_scale;
+}
+
 }  // namespace
 
-Verdict judge(const RunRecord& run) {
+Verdict judge(const RunRecord& run, std::optional<double> turn) {
   const RunResult& r = run.result;
   if (r.status == "refused") return Verdict::none;
   if (r.status != "ok" || r.series.empty() || !r.energy_drift_max_rel || !r.energy_drift_final_rel) {
     return Verdict::blown_up;
   }
-  if (*r.energy_drift_max_rel > verdict::lost) return Verdict::blown_up;
+  if (*r.energy_drift_max_rel > verdict::lost || r.orientation_defect_max.value_or(0) > verdict::lost) {
+    return Verdict::blown_up;
+  }
   const auto q = quarters(r);
   if (std::any_of(q.begin(), q.end(), [](const Range& range) { return range.empty; })) return Verdict::stable;
   const double change = change_for_good(q);
-  if (std::abs(change) <= std::max(verdict::counted, 4 * report::round_off_level(run))) return Verdict::stable;
-  return change > 0 ? Verdict::gaining : Verdict::damped;
+  if (std::abs(change) <= std::max(verdict::counted, rounding(run))) return Verdict::stable;
+  if (change < 0) return Verdict::damped;
+  if (!turn) return Verdict::gaining;
+  const double fitted = slope(r).value_or(0) * r.t_reached;
+  const bool slow = std::max(change, fitted) <= verdict::slow * std::max(1.0, r.t_reached / *turn);
+  return slow ? Verdict::gaining_slowly : Verdict::gaining;
+}
+
+std::optional<double> energy_gain_rate(const RunRecord& run) {
+  return judge(run) == Verdict::blown_up ? std::nullopt : slope(run.result);
 }
 
 }  // namespace polhode::study

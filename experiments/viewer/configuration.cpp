@@ -47,7 +47,8 @@ std::string integrator_fault(const study::RunConfig& run) {
   if (!entry) {
     std::vector<std::string_view> known;
     for (const IntegratorEntry& e : integrator_catalogue()) known.push_back(e.declaration.name);
-    return "no integrator is called '" + run.integrator + "'" + study::suggestion(run.integrator, "There are", known);
+    return "no integrator is called '" + run.integrator + "'" +
+           study::suggestion_of_many(run.integrator, known, "--list integrators");
   }
   const bool adaptive = entry->declaration.adaptive;
   const std::optional<double>&said = adaptive ? run.tolerance : run.dt, &other = adaptive ? run.dt : run.tolerance;

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/study/axes.hpp"
 #include "experiments/study/csv_reader.hpp"
+#include "experiments/study/report/notation.hpp"
 #include "experiments/viewer/default_camera.hpp"
 
 namespace polhode::viewer {
 namespace {
+
+using study::report::rounded;
 
 /// The first name of a session that is not taken.
 std::filesystem::path free_name(const std::filesystem::path& folder) {
@@ -32,8 +34,8 @@ std::string title_of(const std::filesystem::path& trajectory) {
                     tolerance = runs.column("tolerance");
   while (runs.next()) {
     if (runs.text(run) != name) continue;
-    return runs.text(dt).empty() ? fmt::format("{}, tolerance {}", runs.text(integrator), runs.text(tolerance))
-                                 : fmt::format("{}, dt = {} s", runs.text(integrator), runs.text(dt));
+    return runs.text(dt).empty() ? fmt::format("{}, tolerance {}", runs.text(integrator), rounded(runs.text(tolerance)))
+                                 : fmt::format("{}, dt = {} s", runs.text(integrator), rounded(runs.text(dt)));
   }
   return name;
 }
@@ -72,8 +74,8 @@ std::string Stage::title(std::size_t k, const View& view) const {
   if (!live()) return titles_[k];
   const study::RunConfig& run = view.configuration.run;
   if (view.configuration.drive == Drive::frame_clock) return run.integrator + ", frame clock";
-  return run.dt ? fmt::format("{}, dt = {} s", run.integrator, study::exact(*run.dt))
-                : fmt::format("{}, tolerance {}", run.integrator, study::exact(run.tolerance.value_or(0)));
+  return run.dt ? fmt::format("{}, dt = {} s", run.integrator, rounded(*run.dt))
+                : fmt::format("{}, tolerance {}", run.integrator, rounded(run.tolerance.value_or(0)));
 }
 
 void Stage::each(const std::function<void(Session&)>& command) {
@@ -91,7 +93,18 @@ void Stage::add(const Configuration& configuration) {
 }
 
 void Stage::remove(std::size_t k) {
-  if (sessions_.size() > 1) sessions_.erase(sessions_.begin() + std::ptrdiff_t(k));
+  if (sessions_.size() < 2) return;
+  const std::string unwritten = sessions_[k]->finish();
+  if (unwritten_.empty()) unwritten_ = unwritten;
+  sessions_.erase(sessions_.begin() + std::ptrdiff_t(k));
+}
+
+std::string Stage::finish() {
+  for (const auto& session : sessions_) {
+    const std::string unwritten = session->finish();
+    if (unwritten_.empty()) unwritten_ = unwritten;
+  }
+  return unwritten_;
 }
 
 void Stage::want() {

@@ -15,6 +15,7 @@
 #include "experiments/study/envelope.hpp"
 #include "experiments/study/report/axis.hpp"
 #include "experiments/study/report/curves.hpp"
+#include "experiments/study/report/error_ladder.hpp"
 #include "experiments/study/report/figure_layout.hpp"
 #include "experiments/study/report/figure_style.hpp"
 #include "experiments/study/report/notation.hpp"
@@ -25,7 +26,6 @@ namespace {
 
 using namespace report;
 
-constexpr double lost = 1;                ///< rad, or m: more is no result
 constexpr std::size_t most_coloured = 8;  ///< of more methods, those off the envelope are grey
 constexpr std::size_t most_panels = 6;
 
@@ -47,10 +47,6 @@ struct Motion {
   std::vector<EnvelopePoint> envelope;
 };
 
-bool measured(const Curve& curve, const Quantity& quantity) {
-  return std::any_of(curve.runs.begin(), curve.runs.end(), [&](const auto* run) { return value(*run, quantity); });
-}
-
 /// By its own declaration, or at round-off at every step: for this motion the method is no approximation.
 bool is_exact(const StudyView& study, const Curve& curve, const Quantity& quantity) {
   const auto& config = curve.runs.front()->config;
@@ -68,10 +64,16 @@ bool is_exact(const StudyView& study, const Curve& curve, const Quantity& quanti
          });
 }
 
+/// Without runs that do not follow the motion, and without those of larger steps: what they hit they hit by chance. No
+/// error is better than the rounding of its run, or the floor at which those of its curve no longer fall.
 std::vector<WorkPoint> work_points(const Curve& curve, const Quantity& quantity, const Cost& cost) {
   std::vector<WorkPoint> points;
-  for (const auto* run : curve.runs) {
-    if (const auto error = value(*run, quantity)) points.push_back({*error, cost.of(run->result)});
+  const double floor = observed_order(curve, quantity).floor;
+  for (auto run = curve.runs.rbegin(); run != curve.runs.rend(); ++run) {  // from the smallest step
+    const std::string& status = (*run)->result.status;
+    if (status == "refused" || status == "failed" || (completed(**run) && !value(**run, quantity))) continue;
+    if (!follows(**run, curve, quantity)) break;
+    points.push_back({std::max({*value(**run, quantity), round_off_level(**run, quantity), floor}), cost.of((*run)->result)});
   }
   return points;
 }
@@ -85,9 +87,10 @@ std::vector<Motion> motions_of(const StudyView& study, const Grouping& grouping,
       for (const auto& curve : grouping.curves) {
         // Without the gyroscopic term another equation is solved.
         const bool same_equation = curve.runs.front()->config.formulation.gyroscopic;
-        if (curve.case_index != c || !same_equation || !measured(curve, quantity)) continue;
+        if (curve.case_index != c || !same_equation || !is_measured(curve, quantity)) continue;
         auto work = work_points(curve, quantity, cost);
-        const bool costs = std::any_of(work.begin(), work.end(), [](const auto& p) { return p.cost > 0; });
+        const bool costs =
+            std::any_of(curve.runs.begin(), curve.runs.end(), [&](const auto* run) { return cost.of(run->result) > 0; });
         if (!costs)
           motion.without.push_back(&curve);
         else if (is_exact(study, curve, quantity))
@@ -96,7 +99,7 @@ std::vector<Motion> motions_of(const StudyView& study, const Grouping& grouping,
           motion.curves.push_back(&curve), points.push_back(std::move(work));
       }
       if (motion.curves.empty()) continue;
-      motion.envelope = lower_envelope(points, lost);
+      motion.envelope = lower_envelope(points, lost_level(*motion.curves.front(), quantity));
       motions.push_back(std::move(motion));
       break;
     }
@@ -235,7 +238,12 @@ class Work {
 
   /// "On hairer_vilmart: explicit_midpoint down to 1e-2 rad, then rk4 to 1e-10 rad (1230 right-hand sides at 1e-6 …)".
   std::string sentence(const Motion& motion) const {
-    if (motion.envelope.empty()) return "";
+    if (motion.envelope.empty()) {
+      return fmt::format("No run follows {}: {} at every step and tolerance, or the run did not end.",
+                         grouping_.cases[motion.case_index].label(),
+                         motion.quantity.unit == " rad" ? "the attitude is off by more than a radian"
+                                                        : "the position is off by more than the motion goes");
+    }
     std::vector<std::string> parts;
     for (const Reign& reign : reigns(motion.envelope)) {
       const auto at = std::find_if(motion.envelope.begin(), motion.envelope.end(),
@@ -259,10 +267,11 @@ class Work {
                            .method = curve->method_index,
                            .variant = 0,
                            .muted = !coloured.contains(curve->method_index)};
-      for (const auto& p : work_points(*curve, motion.quantity, cost_)) {
-        if (!(p.cost > 0) || !(p.error > 0)) continue;
-        plotted.points.push_back({p.cost, p.error, 0, Mark::value});
-        costs.push_back(p.cost);
+      for (const auto* run : curve->runs) {
+        const double cost = cost_.of(run->result), error = value(*run, motion.quantity).value_or(0);
+        if (!(cost > 0) || !(error > 0)) continue;
+        plotted.points.push_back({cost, error, 0, Mark::value});
+        costs.push_back(cost);
       }
       if (!plotted.points.empty()) panel.curves.push_back(std::move(plotted));
     }
@@ -336,7 +345,9 @@ Analysis work_against_error(const StudyView& study) {
       "for an error is read off the straight line of the logarithms; nothing is extrapolated: a cost marked “at most” "
       "is that "
       "of "
-      "the method’s cheapest run, which is better than asked for. Errors of 1 rad (1 m) and more count for nothing."};
+      "the method’s cheapest run, which is better than asked for. A run whose attitude is off by a radian (whose position by "
+      "more than the motion goes), and those of larger steps, count for nothing; and no run is better than its rounding, "
+      "16 ε √steps or the floor at which its method’s errors no longer fall."};
   if (!by_evaluations.empty()) {
     found.tables.push_back({"envelope", by_evaluations.table()});
     found.figures.push_back(

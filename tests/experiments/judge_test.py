@@ -6,9 +6,12 @@ POLHODE_BIN_DIR is the folder of judge and simulate. Every test works in its own
 import csv
 import os
 import pathlib
+import re
 import subprocess
 import tempfile
 import unittest
+
+import faulty_programs as faulty
 
 BIN = pathlib.Path(os.environ.get("POLHODE_BIN_DIR", "."))
 PATIENCE = 120  # s
@@ -114,6 +117,76 @@ class Judge(unittest.TestCase):
             self.assertAlmostEqual(float(theirs[column]), float(ours[column]), delta=1e-6 * float(ours[column]))
         self.assertTrue(theirs["attitude_reference_rad"])
 
+    def first_line_and_score(self, scenario, *arguments):
+        done = self.good("judge", "--scenario", scenario, *arguments, "--no-figures", "--force", "--out", "out")
+        return done.stdout.splitlines()[0], only_row(self.folder / "out" / "scores.csv")
+
+    def faulty_file(self, scenario, step, rows, fault, **written):
+        faulty.write(self.folder / "engine.csv", faulty.motion(faulty.Body(scenario), step, rows, **fault), **written)
+        return self.first_line_and_score(scenario, "engine.csv")
+
+    def test_the_first_line_names_the_cause_and_the_way_along_the_polhode(self):
+        cases = [({}, {}, "none", "on_time", "engine: sound: energy holds to "),
+                 ({"gyroscopic": -1}, {}, "gyroscopic_sign", "backwards", "engine: ω × Iω has the wrong sign (fits "),
+                 ({"gyroscopic": 0}, {}, "gyroscopic_absent", "standing", "engine: ω × Iω is left out (fits "),
+                 ({}, {"body_axes": True}, "omega_frame", "off", "engine: its angular velocity is in body axes (fits ")]
+        for fault, written, cause, pace, start in cases:
+            with self.subTest(cause):
+                line, score = self.faulty_file("hairer_vilmart", 0.02, 150, fault, **written)
+                self.assertTrue(line.startswith(start), line)
+                self.assertEqual((score["diagnosis"], score["polhode_pace"]), (cause, pace))
+                self.assertGreaterEqual(float(score["diagnosis_factor"] or 10), 10)
+                self.assertEqual(bool(re.search("angular momentum (is lost )?by [0-9.]+ %", line)), cause != "none", line)
+                self.assertEqual("read rightly, energy holds to" in line, bool(written), line)
+                if pace in ("backwards", "standing"):
+                    self.assertIn("backwards along its polhode" if pace == "backwards" else "stands still on its polhode", line)
+        report = (self.folder / "out" / "report.html").read_text(encoding="utf-8")
+        self.assertIn("its angular velocity is in body axes", report)
+
+    def test_early_and_late_along_the_polhode_is_no_fault(self):
+        for method, pace in (("dmv", "early"), ("lie_midpoint", "late")):
+            with self.subTest(method):
+                self.good("simulate", "--scenario", "hairer_vilmart", "--integrator", method, "--dt", "0.1",
+                          "--no-figures", "--out", method)
+                line, score = self.first_line_and_score("hairer_vilmart", f"{method}/trajectory.csv")
+                self.assertEqual((score["diagnosis"], score["polhode_pace"]), ("none", pace))
+                self.assertRegex(line, rf"it is {pace} along its polhode by 0\.\d+ s at the end")
+
+    def test_a_cause_where_no_exact_motion_is_known(self):
+        self.good("simulate", "--scenario", "kovalevskaya_top", "--integrator", "rk4", "--dt", "0.02", "--t-end", "4",
+                  "--gyroscopic", "off", "--no-figures", "--out", "run")
+        line, score = self.first_line_and_score("kovalevskaya_top", "run/trajectory.csv")
+        self.assertEqual(score["diagnosis"], "gyroscopic_absent", line)
+        self.assertIn("--reference measures the errors", line)
+
+    def test_another_start_and_what_cannot_be_tried(self):
+        rows = faulty.motion(faulty.Body("hairer_vilmart"), 0.02, 150)
+        turned = [(t, faulty.product([0.8, 0.6, 0, 0], q), faulty.to_world([0.8, 0.6, 0, 0], w)) for t, q, w in rows]
+        faulty.write(self.folder / "turned.csv", turned)
+        line, score = self.first_line_and_score("hairer_vilmart", "turned.csv")
+        self.assertEqual(score["diagnosis"], "start", line)
+        self.assertIn("follows the scenario's equations from there", line)
+        text = (self.folder / "turned.csv").read_text(encoding="utf-8").replace("_rad_per_s", "")
+        (self.folder / "attitude.csv").write_text(text, encoding="utf-8")
+        line, score = self.first_line_and_score("hairer_vilmart", "attitude.csv")
+        self.assertEqual(score["diagnosis"], "")
+        self.assertIn("without angular velocity or momentum no reading can be tried", line)
+
+    def test_half_the_inertia_in_its_own_momentum_and_energy(self):
+        self.good("simulate", "--scenario", "hairer_vilmart", "--integrator", "rk4", "--dt", "0.02", "--t-end", "4",
+                  "--no-figures", "--out", "run")
+        with open(self.folder / "run" / "trajectory.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        for columns in (["lx_kg_m2_per_s", "ly_kg_m2_per_s", "lz_kg_m2_per_s"], ["energy_J"]):
+            with self.subTest(columns[0]):
+                with open(self.folder / "half.csv", "w", newline="", encoding="utf-8") as file:
+                    writer = csv.DictWriter(file, list(rows[0]))
+                    writer.writeheader()
+                    writer.writerows({**row, **{c: float(row[c]) / 2 for c in columns}} for row in rows)
+                line, score = self.first_line_and_score("hairer_vilmart", "half.csv")
+                self.assertEqual(score["diagnosis"], "inertia", line)
+                self.assertIn("is that of 0.5 times the scenario's inertia", line)
+
     def test_what_is_refused(self):
         (self.folder / "bad.csv").write_text("t_s,qw,qx,qy,qz\n0,1,0,0,0\n1,x,0,0,0\n", encoding="utf-8")
         self.assertIn("bad.csv:3:3: qw is 'x'", self.refused("--scenario", "peters_hsu", "bad.csv", "--out", "out"))
@@ -124,6 +197,18 @@ class Judge(unittest.TestCase):
         self.assertIn("is a folder", self.refused("--scenario", "peters_hsu", "."))
         self.assertIn("peters", self.refused("--scenario", "peters_hs", "bad.csv"))
         self.assertIn("--help", self.refused("--nonsense"))
+
+    def test_a_file_without_an_end(self):
+        os.mkfifo(self.folder / "pipe.csv")
+        with open(self.folder / "nothing.csv", "wb") as file:
+            file.truncate(1 << 40)  # zeros that take no room
+        with open(self.folder / "row.csv", "wb") as file:
+            file.write(b"t_s,qw,qx,qy,qz\n0,1,0,0,0\n1" + b",1" * (1 << 20))
+        for name, complaint in (("/dev/zero", "is a device or a pipe"), ("pipe.csv", "is a device or a pipe"),
+                                ("nothing.csv", "nothing.csv:1:1048576: a line of more than"),
+                                ("row.csv", "row.csv:3:1048576: a line of more than")):
+            with self.subTest(name):
+                self.assertIn(complaint, self.refused("--scenario", "peters_hsu", name, "--out", "out"))
 
 
 if __name__ == "__main__":

@@ -83,6 +83,48 @@ TEST(OrderEstimate, LeavesOutARoundOffFloor) {
   EXPECT_NEAR(rising.line->order, 4, 0.05);
 }
 
+/// Errors at 1/1280 s, 1/640 s, … from the smallest step on, as they were measured.
+std::vector<LadderPoint> measured(const std::vector<double>& errors) {
+  std::vector<LadderPoint> points;
+  double step = 1.0 / 1280;
+  for (const double error : errors) points.push_back({step, error, 4e-13}), step *= 2;
+  return points;
+}
+
+TEST(OrderEstimate, KnowsRoundingThatGoesUpAndDown) {
+  // dmv6 on peters_hsu: from 1/320 s down the errors are rounding, though the last step happens to bring less.
+  const auto e = estimate_order(measured({1.2e-10, 1.7e-10, 7.4e-11, 9.6e-11, 4.1e-9, 2.6e-7, 1.7e-5, 1.2e-3}));
+  ASSERT_TRUE(e.line);
+  EXPECT_NEAR(e.line->order, 6, 0.1);
+  EXPECT_EQ(e.at_round_off, 4U);
+  EXPECT_GE(e.floor, 1.2e-10);
+  // exact_rotor on peters_hsu: the floor of an unstable motion, which is no order.
+  const auto none = estimate_order(measured({6.9e-10, 8.3e-11, 2.5e-10, 1.2e-10, 6.0e-11, 1.6e-11, 2.1e-11, 2.1e-11, 2.3e-11}));
+  EXPECT_FALSE(none.line);
+  EXPECT_EQ(none.at_round_off, 9U);
+}
+
+TEST(OrderEstimate, LeavesOutASmallestStepThatBendsAStraightLine) {
+  const auto e = estimate_order(measured({1.64e-11, 4.52e-10, 7.46e-9, 1.20e-7, 1.91e-6, 3.06e-5, 4.87e-4}));  // gauss4
+  ASSERT_TRUE(e.line);
+  EXPECT_NEAR(e.line->order, 4, 0.01);
+  EXPECT_LT(e.line->half_width_95, 0.05);
+  EXPECT_EQ(e.at_round_off, 1U);
+  EXPECT_TRUE(e.straight);
+}
+
+TEST(OrderEstimate, TakesNoErrorOfWhichNoDigitIsProvenForAnOrderOrForExactness) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  auto points = ladder(6, [](double h) { return h * h; });
+  points.back() = {points.back().step, 0, infinite};
+  const auto e = estimate_order(points);
+  ASSERT_TRUE(e.line);
+  EXPECT_NEAR(e.line->order, 2, 1e-9);
+  EXPECT_EQ(e.points, 5U);
+  for (auto& p : points) p.error = 0, p.round_off = infinite;
+  EXPECT_FALSE(estimate_order(points).exact);
+}
+
 TEST(OrderEstimate, KnowsAPlateauThatIsNoRounding) {
   const auto e = estimate_order(ladder(8, [](double) { return 0.03; }));
   ASSERT_TRUE(e.line);

@@ -602,7 +602,7 @@ TEST(ScenarioCanonical, SeesEveryKeyOfAForce) {
           "t_end = 1\n[[body]]\nmass = 1\ninertia = [1, 1, 1]\n[[body]]\nmass = 1\ninertia = [1, 1, 1]\n";
       text += "[[force]]\nkind = \"" + kind.name + "\"\nbodies = [\"body0\"" + (bodies == 2 ? ", \"body1\"]\n" : "]\n");
       for (const Parameter& p : kind.parameters) {
-        if (p.need != Parameter::Need::required) continue;
+        if (p.need != Parameter::Need::required && !std::holds_alternative<double>(p.value)) continue;
         text += p.key + (std::holds_alternative<double>(p.value) ? " = 0.5\n" : " = [0.5, 0.5, 0.5]\n");
       }
       const std::string canonical = resolved(text).canonical;
@@ -646,7 +646,7 @@ TEST(ScenarioOpen, UnknownNames) {
   EXPECT_THAT(open_error("./coursework"), StartsWith("./coursework: no such file"));
   EXPECT_THAT(open_error("no/such/file.toml"), StartsWith("no/such/file.toml: no such file"));
   EXPECT_THAT(open_error("./"), HasSubstr("is a folder"));
-  EXPECT_THAT(open_error(""), HasSubstr("There are: "));
+  EXPECT_THAT(open_error(""), HasSubstr("; ./run energy_drift --list scenarios prints all "));
   EXPECT_THAT(open_error("a\nb/c"), StartsWith("a\\x0ab/c: no such file"));
 }
 

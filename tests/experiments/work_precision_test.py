@@ -96,5 +96,48 @@ class WorkPrecision(unittest.TestCase):
         self.assertFalse((out / "timings").exists())
 
 
+class Meaning(unittest.TestCase):
+    """Errors that are wrapped, or rounding, tell no order and win nothing: the box of Peters and Hsu, at the default steps."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = temporary_folder(cls.addClassCleanup)
+        cls.out = cls.folder / "out"
+        call("work_precision", "--scenario", "peters_hsu", "--integrator", "heun,crouch_grossman3,exact_rotor,rk4", "--no-figures",
+             "--out", cls.out, folder=cls.folder, status=0)
+        cls.runs = read(cls.out / "runs.csv")
+        cls.page = cls.text_of(cls.out)
+
+    @staticmethod
+    def text_of(out):
+        return re.sub(r"<[^>]*>", "", (out / "report.html").read_text(encoding="utf-8"))
+
+    def test_no_method_falls_more_slowly_for_wrapped_angles_or_rounding(self):
+        wrapped = [float(r["attitude_error_max_rad"]) for r in self.runs if r["integrator"] == "heun"]
+        self.assertGreater(max(wrapped), 1, "there is something to leave out")
+        self.assertNotIn("the attitude error falls more slowly", self.page)
+        self.assertIn("The data do not tell the order of the attitude error of exact_rotor: errors at round-off.", self.page)
+        self.assertIn("The data do not tell the order of the attitude error of heun: too few points", self.page)
+        self.assertIn("the attitude error falls at least as fast as the declared order wherever a slope can be seen (2 curves)",
+                      self.page)
+
+    def test_a_run_that_diverged_has_no_error(self):
+        diverged = [r for r in self.runs if r["status"] == "diverged"]
+        self.assertEqual({r["integrator"] for r in diverged}, {"crouch_grossman3"})
+        for row in diverged:
+            for column in ("attitude_error_max_rad", "position_error_max_m", "angular_velocity_error_max_rel",
+                           "polhode_phase_error_max_s", "polhode_off_error_max_rel"):
+                self.assertEqual(row[column], "", column)
+
+    def test_where_no_run_follows_the_motion_nothing_is_cheapest(self):
+        out = self.folder / "lost"
+        printed = call("work_precision", "--scenario", "peters_hsu", "--integrator", "explicit_euler,lie_euler,recipe_bullet",
+                       "--dt", "0.05,0.025,0.0125", "--no-figures", "--out", out, folder=self.folder, status=0).stdout
+        errors = [float(r["attitude_error_max_rad"]) for r in read(out / "runs.csv")]
+        self.assertLess(min(errors), 1, "one is nearer by chance, at a step larger than one that is lost")
+        self.assertEqual(len(read(out / "envelope.csv")), 0)
+        self.assertIn("No run follows peters_hsu: the attitude is off by more than a radian", printed)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -11,6 +11,8 @@
 #include <set>
 #include <tuple>
 
+#include "experiments/study/motion_size.hpp"
+#include "experiments/study/order_estimate.hpp"
 #include "experiments/study/report/notation.hpp"
 #include "integrators/catalogue.hpp"
 
@@ -73,7 +75,7 @@ class Durations {
 
   std::vector<std::string> describe(const RunConfig& config) const {
     std::vector<std::string> details;
-    if (ends_.at(config.scenario).size() > 1) details.push_back(fmt::format("t_end = {} s", number(config.t_end, 6)));
+    if (ends_.at(config.scenario).size() > 1) details.push_back(fmt::format("t_end = {} s", rounded(config.t_end)));
     if (samples_.at(config.scenario).size() > 1) {
       details.push_back(config.samples ? fmt::format("{} samples", *config.samples) : "every step seen");
     }
@@ -101,18 +103,11 @@ Options variant_options(const std::vector<RunRecord>& runs) {
            [](const RunConfig& c) { return c.summation ? std::string(name(*c.summation)) : std::string(); }}};
 }
 
-/// A TOML value; of a number no more than six digits, for a range has values like 2.4000000000000004.
-std::string shown_value(const std::string& text) {
-  char* end = nullptr;
-  const double number_in_it = std::strtod(text.c_str(), &end);
-  return end != text.c_str() && *end == '\0' ? number(number_in_it, 6) : text;
-}
-
 Case case_of(const RunConfig& config, const Durations& durations) {
   Case found{.scenario = config.scenario, .details = {}};
   for (const auto& varied : config.varied) {
     if (varied.value.empty()) continue;
-    found.details.push_back(fmt::format("{} = {}", varied.key, shown_value(varied.value)));
+    found.details.push_back(fmt::format("{} = {}", varied.key, rounded(varied.value)));
   }
   for (auto& text : durations.describe(config)) found.details.push_back(std::move(text));
   return found;
@@ -139,44 +134,6 @@ void sort_by_step(Curve& curve) {
                    [](const auto* a, const auto* b) { return abscissa(*a).value_or(0) > abscissa(*b).value_or(0); });
 }
 
-/// Logarithms of step and value, largest step first.
-using LogPoints = std::vector<std::pair<double, double>>;
-
-LogPoints points_above_round_off(const Curve& curve, const Quantity& quantity) {
-  LogPoints points;
-  for (const auto* run : curve.runs) {
-    const auto step = abscissa(*run);
-    const auto found = value(*run, quantity);
-    if (!step || !(*step > 0) || !found || *found <= round_off_level(*run, quantity)) continue;
-    if (quantity.bounded && *found >= 1) continue;
-    points.emplace_back(std::log(*step), std::log(*found));
-  }
-  return points;
-}
-
-/// The slope between a point and the one before it.
-double slope_at(const LogPoints& points, std::size_t i) {
-  return (points[i - 1].second - points[i].second) / (points[i - 1].first - points[i].first);
-}
-
-/// Rounding shows far above ε where energies nearly cancel or a motion is unstable: at the small steps a curve then
-/// stops falling, or rises again. Takes those points away, and the last one left if rounding has begun to show in it.
-void drop_floor(LogPoints& points, Precision precision) {
-  const double plateau = std::log(std::min(4e6 * epsilon(precision), 1e-2));  // about 1e-9 in double
-  const double highest_rise = plateau + std::log(1e4);
-  constexpr double least_fall = 0.3, least_rise = 0.1;
-  if (points.empty()) return;
-  const auto full = points.size();
-  const auto least =
-      std::min_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  if (least->second < highest_rise && points.back().second > least->second + least_rise)
-    points.erase(least + 1, points.end());
-  while (points.size() >= 2 && points.back().second < plateau && slope_at(points, points.size() - 1) < least_fall)
-    points.pop_back();
-  const auto n = points.size();
-  if (n < full && n >= 3 && slope_at(points, n - 1) < 0.5 * slope_at(points, n - 2)) points.pop_back();
-}
-
 }  // namespace
 
 std::string Case::label() const {
@@ -194,13 +151,17 @@ Grouping group(const StudyView& study) {
   std::map<std::string, std::size_t> method_index, cases, variants;
   for (const auto& method : grouping.methods) method_index.emplace(method, method_index.size());
   std::map<std::tuple<std::size_t, std::size_t, std::size_t, bool>, std::size_t> curves;
+  std::vector<double> sizes;  // m, of the motions of the cases
   const Durations durations(study);
   const auto formulations = variant_options(study.runs);
 
   for (const auto& run : study.runs) {
     Case motion = case_of(run.config, durations);
     const auto [case_index, new_case] = index_of(cases, identity(motion, run.config));
-    if (new_case) grouping.cases.push_back(std::move(motion));
+    if (new_case) {
+      grouping.cases.push_back(std::move(motion));
+      sizes.push_back(run.scenario ? motion_size(*run.scenario, run.config.t_end) : std::numeric_limits<double>::infinity());
+    }
 
     const auto variant = joined(formulations.describe(run.config));
     const auto [variant_index, new_variant] = index_of(variants, variant);
@@ -209,7 +170,7 @@ Grouping group(const StudyView& study) {
     const auto method = method_index.at(run.config.integrator);
     const bool adaptive = run.config.tolerance.has_value();
     const auto [curve, new_curve] = index_of(curves, std::tuple(case_index, variant_index, method, adaptive));
-    if (new_curve) grouping.curves.push_back({case_index, variant_index, method, adaptive, {}});
+    if (new_curve) grouping.curves.push_back({case_index, variant_index, method, adaptive, sizes[case_index], {}});
     grouping.curves[curve].runs.push_back(&run);
   }
   for (auto& curve : grouping.curves) sort_by_step(curve);
@@ -222,6 +183,10 @@ Quantity energy_drift() {
   return {
       "energy_drift_max_rel", "energy drift", "largest energy drift (relative)", "", 0, true, [](const RunResult& r) {
         return r.energy_drift_max_rel;
+      },
+      [](const RunResult& r) -> std::optional<double> {
+        if (!r.energy_round_off || !r.energy_scale) return std::nullopt;
+        return *r.energy_round_off / *r.energy_scale;
       }};
 }
 Quantity linear_momentum_drift() {
@@ -287,8 +252,8 @@ std::optional<double> abscissa(const RunRecord& run) {
 }
 
 std::string step_label(const RunRecord& run) {
-  if (run.config.tolerance) return fmt::format("tolerance = {}", number(*run.config.tolerance, 6));
-  return run.config.dt ? fmt::format("dt = {} s", number(*run.config.dt, 6)) : "no step";
+  if (run.config.tolerance) return fmt::format("tolerance = {}", rounded(*run.config.tolerance));
+  return run.config.dt ? fmt::format("dt = {} s", rounded(*run.config.dt)) : "no step";
 }
 
 std::string run_label(const Grouping& grouping, const Curve& curve, const RunRecord& run) {
@@ -303,6 +268,10 @@ std::optional<double> value(const RunRecord& run, const Quantity& quantity) {
   return found && std::isfinite(*found) ? found : std::nullopt;
 }
 
+bool is_measured(const Curve& curve, const Quantity& quantity) {
+  return std::any_of(curve.runs.begin(), curve.runs.end(), [&](const auto* run) { return value(*run, quantity); });
+}
+
 std::string printed(const RunRecord& run, const Quantity& quantity) {
   const auto found = value(run, quantity);
   return found ? number(*found) : "";
@@ -314,21 +283,22 @@ double round_off_level(const RunRecord& run) {
 }
 
 double round_off_level(const RunRecord& run, const Quantity& quantity) {
-  const double level = std::max(round_off_level(run), quantity.round_off);
-  const auto &round_off = run.result.energy_round_off, &scale = run.result.energy_scale;
-  const bool of_energy = quantity.column == "energy_drift_max_rel" && round_off && scale && *scale > 0;
-  return of_energy ? std::max(level, *round_off / *scale) : level;
+  const auto own = quantity.round_off_of ? quantity.round_off_of(run.result) : std::nullopt;
+  return std::max({round_off_level(run), quantity.round_off, own.value_or(0)});
 }
 
-std::optional<Slope> observed_slope(const Curve& curve, const Quantity& quantity) {
-  auto points = points_above_round_off(curve, quantity);
-  drop_floor(points, curve.runs.front()->config.precision);
-  const auto n = static_cast<double>(points.size());
-  double x_mean = 0, y_mean = 0, xx = 0, xy = 0;
-  for (const auto& [x, y] : points) x_mean += x / n, y_mean += y / n;
-  for (const auto& [x, y] : points) xx += (x - x_mean) * (x - x_mean), xy += (x - x_mean) * (y - y_mean);
-  if (points.size() < 2 || !(xx > 0)) return std::nullopt;
-  return Slope{.p = xy / xx, .points = points.size()};
+double lost_level(const Curve& curve, const Quantity& quantity) { return quantity.bounded ? motion_lost : curve.motion_size; }
+
+bool follows(const RunRecord& run, const Curve& curve, const Quantity& quantity) {
+  const auto found = value(run, quantity);
+  return found && *found < lost_level(curve, quantity);
+}
+
+bool off_the_motion(const RunRecord& run, const Curve& curve) {
+  for (const auto& quantity : {quantity::attitude_error(), quantity::position_error()}) {
+    if (value(run, quantity) && !follows(run, curve, quantity)) return true;
+  }
+  return false;
 }
 
 }  // namespace polhode::study::report

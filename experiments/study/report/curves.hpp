@@ -6,6 +6,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,7 @@ struct Curve {
   std::size_t variant_index = 0;
   std::size_t method_index = 0;
   bool adaptive = false;               ///< its runs differ in the tolerance, otherwise in the step
+  double motion_size = std::numeric_limits<double>::infinity();  ///< m; infinite where it is not known
   std::vector<const RunRecord*> runs;  ///< largest step or loosest tolerance first
 };
 
@@ -52,6 +54,8 @@ struct Quantity {
   double round_off = 0;  ///< a value below this is round-off whatever the number of steps
   bool bounded = true;   ///< a value of 1 or more says that the motion is lost: relative drifts, defects, angles
   std::function<std::optional<double>(const RunResult&)> of;
+  /// The level of round-off where a run tells it itself; may be empty.
+  std::function<std::optional<double>(const RunResult&)> round_off_of{};
 };
 namespace quantity {
 Quantity energy_drift();
@@ -74,20 +78,22 @@ bool completed(const RunRecord& run);    ///< status ok
 bool ended_early(const RunRecord& run);  ///< it started and did not reach its end: diverged or failed
 /// The quantity if the run was completed and the number is finite.
 std::optional<double> value(const RunRecord& run, const Quantity& quantity);
+/// In some completed run.
+bool is_measured(const Curve& curve, const Quantity& quantity);
 /// That number as tables and sentences print it; empty where there is none.
 std::string printed(const RunRecord& run, const Quantity& quantity);
 
-/// The relative drift below which rounding alone may stand: 16 ε √steps, a random walk of rounding errors.
+/// The relative drift below which rounding alone may stand: 16 ε √steps, a random walk of rounding errors. Of the energy
+/// what the run says itself (energy_round_off), where it does.
 double round_off_level(const RunRecord& run);
 double round_off_level(const RunRecord& run, const Quantity& quantity);
 
-/// The slope p in value ∝ step^p: a straight line fitted by least squares to the logarithms.
-struct Slope {
-  double p = 0;
-  std::size_t points = 0;
-};
-/// Over completed runs whose value is above round-off and, where the quantity is bounded, below 1; without the
-/// small steps at which a value below about 1e-9 no longer falls. Absent with fewer than two such points.
-std::optional<Slope> observed_slope(const Curve& curve, const Quantity& quantity);
+/// From this value on the motion is lost, and which of two values is the larger is chance: angles are wrapped. 1 rad of an
+/// attitude, the size of the motion of a position, 1 of what is relative.
+double lost_level(const Curve& curve, const Quantity& quantity);
+/// The run ended and its value is below that.
+bool follows(const RunRecord& run, const Curve& curve, const Quantity& quantity);
+/// The run ended, and its attitude, or its position, is known to be lost.
+bool off_the_motion(const RunRecord& run, const Curve& curve);
 
 }  // namespace polhode::study::report

@@ -69,9 +69,11 @@ struct Ranking {
   struct Entry {
     std::string method;
     double value;
+    bool off_the_motion;
   };
-  std::vector<Entry> above;  ///< above round-off, least first
-  std::vector<std::string> at_round_off;
+  std::vector<Entry> above;  ///< above round-off and not lost, least first
+  std::vector<Entry> lost;   ///< from lost_level() on, likewise
+  std::vector<Entry> at_round_off;
   double largest_round_off = 0;
   std::vector<std::string> ended_early;
   std::string step;  ///< "dt = 0.1 s"
@@ -87,44 +89,84 @@ Ranking ranking(const Grouping& grouping, const Group& group, const Quantity& qu
       if (ended_early(*run)) found.ended_early.push_back(method);
       const auto measured = value(*run, quantity);
       if (!measured) continue;
-      if (*measured > round_off_level(*run, quantity)) {
-        found.above.push_back({method, *measured});
-      } else {
-        found.at_round_off.push_back(method);
+      const Ranking::Entry entry{method, *measured, off_the_motion(*run, *curve)};
+      if (*measured <= round_off_level(*run, quantity)) {
+        found.at_round_off.push_back(entry);
         found.largest_round_off = std::max(found.largest_round_off, *measured);
+      } else {
+        (follows(*run, *curve, quantity) ? found.above : found.lost).push_back(entry);
       }
     }
   }
-  std::stable_sort(found.above.begin(), found.above.end(),
-                   [](const auto& a, const auto& b) { return a.value < b.value; });
+  for (auto* entries : {&found.above, &found.lost}) {
+    std::stable_sort(entries->begin(), entries->end(), [](const auto& a, const auto& b) { return a.value < b.value; });
+  }
   return found;
+}
+
+bool is_error(const Quantity& quantity) { return !quantity.unit.empty(); }
+
+std::string methods_in(const std::vector<Ranking::Entry>& entries) {
+  std::vector<std::string> methods;
+  for (const auto& entry : entries) methods.push_back(entry.method);
+  return words(methods);
+}
+
+/// "off by more than a radian": which of the wrapped angles is the largest is chance.
+std::string lost_words(const Quantity& quantity) {
+  if (quantity.unit == " rad") return "off by more than a radian";
+  return quantity.bounded ? "1 or more" : "off by more than the motion goes";
 }
 
 /// Within a hundredth of each other.
 bool alike(const Ranking& r) { return r.above.back().value <= 1.01 * r.above.front().value; }
 
+/// The largest of what can be compared: errors that are lost cannot. There must be one.
+const Ranking::Entry& most_of(const Ranking& r, const Quantity& quantity) {
+  return r.lost.empty() || is_error(quantity) ? r.above.back() : r.lost.back();
+}
+
 std::string least_and_most(const Ranking& r, const Quantity& quantity) {
   const auto& least = r.above.front();
-  const auto& most = r.above.back();
-  if (alike(r)) {
-    std::vector<std::string> methods;
-    for (const auto& entry : r.above) methods.push_back(entry.method);
-    return fmt::format("the {} of {} is {}", quantity.words, words(methods), number(most.value) + quantity.unit);
+  const auto& most = most_of(r, quantity);
+  if (&most == &r.above.back() && alike(r)) {
+    return fmt::format("the {} of {} is {}", quantity.words, methods_in(r.above), number(most.value) + quantity.unit);
   }
   if (!r.at_round_off.empty())
     return fmt::format("{} has the most ({})", most.method, number(most.value) + quantity.unit);
-  return fmt::format("{} has the least {} ({}) and {} the most ({})", least.method, quantity.words,
-                     number(least.value) + quantity.unit, most.method, number(most.value) + quantity.unit);
+  return fmt::format("{} has the least {} ({}{}) and {} the most ({})", least.method, quantity.words,
+                     number(least.value) + quantity.unit, least.off_the_motion ? ", but does not follow the motion" : "",
+                     most.method, number(most.value) + quantity.unit);
+}
+
+/// "no run follows the motion: the attitude of rk4 and heun is off by more than a radian".
+std::string lost_ones(const Ranking& r, const Quantity& quantity) {
+  const bool none_left = r.above.empty() && r.at_round_off.empty();
+  if (!is_error(quantity)) {
+    if (!none_left) return "";  // the most of them is named
+    return fmt::format("no run keeps it: the {} of {} is {}{}", quantity.words, methods_in(r.lost), lost_words(quantity),
+                       r.lost.size() > 1 ? fmt::format(", of {} the most ({})", r.lost.back().method, number(r.lost.back().value))
+                                         : fmt::format(" ({})", number(r.lost.back().value)));
+  }
+  return fmt::format("{}the {} of {} is {}", none_left ? "no run follows the motion: " : "",
+                     quantity.unit == " rad" ? "attitude" : "position", methods_in(r.lost), lost_words(quantity));
 }
 
 std::string described(const Ranking& r, const Quantity& quantity) {
   std::vector<std::string> parts;
   if (!r.at_round_off.empty()) {
-    parts.push_back(fmt::format("the {} of {} is at round-off ({}{})", quantity.words, words(r.at_round_off),
+    parts.push_back(fmt::format("the {} of {} is at round-off ({}{})", quantity.words, methods_in(r.at_round_off),
                                 r.largest_round_off > 0 ? "at most " : "",
                                 number(r.largest_round_off) + quantity.unit));
   }
-  if (!r.above.empty()) parts.push_back(least_and_most(r, quantity));
+  if (!r.above.empty()) {
+    parts.push_back(least_and_most(r, quantity));
+  } else if (!r.lost.empty() && !r.at_round_off.empty() && !is_error(quantity)) {
+    parts.push_back(fmt::format("{} has the most ({})", r.lost.back().method, number(r.lost.back().value)));
+  }
+  if (!r.lost.empty()) {
+    if (auto text = lost_ones(r, quantity); !text.empty()) parts.push_back(std::move(text));
+  }
   if (!r.ended_early.empty()) {
     parts.push_back(fmt::format("{} did not reach the end", words(r.ended_early)));
   }
@@ -150,7 +192,7 @@ void tell(const Grouping& grouping, const Group& group, const Quantity& quantity
   for (const bool largest : {true, false}) {
     if (steps.empty() || (!largest && steps.size() == 1)) continue;
     const auto r = ranking(grouping, group, quantity, largest ? *steps.rbegin() : *steps.begin());
-    if (r.above.empty() && r.at_round_off.empty() && r.ended_early.empty()) continue;
+    if (r.above.empty() && r.lost.empty() && r.at_round_off.empty() && r.ended_early.empty()) continue;
     const auto which = steps.size() == 1 ? std::string() : fmt::format(", {}", end_name(group.adaptive, largest));
     const auto about = prefix(grouping, group);
     sentences.push_back(
@@ -182,11 +224,12 @@ Count count_end(const Grouping& grouping, const std::vector<Group>& groups, cons
     const auto steps = steps_of(group);
     if (group.adaptive != adaptive || steps.empty()) continue;
     const auto r = ranking(grouping, group, quantity, largest ? *steps.rbegin() : *steps.begin());
-    if (r.above.size() + r.at_round_off.size() < 2) continue;  // nothing to compare
+    const std::size_t kept = r.above.size() + r.at_round_off.size(), lost = is_error(quantity) ? 0 : r.lost.size();
+    if (kept == 0 || kept + lost < 2) continue;  // nothing to compare
     ++total;
-    for (const auto& method : r.at_round_off) ++least[method];
+    for (const auto& entry : r.at_round_off) ++least[entry.method];
     if (r.at_round_off.empty()) ++least[r.above.front().method];
-    if (!r.above.empty()) ++most[r.above.back().method];
+    if (!r.above.empty() || lost > 0) ++most[most_of(r, quantity).method];
   }
   if (total == 0) return {};
   const auto where = fmt::format("at {}{} ", end_name(adaptive, largest), adaptive ? " tolerance" : "");
@@ -211,21 +254,33 @@ std::vector<std::string> counts(const Grouping& grouping, const std::vector<Grou
   return sentences;
 }
 
-std::vector<std::string> table_row(const Grouping& grouping, const Group& group, const Ranking& r) {
+std::vector<std::string> table_row(const Grouping& grouping, const Group& group, const Quantity& quantity,
+                                   const Ranking& r) {
   const auto entry = [](const Ranking::Entry& e) { return fmt::format("{} ({})", e.method, number(e.value)); };
-  const bool several = r.above.size() + r.at_round_off.size() > 1;
+  const bool compares = !is_error(quantity) && !r.lost.empty();  // with what is lost
+  const bool several = r.above.size() + r.at_round_off.size() + (compares ? r.lost.size() : 0) > 1;
   std::string least = r.above.empty() ? "" : entry(r.above.front());
-  std::string most = r.above.empty() || !several ? "" : entry(r.above.back());
+  if (!r.above.empty() && r.above.front().off_the_motion && !is_error(quantity)) {
+    least = fmt::format("{} ({}, off the motion)", r.above.front().method, number(r.above.front().value));
+  }
+  std::string most;
+  if (compares)
+    most = entry(r.lost.back());
+  else if (!r.above.empty() && several)
+    most = entry(r.above.back());
   if (!r.at_round_off.empty()) {
-    least = fmt::format("{} (round-off)", words(r.at_round_off));
-  } else if (several && alike(r)) {
+    least = fmt::format("{} (round-off)", methods_in(r.at_round_off));
+  } else if (several && !compares && alike(r)) {
     least = most = fmt::format("all alike ({})", number(r.above.back().value));
+  } else if (r.above.empty() && !r.lost.empty()) {
+    least = "none: all lost";
   }
   return {grouping.cases[group.case_index].label(),
           grouping.variants[group.variant_index],
           r.step,
           least,
           most,
+          is_error(quantity) ? methods_in(r.lost) : "",
           words(r.ended_early)};
 }
 
@@ -238,6 +293,7 @@ Table table_of(const Grouping& grouping, const std::vector<Group>& groups, const
                           {"at", "", Kind::text},
                           {"least", "", Kind::text},
                           {"most", "", Kind::text},
+                          {lost_words(quantity), "", Kind::text},
                           {"did not reach the end", "", Kind::text}},
               .rows = {}};
   for (const auto& group : groups) {
@@ -249,7 +305,7 @@ Table table_of(const Grouping& grouping, const std::vector<Group>& groups, const
         return without_empty_columns(std::move(table));
       }
       table.rows.push_back(
-          table_row(grouping, group, ranking(grouping, group, quantity, largest ? *steps.rbegin() : *steps.begin())));
+          table_row(grouping, group, quantity, ranking(grouping, group, quantity, largest ? *steps.rbegin() : *steps.begin())));
     }
   }
   return without_empty_columns(std::move(table));

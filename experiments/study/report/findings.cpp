@@ -11,7 +11,9 @@
 #include <tuple>
 #include <utility>
 
+#include "experiments/study/declared_order.hpp"
 #include "experiments/study/report/drift_words.hpp"
+#include "experiments/study/report/error_ladder.hpp"
 #include "experiments/study/report/extremes.hpp"
 #include "experiments/study/report/gyroscopic.hpp"
 #include "experiments/study/report/method_table.hpp"
@@ -71,8 +73,9 @@ std::string run_sentence(const Grouping& grouping, const Curve& curve, const Run
       parts.push_back(fmt::format("the {} is {}", quantity.words, number(*found)));
   }
   if (const auto found = value(run, quantity::attitude_error())) {
-    parts.push_back(fmt::format("the attitude is off the {} one by up to {} rad",
-                                run.result.attitude_reference ? "reference" : "exact", number(*found)));
+    parts.push_back(fmt::format("the attitude is off the {} one by up to {} rad{}",
+                                run.result.attitude_reference ? "reference" : "exact", number(*found),
+                                follows(run, curve, quantity::attitude_error()) ? "" : ": the run does not follow the motion"));
   }
   if (const auto found = value(run, quantity::position_error())) {
     parts.push_back(fmt::format("the position by up to {} m", number(*found)));
@@ -134,35 +137,56 @@ std::string curve_label(const Grouping& grouping, const Curve& curve) {
   return grouping.cases.size() > 1 ? fmt::format("{} on {}", label, grouping.cases[curve.case_index].label()) : label;
 }
 
-/// Methods whose quantity falls more slowly than their order, or a sentence that there is none.
+/// So many items, then how many more there are.
+std::string first_few(std::vector<std::string> items) {
+  constexpr std::size_t most = 8;
+  const std::size_t rest = items.size() > most ? items.size() - most : 0;
+  if (rest > 0) items.resize(most), items.push_back(fmt::format("{} more", rest));
+  return words(items);
+}
+
+/// Methods whose quantity falls more slowly than their order, or a sentence that there is none; and those whose order the
+/// data do not tell.
 std::vector<std::string> slope_sentences(const Grouping& grouping, const Quantity& quantity) {
-  std::vector<std::string> slower;
+  constexpr std::size_t wanted_runs = 3;
+  std::vector<std::string> slower, sentences;
+  std::map<std::string, std::vector<std::string>> not_told;  // by the reason
   std::size_t compared = 0;
   for (const auto& curve : grouping.curves) {
-    const auto slope = observed_slope(curve, quantity);
+    const auto& config = curve.runs.front()->config;
     const auto* entry = find_integrator(grouping.methods[curve.method_index]);
     // Without the gyroscopic term another equation is solved: its distance from this one has no order.
-    const bool same_equation = curve.runs.front()->config.formulation.gyroscopic;
-    if (!slope || slope->points < 3 || curve.adaptive || !same_equation || entry == nullptr ||
-        entry->declaration.order == 0)
+    if (curve.runs.size() < wanted_runs || curve.adaptive || !config.formulation.gyroscopic || entry == nullptr ||
+        entry->declaration.order == 0 || !is_measured(curve, quantity))
       continue;
-    ++compared;
-    if (slope->p < entry->declaration.order - 0.25) {
-      slower.push_back(fmt::format("{} ({:.2f} over {} points, declared order {})", curve_label(grouping, curve),
-                                   slope->p, slope->points, entry->declaration.order));
+    const auto estimate = observed_order(curve, quantity);
+    if (estimate.exact) continue;  // told of elsewhere
+    const auto line = told_line(estimate);
+    if (!line) {
+      not_told[why_not_told(curve, quantity, estimate)].push_back(curve_label(grouping, curve));
+      continue;
     }
+    const auto declared = declared_order(entry->declaration, *curve.runs.front(), quantity.unit == " rad");
+    const auto verdict = judge(estimate, declared);
+    compared += verdict != OrderVerdict::scattered;
+    if (verdict != OrderVerdict::lower) continue;
+    slower.push_back(fmt::format("{} ({:.2f} over {} points, {})", curve_label(grouping, curve), line->order,
+                                 estimate.points,
+                                 declared ? fmt::format("declared order {}", number(*declared)) : "declared exact"));
   }
-  if (compared == 0) return {};
-  if (slower.empty()) {
-    return {fmt::format(
+  if (!slower.empty()) {
+    sentences.push_back(fmt::format("Against the step, the {} falls more slowly than the declared order for {}.",
+                                    quantity.words, first_few(slower)));
+  } else if (compared > 0) {
+    sentences.push_back(fmt::format(
         "Against the step, the {} falls at least as fast as the declared order wherever a slope can be seen ({}).",
-        quantity.words, count(compared, "curve"))};
+        quantity.words, count(compared, "curve")));
   }
-  constexpr std::size_t most = 8;
-  const std::size_t rest = slower.size() > most ? slower.size() - most : 0;
-  if (rest > 0) slower.resize(most), slower.push_back(fmt::format("{} more", rest));
-  return {fmt::format("Against the step, the {} falls more slowly than the declared order for {}.", quantity.words,
-                      words(slower))};
+  for (const auto& [reason, labels] : not_told) {
+    sentences.push_back(fmt::format("The data do not tell the order of the {} of {}: {}.", quantity.words,
+                                    first_few(labels), reason));
+  }
+  return sentences;
 }
 
 void add_extremes(Topic& topic, const Grouping& grouping, const Quantity& quantity) {
@@ -358,10 +382,35 @@ Topic troubles(const Grouping& grouping) {
   return topic;
 }
 
+/// Motions that no run follows, though some end: what is said of their runs must not be read as praise.
+std::vector<std::string> unfollowed(const Grouping& grouping) {
+  std::map<std::size_t, std::pair<std::size_t, std::size_t>> cases;  // runs with an error, those that are off
+  for (const auto& curve : grouping.curves) {
+    if (!curve.runs.front()->config.formulation.gyroscopic) continue;  // another equation
+    for (const auto* run : curve.runs) {
+      if (!value(*run, quantity::attitude_error()) && !value(*run, quantity::position_error())) continue;
+      auto& [all, off] = cases[curve.case_index];
+      ++all;
+      off += off_the_motion(*run, curve);
+    }
+  }
+  std::vector<std::string> sentences;
+  for (const auto& [index, counts] : cases) {
+    const auto [all, off] = counts;
+    if (off < all) continue;
+    sentences.push_back(fmt::format(
+        "No run follows the motion of {}: {} off by more than a radian, or by more than the motion goes. Which of them is "
+        "nearest is chance, and what they keep is kept of another motion.",
+        grouping.cases[index].label(), all == 1 ? "the one that ended is" : fmt::format("all {} that ended are", all)));
+  }
+  return sentences;
+}
+
 }  // namespace
 
 Findings findings_of(const StudyView& study, const Grouping& grouping) {
   Findings found{.outcome = outcome(study), .cautions = cautions(grouping), .topics = {}};
+  append(found.cautions, unfollowed(grouping));
   for (auto& topic : std::array{energy(study, grouping), momenta(study, grouping), orientation(study, grouping),
                                 errors(study, grouping), gyroscopic_term(grouping), troubles(grouping)}) {
     if (!topic.sentences.empty() || !topic.tables.empty()) found.topics.push_back(std::move(topic));

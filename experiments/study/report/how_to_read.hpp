@@ -38,7 +38,8 @@ vertical axis is logarithmic on both sides of zero and linear about it, so that 
 magnitude are seen at once.</dd>
 <dt>Slope</dt>
 <dd>p in drift ∝ step<sup>p</sup>: a straight line fitted by least squares to the logarithms of completed runs
-whose value is above round-off and below 1, without the smallest steps where a value no longer falls. The
+whose value is ten times round-off and below 0.5 (rad, or relative), from the smallest step on as long as the points
+stay on one line. Where fewer than three are left, or they scatter, the data tell no order, and the page says why. The
 declared order is that of the motion’s error; an invariant may drift by a higher power.</dd>
 <dt>Round-off</dt>
 <dd>A value below 16 ε √steps, what rounding errors alone may add up to (ε = 2.2e-16 in double

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include "experiments/study/declared_order.hpp"
+#include "experiments/study/report/error_ladder.hpp"
 #include "experiments/study/report/notation.hpp"
 #include "integrators/catalogue.hpp"
 
@@ -14,17 +16,30 @@ namespace polhode::study::report {
 
 namespace {
 
-std::string declared_order(const std::string& method) {
-  const auto* entry = find_integrator(method);
+/// For the motion at hand: "4"; "2 (attitude: exact)" where the attitude of a free top under gravity has an order of its own.
+std::string declared_text(const Curve& curve) {
+  const RunRecord& run = *curve.runs.front();
+  const auto* entry = find_integrator(run.config.integrator);
   if (entry == nullptr) return "";
-  return entry->declaration.order == 0 ? "variable" : fmt::format("{}", entry->declaration.order);
+  if (entry->declaration.order == 0) return "variable";
+  const auto text = [](const std::optional<double>& order) { return order ? number(*order) : std::string("exact"); };
+  const auto path = text(declared_order(entry->declaration, run, false));
+  const auto attitude = text(declared_order(entry->declaration, run, true));
+  return path == attitude ? path : fmt::format("{} (attitude: {})", path, attitude);
 }
 
+/// "2.00 (7)", or why there is none.
 std::string slope_text(const Curve& curve, const Quantity& quantity) {
-  const auto slope = observed_slope(curve, quantity);
-  if (!slope) return "";
-  const double p = std::abs(slope->p) < 0.005 ? 0 : slope->p;  // no "-0.00"
-  return fmt::format("{:.2f} ({})", p, slope->points);
+  constexpr std::size_t wanted_runs = 3;
+  if (curve.runs.size() < wanted_runs || !is_measured(curve, quantity)) return "";
+  const auto estimate = observed_order(curve, quantity);
+  if (const auto line = told_line(estimate)) {
+    const double p = std::abs(line->order) < 0.005 ? 0 : line->order;  // no "-0.00"
+    return fmt::format("{:.2f} ({})", p, estimate.points);
+  }
+  if (estimate.line) return "uncertain";
+  if (estimate.blown_up > 0 && estimate.at_round_off > 0) return "lost, round-off";
+  return estimate.blown_up > 0 ? "lost" : estimate.at_round_off > 0 ? "round-off" : "";
 }
 
 std::string largest(const Curve& curve, const Quantity& quantity) {
@@ -38,7 +53,7 @@ std::string largest(const Curve& curve, const Quantity& quantity) {
 std::string range_of_steps(const Curve& curve) {
   const auto first = abscissa(*curve.runs.front()), last = abscissa(*curve.runs.back());
   if (!first || !last) return "";
-  const auto range = *first == *last ? number(*first, 6) : fmt::format("{} … {}", number(*first, 6), number(*last, 6));
+  const auto range = *first == *last ? rounded(*first) : fmt::format("{} … {}", rounded(*first), rounded(*last));
   return curve.adaptive ? "tol. " + range : range + " s";
 }
 
@@ -73,7 +88,9 @@ std::string energy_trend(const Curve& curve) {
 Table method_table(const Grouping& grouping) {
   using Kind = Column::Kind;
   Table table{
-      .caption = "In brackets: the number of points behind a slope. The energy column says what becomes of the energy",
+      .caption = "In brackets: the number of points behind a slope. In its place where the data do not tell it: round-off, errors "
+                 "at round-off; lost, steps too large (an attitude off by more than half a radian, a drift above 0.5, or a "
+                 "run that did not end); uncertain, points on no line or too few of them. The energy column says what becomes of the energy",
       .columns = {{"method", "", Kind::name},
                   {"motion", "", Kind::text},
                   {"formulation", "", Kind::text},
@@ -95,7 +112,7 @@ Table method_table(const Grouping& grouping) {
         {method, grouping.cases.size() > 1 ? grouping.cases[curve.case_index].label() : "",
          grouping.variants[curve.variant_index], range_of_steps(curve), printed(*curve.runs.front(), energy),
          several ? printed(*curve.runs.back(), energy) : "", slope_text(curve, energy),
-         slope_text(curve, quantity::attitude_error()), declared_order(method), energy_trend(curve),
+         slope_text(curve, quantity::attitude_error()), declared_text(curve), energy_trend(curve),
          largest(curve, quantity::angular_momentum_drift()), largest(curve, quantity::orientation_defect())});
   }
   return without_empty_columns(std::move(table));

@@ -51,6 +51,14 @@ std::string number(double value, int digits) {
   return fmt::format("{:.{}g}", value, digits);
 }
 
+std::string rounded(double value) { return number(value, 5); }
+
+std::string rounded(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return end != text.c_str() && *end == '\0' && std::isfinite(value) ? rounded(value) : text;
+}
+
 std::string scientific(double value) {
   for (int precision = 0; precision < 17; ++precision) {
     auto printed = fmt::format("{:.{}e}", value, precision);

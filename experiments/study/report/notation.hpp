@@ -12,6 +12,11 @@ namespace polhode::study::report {
 /// A measured number to so many significant digits: "0.0325", "3.25e-5"; "not finite" if it is not.
 std::string number(double value, int digits = 3);
 
+/// A number that was given, as people read it, to 5 significant digits: "0.0021544". runs.csv has all of them.
+std::string rounded(double value);
+/// The same of a text that is a number; any other text as it is.
+std::string rounded(const std::string& text);
+
 /// A number that was given, with all its digits: "0.001", "1e-5", "2.5e-4".
 std::string exact(double value);
 

@@ -26,7 +26,7 @@ struct Field {
 std::string measured(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? number(*value) : "";
 }
-std::string given(const std::optional<double>& value) { return value ? number(*value, 6) : ""; }
+std::string given(const std::optional<double>& value) { return value ? rounded(*value) : ""; }
 
 using Kind = Column::Kind;
 
@@ -45,7 +45,7 @@ std::vector<Field> configuration(const StudyView& study) {
                         const auto& all = r.config.varied;
                         const auto at =
                             std::find_if(all.begin(), all.end(), [&](const auto& o) { return o.key == key; });
-                        return at == all.end() ? std::string() : at->value;
+                        return at == all.end() ? std::string() : rounded(at->value);
                       }});
   }
   option("orientation", "", Kind::text,
@@ -69,7 +69,7 @@ std::vector<Field> configuration(const StudyView& study) {
          [](const RunConfig& c) { return c.order.value_or(0) > 0 ? std::to_string(*c.order) : std::string(); });
   option("summation", "", Kind::text,
          [](const RunConfig& c) { return c.summation ? std::string(name(*c.summation)) : std::string(); });
-  option("t_end", "s", Kind::number, [](const RunConfig& c) { return number(c.t_end, 6); });
+  option("t_end", "s", Kind::number, [](const RunConfig& c) { return rounded(c.t_end); });
   option("samples", "", Kind::number, [](const RunConfig& c) { return c.samples ? std::to_string(*c.samples) : ""; });
   fields.push_back({{"dt", "s"}, [](const RunRecord& r) { return given(r.config.dt); }});
   fields.push_back({{"tolerance"}, [](const RunRecord& r) { return given(r.config.tolerance); }});
@@ -94,6 +94,8 @@ std::vector<Field> results(const StudyView& study) {
       std::all_of(study.runs.begin(), study.runs.end(), [](const auto& r) { return r.result.status == "ok"; });
   fields.push_back({{"status", "", Kind::text}, [](const RunRecord& r) { return r.result.status; }, false, !all_ok});
   add("largest energy drift", "relative", &RunResult::energy_drift_max_rel);
+  add("largest energy drift", "J", &RunResult::energy_drift_max, false);
+  add("rounding of the energy", "J", &RunResult::energy_round_off, false);
   add("final energy drift", "relative", &RunResult::energy_drift_final_rel, false);
   add("energy drift rate", "W", &RunResult::energy_drift_rate, false);
   add("±", "W", &RunResult::energy_drift_rate_ci, false);

@@ -11,7 +11,7 @@
 #include <map>
 #include <string_view>
 
-#include "experiments/study/report/curves.hpp"
+#include "experiments/study/report/error_ladder.hpp"
 #include "experiments/study/report/notation.hpp"
 
 namespace polhode::study::report {
@@ -130,6 +130,8 @@ void define_count(std::string& out, const std::string& command, std::int64_t n) 
 
 void define_run(std::string& out, const std::string& run, const RunResult& r) {
   define(out, run + "EnergyDriftMax", r.energy_drift_max_rel);
+  define(out, run + "EnergyDriftMaxJ", r.energy_drift_max);
+  define(out, run + "EnergyScale", r.energy_scale);
   define(out, run + "EnergyDriftFinal", r.energy_drift_final_rel);
   define(out, run + "EnergyDriftRate", r.energy_drift_rate);
   define(out, run + "EnergyDriftRateInterval", r.energy_drift_rate_ci);
@@ -164,7 +166,7 @@ void define_slopes(std::string& out, const StudyView& study) {
     for (const auto& [quantity, ending] : {std::pair(quantity::energy_drift(), "EnergyDriftSlope"),
                                            std::pair(quantity::angular_momentum_drift(), "AngularMomentumDriftSlope"),
                                            std::pair(quantity::attitude_error(), "AttitudeErrorSlope")}) {
-      if (const auto slope = observed_slope(curve, quantity)) define(lines, name + ending, slope->p);
+      if (const auto line = told_line(observed_order(curve, quantity))) define(lines, name + ending, line->order);
     }
   }
   if (!lines.empty()) out += "\n% Observed slopes against the step (Tolerance: against the tolerance).\n" + lines;

@@ -17,7 +17,6 @@ constexpr double order_margin = 0.25;
 constexpr double above_rounding = 10;
 constexpr double tolerance_margin = 0.4;  // of the slope against a tolerance, as the laws of integrators have it
 constexpr double straightness = 0.03;     // of ln(error): methods of several steps come to their order late
-constexpr double lost = 0.5;              // rad, or m: such an error says nothing about an order
 
 TraitVerdict verdict_of(OrderVerdict seen) {
   switch (seen) {
@@ -67,13 +66,8 @@ std::string note_of(const OrderEstimate& estimate, OrderVerdict seen) {
 }  // namespace
 
 OrderSettings order_settings(bool adaptive) {
-  OrderSettings settings;
-  settings.lost = lost;
-  settings.straightness = straightness;
-  if (adaptive) {
-    settings.straightness = std::numeric_limits<double>::infinity();
-    settings.least_fall = 0;
-  }
+  OrderSettings settings = adaptive ? of_chosen_steps : OrderSettings{.straightness = straightness};
+  settings.lost = lost_to_fits;
   return settings;
 }
 
