@@ -75,7 +75,7 @@ class Orders {
                                         [&](const auto* run) { return quantity.of(run->result).has_value(); });
       if (!measured) continue;
       const auto declared =
-          curve.adaptive ? 1 : declared_order(entry->declaration, *scenario, config, is_attitude(quantity));
+          curve.adaptive ? 1 : declared_order(entry->declaration, *scenario, is_attitude(quantity));
       orders_.push_back(order_of(curve, quantity, declared));
     }
   }

@@ -11,8 +11,7 @@ namespace polhode::study {
 
 /// Its free order, where it declares one, for bodies without forces, and for their attitude without torques; otherwise
 /// the order under forces. Absent: it is exact.
-std::optional<double> declared_order(const Declaration& method, const Scenario& scenario, const RunConfig& config,
-                                     bool attitude);
+std::optional<double> declared_order(const Declaration& method, const Scenario& scenario, bool attitude);
 
 /// For a run's own motion; the order under forces where its scenario is not known.
 std::optional<double> declared_order(const Declaration& method, const RunRecord& run, bool attitude);

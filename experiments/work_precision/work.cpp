@@ -54,7 +54,7 @@ bool is_exact(const StudyView& study, const Curve& curve, const Quantity& quanti
   const auto scenario = std::find_if(study.scenarios.begin(), study.scenarios.end(),
                                      [&](const auto& s) { return s.name == config.scenario; });
   if (entry != nullptr && scenario != study.scenarios.end() && !curve.adaptive &&
-      !declared_order(entry->declaration, *scenario, config, quantity.unit == " rad")) {
+      !declared_order(entry->declaration, *scenario, quantity.unit == " rad")) {
     return true;
   }
   constexpr double near = 10;

@@ -26,6 +26,7 @@
 namespace polhode::study {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 using Vector = Vector3<double>;
@@ -202,10 +203,10 @@ TEST(ScenarioErrors, Syntax) {
                    {"title = \"Test\"", "title = Test", "1:9: ", "Error while parsing"},
                    {"[0.0, 0.0, -9.81]", "[0.0, 0.0, 1e999]", "2:", "1e999"},
                    {"static = true", "static = true\n[[bod y]]", "15:", ""}});
-  EXPECT_THAT(error_of("a." + std::string(100000, '.') + "a=1"), StartsWith("test.toml:1:1: "));
+  EXPECT_THAT(error_of("a." + std::string(100000, '.') + "a=1"), AllOf(StartsWith("test.toml:1:"), HasSubstr("nested more than")));
   std::string deep = "a";
   for (int i = 0; i < 100000; ++i) deep += ".a";
-  EXPECT_THAT(error_of(deep + "=1"), StartsWith("test.toml:1:1: ")) << "would overflow the stack";
+  EXPECT_THAT(error_of(deep + "=1"), AllOf(StartsWith("test.toml:1:"), HasSubstr("nested more than"))) << "would overflow the stack";
   EXPECT_THAT(error_of("a=" + std::string(100000, '[')), StartsWith("test.toml:1:"));
   EXPECT_THAT(error_of("title = \"\xff\""), StartsWith("test.toml:1:"));
 }

@@ -99,7 +99,7 @@ class RunTraits {
   }
 
   std::optional<double> declared(const Motion& motion, bool attitude) const {
-    return declared_order(subject_.declaration(), *motion.scenario, motion.ladder->runs.front()->config, attitude);
+    return declared_order(subject_.declaration(), *motion.scenario, attitude);
   }
 
   static bool seen_in(const Curve& curve, const Quantity& quantity) {
