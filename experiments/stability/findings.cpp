@@ -16,7 +16,7 @@ constexpr double theory_width = 1e-6;
 std::optional<LinearTheory> linear_theory(const Ladder& ladder) {
   const RunRecord& like = ladder.steps.front().longest();
   const IntegratorEntry* method = find_integrator(like.config.integrator);
-  if (method == nullptr) return std::nullopt;
+  if (method == nullptr || like.config.contact) return std::nullopt;
   const auto radius = [&](double dt) {
     return spectral_radius(*method, like.scenario->problem, like.config.formulation, dt);
   };

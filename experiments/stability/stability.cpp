@@ -319,9 +319,10 @@ class Stability {
     }
     const auto unknown = all_passed(where, [](const auto& f) { return !f.ladder.measured; }, limit);
     if (!unknown.empty()) {
+      const bool contact = at->ladder.steps.front().longest().config.contact.has_value();
       all.push_back(fmt::format("{}: no exact motion is known, so that invariants and the orientation alone say up to where it "
-                                "is followed at most; --reference measures the motion.",
-                                where));
+                                "is followed at most{}.",
+                                where, contact ? "" : "; --reference measures the motion"));
     }
     return all;
   }

@@ -29,10 +29,10 @@ double whole_steps_only(double t_end, double dt) { return std::ceil(t_end / dt *
 
 bool is_longer(const RunRecord& run, double t_end) { return run.config.t_end > t_end * (1 + 1e-9); }
 
-/// In a linear system with a rate of its own whatever grows does so exponentially.
+/// In a linear system with a rate of its own whatever grows does so exponentially. With contact none is linear.
 std::optional<double> turn_of(const RunConfig& config, const Scenario& scenario, std::optional<double> rate) {
   if (!rate) return config.t_end / turns_without_rate;
-  if (is_linear(*make_system<double>(scenario.problem, config.formulation))) return std::nullopt;
+  if (!config.contact && is_linear(*make_system<double>(scenario.problem, config.formulation))) return std::nullopt;
   return 2 * std::numbers::pi / *rate;
 }
 

@@ -263,6 +263,13 @@ orientation = [0.7071067811865476, 0.7071067811865475, 0, 0]
             self.assertEqual(row["motion"], "found", row["integrator"])
             self.assertGreater(float(row["largest_following_step_s"]), 0.05, row["integrator"])
 
+    def test_of_contact_neither_a_linear_theory_nor_a_reference_is_told(self):
+        text = call("stability", "--scenario", "bouncing_ball", "--integrator", "semi_implicit_euler", "--dt", "0.002,0.01",
+                    "--t-end", "1", "--no-figures", "--out", self.folder / "contact", folder=self.folder).stdout
+        self.assertIn("bouncing_ball: no exact motion is known", text)
+        for words in ("is linear", "--reference", "linear theory"):
+            self.assertNotIn(words, text)
+
     def test_help_says_what_the_bounds_are(self):
         said = " ".join(call("stability", "--help", folder=self.folder).stdout.split())
         for words in ("less than 1 % of its scale", "attitude error below 1 rad", "below 0.25 of the largest displacement",
