@@ -11,8 +11,6 @@ namespace polhode {
 
 /// The longest stretch that is measured in one call.
 inline constexpr std::int64_t longest_stretch = 64;
-/// How many steps may pass between two looks at the request to stop.
-inline constexpr std::int64_t steps_between_looks = 4096;
 
 /// How many samples were taken: fewer than all when the run is to end as diverged at the next one, because of `why`.
 struct TakenSamples {

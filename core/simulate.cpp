@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <new>
 #include <stdexcept>
 #include <type_traits>
 
@@ -125,15 +126,35 @@ class Loop {
     return integrator_.step(state_, h);
   }
 
+  /// Takes steps by the method; false where it fails or throws, and the outcome says why.
+  template <class Steps>
+  bool done(const Steps& steps) {
+    std::string why;
+    try {
+      why = steps().failure;
+    } catch (const std::bad_alloc&) {
+      throw;  // no fault of the method
+    } catch (const std::exception& error) {
+      why = error.what();
+      if (!is_finite(state_.y)) {
+        diverged("the state ceased to be finite");
+        return false;
+      }
+    }
+    if (why.empty()) return true;
+    fail(std::move(why));
+    return false;
+  }
+
+  void fail(std::string why) {
+    outcome_.status = RunStatus::failed;
+    outcome_.message = at_time(std::move(why), state_.t);
+  }
+
   /// One step by the method, then projection and the check for NaN; false ends the run.
   bool take_step(double h, std::optional<double> t_after) {
     const double before_step = state_.t;
-    const StepResult result = step(h);
-    if (!result.ok()) {
-      outcome_.status = RunStatus::failed;
-      outcome_.message = at_time(result.failure, state_.t);
-      return false;
-    }
+    if (!done([&] { return step(h); })) return false;
     const bool ended = contact_ && contact_->ended();
     if (t_after && !ended) state_.t = *t_after;  // t_k = k h, never accumulated
     if (contact_ && !contact_->impacts().empty()) observer_.meet(contact_->impacts());
@@ -142,8 +163,7 @@ class Loop {
     const bool progress = t_after || state_.t - before_step > least_progress * schedule_.t_end || state_.t >= schedule_.t_end;
     steps_without_progress_ = progress ? 0 : steps_without_progress_ + 1;
     if (steps_without_progress_ > patience) {
-      outcome_.status = RunStatus::failed;
-      outcome_.message = at_time("the step size fell to nothing", state_.t);
+      fail("the step size fell to nothing");
       return false;
     }
     if (!is_finite(state_.y)) {
@@ -162,7 +182,7 @@ class Loop {
       if (state_.t > observed_) observe_now();
       return false;
     }
-    return outcome_.steps % steps_between_looks != 0 || !interrupted();
+    return !interrupted();
   }
 
   double energy() { return truth_.measure(view_.of(state_).y).energy(); }
@@ -211,19 +231,13 @@ class Loop {
 
   bool take_stretch(std::int64_t k, std::int64_t n) {
     const Stretch stretch{schedule_.dt, n, t0_, k, schedule_.normalise, samples_.data()};
-    const StepResult result = integrator_.advance(state_, stretch);
-    if (!result.ok()) {
-      outcome_.status = RunStatus::failed;
-      outcome_.message = at_time(result.failure, state_.t);
-      return false;
-    }
+    if (!done([&] { return integrator_.advance(state_, stretch); })) return false;
     outcome_.steps += n;
     const std::span<Sample> samples(samples_.data(), static_cast<std::size_t>(n));
     for (Sample& s : samples) s.projection = projection_energy_ += s.projection;
     if (!take_samples(samples)) return false;
-    const bool looks = samples.back().t >= observer_.next_look();
-    if (looks) observer_.look(view_.of(state_), samples.back());
-    return (!looks && outcome_.steps % steps_between_looks >= n) || !interrupted();
+    if (samples.back().t >= observer_.next_look()) observer_.look(view_.of(state_), samples.back());
+    return !interrupted();
   }
 
   /// Steps of the sizes that are given; t adds them up.
@@ -247,6 +261,7 @@ class Loop {
     const bool shorten = schedule_.samples && (schedule_.normalise || contact_ || !integrator_.has_dense_output());
     while (state_.t < schedule_.t_end) {
       const double target = shorten ? sample_time(next) : schedule_.t_end;
+      if (outcome_.steps >= schedule_.most_steps) return fail(too_many_steps());
       if (!take_step(target - state_.t, std::nullopt)) return;
       if (!schedule_.samples) {
         if (!observe_now()) return;
@@ -264,6 +279,12 @@ class Loop {
         }
       }
     }
+  }
+
+  std::string too_many_steps() const {
+    std::string why = "not at the end after ";
+    why += std::to_string(schedule_.most_steps);
+    return why += " steps; take a larger --tolerance, a shorter --t-end or more --max-steps; it stood";
   }
 
   const System<S>& system_;

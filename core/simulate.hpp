@@ -23,6 +23,8 @@ struct Schedule {
   bool adaptive = false;                ///< the method chooses its steps; dt is not read
   std::optional<std::int64_t> samples;  ///< observe at t0 + k (t_end − t0)/samples, hit exactly; absent: after every step
   bool normalise = false;               ///< project every orientation after each step
+  /// An adaptive method that is not at t_end after so many steps has failed. Fixed steps are counted before they are taken.
+  std::int64_t most_steps = 100'000'000;
   /// The sizes (s) of fixed steps, asked for one at a time, in the place of dt: the run ends where it gives 0, or at t_end,
   /// beyond which no step goes. Every step is observed. Absent: all are dt.
   std::function<double()> next_step{};
@@ -73,9 +75,11 @@ StepPlan plan_steps(double t_end, double dt);
 std::string sampling_problem(const Schedule& schedule);
 
 /// Runs from `state`, at its time, to schedule.t_end. Energies are measured on `truth`, the same system in double.
-/// Memory does not depend on the number of steps. `stop`, when given, is looked at every few thousand steps, and after each
-/// look of the observer, which may set it. `contact`, when given, takes the steps in the method's place, and may end the
-/// run; in double only, else std::invalid_argument. That is thrown too where next_step gives what is no step.
+/// Memory does not depend on the number of steps. `stop`, when given, is looked at after every call of the method, of at most
+/// 64 steps, and after each look of the observer, which may set it. `contact`, when given, takes the steps in the method's
+/// place, and may end the run; in double only, else std::invalid_argument. That is thrown too where next_step gives what is no
+/// step. What a method or the contact throws in a step (but std::bad_alloc) is its failure, or a divergence where the state
+/// is no longer finite.
 template <class S>
 RunOutcome simulate(const System<S>& system, const System<double>& truth, Integrator<S>& integrator, State<S>& state,
                     const Schedule& schedule, Observer& observer, const std::atomic<bool>* stop = nullptr,

@@ -56,7 +56,7 @@ class EnsembleLoop {
     const StepPlan plan = plan_steps(schedule_.t_end, schedule_.dt);
     const std::int64_t steps = plan.whole + (plan.last > 0 ? 1 : 0);
     std::int64_t k = 0;
-    while (k < steps && any_running() && !interrupted(k)) {
+    while (k < steps && any_running() && !interrupted()) {
       // The last step ends at t_end itself and may be a shorter one.
       Stretch stretch{schedule_.dt, 1, 0, k, schedule_.normalise};
       if (k < steps - 1) {
@@ -109,8 +109,8 @@ class EnsembleLoop {
     return false;
   }
 
-  bool interrupted(std::int64_t k) {
-    if (!stop_ || k % steps_between_looks >= longest_stretch || !stop_->load(std::memory_order_relaxed)) return false;
+  bool interrupted() {
+    if (!stop_ || !stop_->load(std::memory_order_relaxed)) return false;
     for (Lane& lane : lanes_) {
       if (!lane.running) continue;
       lane.outcome.status = RunStatus::interrupted;

@@ -51,10 +51,25 @@ configure() {
   touch "$folder/configured"
 }
 
-# build PRESET [TARGET ...]: says nothing when there is nothing to do. One build at a time in a checkout.
+# is_target FOLDER TARGET: whether the build that is configured in the folder knows the target.
+is_target() {
+  cmake --build "$1" --target help 2>/dev/null | grep -qE "^(\.\.\. )?$2(:| |\$)"
+}
+
+# build PRESET [TARGET ...]: says nothing when there is nothing to do. One build at a time in a checkout. A target that the
+# build does not know is one whose packages were not there when it was configured: CMake looks for them again.
 build() {
   local preset=$1 folder="$root/build/$1" chatter='Re-checking globbed directories|Asking git for the commit|no work to do'
+  local target
   shift
+  for target in "$@"; do
+    [ ! -x "$folder/bin/$target" ] && ! is_target "$folder" "$target" || continue
+    rm -f "$folder/configured"
+    configure "$preset"
+    is_target "$folder" "$target" && continue
+    say "$target cannot be built: CMake does not find what it needs, see build/$preset/configure.log"
+    exit 1
+  done
   exec 9>"$root/build/lock"
   flock 9
   if ! (set -o pipefail

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "collision/broad/boxes.hpp"
+#include "collision/broad/pair_list.hpp"
 #include "collision/broad_phase.hpp"
 
 namespace polhode {
@@ -24,7 +25,9 @@ class AllPairs final : public BroadPhase {
     for (std::uint32_t a = 0; a < n; ++a) {
       const broad::Box box = boxes_[a];
       for (std::uint32_t b = a + 1; b < n; ++b) {
-        if (overlap(box, boxes_[b])) pairs_.push_back({a, b});
+        if (!overlap(box, boxes_[b])) continue;
+        if (pairs_.size() == broad::most_pairs) broad::too_many_pairs();
+        pairs_.push_back({a, b});
       }
     }
     broad::leave_room(pairs_, 4 * boxes_.size());

@@ -2,10 +2,19 @@
 #include "collision/broad/pair_list.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 #include "collision/broad/boxes.hpp"
 
 namespace polhode::broad {
+
+void too_many_pairs() {
+  std::string why = "the boxes of more than ";
+  why += std::to_string(most_pairs);
+  why += " pairs of bodies overlap: too many bodies are in one place; set them apart, or take fewer";
+  throw std::length_error(why);
+}
 
 std::span<const BodyPair> PairList::sorted(std::size_t bodies) {
   leave_room(found_, 4 * bodies);

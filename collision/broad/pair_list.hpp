@@ -13,10 +13,18 @@
 
 namespace polhode::broad {
 
+/// Their number grows with the square of the bodies in one place: more than so many would end in want of memory.
+inline constexpr std::size_t most_pairs = 50'000'000;
+/// Throws std::length_error, which names the cause and the remedy.
+[[noreturn]] void too_many_pairs();
+
 class PairList {
  public:
   void clear() { found_.clear(); }
-  void add(std::uint32_t a, std::uint32_t b) { found_.push_back(a < b ? BodyPair{a, b} : BodyPair{b, a}); }
+  void add(std::uint32_t a, std::uint32_t b) {
+    if (found_.size() == most_pairs) too_many_pairs();
+    found_.push_back(a < b ? BodyPair{a, b} : BodyPair{b, a});
+  }
 
   /// Of `bodies` bodies; valid until the next call.
   std::span<const BodyPair> sorted(std::size_t bodies);

@@ -16,6 +16,9 @@ const Entry& known(const Entry* entry, const char* what, std::string_view name) 
   return *entry;
 }
 
+/// A pair remembers some 600 bytes, and has up to 8 points of some 200 bytes each.
+constexpr std::size_t most_near_pairs = 1'000'000;
+
 /// The radius about the origin of a shape's axes.
 double radius_of(const Collider& collider) {
   if (!collider.shape || !collider.shape->finite()) return 0;
@@ -71,6 +74,12 @@ std::span<const BodyPair> ContactScene::near_pairs(std::span<const Pose> from, s
   auto old = before_.begin();
   for (const BodyPair& p : broad_->pairs()) {
     if (p.a >= moving_ || !colliders_[p.a].shape || !colliders_[p.b].shape) continue;
+    if (pairs_.size() == most_near_pairs) {
+      std::string why = "more than ";
+      why += std::to_string(most_near_pairs) + " pairs of " + std::to_string(colliders_.size());
+      why += " bodies are near each other: too many bodies are in one place; set them apart, or take fewer";
+      throw std::length_error(why);
+    }
     pairs_.push_back(p);
     for (; old != before_.end() && old->pair < p; ++old) free_memories_.push_back(old->memory);
     if (old != before_.end() && old->pair == p) {

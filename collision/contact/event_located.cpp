@@ -15,6 +15,7 @@ namespace {
 constexpr double quiet = 1e-11;            // m/s, of round-off in a contact that rests
 constexpr double resting_step = 1e-3;      // s, at most, through which a method that chooses its steps holds contacts
 constexpr int most_impacts = 1000;         // in a step
+constexpr int most_inner_steps = 1'000'000;  // of a method that chooses its steps, in one of them
 constexpr int deepest_search = 20;         // halvings of a flight: a dip shorter than 1e-6 of it is not seen
 constexpr double brief = 1e-6;             // of a hold: a slide that ends sooner is none
 
@@ -22,7 +23,9 @@ constexpr double brief = 1e-6;             // of a hold: a slide that ends soone
 StepResult advance(Integrator<double>& method, State<double>& state, double h) {
   const double end = state.t + h;
   StepResult result;
+  int count = 0;
   do {
+    if (++count > most_inner_steps) return {"the method takes a million steps in one; take a larger tolerance"};
     result = method.step(state, end - state.t);
   } while (result.ok() && end - state.t > 1e-12 * h);
   if (result.ok()) state.t = end;

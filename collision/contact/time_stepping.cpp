@@ -60,6 +60,10 @@ StepResult TimeStepping::step(Integrator<double>& method, State<double>& state, 
   free_ = state;
   StepResult result = method.step(free_, h);
   if (!result.ok()) return result;
+  if (!free_.y.allFinite()) {  // a state that is lost touches nothing
+    state = free_;
+    return result;
+  }
   impulse_bodies(system_, state.y, start_);
   bodies_ = start_;
   impulse_motions(system_, free_.y, bodies_);

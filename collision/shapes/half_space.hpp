@@ -8,10 +8,12 @@ namespace polhode {
 
 class HalfSpace final : public Shape {
  public:
-  explicit HalfSpace(const Vector3<double>& normal, double offset = 0);  ///< out of the solid, of any length; offset in m
+  /// n, out of the solid and of any length but 0, and c, body axes; the plane is c/|n| m from the origin along n. Throws
+  /// std::invalid_argument where that is no place.
+  explicit HalfSpace(const Vector3<double>& normal, double offset = 0);
 
   const Vector3<double>& normal() const { return normal_; }  ///< unit
-  double offset() const { return offset_; }
+  double offset() const { return offset_; }                  ///< m, from the origin along the unit normal
 
   bool finite() const override { return false; }
   std::string_view kind() const override { return "half_space"; }
@@ -21,7 +23,7 @@ class HalfSpace final : public Shape {
 
  private:
   Vector3<double> normal_;
-  double offset_;
+  double offset_ = 0;
 };
 
 }  // namespace polhode

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -25,7 +26,17 @@ std::optional<T> whole(std::string_view text) {
 
 class Reader {
  public:
-  explicit Reader(const std::string& path) : path_(path), file_(path) {
+  static constexpr std::uintmax_t largest = std::uintmax_t{256} << 20;  // bytes
+
+  explicit Reader(const std::string& path) : path_(path) {
+    std::error_code error;
+    if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
+      throw std::invalid_argument(path + ": is no file but a folder, a device or a pipe; name an OBJ file");
+    }
+    if (std::filesystem::file_size(path, error) > largest && !error) {
+      throw std::invalid_argument(path + ": is larger than 256 MiB; give a mesh of fewer vertices");
+    }
+    file_.open(path);
     if (!file_) throw std::invalid_argument(path + ": cannot be read");
   }
 

@@ -9,8 +9,8 @@
 #include "experiments/judge/judgement.hpp"
 #include "experiments/judge/options.hpp"
 #include "experiments/study/csv.hpp"
-#include "experiments/study/input_error.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/program.hpp"
 #include "experiments/study/result_folder.hpp"
 #include "experiments/study/results.hpp"
 #include "experiments/study/store.hpp"
@@ -106,17 +106,8 @@ int judge(const JudgeOptions& options) {
 
 int main(int argc, char** argv) {
   using namespace polhode::study;
-  constexpr int bad_input = 2, not_carried_out = 3;
-  try {
+  return run_program("judge", [&] {
     const JudgeOptions options = parse_judge_options(argc, argv);
     return options.exit_status ? *options.exit_status : judge(options);
-  } catch (const InputError& error) {
-    std::string line = error.what();
-    std::replace(line.begin(), line.end(), '\n', ' ');
-    fmt::print(stderr, "judge: {}\n", line);
-    return bad_input;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "judge: {}\n", error.what());
-    return not_carried_out;
-  }
+  });
 }

@@ -2,9 +2,7 @@
 // Do the narrow phases agree, what do they cost, and how often does the course report's test err?
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <filesystem>
-#include <stdexcept>
 
 #include "experiments/narrow_phase/comparison.hpp"
 #include "experiments/narrow_phase/options.hpp"
@@ -12,6 +10,7 @@
 #include "experiments/study/command_line.hpp"
 #include "experiments/study/input_error.hpp"
 #include "experiments/study/listing.hpp"
+#include "experiments/study/program.hpp"
 #include "experiments/study/study_view.hpp"
 #include "experiments/study/suggestion.hpp"
 #include "experiments/study/summary.hpp"
@@ -60,7 +59,7 @@ void compare(const NarrowPhaseOptions& options, const std::string& question, con
   fmt::print("{}\n{}\n", summary_table(view), (view.folder / "report.html").string());
 }
 
-int run(int argc, char** argv) {
+int run_narrow_phase(int argc, char** argv) {
   const std::string question = "Do the narrow phases agree, what do they cost, and how often does the course report's test err?";
   const auto options = parse_narrow_phase_options(question, argc, argv);
   if (options.exit_status) return *options.exit_status;
@@ -80,13 +79,6 @@ int run(int argc, char** argv) {
 }  // namespace polhode::study
 
 int main(int argc, char** argv) {
-  try {
-    return polhode::study::run(argc, argv);
-  } catch (const polhode::study::InputError& error) {
-    fmt::print(stderr, "narrow_phase: {}\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "narrow_phase: {}\n", error.what());
-    return 3;
-  }
+  using namespace polhode::study;
+  return run_program("narrow_phase", [&] { return run_narrow_phase(argc, argv); });
 }

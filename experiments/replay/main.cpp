@@ -14,6 +14,7 @@
 #include "experiments/study/input_error.hpp"
 #include "experiments/study/listing.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/program.hpp"
 #include "experiments/study/report/replay_link.hpp"
 #include "experiments/study/text_file.hpp"
 
@@ -167,27 +168,20 @@ int replay(const ReplayOptions& options) {
   return 0;
 }
 
+int run_replay(int argc, char** argv) {
+  const ReplayOptions options = parse_replay_options(argc, argv);
+  if (options.exit_status) return *options.exit_status;
+  if (options.study.list) {
+    fmt::print("{}", listing(*options.study.list));
+    return 0;
+  }
+  return replay(options);
+}
+
 }  // namespace
 }  // namespace polhode::study
 
 int main(int argc, char** argv) {
   using namespace polhode::study;
-  constexpr int bad_input = 2, not_carried_out = 3;
-  try {
-    const ReplayOptions options = parse_replay_options(argc, argv);
-    if (options.exit_status) return *options.exit_status;
-    if (options.study.list) {
-      fmt::print("{}", listing(*options.study.list));
-      return 0;
-    }
-    return replay(options);
-  } catch (const InputError& error) {
-    std::string line = error.what();
-    std::replace(line.begin(), line.end(), '\n', ' ');
-    fmt::print(stderr, "replay: {}\n", line);
-    return bad_input;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "replay: {}\n", error.what());
-    return not_carried_out;
-  }
+  return run_program("replay", [&] { return run_replay(argc, argv); });
 }

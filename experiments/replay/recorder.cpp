@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "experiments/study/csv.hpp"
+#include "experiments/study/references.hpp"
 #include "experiments/study/run.hpp"
 
 namespace polhode::study {
@@ -12,8 +14,8 @@ namespace {
 
 class Recorder final : public TrajectoryWriter {
  public:
-  Recorder(const System<double>& system, Observer& next, std::size_t most, Recording& recording)
-      : system_(system), next_(next), most_(most), recording_(recording) {}
+  Recorder(const System<double>& system, Observer& next, std::size_t most, Recording& recording, MotionScales scales)
+      : system_(system), next_(next), most_(most), recording_(recording), scales_(std::move(scales)) {}
 
   std::size_t observe(std::span<const Sample> samples) override { return next_.observe(samples); }
   void slides_end(std::span<const Transition> transitions) override { next_.slides_end(transitions); }
@@ -32,7 +34,7 @@ class Recorder final : public TrajectoryWriter {
   }
 
   void look(const State<double>& state, const Sample& sample) override {
-    if (recording_.instants_seen == 0) start(state, sample);
+    if (recording_.instants_seen == 0) start(sample);
     last_state_ = state;
     last_sample_ = sample;
     last_kept_ = recording_.instants_seen++ % stride_ == 0;
@@ -46,23 +48,25 @@ class Recorder final : public TrajectoryWriter {
   }
 
  private:
-  void start(const State<double>& state, const Sample& sample) {
+  void start(const Sample& sample) {
     recording_.moving = system_.moving();
-    scales_ = drift_scales(system_, state, sample.seen);
     energy_start_ = sample.ledger(contact_.total());
     momentum_start_ = momentum(sample);
   }
 
+  /// kg m/s, or kg m²/s: of one body about its reference point, of several about their mass centre at the start.
   Vector3<double> momentum(const Sample& sample) const {
-    return recording_.momentum == ShownMomentum::linear ? sample.seen.linear_momentum : sample.seen.angular_momentum;
+    if (recording_.momentum == ShownMomentum::linear) return sample.seen.linear_momentum;
+    if (system_.moving() == 1) return sample.seen.angular_momentum;
+    return sample.seen.angular_momentum - scales_.mass_center.cross(sample.seen.linear_momentum);
   }
 
   void keep() {
     recording_.times.push_back(last_state_.t);
-    recording_.energy_drift.push_back((last_sample_.ledger(contact_.total()) - energy_start_) / scales_.energy);
+    recording_.energy_drift.push_back(relative(last_sample_.ledger(contact_.total()) - energy_start_, scales_.energy));
     const double scale = recording_.momentum == ShownMomentum::linear ? scales_.linear : scales_.angular;
     const bool shown = recording_.momentum != ShownMomentum::none;
-    recording_.momentum_drift.push_back(shown ? (momentum(last_sample_) - momentum_start_).norm() / scale : 0);
+    recording_.momentum_drift.push_back(shown ? relative((momentum(last_sample_) - momentum_start_).norm(), scale) : 0);
     for (std::size_t i = 0; i < system_.moving(); ++i) {
       const BodySnapshot<double> s = system_.snapshot(last_state_.y, i);
       recording_.placements.push_back({s.position, s.orientation, s.angular_velocity});
@@ -91,8 +95,8 @@ class Recorder final : public TrajectoryWriter {
   Observer& next_;
   std::size_t most_;
   Recording& recording_;
+  MotionScales scales_;
   ContactLosses contact_;
-  DriftScales scales_;
   double energy_start_ = 0;
   Vector3<double> momentum_start_ = Vector3<double>::Zero();
   std::int64_t stride_ = 1;
@@ -106,12 +110,15 @@ class Recorder final : public TrajectoryWriter {
 Recording record(const PlannedRun& run, std::size_t most) {
   Recording recording;
   recording.scene = scene_of(*run.scenario);
+  References truth;
+  for (int asked = 0; asked < 2; ++asked) truth.expect(run.config, *run.scenario);
+  const MotionScales scales = truth.of(run.config, *run.scenario, nullptr).scales;
   TrajectoryRequest request;
   request.open = [&](const System<double>& system, Observer& next) {
     recording.momentum = shown_momentum(system, *run.scenario);
-    return std::make_unique<Recorder>(system, next, std::max<std::size_t>(most, 4), recording);
+    return std::make_unique<Recorder>(system, next, std::max<std::size_t>(most, 4), recording, scales);
   };
-  const RunResult result = carry_out(run.config, *run.scenario, request, nullptr);
+  const RunResult result = carry_out(run.config, *run.scenario, request, nullptr, &truth);
   std::vector<std::string> keys;
   for (const Override& o : run.config.varied) keys.push_back(o.key);
   const NamedOptions named{.order = run.config.order.has_value(), .summation = run.config.summation.has_value()};

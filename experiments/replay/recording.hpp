@@ -42,6 +42,9 @@ struct Recording {
 /// Method and step: "rk4, dt = 0.01 s".
 std::string label_of(const Recording& recording);
 
+/// A drift over its scale; 0 where nothing moves, whose scale is 0.
+inline double relative(double drift, double scale) { return scale > 0 ? drift / scale : 0; }
+
 /// Angular before linear; none with contact against what stands still.
 ShownMomentum shown_momentum(const System<double>& system, const Scenario& scenario);
 

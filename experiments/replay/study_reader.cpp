@@ -11,7 +11,9 @@
 #include "experiments/study/csv_reader.hpp"
 #include "experiments/study/input_error.hpp"
 #include "experiments/study/plan.hpp"
-#include "experiments/study/report/read_file.hpp"
+#include "experiments/study/references.hpp"
+#include "experiments/study/scenario_keys.hpp"
+#include "experiments/study/text_file.hpp"
 #include "experiments/study/trajectory_reader.hpp"
 
 namespace polhode::study {
@@ -32,14 +34,39 @@ struct Row {
   }
 };
 
+const std::vector<std::string>& usual_columns() {
+  static const auto columns = config_columns({}, {.order = true, .summation = true});
+  return columns;
+}
+
+/// Whether a column of runs.csv holds a key of the scenario that the study varied.
+bool is_varied(const std::string& column) { return find_key(root_keys(), column.substr(0, column.find('.'))) != nullptr; }
+
+/// The places of the columns that say what a run is, in whatever order they stand: the usual ones, then those varied.
+std::vector<std::size_t> columns_of_facts(const CsvReader& table) {
+  std::vector<std::size_t> places = table.columns({"scenario", "integrator"});
+  std::set<std::string> varied;
+  for (const std::string& name : table.names()) {
+    if (is_varied(name)) varied.insert(name);
+  }
+  const auto& names = table.names();
+  for (const std::string& name : usual_columns()) {
+    if (name == "scenario" || name == "integrator") continue;
+    if (std::find(names.begin(), names.end(), name) != names.end()) places.push_back(table.column(name));
+  }
+  for (const std::string& name : varied) places.push_back(table.column(name));
+  return places;
+}
+
 std::vector<Row> read_rows(const Path& folder) {
   CsvReader table((folder / "runs.csv").string());
   const std::size_t id = table.column("run"), status = table.column("status"), message = table.column("message"),
                     drift = table.column("energy_drift_max_rel");
+  const std::vector<std::size_t> facts = columns_of_facts(table);
   std::vector<Row> rows;
   while (table.next()) {
     Row row{table.text(id), table.text(status), table.text(message), table.text(drift), {}, folder};
-    for (std::size_t k = id + 1; k < status; ++k) row.facts.emplace_back(table.names()[k], table.text(k));
+    for (const std::size_t k : facts) row.facts.emplace_back(table.names()[k], table.text(k));
     if (std::filesystem::exists(folder / "trajectories" / row.id)) row.motion = folder / "trajectories" / row.id;
     rows.push_back(std::move(row));
   }
@@ -72,12 +99,17 @@ std::vector<Row> chosen(std::vector<Row> rows, const Path& folder, const std::ve
 
 Json read_manifest(const Path& folder) {
   const Path path = folder / "manifest.json";
-  const auto text = report::read_file(path);
-  if (!text) throw InputError(path.string() + ": no such file, or it cannot be read; it says which scenario the study is of");
+  if (!std::filesystem::exists(path)) throw InputError(path.string() + ": no such file; it says which scenario the study is of");
   try {
-    return Json::parse(*text);
+    Json manifest = Json::parse(read_text(path.string()));
+    if (!manifest.is_object()) throw InputError(path.string() + ": is no manifest of a study; make the study again");
+    for (const char* name : {"/command", "/axes/scenario", "/polhode/version", "/polhode/commit"}) {
+      const Json::json_pointer at(name);
+      if (manifest.contains(at) && !manifest[at].is_string()) throw InputError(path.string() + ": " + name + " is no text; make the study again");
+    }
+    return manifest;
   } catch (const Json::exception&) {
-    throw InputError(path.string() + ": is no JSON; make the study again");
+    throw InputError(path.string() + ": is no manifest in JSON; make the study again");
   }
 }
 
@@ -103,15 +135,15 @@ ScenarioSource open_scenario(const Json& manifest, const std::string& name, cons
 void check_same(const Json& manifest, const Scenario& scenario, const std::string& name) {
   const auto kept = manifest.find("scenarios");
   if (kept == manifest.end() || !kept->contains(name)) return;
-  if ((*kept)[name].value("resolved", scenario.canonical) == scenario.canonical) return;
+  const Json& resolved = (*kept)[name].contains("resolved") ? (*kept)[name]["resolved"] : Json(scenario.canonical);
+  if (resolved == scenario.canonical) return;
   throw InputError("the scenario " + name + " has changed since the study was made; name the one it was with --scenario, or make the study again");
 }
 
 std::vector<Override> overrides_of(const Row& row) {
-  const auto known = config_columns({}, {.order = true, .summation = true});
   std::vector<Override> varied;
   for (const auto& [column, cell] : row.facts) {
-    if (!cell.empty() && std::find(known.begin(), known.end(), column) == known.end()) varied.push_back({column, cell});
+    if (!cell.empty() && is_varied(column)) varied.push_back({column, cell});
   }
   return varied;
 }
@@ -124,7 +156,7 @@ void read_energy(const Path& path, double scale, Recording& recording) {
     if (k == recording.times.size() || table.number(t) != recording.times[k]) {
       table.fail(t, "the instants are not those of trajectory.csv beside it; make the study again");
     }
-    recording.energy_drift.push_back(table.number(drift) / scale);
+    recording.energy_drift.push_back(relative(table.number(drift), scale));
   }
   if (recording.energy_drift.size() != recording.times.size()) {
     throw InputError(path.string() + ": has fewer instants than trajectory.csv beside it; make the study again");
@@ -134,38 +166,61 @@ void read_energy(const Path& path, double scale, Recording& recording) {
 void read_impacts(const Path& path, std::size_t bodies, Recording& recording) {
   if (!std::filesystem::exists(path)) return;
   CsvReader table(path.string());
-  const std::size_t t = table.column("t_s"), kind = table.column("kind"), a = table.column("body_a"), b = table.column("body_b");
-  const std::size_t p = table.column("px_m"), n = table.column("nx"), impulse = table.column("impulse_N_s");
+  const std::size_t t = table.column("t_s"), kind = table.column("kind"), a = table.column("body_a"), b = table.column("body_b"),
+                    impulse = table.column("impulse_N_s");
+  const auto point = table.columns({"px_m", "py_m", "pz_m"}), normal = table.columns({"nx", "ny", "nz"});
   while (table.next()) {
     if (table.text(kind) != "impact") continue;
     const std::int64_t first = table.integer(a), second = table.integer(b);
     for (const auto& [cell, body] : {std::pair(a, first), {b, second}}) {
       if (body < 0 || std::size_t(body) >= bodies) table.fail(cell, "the scenario has no such body");
     }
-    const auto vector = [&](std::size_t at) { return Vector3<double>(table.number(at), table.number(at + 1), table.number(at + 2)); };
+    const auto vector = [&](const std::vector<std::size_t>& at) {
+      return Vector3<double>(table.number(at[0]), table.number(at[1]), table.number(at[2]));
+    };
     recording.impacts.push_back({.t = table.number(t),
                                  .a = std::size_t(first),
                                  .b = std::size_t(second),
-                                 .point = vector(p),
-                                 .normal = vector(n),
+                                 .point = vector(point),
+                                 .normal = vector(normal),
                                  .impulse = Vector3<double>(table.number(impulse), 0, 0)});
   }
   recording.impacts_seen = std::int64_t(recording.impacts.size());
 }
 
-/// kg m/s, or kg m²/s about what measure() takes it about: the reference point of one body, the origin for several.
-Vector3<double> momentum_of(const Trajectory& trajectory, std::size_t k, const Problem& problem, bool linear) {
-  Vector3<double> sum = Vector3<double>::Zero();
+/// kg m/s, or kg m²/s: of one body about its reference point, of several about their mass centre at the start.
+Vector3<double> momentum_of(const Trajectory& trajectory, std::size_t k, const Problem& problem, bool linear,
+                            const Vector3<double>& mass_center) {
+  Vector3<double> sum = Vector3<double>::Zero(), whole = Vector3<double>::Zero();
   for (std::size_t i = 0; i < trajectory.moving; ++i) {
     const TrajectoryBody& body = trajectory.bodies[k * trajectory.moving + i];
     const Vector3<double> p = problem.bodies[i].mass * body.velocity;
+    whole += p;
     if (linear) sum += p;
     else sum += trajectory.moving == 1 ? body.angular_momentum : Vector3<double>(body.angular_momentum + body.position.cross(p));
   }
+  if (!linear && trajectory.moving > 1) sum -= mass_center.cross(whole);
   return sum;
 }
 
-Recording read_recording(const Row& row, const Scenario& scenario) {
+/// s, of the run of that row.
+double duration_of(const Row& row, const Scenario& scenario) {
+  const std::string text = row.fact("t_end_s");
+  if (text.empty()) return scenario.t_end;
+  const double t_end = numbers(text, "runs.csv: t_end_s of run " + row.id).front();
+  if (!(t_end > 0)) throw InputError("runs.csv: t_end_s of run " + row.id + " is " + text + "; make the study again");
+  return t_end;
+}
+
+/// A row of runs.csv with the scenario that its run had.
+struct KeptRun {
+  Row row;
+  Scenario scenario;
+  RunConfig config;  ///< the duration alone
+};
+
+Recording read_recording(const KeptRun& run, References& truth) {
+  const auto& [row, scenario, config] = run;
   Recording r;
   r.id = row.id;
   r.facts = row.facts;
@@ -174,8 +229,7 @@ Recording read_recording(const Row& row, const Scenario& scenario) {
   r.energy_drift_max = row.energy_drift_max;
   r.scene = scene_of(scenario);
   const auto system = make_system<double>(scenario.problem, {});
-  const State<double> start = system->start();
-  const DriftScales scales = drift_scales(*system, start, system->measure(start.y));
+  const MotionScales scales = truth.of(config, scenario, nullptr).scales;
   r.momentum = shown_momentum(*system, scenario);
   const Trajectory trajectory = read_trajectory((row.motion / "trajectory.csv").string(), scenario.problem);
   r.moving = trajectory.moving;
@@ -188,10 +242,10 @@ Recording read_recording(const Row& row, const Scenario& scenario) {
   read_energy(row.motion / "energy.csv", scales.energy, r);
   read_impacts(row.motion / "events.csv", scenario.problem.bodies.size(), r);
   const bool linear = r.momentum == ShownMomentum::linear;
-  const Vector3<double> first = momentum_of(trajectory, 0, scenario.problem, linear);
+  const Vector3<double> first = momentum_of(trajectory, 0, scenario.problem, linear, scales.mass_center);
   for (std::size_t k = 0; k < r.times.size(); ++k) {
-    const double change = (momentum_of(trajectory, k, scenario.problem, linear) - first).norm();
-    r.momentum_drift.push_back(r.momentum == ShownMomentum::none ? 0 : change / (linear ? scales.linear : scales.angular));
+    const double change = (momentum_of(trajectory, k, scenario.problem, linear, scales.mass_center) - first).norm();
+    r.momentum_drift.push_back(r.momentum == ShownMomentum::none ? 0 : relative(change, linear ? scales.linear : scales.angular));
   }
   return r;
 }
@@ -211,7 +265,15 @@ KeptStudy read_study(const Path& folder, const std::vector<std::string>& ids, co
   check_same(manifest, study.scenario, name);
   study.made_by = fmt::format("polhode {}, commit {}", manifest.value(Json::json_pointer("/polhode/version"), "unknown"),
                               manifest.value(Json::json_pointer("/polhode/commit"), "unknown"));
-  for (const Row& row : rows) study.recordings.push_back(read_recording(row, source.resolve(overrides_of(row))));
+  References truth;  // what runs of the same motion share is computed once
+  std::vector<KeptRun> runs;
+  for (const Row& row : rows) {
+    KeptRun run{row, source.resolve(overrides_of(row)), {}};
+    run.config.t_end = duration_of(row, run.scenario);
+    truth.expect(run.config, run.scenario);
+    runs.push_back(std::move(run));
+  }
+  for (const KeptRun& run : runs) study.recordings.push_back(read_recording(run, truth));
   return study;
 }
 

@@ -287,7 +287,7 @@ class Stability {
       say("the energy stays bounded again at some larger step",
           names_of(all_passed(where, [](const auto& f) { return f.growth.holds_again; })));
       for (const Verdict v : {Verdict::gaining_slowly, Verdict::damped}) {
-        say(fmt::format("{} below the critical step, of its scale {}",
+        say(fmt::format("{} below the critical step, over its scale {}",
                         v == Verdict::damped ? "energy is lost" : "energy is gained slowly, not by an instability,",
                         all_have_rates() ? "in a turn" : "in a second"),
             gains(where, v));
@@ -326,13 +326,13 @@ class Stability {
     return all;
   }
 
-  /// "rk4 (4.3e-10 at 0.063 to 1.1e-5 at 0.72, ∝ h^5)", where no key is varied.
+  /// "rk4 (4.3e-10 at h|ω| 0.063 to 1.1e-5 at h|ω| 0.72, ∝ h^5.0)", where no key is varied.
   std::string gains(const std::string& where, Verdict verdict) const {
     std::vector<std::string> items;
     for (const auto& f : found_) {
       if (motion(f) != where || is_varied(f) || f.below != verdict || !f.gain) continue;
       const auto at = [&](double dt, double per_second) {
-        return fmt::format("{} at {}", number(std::abs(in_a_turn(f, per_second)), 2), in_units(f, dt, rough));
+        return fmt::format("{} at {} {}", number(std::abs(in_a_turn(f, per_second)), 2), symbol(), in_units(f, dt, rough));
       };
       std::string text = at(f.gain->smallest_dt, f.gain->smallest_per_second);
       if (f.gain->dt != f.gain->smallest_dt) text += " to " + at(f.gain->dt, f.gain->per_second);

@@ -2,6 +2,7 @@
 // Rows of CSV files (RFC 4180).
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,7 +14,9 @@ namespace polhode::study {
 /// Cells with a comma, a quote or a line break stand in quotes. Ends with a line break.
 std::string csv_row(const std::vector<std::string>& cells);
 
-/// All digits; empty where there is no number.
-inline std::string csv_cell(const std::optional<double>& x) { return x ? study::exact(*x) : std::string(); }
+/// All digits; empty where there is no number, or one that is not finite.
+inline std::string csv_cell(const std::optional<double>& x) {
+  return x && std::isfinite(*x) ? study::exact(*x) : std::string();
+}
 
 }  // namespace polhode::study

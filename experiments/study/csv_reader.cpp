@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 
 #include "experiments/study/input_error.hpp"
+#include "experiments/study/legible.hpp"
 #include "experiments/study/suggestion.hpp"
 
 namespace polhode::study {
@@ -22,17 +24,11 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/// A cell as errors quote it: short, on one line.
-std::string shown(std::string_view text) {
-  constexpr std::size_t most = 40;
-  std::string clean;
-  for (const char c : text.substr(0, most)) clean += c >= 0 && (c < ' ' || c == '\x7f') ? '?' : c;
-  return "'" + clean + (text.size() > most ? "…'" : "'");
-}
+std::string shown(std::string_view text) { return "'" + shortened(text) + "'"; }
 
 }  // namespace
 
-CsvReader::CsvReader(const std::string& path) : path_(path) {
+CsvReader::CsvReader(const std::string& path, std::size_t most) : path_(path), most_(most), buffer_(mebibyte) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw InputError(path + " is a folder; name a CSV file in it");
   file_.open(path, std::ios::binary);
@@ -59,6 +55,12 @@ std::size_t CsvReader::column(std::string_view name) const {
   return place;
 }
 
+std::vector<std::size_t> CsvReader::columns(const std::vector<std::string>& names) const {
+  std::vector<std::size_t> places;
+  for (const std::string& name : names) places.push_back(column(name));
+  return places;
+}
+
 bool CsvReader::next() {
   if (!next_line()) return false;
   split();
@@ -71,7 +73,7 @@ bool CsvReader::next() {
 
 /// The next line that holds something.
 bool CsvReader::next_line() {
-  while (std::getline(file_, line_)) {
+  while (read_line()) {
     ++line_number_;
     if (line_number_ == 1 && line_.starts_with("\xEF\xBB\xBF")) line_.erase(0, 3);
     if (line_.ends_with('\r')) line_.pop_back();
@@ -79,6 +81,22 @@ bool CsvReader::next_line() {
   }
   if (file_.bad()) throw InputError(path_ + ": it cannot be read to its end");
   return false;
+}
+
+bool CsvReader::read_line() {
+  file_.getline(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+  const auto count = static_cast<std::size_t>(file_.gcount());
+  if (count == 0) return false;
+  const std::size_t length = count - (file_.eof() || file_.fail() ? 0 : 1);
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(fmt::format("{}:{}:1: {}", path_, line_number_ + 1, what));
+  };
+  if (std::memchr(buffer_.data(), 0, length)) refuse("a zero byte, so it is no text file; name one in UTF-8");
+  if (file_.fail()) refuse("a line of more than 1 MiB; give one line to each row");
+  bytes_ += count;
+  if (bytes_ > most_) refuse(fmt::format("the file is larger than {}; divide it", in_units(most_)));
+  line_.assign(buffer_.data(), length);
+  return true;
 }
 
 void CsvReader::split() {

@@ -14,10 +14,10 @@
 //
 // An undecided drift has the duration that would decide, where one can be told:
 //   too few samples: the one that has 32 of them;
-//   a slow oscillation: six of its periods;
-//   too wide an interval of p: it shrinks as t^−(p + ½), the growth over the noise of n ∝ t blocks; of H: as t^−½, up to
-//     the 127 blocks that are kept;
-//   growth that may hide in noise: the limit shrinks as t^−½.
+//   a slow oscillation: six of its periods; a change over the whole run counts as one of 1.5 periods in it;
+//   too wide an interval of p: the one of half width 0.2, since it shrinks as t^−(p + ½), the growth over √t of its noise;
+//   a sudden rise, of p beyond 5, that may be a pulse: twice the run;
+//   growth that may hide in noise: the one at which its limit is small, since that shrinks as t^−½.
 // None is told beyond a thousand runs.
 #pragma once
 

@@ -10,7 +10,7 @@
 //     over blocks), by restricted maximum likelihood;
 //   a secular drift: by an F test of t and t² against that noise, at 0.5 %. Where there is one, p is that of
 //     constant + t^p by generalised least squares; where there is none, p is the exponent H of v_k ~ k^−(1+2H) by
-//     Whittle's likelihood, which is ½ for a random walk and below 0, here told as 0, for what stays bounded;
+//     Whittle's likelihood, which is ½ for a random walk and below 0 for what stays bounded.
 // The slope is that of ordinary least squares over all samples; its interval counts the oscillations as noise.
 // Sources: Harvey, Forecasting, Structural Time Series Models and the Kalman Filter (1989), ch. 2 and 4 (local level);
 // Müller & Watson, Econometrica 76 (2008) 979–1016 (low-frequency cosines); Beran, Statistics for Long-Memory Processes

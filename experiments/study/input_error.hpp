@@ -3,13 +3,17 @@
 #pragma once
 
 #include <stdexcept>
+#include <string_view>
+
+#include "experiments/study/legible.hpp"
 
 namespace polhode::study {
 
-/// what() is the one line, without the program's name. main() prints it on stderr and exits with 2.
+/// what() is the one line, without the program's name, legible whatever the user gave. main() prints it on stderr and exits
+/// with 2.
 class InputError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit InputError(std::string_view message) : std::runtime_error(legible(message)) {}
 };
 
 }  // namespace polhode::study

@@ -51,8 +51,8 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
                             const std::function<void(CLI::App&)>& more) {
   ParsedOptions parsed;
   Options& options = parsed.options;
-  const std::string meaning = experiment.meaning.empty() ? "" : "\n\n" + experiment.meaning;
-  CLI::App app{experiment.question + meaning + "\n\nAxes take a list (a,b,c) or a range (1e-4:1e-1:10, or 1e-4:1e-1:10:log); the "
+  const std::string explained = experiment.meaning.empty() ? "" : "\n\n" + experiment.meaning;
+  CLI::App app{experiment.question + explained + "\n\nAxes take a list (a,b,c) or a range (1e-4:1e-1:10, or 1e-4:1e-1:10:log); the "
                                      "study is their product. SI units throughout.",
                experiment.name};
   app.get_formatter()->column_width(40);
@@ -84,7 +84,8 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   app.add_option("--out", options.out, "folder of the results (default: results/<experiment>-<scenario>-<hash>)")
       ->type_name("FOLDER")
       ->group("Results");
-  app.add_flag("--force", options.force, "overwrite the results of a different study in that folder")->group("Results");
+  app.add_flag("--force", options.force, "overwrite the results of a different study in that folder; runs of the same one that failed are "
+                                         "carried out again")->group("Results");
   std::string trajectory = experiment.one_run ? "csv" : "none";
   app.add_option("--trajectory", trajectory, "write the motion of every run (default: " + trajectory + ")")
       ->type_name("none|csv|hdf5")
@@ -98,6 +99,11 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   app.add_option("--jobs", options.jobs, "runs at a time (default: one for each core)")
       ->type_name("N")
       ->check(CLI::Range(1, 4096).description(""))
+      ->group("Running");
+  app.add_option("--max-steps", options.max_steps,
+                 "a run of an adaptive method that is not at its end after so many steps has failed (default: 100000000)")
+      ->type_name("N")
+      ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 52).description(""))
       ->group("Running");
   app.add_option("--seed", options.seed, "seed of random studies (default: 1)")->type_name("N")->group("Running");
   app.add_flag("--dry-run", options.dry_run, "print the plan and write nothing")->group("Running");

@@ -37,6 +37,7 @@ struct Options {
   std::string out;       ///< empty: results/<experiment>-<scenarios>-<hash>
   bool force = false;
   int jobs = 0;          ///< 0: one for each core
+  std::optional<std::int64_t> max_steps;  ///< of adaptive methods; absent: as Schedule has it
   TrajectoryFormat trajectory = TrajectoryFormat::none;
   bool figures = true;
   bool dry_run = false;

@@ -225,6 +225,7 @@ PlannedRun planned(const RunConfig& config, const std::shared_ptr<const Scenario
   if (config.samples) text += std::to_string(*config.samples);
   if (config.order.value_or(0) > 0) text += fmt::format("\norder {}", *config.order);
   if (is_compensated(config)) text += "\ncompensated";
+  if (config.max_steps) text += fmt::format("\nmax_steps {}", *config.max_steps);
   return {.id = hash(config.reference ? text + "\nreference" : text),
           .motion = hash(text),
           .config = config,
@@ -254,6 +255,7 @@ class Planner {
         axes_(read_axes(experiment, options)),
         variants_(variants(options)),
         dt_label_(options.label("dt")),
+        max_steps_(options.max_steps),
         reference_(reference) {
     for (const auto& [key, text] : options.vary) plan_.varied_keys.push_back(key);
     std::sort(plan_.varied_keys.begin(), plan_.varied_keys.end());
@@ -325,6 +327,7 @@ class Planner {
               for (const double t_end : durations) {
                 for (const auto& samples : axes_.samples) {
                   (adaptive ? config.tolerance : config.dt) = size;
+                  if (adaptive) config.max_steps = max_steps_;
                   config.t_end = experiment_.duration ? experiment_.duration(t_end, size) : t_end;
                   config.samples = samples;
                   add_run(config, scenario);
@@ -366,6 +369,7 @@ class Planner {
   Axes axes_;
   std::vector<std::vector<Override>> variants_;
   std::string dt_label_;
+  std::optional<std::int64_t> max_steps_;
   bool reference_;
   Plan plan_;
 };

@@ -8,17 +8,45 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <vector>
 
+#include "experiments/study/analysis.hpp"
 #include "experiments/study/input_error.hpp"
 #include "experiments/study/store.hpp"
 
 namespace polhode::study {
 namespace {
 
-/// What a study writes beside its store.
-constexpr const char* products[] = {"runs.csv",       "timings.csv", "manifest.json", "report.html", "figures", "tables",
-                                    "trajectories",   "trajectory.csv", "energy.csv",  "events.csv",  "trajectory.h5",
-                                    "replay.html"};
+/// What a study writes beside its store: files, and folders.
+constexpr const char* files[] = {"runs.csv",   "timings.csv", "manifest.json", "report.html", "trajectory.csv",
+                                 "energy.csv", "events.csv",  "trajectory.h5", "replay.html"};
+constexpr const char* folders[] = {"figures", "tables", timings_folder, "trajectories"};
+
+std::vector<std::filesystem::path> products(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> all;
+  for (const char* name : files) all.push_back(path / name);
+  for (const char* name : folders) all.push_back(path / name);
+  return all;
+}
+
+/// Files where the study needs a folder, and folders where it writes a file.
+std::vector<std::filesystem::path> misplaced(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> all;
+  const auto look = [&](const std::filesystem::path& at, bool folder) {
+    std::error_code error;
+    const auto status = std::filesystem::status(at, error);
+    if (std::filesystem::exists(status) && std::filesystem::is_directory(status) != folder) all.push_back(at);
+  };
+  for (const char* name : folders) look(path / name, true);
+  for (const char* name : files) look(path / name, false);
+  for (const char* suffix : {"", "-wal", "-shm"}) look(path / (std::string(Store::file_name) + suffix), false);
+  std::error_code error;
+  for (const auto& run : std::filesystem::directory_iterator(path / "trajectories", error)) {
+    look(run.path(), true);
+    for (const char* name : {"trajectory.csv", "energy.csv", "events.csv", "trajectory.h5"}) look(run.path() / name, false);
+  }
+  return all;
+}
 
 bool holds_only(const std::filesystem::path& path, const std::set<std::string>& ids) {
   try {
@@ -31,6 +59,11 @@ bool holds_only(const std::filesystem::path& path, const std::set<std::string>& 
 
 void refuse_other_study(const std::filesystem::path& path, const std::set<std::string>& ids) {
   const std::string remedy = "; name another folder with --out, or overwrite it with --force";
+  for (const auto& at : misplaced(path)) {
+    throw InputError("--out: " + at.string() + " is a " +
+                     (std::filesystem::is_directory(at) ? "folder where the study writes a file" : "file where the study needs a folder") +
+                     "; move it away, or overwrite it with --force");
+  }
   std::set<std::string> stored;
   try {
     stored = Store::ids_in(path);
@@ -41,10 +74,8 @@ void refuse_other_study(const std::filesystem::path& path, const std::set<std::s
     throw InputError("--out: " + path.string() + " holds the results of a different study" + remedy);
   }
   if (!std::filesystem::exists(path / Store::file_name)) {
-    for (const char* name : products) {
-      if (std::filesystem::exists(path / name)) {
-        throw InputError("--out: " + (path / name).string() + " is there already" + remedy);
-      }
+    for (const auto& product : products(path)) {
+      if (std::filesystem::exists(product)) throw InputError("--out: " + product.string() + " is there already" + remedy);
     }
   }
 }
@@ -54,14 +85,26 @@ void refuse_other_study(const std::filesystem::path& path, const std::set<std::s
 ResultFolder::ResultFolder(const std::filesystem::path& path, const std::set<std::string>& ids, bool force) {
   std::error_code error;
   if (std::filesystem::exists(path, error) && !std::filesystem::is_directory(path, error)) {
-    throw InputError("--out: " + path.string() + " is not a folder");
+    throw InputError("--out: " + path.string() + " is not a folder; name another one");
+  }
+  const std::size_t length = std::filesystem::weakly_canonical(std::filesystem::absolute(path), error).string().size();
+  if (length > Store::longest_folder()) {
+    throw InputError("--out: " + path.string() + ": its absolute path has " + std::to_string(length) +
+                     " bytes, and SQLite, which keeps the results, takes " + std::to_string(Store::longest_folder()) +
+                     " at most; name a folder with a shorter path");
   }
   std::filesystem::create_directories(path, error);
   if (error) throw InputError("--out: cannot create " + path.string() + ": " + error.message());
   // Locked before it is read, so that of two programs only one sees a folder that is just being filled.
   lock_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0) {
-    fail("another program is writing into " + path.string() + "; wait for it, or name another folder");
+  if (lock_ < 0) {
+    fail("cannot read " + path.string() + ": " + std::strerror(errno) + "; make it readable (chmod u+r), or name another folder");
+  }
+  if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EWOULDBLOCK) {
+      fail("another program is writing into " + path.string() + "; wait for it, or name another folder");
+    }
+    fail("cannot lock " + path.string() + ": " + std::strerror(errno) + "; name a folder on another file system");
   }
   // For root every folder looks writable until one tries.
   const std::filesystem::path probe = path / ".writable";
@@ -76,11 +119,13 @@ ResultFolder::ResultFolder(const std::filesystem::path& path, const std::set<std
       close(lock_);
       throw;
     }
-  } else if (!holds_only(path, ids)) {  // nothing of the other study stays
-    for (const char* name : products) std::filesystem::remove_all(path / name, error);
-    for (const char* suffix : {"", "-wal", "-shm"}) {
-      std::filesystem::remove(path / (std::string(Store::file_name) + suffix), error);
-    }
+    return;
+  }
+  for (const auto& at : misplaced(path)) std::filesystem::remove_all(at, error);
+  if (holds_only(path, ids)) return;
+  for (const auto& product : products(path)) std::filesystem::remove_all(product, error);  // nothing of the other study stays
+  for (const char* suffix : {"", "-wal", "-shm"}) {
+    std::filesystem::remove(path / (std::string(Store::file_name) + suffix), error);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <new>
 #include <stdexcept>
 
 #include "collision/contact/impact_timing.hpp"
@@ -11,6 +12,7 @@
 #include "experiments/study/contact_meter.hpp"
 #include "experiments/study/drift_meter.hpp"
 #include "experiments/study/narrow_phase_choice.hpp"
+#include "experiments/study/result_numbers.hpp"
 #include "experiments/study/run_setup.hpp"
 #include "integrators/catalogue.hpp"
 
@@ -72,6 +74,74 @@ TrueMotion true_motion_of(const RunConfig& config, const Scenario& scenario, con
   return (shared ? *shared : own).of(config, scenario, stop);
 }
 
+/// The outcome of a run, which is its failure where something is thrown out of it.
+template <class Run>
+RunOutcome guarded(const Scenario& scenario, const Run& run) {
+  RunOutcome outcome;
+  try {
+    return run();
+  } catch (const TrajectoryError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    outcome.message = fmt::format("out of memory, with {} bodies; take fewer of them, or fewer runs at a time with --jobs",
+                                  scenario.problem.bodies.size());
+  } catch (const std::exception& error) {
+    outcome.message = error.what();
+  }
+  outcome.status = RunStatus::failed;
+  return outcome;
+}
+
+RunResult measured(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory,
+                   const std::atomic<bool>* stop, References* references) {
+  const auto truth = make_system<double>(scenario.problem, config.formulation);
+  std::optional<ContactSetup> contact;
+  if (config.contact) contact.emplace(*truth, scenario, *config.contact);
+  DriftMeter meter(*truth, scenario.invariants, config.t_end, config.samples.has_value(),
+                   true_motion_of(config, scenario, stop, references), config.precision);
+  std::optional<ContactMeter> contact_meter;
+  if (config.contact) contact_meter.emplace(*truth, scenario, *config.contact, config.t_end, meter);
+  Observer& seen = contact_meter ? static_cast<Observer&>(*contact_meter) : meter;
+  const auto writer = trajectory.open ? trajectory.open(*truth, seen)
+                                      : open_trajectory(trajectory.format, trajectory.folder, *truth, seen);
+  Observer& observer = writer ? static_cast<Observer&>(*writer) : seen;
+  double seconds = 0;
+  const RunOutcome outcome = guarded(
+      scenario, [&] { return run_on(*truth, config, observer, stop, seconds, contact ? contact->model.get() : nullptr); });
+  if (writer && outcome.status != RunStatus::interrupted) writer->close();  // else it stays unfinished by name
+  RunResult result = result_of(outcome, meter, seconds);
+  if (contact_meter) contact_meter->report(result);
+  return result;
+}
+
+std::vector<RunResult> side_by_side(std::span<const LanedRun> runs, const std::atomic<bool>* stop, References* references) {
+  const RunConfig& config = runs.front().config;
+  std::vector<Problem> problems;
+  std::vector<std::unique_ptr<System<double>>> truths;
+  std::vector<std::unique_ptr<DriftMeter>> meters;
+  std::vector<LaneRun> lanes;
+  for (const LanedRun& run : runs) {
+    problems.push_back(run.scenario.problem);
+    truths.push_back(make_system<double>(run.scenario.problem, config.formulation));
+    meters.push_back(std::make_unique<DriftMeter>(
+        *truths.back(), run.scenario.invariants, config.t_end, false,
+        true_motion_of(run.config, run.scenario, stop, references)));
+    lanes.push_back({*truths.back(), *meters.back()});
+  }
+  problems.resize(std::size_t(lane_count), problems.back());  // lanes that nobody looks at
+  const auto system = make_ensemble(problems, config.formulation);
+  const auto integrator = integrator_of<Lanes>(config, *system);
+  const auto started = Clock::now();
+  const auto outcomes = simulate_ensemble(*system, *integrator, lanes, schedule_of(config), stop);
+  const double seconds = seconds_since(started) / static_cast<double>(runs.size());
+  std::vector<RunResult> results;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    results.push_back(result_of(outcomes[i], *meters[i], seconds));
+    keep_finite(results.back());
+  }
+  return results;
+}
+
 }  // namespace
 
 std::string refusal(const RunConfig& config, const Scenario& scenario) {
@@ -123,28 +193,17 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
 
 RunResult carry_out(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory,
                     const std::atomic<bool>* stop, References* references) {
-  const auto truth = make_system<double>(scenario.problem, config.formulation);
-  std::optional<ContactSetup> contact;
-  if (config.contact) contact.emplace(*truth, scenario, *config.contact);
-  DriftMeter meter(*truth, scenario.invariants, config.t_end, config.samples.has_value(),
-                   true_motion_of(config, scenario, stop, references), config.precision);
-  std::optional<ContactMeter> contact_meter;
-  if (config.contact) contact_meter.emplace(*truth, scenario, *config.contact, config.t_end, meter);
-  Observer& measured = contact_meter ? static_cast<Observer&>(*contact_meter) : meter;
-  const auto writer = trajectory.open ? trajectory.open(*truth, measured)
-                                      : open_trajectory(trajectory.format, trajectory.folder, *truth, measured);
-  Observer& observer = writer ? static_cast<Observer&>(*writer) : measured;
-  RunOutcome outcome;
-  double seconds = 0;
-  try {
-    outcome = run_on(*truth, config, observer, stop, seconds, contact ? contact->model.get() : nullptr);
-  } catch (const std::bad_alloc&) {
-    outcome.status = RunStatus::failed;
-    outcome.message = "out of memory";
+  RunResult result;
+  const RunOutcome outcome = guarded(scenario, [&] {
+    result = measured(config, scenario, trajectory, stop, references);
+    return RunOutcome{};
+  });
+  if (outcome.status == RunStatus::failed) {
+    result = {};
+    result.status = status_text(outcome.status);
+    result.message = outcome.message;
   }
-  if (writer && outcome.status != RunStatus::interrupted) writer->close();  // else it stays unfinished by name
-  RunResult result = result_of(outcome, meter, seconds);
-  if (contact_meter) contact_meter->report(result);
+  keep_finite(result);
   return result;
 }
 
@@ -161,28 +220,13 @@ std::string ensemble_key(const RunConfig& config, const Scenario& scenario, cons
 
 std::vector<RunResult> carry_out_together(std::span<const LanedRun> runs, const std::atomic<bool>* stop,
                                           References* references) {
-  const RunConfig& config = runs.front().config;
-  std::vector<Problem> problems;
-  std::vector<std::unique_ptr<System<double>>> truths;
-  std::vector<std::unique_ptr<DriftMeter>> meters;
-  std::vector<LaneRun> lanes;
-  for (const LanedRun& run : runs) {
-    problems.push_back(run.scenario.problem);
-    truths.push_back(make_system<double>(run.scenario.problem, config.formulation));
-    meters.push_back(std::make_unique<DriftMeter>(
-        *truths.back(), run.scenario.invariants, config.t_end, false,
-        true_motion_of(run.config, run.scenario, stop, references)));
-    lanes.push_back({*truths.back(), *meters.back()});
+  try {
+    return side_by_side(runs, stop, references);
+  } catch (const std::exception&) {
+    std::vector<RunResult> results;
+    for (const LanedRun& run : runs) results.push_back(carry_out(run.config, run.scenario, {}, stop, references));
+    return results;
   }
-  problems.resize(std::size_t(lane_count), problems.back());  // lanes that nobody looks at
-  const auto system = make_ensemble(problems, config.formulation);
-  const auto integrator = integrator_of<Lanes>(config, *system);
-  const auto started = Clock::now();
-  const auto outcomes = simulate_ensemble(*system, *integrator, lanes, schedule_of(config), stop);
-  const double seconds = seconds_since(started) / static_cast<double>(runs.size());
-  std::vector<RunResult> results;
-  for (std::size_t i = 0; i < runs.size(); ++i) results.push_back(result_of(outcomes[i], *meters[i], seconds));
-  return results;
 }
 
 }  // namespace polhode::study

@@ -55,6 +55,7 @@ struct RunConfig {
   std::optional<ContactConfig> contact;  ///< absent: the scenario has none
   std::optional<double> dt;         ///< s; fixed-step methods only
   std::optional<double> tolerance;  ///< adaptive methods only
+  std::optional<std::int64_t> max_steps;  ///< adaptive methods only; absent: as Schedule has it
   double t_end = 1;                 ///< s
   std::optional<std::int64_t> samples;  ///< absent: observed after every step
   bool reference = false;           ///< --reference: errors also where no exact solution is known

@@ -13,6 +13,7 @@ Schedule schedule_of(const RunConfig& config) {
   schedule.t_end = config.t_end;
   schedule.adaptive = !config.dt.has_value();
   schedule.dt = config.dt.value_or(0);
+  if (config.max_steps) schedule.most_steps = *config.max_steps;
   schedule.samples = config.samples;
   schedule.normalise = config.normalise;
   return schedule;

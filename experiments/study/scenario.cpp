@@ -3,13 +3,13 @@
 #include "experiments/study/scenario.hpp"
 
 #include <filesystem>
-#include <fstream>
 
 #include "experiments/study/builtin_scenarios.hpp"
 #include "experiments/study/input_error.hpp"
 #include "experiments/study/scenario_override.hpp"
 #include "experiments/study/scenario_reader.hpp"
 #include "experiments/study/suggestion.hpp"
+#include "experiments/study/text_file.hpp"
 #include "experiments/study/toml_cursor.hpp"
 
 namespace polhode::study {
@@ -26,7 +26,7 @@ struct ScenarioSource::Parsed {
     try {
       return parse_toml(text);
     } catch (const TomlSyntaxError& error) {
-      throw InputError(one_line(at(error.place) + error.message));
+      throw InputError(at(error.place) + error.message);
     }
   }
 
@@ -42,8 +42,6 @@ struct ScenarioSource::Parsed {
 
 namespace {
 
-/// A scenario of more than this is a mistake, such as the name of a device.
-constexpr std::size_t most_bytes = 16 << 20;
 constexpr std::string_view list_scenarios = "./run energy_drift --list scenarios";
 
 std::vector<std::string_view> builtin_names() {
@@ -54,27 +52,13 @@ std::vector<std::string_view> builtin_names() {
 
 bool is_path(const std::string& name) { return name.find('/') != std::string::npos || name.ends_with(".toml"); }
 
-std::string read_file(const std::string& path) {
+std::string text_of(const std::string& path) {
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    throw InputError(one_line(path) + ": is a folder, not a scenario file");
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
+  if (path.find('/') == std::string::npos && !std::filesystem::exists(path, error)) {
     const std::string stem = std::filesystem::path(path).stem().string();
-    std::string message = path + ": no such file, or it cannot be read";
-    if (path.find('/') == std::string::npos) {
-      message += suggestion_of_many(stem, builtin_names(), list_scenarios);
-    }
-    throw InputError(one_line(message));
+    throw InputError(path + ": no such file, or it cannot be read" + suggestion_of_many(stem, builtin_names(), list_scenarios));
   }
-  std::string text;
-  char buffer[1 << 14];
-  while (file.read(buffer, sizeof buffer), file.gcount() > 0) {
-    text.append(buffer, static_cast<std::size_t>(file.gcount()));
-    if (text.size() > most_bytes) throw InputError(one_line(path) + ": is larger than 16 MiB");
-  }
-  return text;
+  return read_text(path);
 }
 
 /// Whether the override that set `path` speaks for a fault at `at`, which may lie above it.
@@ -99,7 +83,7 @@ void ScenarioSource::Parsed::tell(const Fault& fault, std::span<const Override> 
   if (fault.place.from_override >= 0) {
     const auto i = static_cast<std::size_t>(fault.place.from_override);
     const bool said = i < paths.size() && speaks_for(paths[i], fault.path);
-    throw InputError(one_line(overrides[i].label() + ": " + (said ? "" : path) + fault.message));
+    throw InputError(overrides[i].label() + ": " + (said ? "" : path) + fault.message);
   }
   // The file's text is at fault only if it fails by itself; otherwise what the overrides made of the rest is.
   std::string blamed;
@@ -107,7 +91,7 @@ void ScenarioSource::Parsed::tell(const Fault& fault, std::span<const Override> 
     for (const Override& override : overrides) blamed += (blamed.empty() ? "" : ", ") + override.label();
     blamed += ": ";
   }
-  throw InputError(one_line(blamed + at(fault.place) + path + fault.message));
+  throw InputError(blamed + at(fault.place) + path + fault.message);
 }
 
 Scenario ScenarioSource::Parsed::resolve(std::span<const Override> overrides) const {
@@ -129,15 +113,14 @@ Scenario ScenarioSource::Parsed::resolve(std::span<const Override> overrides) co
 ScenarioSource ScenarioSource::open(const std::string& name_or_path, const std::string& label) {
   if (is_path(name_or_path)) {
     const std::string stem = std::filesystem::path(name_or_path).stem().string();
-    return ScenarioSource(std::make_unique<Parsed>(stem, name_or_path, read_file(name_or_path)));
+    return ScenarioSource(std::make_unique<Parsed>(stem, name_or_path, text_of(name_or_path)));
   }
   for (const BuiltinScenario& scenario : builtin_scenarios()) {
     if (scenario.name != name_or_path) continue;
     return ScenarioSource(std::make_unique<Parsed>(name_or_path, "builtin " + name_or_path, scenario.text));
   }
-  throw InputError(one_line(label + ": no built-in scenario is called '" + name_or_path + "'" +
-                            suggestion_of_many(name_or_path, builtin_names(), list_scenarios) +
-                            "; a file's name holds a '/' or ends in .toml"));
+  throw InputError(label + ": no built-in scenario is called '" + name_or_path + "'" +
+                   suggestion_of_many(name_or_path, builtin_names(), list_scenarios) + "; a file's name holds a '/' or ends in .toml");
 }
 
 ScenarioSource ScenarioSource::parse(std::string text, std::string origin) {

@@ -24,16 +24,25 @@ class Store {
   Store(const Store&) = delete;
   Store& operator=(const Store&) = delete;
 
-  std::map<std::string, RunResult> load() const;  ///< by run id
+  struct Loaded {
+    std::map<std::string, RunResult> runs;       ///< by run id
+    std::map<std::string, std::string> damaged;  ///< the runs that are not among them, and the column that is no result
+  };
+  Loaded load() const;
   void keep(std::span<const RunRecord> records);  ///< in one transaction
+  void forget(const std::string& id);
 
-  /// The ids in a folder's store, empty if there is none; changes nothing.
+  /// The ids in a folder's store, empty if there is none; changes nothing. Throws too where another program has made tables of
+  /// these names, and where the database is damaged anywhere.
   static std::set<std::string> ids_in(const std::filesystem::path& folder);
+
+  /// Bytes, of the absolute path of a folder whose store SQLite opens.
+  static std::size_t longest_folder();
 
   static constexpr const char* file_name = "results.sqlite";
 
  private:
-  void execute(const char* sql) const;
+  void execute(const std::string& sql) const;
 
   std::filesystem::path path_;
   struct Close {

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <new>
 #include <stdexcept>
 #include <thread>
 
@@ -15,6 +16,7 @@
 #include "experiments/study/listing.hpp"
 #include "experiments/study/options.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/program.hpp"
 #include "experiments/study/progress.hpp"
 #include "experiments/study/references.hpp"
 #include "experiments/study/report/notation.hpp"
@@ -28,7 +30,7 @@
 namespace polhode::study {
 namespace {
 
-constexpr int bad_input = 2, not_carried_out = 3, interrupted = 130;
+constexpr int interrupted = 130;  ///< exit status
 
 std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free);  // so that a signal handler may set it
@@ -196,7 +198,7 @@ std::set<std::string> ids_of(const Experiment& experiment, const Options& option
                              const std::filesystem::path& folder) {
   std::map<std::string, RunResult> results;
   try {
-    if (experiment.refine && !Store::ids_in(folder).empty()) results = Store(folder).load();
+    if (experiment.refine && !Store::ids_in(folder).empty()) results = Store(folder).load().runs;
   } catch (const std::runtime_error&) {  // ResultFolder says what is wrong with it
   }
   std::set<std::string> ids;
@@ -221,6 +223,32 @@ void write_everything(const StudyView& view, const Options& options, const Plan&
   write_report(view);
 }
 
+/// What the store holds of the study, without what is to be carried out again: damaged rows, and with --force what failed.
+std::map<std::string, RunResult> stored(const Experiment& experiment, const Options& options,
+                                        const std::filesystem::path& folder, Store& store) {
+  auto [runs, damaged] = store.load();
+  if (!damaged.empty()) {
+    fmt::print(stderr, "{}: {}: {} of {} runs are damaged and carried out again (the first: run {}, {})\n", experiment.name,
+               (folder / Store::file_name).string(), damaged.size(), damaged.size() + runs.size(), damaged.begin()->first,
+               damaged.begin()->second);
+  }
+  for (const auto& [id, why] : damaged) store.forget(id);
+  if (options.force) std::erase_if(runs, [](const auto& run) { return run.second.status == "failed"; });
+  return std::move(runs);
+}
+
+/// "2 of 51 runs failed, the first with: out of memory".
+std::string missed_text(const std::vector<const RunRecord*>& missed, std::size_t runs, const std::string& status) {
+  const auto is_so = [&](const RunRecord* run) { return run->result.status == status; };
+  const auto first = std::find_if(missed.begin(), missed.end(), is_so);
+  if (first == missed.end()) return {};
+  const auto count = std::count_if(missed.begin(), missed.end(), is_so);
+  std::string text = fmt::format("{} of {} run{} {}{}: {}", count, runs, runs == 1 ? "" : "s", status,
+                                 count > 1 ? ", the first with" : "", (*first)->result.message);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 int run_study(const Experiment& experiment, const Options& options) {
   Plan plan = make_plan(experiment, options);
   const std::filesystem::path folder = folder_of(experiment, options, plan);
@@ -232,7 +260,7 @@ int run_study(const Experiment& experiment, const Options& options) {
   const ResultFolder held(folder, ids, options.force);
   stop_on_signals();
   Store store(folder);
-  auto results = store.load();
+  auto results = stored(experiment, options, folder, store);
   bool first = true;
   do {
     if (!carry_out_missing(experiment, options, plan, folder, store, results, first)) return interrupted;
@@ -245,18 +273,24 @@ int run_study(const Experiment& experiment, const Options& options) {
   fmt::print("{}\n{}\n", summary_table(view), (folder / "report.html").string());
   // Where the analysis is the result, a refusal is one of its answers.
   const bool answers_refusals = view.analysis && view.analysis->alone;
-  const bool all = std::all_of(view.runs.begin(), view.runs.end(), [&](const RunRecord& r) {
-    return r.result.status == "ok" || r.result.status == "diverged" ||
-           (answers_refusals && r.result.status == "refused") ||
-           (experiment.failures_are_results && r.result.status == "failed");
-  });
-  return all ? 0 : not_carried_out;
+  std::vector<const RunRecord*> missed;
+  for (const RunRecord& run : view.runs) {
+    const bool refused = run.result.status == "refused" && !answers_refusals;
+    const bool failed = run.result.status == "failed" && !experiment.failures_are_results;
+    if (refused || failed) missed.push_back(&run);
+  }
+  if (missed.empty()) return 0;
+  std::string text = missed_text(missed, view.runs.size(), "failed");
+  const std::string refused = missed_text(missed, view.runs.size(), "refused");
+  if (!refused.empty()) text += (text.empty() ? "" : "; ") + refused;
+  fmt::print(stderr, "{}: {}\n", experiment.name, text);
+  return not_carried_out;
 }
 
 }  // namespace
 
 int run_experiment(const Experiment& experiment, int argc, const char* const* argv) {
-  try {
+  const auto program = [&] {
     const ParsedOptions parsed = parse_options(experiment, argc, argv);
     if (parsed.exit_status) return *parsed.exit_status;
     if (parsed.options.list) {
@@ -264,16 +298,8 @@ int run_experiment(const Experiment& experiment, int argc, const char* const* ar
       return 0;
     }
     return run_study(experiment, parsed.options);
-  } catch (const InputError& error) {
-    std::string line = error.what();
-    std::replace(line.begin(), line.end(), '\n', ' ');
-    fmt::print(stderr, "{}: {}\n", experiment.name, line);
-    return bad_input;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}; finished runs are kept, and the same command goes on from there\n", experiment.name,
-               error.what());
-    return not_carried_out;
-  }
+  };
+  return run_program(experiment.name, program, "; finished runs are kept, and the same command goes on from there");
 }
 
 }  // namespace polhode::study

@@ -123,7 +123,7 @@ std::string summary_table(const StudyView& study) {
     row.push_back(r.status);
     row.push_back(number(r.energy_drift_max_rel));
     row.push_back(r.drift_class.empty()     ? "-"
-                  : r.drift_decided_after ? fmt::format("{} (try {:.2g} s)", r.drift_class, *r.drift_decided_after)
+                  : r.drift_decided_after ? fmt::format("{} (try {} s)", r.drift_class, report::number(*r.drift_decided_after, 2))
                                           : r.drift_class);
     for (const auto& x : {r.angular_momentum_drift_max_rel, r.orientation_defect_max, r.attitude_error_max}) {
       row.push_back(number(x));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "experiments/study/axes.hpp"
+#include "experiments/study/legible.hpp"
 #include "experiments/study/suggestion.hpp"
 
 namespace polhode::study {
@@ -23,14 +24,6 @@ TomlPlace place_of(const TomlValue& value) {
     if (const TomlPlace p = place_of(entry.value); p.from_override >= 0) return p;
   }
   return value.place;
-}
-
-/// Of a long text the beginning, never half of a UTF-8 character.
-std::string shortened(std::string_view text) {
-  std::size_t end = 40;
-  if (text.size() <= end) return std::string(text);
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
-  return std::string(text.substr(0, end)) + "...";
 }
 
 std::string describe(const TomlValue& value) {
@@ -140,21 +133,7 @@ void TomlCursor::refuse(std::string_view must_be) const {
 
 void TomlCursor::unknown(std::string_view what, std::string_view introduction,
                          const std::vector<std::string_view>& known) const {
-  fail("no " + std::string(what) + " is called '" + value_->text + "'" + suggestion(value_->text, introduction, known));
-}
-
-std::string one_line(std::string_view text) {
-  constexpr char digits[] = "0123456789abcdef";
-  std::string line;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte >= 0x20 && byte != 0x7f) {
-      line += c;
-    } else {
-      line.append("\\x").append(1, digits[byte >> 4]).append(1, digits[byte & 15]);
-    }
-  }
-  return line;
+  fail("no " + std::string(what) + " is called '" + shortened(value_->text) + "'" + suggestion(value_->text, introduction, known));
 }
 
 }  // namespace polhode::study

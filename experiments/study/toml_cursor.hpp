@@ -71,7 +71,4 @@ class TomlCursor {
   std::size_t index_ = 0;
 };
 
-/// One line of text: what a file name or a key may hold of line breaks and other control characters is spelled out.
-std::string one_line(std::string_view text);
-
 }  // namespace polhode::study

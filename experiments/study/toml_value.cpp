@@ -41,15 +41,51 @@ TomlValue converted(const toml::node& node) {
   return out;
 }
 
-/// The library recurses over the parts of a dotted key without a bound, so that a.a.a.… overflows the stack.
-void refuse_endless_keys(std::string_view text) {
-  constexpr int limit = 1000;
-  int dots = 0, line = 1;
-  for (const char c : text) {
-    if (c == '\n') ++line;
-    if (c == '.') ++dots;
-    if (c == '\n' || c == '=' || c == ',') dots = 0;
-    if (dots > limit) throw TomlSyntaxError{{line, 1, -1}, "a key of more than 1000 parts"};
+/// The end of the string that begins at `at`, or of the text.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  const bool lines = text.substr(at, 3) == std::string(3, quote);  // """ and ''': over several lines
+  for (std::size_t i = at + (lines ? 3 : 1); i < text.size(); ++i) {
+    if (text[i] == '\\' && quote == '"') ++i;
+    else if (text[i] == '\n' && !lines) return i;  // never closed, which the library tells
+    else if (text[i] == quote && (!lines || text.substr(i, 3) == std::string(3, quote))) return i + (lines ? 3 : 1);
+  }
+  return text.size();
+}
+
+/// The library recurses over the parts of a dotted key without a bound, so that a.a.a.… overflows the stack; and so do we
+/// over what it gives. The depth is that of the brackets that are open, and of the dots before each and before here.
+void refuse_deep_nesting(std::string_view text) {
+  constexpr std::size_t limit = 100;
+  std::vector<std::size_t> outer;  // dots in front of each bracket that is open
+  std::size_t dots = 0, outer_dots = 0, line_start = 0;
+  int line = 1;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') {
+      const std::size_t end = end_of_string(text, i);
+      for (std::size_t k = i; k < end; ++k) {
+        if (text[k] == '\n') ++line, line_start = k + 1;
+      }
+      i = end - 1;
+    } else if (c == '#') {
+      i = std::min(text.find('\n', i), text.size()) - 1;
+    } else if (c == '[' || c == '{') {
+      outer.push_back(dots);
+      outer_dots += dots;
+      dots = 0;
+    } else if ((c == ']' || c == '}') && !outer.empty()) {
+      dots = outer.back();
+      outer_dots -= dots;
+      outer.pop_back();
+    } else if (c == '.') {
+      ++dots;
+    } else if (c == ',' || c == '\n') {
+      dots = 0;
+      if (c == '\n') ++line, line_start = i + 1;
+    }
+    if (outer.size() + outer_dots + dots <= limit) continue;
+    throw TomlSyntaxError{{line, static_cast<int>(i - line_start) + 1, -1}, "keys and lists are nested more than 100 deep; give fewer"};
   }
 }
 
@@ -107,7 +143,7 @@ TomlEntry& TomlValue::insert(std::string key, TomlValue value) {
 }
 
 TomlValue parse_toml(std::string_view text) {
-  refuse_endless_keys(text);
+  refuse_deep_nesting(text);
   try {
     return converted(toml::parse(text));
   } catch (const toml::parse_error& error) {

@@ -5,9 +5,10 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <iterator>
-#include <stdexcept>
 #include <utility>
 
 #include "experiments/study/trajectory_rows.hpp"
@@ -19,6 +20,17 @@ constexpr std::size_t rows_between_flushes = 1000;
 
 /// A file has its own name when it is whole, so that one cut off by a kill is not taken for it.
 std::filesystem::path unfinished(const std::filesystem::path& path) { return path.string() + ".unfinished"; }
+
+/// `reason`: what errno says; 0: nothing.
+[[noreturn]] void cannot_write(const std::filesystem::path& path, int reason) {
+  throw TrajectoryError("cannot write " + path.string() + (reason != 0 ? std::string(": ") + std::strerror(reason) : ""));
+}
+
+void give_own_name(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::rename(unfinished(path), path, error);
+  if (error) cannot_write(path, error.value());
+}
 
 /// A table of doubles written row by row; whole numbers in column `integer` are written without a point.
 class CsvTable {
@@ -50,14 +62,14 @@ class CsvTable {
   void close() {
     std::FILE* file = std::exchange(file_, nullptr);
     if (file && std::fclose(file) != 0) fail();
-    std::filesystem::rename(unfinished(path_), path_);
+    give_own_name(path_);
   }
 
  private:
   void write(std::string_view text) {
     if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) fail();
   }
-  [[noreturn]] void fail() const { throw std::runtime_error("cannot write " + path_.string()); }
+  [[noreturn]] void fail() const { cannot_write(path_, errno); }
 
   std::filesystem::path path_;
   std::FILE* file_;
@@ -65,18 +77,46 @@ class CsvTable {
   std::size_t rows_ = 0;
 };
 
+/// The HDF5 file handle, closed last.
+class Hdf5File {
+ public:
+  explicit Hdf5File(const std::filesystem::path& path) : path_(path) {
+    // What cannot be written, on a full disk, HDF5 would try again as the program ends, and crash.
+    [[maybe_unused]] static const herr_t at_exit = H5dont_atexit();
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // our own message is one line
+    errno = 0;
+    id = H5Fcreate(unfinished(path).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    if (id < 0) fail();
+  }
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+  ~Hdf5File() { H5Fclose(id); }
+  void finish() const {
+    errno = 0;
+    if (H5Fflush(id, H5F_SCOPE_GLOBAL) < 0) fail();
+    give_own_name(path_);
+  }
+  [[noreturn]] void fail() const { cannot_write(path_, errno); }
+  hid_t id;
+
+ private:
+  std::filesystem::path path_;
+};
+
 /// The same as a two-dimensional dataset that grows, flushed so that the file is readable after a kill.
 class Hdf5Table {
  public:
-  Hdf5Table(hid_t file, const char* name, const std::vector<std::string>& columns) : file_(file), width_(columns.size()) {
+  Hdf5Table(const Hdf5File& file, const char* name, const std::vector<std::string>& columns)
+      : file_(file), width_(columns.size()) {
+    errno = 0;
     const hsize_t start[2] = {0, width_}, most[2] = {H5S_UNLIMITED, width_}, chunk[2] = {rows_between_flushes, width_};
     const hid_t space = H5Screate_simple(2, start, most);
     const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
     H5Pset_chunk(properties, 2, chunk);
-    set_ = H5Dcreate2(file, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT);
+    set_ = H5Dcreate2(file.id, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT);
     H5Pclose(properties);
     H5Sclose(space);
-    if (set_ < 0) throw std::runtime_error(std::string("cannot create the dataset ") + name);
+    if (set_ < 0) file_.fail();
     name_columns(columns);
   }
   Hdf5Table(const Hdf5Table&) = delete;
@@ -92,14 +132,15 @@ class Hdf5Table {
     if (pending_.empty()) return;
     const hsize_t more = pending_.size() / width_;
     const hsize_t size[2] = {rows_ + more, width_}, offset[2] = {rows_, 0}, count[2] = {more, width_};
+    errno = 0;
     bool good = H5Dset_extent(set_, size) >= 0;
     const hid_t in_file = H5Dget_space(set_), in_memory = H5Screate_simple(2, count, nullptr);
     good = good && H5Sselect_hyperslab(in_file, H5S_SELECT_SET, offset, nullptr, count, nullptr) >= 0 &&
            H5Dwrite(set_, H5T_NATIVE_DOUBLE, in_memory, in_file, H5P_DEFAULT, pending_.data()) >= 0 &&
-           H5Fflush(file_, H5F_SCOPE_LOCAL) >= 0;
+           H5Fflush(file_.id, H5F_SCOPE_LOCAL) >= 0;
     H5Sclose(in_memory);
     H5Sclose(in_file);
-    if (!good) throw std::runtime_error("cannot write trajectory.h5");
+    if (!good) file_.fail();
     rows_ += more;
     pending_.clear();
   }
@@ -119,7 +160,8 @@ class Hdf5Table {
     H5Tclose(type);
   }
 
-  hid_t file_, set_ = -1;
+  const Hdf5File& file_;
+  hid_t set_ = -1;
   hsize_t width_, rows_ = 0;
   std::vector<double> pending_;
 };
@@ -209,35 +251,14 @@ class CsvTables {
   CsvTable trajectory_, energy_, events_;
 };
 
-/// The HDF5 file handle, closed last.
-class Hdf5File {
- public:
-  explicit Hdf5File(const std::filesystem::path& path) : path_(path) {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // our own message is one line
-    id = H5Fcreate(unfinished(path).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    if (id < 0) throw std::runtime_error("cannot write " + path.string());
-  }
-  Hdf5File(const Hdf5File&) = delete;
-  Hdf5File& operator=(const Hdf5File&) = delete;
-  ~Hdf5File() { H5Fclose(id); }
-  void finish() const {
-    if (H5Fflush(id, H5F_SCOPE_GLOBAL) < 0) throw std::runtime_error("cannot write " + path_.string());
-    std::filesystem::rename(unfinished(path_), path_);
-  }
-  hid_t id;
-
- private:
-  std::filesystem::path path_;
-};
-
 class Hdf5Tables {
  public:
   Hdf5Tables(const std::filesystem::path& folder, const std::vector<std::string>& columns)
       : file_(folder / "trajectory.h5"),
-        trajectory_(file_.id, "trajectory", columns),
-        energy_(file_.id, "energy", energy_columns()),
-        impacts_(file_.id, "impacts", event_columns(false)),
-        slide_ends_(file_.id, "slide_ends", event_columns(false)) {}
+        trajectory_(file_, "trajectory", columns),
+        energy_(file_, "energy", energy_columns()),
+        impacts_(file_, "impacts", event_columns(false)),
+        slide_ends_(file_, "slide_ends", event_columns(false)) {}
   void trajectory(const std::vector<double>& row) { trajectory_.add(row); }
   void energy(const std::vector<double>& row) { energy_.add(row); }
   void impact(const std::vector<double>& row) { impacts_.add(row); }
@@ -260,7 +281,9 @@ class Hdf5Tables {
 std::unique_ptr<TrajectoryWriter> open_trajectory(TrajectoryFormat format, const std::filesystem::path& folder,
                                                   const System<double>& system, Observer& next) {
   if (format == TrajectoryFormat::none) return nullptr;
-  std::filesystem::create_directories(folder);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw TrajectoryError("cannot create the folder " + folder.string() + ": " + error.message());
   if (format == TrajectoryFormat::hdf5) return std::make_unique<Writer<Hdf5Tables>>(folder, system, next);
   return std::make_unique<Writer<CsvTables>>(folder, system, next);
 }

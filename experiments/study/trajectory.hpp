@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 
 #include "core/simulate.hpp"
 
@@ -11,15 +12,21 @@ namespace polhode::study {
 
 enum class TrajectoryFormat { none, csv, hdf5 };
 
+/// A trajectory cannot be written: no fault of the run, whose results are not kept. what() names the file and the reason.
+class TrajectoryError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// An observer that writes each sample and hands it on to the next one. Rows are flushed as it goes, so that a run that
 /// is killed leaves what it had done; memory does not grow with the run.
 class TrajectoryWriter : public Observer {
  public:
-  /// Throws std::runtime_error, naming the file, when it cannot be written (a full disk shows at the latest in close()).
+  /// Throws TrajectoryError when the file cannot be written (a full disk shows at the latest in close()).
   virtual void close() = 0;
 };
 
-/// Creates `folder` and the files in it; `next` sees every sample too.
+/// Creates `folder` and the files in it; `next` sees every sample too. Throws TrajectoryError.
 std::unique_ptr<TrajectoryWriter> open_trajectory(TrajectoryFormat format, const std::filesystem::path& folder,
                                                   const System<double>& system, Observer& next);
 

@@ -7,13 +7,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <optional>
 
 #include "experiments/study/input_error.hpp"
+#include "experiments/study/legible.hpp"
 #include "experiments/study/suggestion.hpp"
+#include "experiments/study/text_file.hpp"
 
 namespace polhode::study {
 namespace {
@@ -61,12 +61,7 @@ std::vector<Cell> cells_of(std::string_view line) {
   }
 }
 
-std::string shown(std::string_view text) {
-  constexpr std::size_t most = 40;
-  std::string clean;
-  for (const char c : text.substr(0, most)) clean += c < ' ' || c == '\x7f' ? '?' : c;
-  return "'" + clean + (text.size() > most ? "…'" : "'");
-}
+std::string shown(std::string_view text) { return "'" + shortened(text) + "'"; }
 
 class Parser {
  public:
@@ -265,40 +260,6 @@ class Parser {
   Trajectory result_;
 };
 
-/// The text of a regular file, which may grow while it is read: neither it nor a line of it is read without end.
-std::string text_of(const std::string& path) {
-  constexpr std::size_t longest_line = std::size_t{1} << 20, largest = std::size_t{4} << 30, piece = std::size_t{1} << 16;
-  std::error_code ignored;
-  const auto status = std::filesystem::status(path, ignored);
-  if (std::filesystem::is_directory(status)) throw InputError(path + " is a folder; name the trajectory.csv in it");
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    throw InputError(path + " is a device or a pipe, which may have no end; write the trajectory to a file first");
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path + ": no such file, or it cannot be read");
-  std::string text;
-  std::size_t line = 1, line_start = 0;
-  for (std::size_t size = 0; file; size = text.size()) {
-    text.resize(size + piece);
-    file.read(text.data() + size, static_cast<std::streamsize>(piece));
-    text.resize(size + static_cast<std::size_t>(file.gcount()));
-    for (auto end = text.find('\n', size); end != std::string::npos; end = text.find('\n', end + 1)) {
-      if (end - line_start > longest_line) break;
-      line_start = end + 1;
-      ++line;
-    }
-    if (text.size() - line_start > longest_line) {
-      throw InputError(fmt::format("{}:{}:{}: a line of more than {} characters is no row of a trajectory; end rows with "
-                                   "a line feed", path, line, longest_line, longest_line));
-    }
-    if (text.size() > largest) {
-      throw InputError(fmt::format("{}: more than {} bytes; give fewer rows, or the motion in several files", path, largest));
-    }
-  }
-  if (file.bad()) throw InputError(path + ": it cannot be read to its end");
-  return text;
-}
-
 }  // namespace
 
 Trajectory parse_trajectory(std::string_view text, const std::string& origin, const Problem& problem) {
@@ -306,7 +267,7 @@ Trajectory parse_trajectory(std::string_view text, const std::string& origin, co
 }
 
 Trajectory read_trajectory(const std::string& path, const Problem& problem) {
-  return parse_trajectory(text_of(path), path, problem);
+  return parse_trajectory(read_text(path, 2048 * mebibyte), path, problem);
 }
 
 }  // namespace polhode::study

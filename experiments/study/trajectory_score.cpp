@@ -111,7 +111,7 @@ void blank(const States& states, const Trajectory& trajectory, const System<doub
   }
   if (!energy) {
     drop(r.energy_initial, r.energy_drift_max_rel, r.energy_drift_final_rel, r.energy_drift_rate, r.energy_drift_rate_ci,
-         r.drift_exponent, r.drift_exponent_low, r.drift_exponent_high, score.energy_column_difference_max_rel);
+         r.drift_exponent, r.drift_exponent_low, r.drift_exponent_high, r.drift_decided_after, score.energy_column_difference_max_rel);
     r.drift_class.clear();
     for (SeriesPoint& p : r.series) p.energy_drift_rel = 0;
   }

@@ -3,8 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <fstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -27,6 +32,33 @@ bool has_x264(const std::filesystem::path& path) {
   return asked->wait().printed.find(" libx264 ") != std::string::npos;
 }
 
+/// Whether the boxes of an MP4 file (ISO/IEC 14496-12, 4.2) end where the file does, with pictures and their index among them:
+/// on a full disk ffmpeg may end well without them.
+bool is_whole(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  std::uintmax_t at = 0;
+  bool pictures = false, index = false;
+  std::array<unsigned char, 16> head{};
+  while (!error && at + 8 <= size && file.seekg(static_cast<std::streamoff>(at))) {
+    file.read(reinterpret_cast<char*>(head.data()), static_cast<std::streamsize>(std::min<std::uintmax_t>(16, size - at)));
+    file.clear();
+    const auto number = [&](std::size_t first, std::size_t bytes) {
+      std::uintmax_t n = 0;
+      for (std::size_t k = first; k < first + bytes; ++k) n = n << 8 | head[k];
+      return n;
+    };
+    const std::string_view name(reinterpret_cast<const char*>(head.data()) + 4, 4);
+    pictures |= name == "mdat";
+    index |= name == "moov";
+    const std::uintmax_t length = number(0, 4) == 1 ? number(8, 8) : number(0, 4);
+    if (length < 8 || length > size - at) return false;
+    at += length;
+  }
+  return !error && at == size && pictures && index;
+}
+
 std::string last_line(std::string text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
   const auto start = text.find_last_of("\n\r");
@@ -37,7 +69,7 @@ std::string last_line(std::string text) {
 
 Film::Film(std::filesystem::path path, int width, int height, int pictures_a_second)
     : path_(std::move(path)), unfinished_(path_.string() + ".new"), width_(width), height_(height) {
-  std::vector<std::string> command = {"ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-y"};
+  std::vector<std::string> command = {"ffmpeg", "-hide_banner", "-loglevel", "error", "-xerror", "-nostdin", "-y"};
   const auto add = [&](std::vector<std::string> more) { command.insert(command.end(), more.begin(), more.end()); };
   add({"-f", "rawvideo", "-pix_fmt", "rgb24", "-video_size", fmt::format("{}x{}", width, height)});
   add({"-framerate", std::to_string(pictures_a_second), "-i", "pipe:0"});
@@ -83,6 +115,7 @@ void Film::add(const Picture& picture) {
 void Film::finish() {
   const auto outcome = encoder_->wait();
   if (outcome.exit_status != 0) fail(outcome.printed);
+  if (!is_whole(unfinished_)) fail(outcome.printed.empty() ? "the file that it wrote is not whole" : outcome.printed);
   encoder_.reset();
   std::filesystem::rename(unfinished_, path_);
 }

@@ -44,14 +44,17 @@ LiveSession::LiveSession(const SessionSetup& setup)
   thread_ = std::thread([this] { work(); });
 }
 
-LiveSession::~LiveSession() {
+LiveSession::~LiveSession() { finish(); }
+
+std::string LiveSession::finish() {
   {
     const std::lock_guard lock(mutex_);
     quit_ = true;
     news_ = true;
   }
   news_came_.notify_all();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
+  return unwritten_;
 }
 
 // The window's side.
@@ -196,6 +199,7 @@ void LiveSession::go_through_segment() {
     finish_segment(run.go(state, observer, stop_, [this] { return next_size_; }));
     if (rows) rows->close();
   } catch (const std::exception& error) {
+    if (!trajectory_.empty() && unwritten_.empty()) unwritten_ = error.what();  // whatever it was, the rows have no end
     finish_segment({.status = RunStatus::failed, .message = error.what()});
   }
 }
@@ -451,6 +455,7 @@ void LiveSession::record(const F& write) {
     write();
   } catch (const std::exception& error) {
     trouble_ = fmt::format("the session is no longer recorded: {}", error.what());
+    if (unwritten_.empty()) unwritten_ = trouble_;
     writer_.reset();
   }
 }

@@ -36,6 +36,7 @@ class LiveSession final : public Session, private Observer {
   void want(const Wanted& wanted) override;
   std::string change(const Configuration& configuration) override;
   void settle() override;
+  std::string finish() override;
 
  private:
   // The window's side
@@ -114,6 +115,7 @@ class LiveSession final : public Session, private Observer {
   std::int64_t steps_wanted_ = 0;
   double next_size_ = 0;             ///< s, where the frame clock drives
   std::string message_, trouble_;    ///< why it stopped; what else went wrong
+  std::string unwritten_;            ///< the first file that could not be written, and why
   bool changed_ = true;              ///< since the view was made
   std::int64_t recorded_steps_ = 0;  ///< of this segment
   std::vector<double> unrecorded_sizes_;

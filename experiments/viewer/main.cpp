@@ -2,11 +2,8 @@
 // How does a scenario move? A window to watch it in, pictures and films of it, and sessions that can be run again.
 #include <fmt/format.h>
 
-#include <cstdio>
-#include <exception>
-
-#include "experiments/study/input_error.hpp"
 #include "experiments/study/listing.hpp"
+#include "experiments/study/program.hpp"
 #include "experiments/viewer/options.hpp"
 
 namespace polhode::viewer {
@@ -42,13 +39,5 @@ int run(int argc, char** argv) {
 }  // namespace polhode::viewer
 
 int main(int argc, char** argv) {
-  try {
-    return polhode::viewer::run(argc, argv);
-  } catch (const polhode::study::InputError& error) {
-    fmt::print(stderr, "viewer: {}\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "viewer: {}\n", error.what());
-    return 3;
-  }
+  return polhode::study::run_program("viewer", [&] { return polhode::viewer::run(argc, argv); });
 }

@@ -7,12 +7,12 @@
 #include <imgui.h>
 
 #include <charconv>
-#include <fstream>
 #include <map>
 #include <sstream>
 #include <utility>
 
 #include "experiments/study/input_error.hpp"
+#include "experiments/study/text_file.hpp"
 
 namespace polhode::viewer {
 namespace {
@@ -28,8 +28,7 @@ constexpr int most_frames = 20000;  // of waiting
 
 Script::Script(const std::string& file, FileMaker take_picture, FileMaker write_places)
     : file_(file), take_picture_(std::move(take_picture)), write_places_(std::move(write_places)) {
-  std::ifstream text(file);
-  if (!text) throw study::InputError("--script " + file + ": cannot be read");
+  std::istringstream text(study::read_text(file, study::mebibyte));
   int n = 0;
   for (std::string line; std::getline(text, line);) {
     line_ = {++n, {}};

@@ -141,6 +141,9 @@ class Session {
   /// Waits until all commands are applied and the simulation waits too: it is paused, at its end, or has caught up. For
   /// films and tests; a window never calls it.
   virtual void settle() = 0;
+
+  /// Ends the simulation and waits for it. Returns what of the session could not be written, in one line; empty: nothing.
+  virtual std::string finish() { return {}; }
 };
 
 /// Time passes for all of them alike: while one is behind by more than a quarter of a second, the others wait for it.

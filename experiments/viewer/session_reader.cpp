@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "experiments/study/input_error.hpp"
-#include "experiments/study/report/read_file.hpp"
+#include "experiments/study/text_file.hpp"
 #include "experiments/study/toml_cursor.hpp"
 #include "experiments/viewer/segment_run.hpp"
 #include "experiments/viewer/session_record.hpp"
@@ -159,19 +159,15 @@ SessionRecord parse_session(std::string_view text, const std::string& origin) {
     const study::TomlValue root = study::parse_toml(text);
     return record_of(TomlCursor(root), origin);
   } catch (const study::TomlSyntaxError& error) {
-    throw study::InputError(study::one_line(at(error.place) + error.message));
+    throw study::InputError(at(error.place) + error.message);
   } catch (const study::Fault& fault) {
     const std::string path = fault.path.empty() ? "" : fault.path + ": ";
-    throw study::InputError(study::one_line(at(fault.place) + path + fault.message));
+    throw study::InputError(at(fault.place) + path + fault.message);
   }
 }
 
 SessionRecord read_session(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw study::InputError(path + " is a folder; name the session.toml in it");
-  const auto text = study::report::read_file(path);
-  if (!text) throw study::InputError(path + ": no such file, or it cannot be read");
-  return parse_session(*text, path);
+  return parse_session(study::read_text(path), path);
 }
 
 }  // namespace polhode::viewer

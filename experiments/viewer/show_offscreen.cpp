@@ -76,6 +76,7 @@ int show_offscreen(StageSetup setup, const OffscreenSettings& settings) {
     stage.look_at_all();
   }
   if (film) film->finish();
+  if (const std::string unwritten = stage.finish(); !unwritten.empty()) throw std::runtime_error(unwritten);
   return n;
 }
 

@@ -139,6 +139,8 @@ class Show {
       ++frames;
       frame(passed);
     }
+    keep_in_mind(stage_->finish());
+    if (!unwritten_.empty()) throw std::runtime_error(unwritten_);
     fmt::print("{} frames in {:.1f} s, {:.1f} per second\n", frames, seconds, seconds > 0 ? double(frames) / seconds : 0.0);
   }
 
@@ -146,11 +148,16 @@ class Show {
   void set(StageSetup setup) {
     painter_.reset();
     auto stage = std::make_unique<Stage>(std::move(setup));
+    if (stage_) keep_in_mind(stage_->finish());
     stage_ = std::move(stage);
     show(settings_.shown, *stage_);
     stage_->each([this](Session& s) { s.set_speed(settings_.speed); });
     painter_ = std::make_unique<StagePainter>(*stage_);
     home();
+  }
+
+  void keep_in_mind(const std::string& unwritten) {
+    if (unwritten_.empty()) unwritten_ = unwritten;
   }
 
   void home() {
@@ -239,6 +246,7 @@ class Show {
   std::unique_ptr<Stage> stage_;
   std::unique_ptr<StagePainter> painter_;
   std::filesystem::path picture_;
+  std::string unwritten_;  ///< the first file that could not be written, and why
   Rectangle area_;   ///< where the runs were drawn last
   int height_ = 0;   ///< px, of the picture
 };

@@ -93,7 +93,18 @@ void Stage::add(const Configuration& configuration) {
 }
 
 void Stage::remove(std::size_t k) {
-  if (sessions_.size() > 1) sessions_.erase(sessions_.begin() + std::ptrdiff_t(k));
+  if (sessions_.size() < 2) return;
+  const std::string unwritten = sessions_[k]->finish();
+  if (unwritten_.empty()) unwritten_ = unwritten;
+  sessions_.erase(sessions_.begin() + std::ptrdiff_t(k));
+}
+
+std::string Stage::finish() {
+  for (const auto& session : sessions_) {
+    const std::string unwritten = session->finish();
+    if (unwritten_.empty()) unwritten_ = unwritten;
+  }
+  return unwritten_;
 }
 
 void Stage::want() {

@@ -44,6 +44,8 @@ class Stage {
   /// One more run from the start, and the others back to theirs, so that they compare.
   void add(const Configuration& configuration);
   void remove(std::size_t k);
+  /// Ends all sessions. Returns what of any of them could not be written, in one line; empty: nothing.
+  std::string finish();
 
   /// Tells the sessions what is wanted of them, by what is shown.
   void want();
@@ -69,6 +71,7 @@ class Stage {
   std::vector<std::string> moving_;
   std::vector<std::string> titles_;  ///< of recorded runs
   std::vector<std::unique_ptr<Session>> sessions_;
+  std::string unwritten_;  ///< the first file that could not be written, and why
   std::vector<std::shared_ptr<const View>> views_;
   std::optional<Wanted> wanted_;  ///< as the sessions were told
 };

@@ -102,7 +102,7 @@ TEST(Gjk, CylindersAndEllipsoidsInClosedForm) {
 
 // The box's lowest corner above the floor, and every other finite shape by its support.
 TEST(Gjk, HalfSpaceAgainstAll) {
-  const HalfSpace floor({0, 0, 2}, 0.5), ceiling({0, 0, -1}, -3);
+  const HalfSpace floor({0, 0, 2}, 1), ceiling({0, 0, -1}, -3);
   const Box box({1, 1, 1});
   const Distance d = gjk_phase().distance(box, turned({5, 6, 2}, {std::numbers::pi / 4, 0, 0}), floor, {});
   EXPECT_NEAR(d.distance, 1.5 - std::numbers::sqrt2, 1e-15);

@@ -177,7 +177,7 @@ TEST(HullSat, SegmentAcrossAnEdge) {
 }
 
 TEST(HullSat, HalfSpacesAndCompounds) {
-  const HalfSpace floor({0, 0, 2}, 0.5);
+  const HalfSpace floor({0, 0, 2}, 1);
   const Box box({1, 1, 1});
   const Pose on_edge{{5, 6, 2}, rotation_matrix<double>(quaternion_from_rotation_vector<double>({std::numbers::pi / 4, 0, 0}))};
   const Distance d = sat_phase().distance(box, on_edge, floor, {});

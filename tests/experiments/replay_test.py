@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """replay as a user meets it: pages of runs and of studies, how large they are and what they say, and played in a browser
 that has no network. POLHODE_BIN_DIR is the folder of replay, energy_drift and simulate."""
+import csv
 import json
 import math
 import pathlib
+import random
 import re
 import unittest
 
@@ -94,6 +96,52 @@ class Pages(unittest.TestCase):
         kept, run = (data_of(self.folder / name)["runs"][0] for name in ("kept.html", "run.html"))
         for part in ("times", "positions", "orientations", "rates", "impacts", "instants", "momentum", "energy", "facts"):
             self.assertEqual(kept[part], run[part], part)
+
+    def test_columns_go_by_their_names_in_any_order(self):
+        axes = ["--scenario", "two_cubes", "--integrator", "rk4", "--dt", "0.01", "--t-end", "2", "--vary", "body.0.mass=1,2",
+                "--trajectory", "csv", "--no-figures", "--out", "study"]
+        call("energy_drift", *axes, folder=self.folder)
+        call("replay", "--results", "study", "--out", "before.html", folder=self.folder)
+        run = read(self.folder / "study/runs.csv")[0]["run"]
+        events = self.folder / "study/trajectories" / run / "events.csv"
+        self.assertGreater(len(read(events)), 0)
+        tables = [self.folder / "study/runs.csv", *sorted((self.folder / "study/trajectories").glob("*/*.csv"))]
+        self.assertEqual(len(tables), 7)
+        for seed in range(3):
+            for table in tables:
+                rows = read(table)
+                names = list(rows[0]) if rows else table.read_text().strip().split(",")
+                random.Random(seed).shuffle(names)
+                with open(table, "w", newline="", encoding="utf-8") as file:
+                    writer = csv.DictWriter(file, names, lineterminator="\n")
+                    writer.writeheader()
+                    writer.writerows(rows)
+            call("replay", "--results", "study", "--out", "after.html", folder=self.folder)
+            self.assertEqual((self.folder / "after.html").read_bytes(), (self.folder / "before.html").read_bytes())
+        for table, needed in ((events, ["t_s", "kind", "body_a", "body_b", "px_m", "py_m", "pz_m", "nx", "ny", "nz", "impulse_N_s"]),
+                              (events.with_name("energy.csv"), ["t_s", "drift_J"]),
+                              (events.with_name("trajectory.csv"), ["t_s", "body", "qw", "px_m"]),
+                              (self.folder / "study/runs.csv", ["run", "scenario", "integrator", "status", "message"])):
+            text = table.read_text()
+            head, rest = text.split("\n", 1)
+            for name in needed:
+                with self.subTest((table.name, name)):
+                    table.write_text(",".join("other" if n == name else n for n in head.split(",")) + "\n" + rest)
+                    said = self.refused("--results", "study", "--out", "none.html")
+                    self.assertIn(f"{table.relative_to(self.folder)}:1:1: ", said)
+                    self.assertIn(f"column {name}", said)
+            table.write_text(text)
+
+    def test_a_manifest_that_is_none(self):
+        call("energy_drift", *STUDY, folder=self.folder)
+        for text in ("", "[]", "3", "{", '{"command": 3}', '{"axes": {"scenario": [1]}}', "[" * 100_000, '{"scenarios": {"dzhanibekov": 3}}',
+                     '{"scenarios": {"dzhanibekov": {"resolved": 3}}}'):
+            with self.subTest(text[:20]):
+                (self.folder / "study/manifest.json").write_text(text)
+                if "scenarios" in text and "resolved" not in text:
+                    call("replay", "--results", "study", "--out", "page.html", folder=self.folder)
+                else:
+                    self.refused("--results", "study", "--out", "none.html")
 
     def test_a_scenario_of_its_own_is_found_again_and_must_be_the_same(self):
         scenario = self.folder / "mine.toml"

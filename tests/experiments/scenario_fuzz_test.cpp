@@ -199,6 +199,26 @@ TEST(ScenarioFuzz, MutatedTextsAreReadOrRefused) {
   EXPECT_LT(read_well, 9 * all / 10);
 }
 
+/// Keys of 10⁵ parts and as many brackets anywhere, which overflow the stack of whoever follows them down.
+TEST(ScenarioFuzz, EndlessNestingIsRefused) {
+  const std::vector<std::string> openings = {"a.", "a . ", "\"a\".", "'='.", "\",\".", "[", "[[", "{a=", "[{a.b=", "a = [\n", "x={"};
+  Dice dice(11);
+  for (int i = 0; i < 30 && !testing::Test::HasFailure(); ++i) {
+    std::vector<std::string> text = split(std::string(builtin_scenarios()[dice.below(8)].text));
+    const std::string& opening = dice.of(openings);
+    std::string deep;
+    for (int k = 0; k < 100'000; ++k) deep += opening;
+    const std::size_t at = dice.below(text.size());
+    text.insert(text.begin() + static_cast<std::ptrdiff_t>(at), (dice.below(2) == 0 ? "[" : "") + deep + "a = 1\n");
+    SCOPED_TRACE(opening);
+    EXPECT_EQ(read(joined(text), {}, "fuzz.toml:"), 0);
+    EXPECT_EQ(read(joined(text).substr(0, joined(text).size() / 2), {}, "fuzz.toml:"), 0);
+    const std::string scenario(builtin_scenarios()[0].text);
+    EXPECT_EQ(read(scenario, {{"body.0.mass", deep + "1"}}, "--vary "), 0);
+    EXPECT_EQ(read(scenario, {{deep + "mass", "1"}}, "--vary "), 0);
+  }
+}
+
 TEST(ScenarioFuzz, RandomOverridesAreReadOrRefused) {
   const std::vector<std::string> parts = {"body",        "force", "gravity", "0",        "1",         "2",
                                           "box",         "mass",  "inertia", "shape",    "radius",    "position",

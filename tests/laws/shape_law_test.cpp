@@ -78,7 +78,7 @@ std::vector<Sample> samples() {
          return within(x, {0, 0, 0}, {3, 1, 1}, slack) || within(x, {2, 0, 1}, {3, 1, 3}, slack);
        }},
       {"half_space", {{"normal", Vector(1, 2, -2)}, {"offset", 0.5}},
-       [](const Vector& x, double slack) { return x.dot(Vector(1, 2, -2)) / 3 <= 0.5 + slack; }},
+       [](const Vector& x, double slack) { return x.dot(Vector(1, 2, -2)) <= 0.5 + 3 * slack; }},
   };
 }
 
