@@ -133,6 +133,7 @@ std::string first_line(const Judged& judged) {
   }
   if (!d.untried.empty()) text += " (" + d.untried + ")";
   text += ": ";
+  append(text, r.message);
   append(text, invariants_words(r));
   append(text, errors_words(r));
   append(text, pace_words(score));

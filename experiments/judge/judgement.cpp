@@ -63,7 +63,8 @@ Table table_of(const std::vector<Judged>& judged) {
 
 std::string csv_of(const StudyView& study, const std::vector<Judged>& judged) {
   std::vector<std::string> header = {"trajectory", "scenario", "status", "message", "instants", "t_first_s", "t_last_s",
-                                     "spacing_max_s", "diagnosis", "diagnosis_factor", "diagnosis_margin", "polhode_pace", "energy_initial_J", "energy_drift_max_rel",
+                                     "spacing_max_s", "diagnosis", "diagnosis_factor", "diagnosis_margin",
+                                     "polhode_pace", "energy_initial_J", "energy_drift_max_rel",
                                      "energy_drift_final_rel", "energy_drift_rate_W", "drift_class",
                                      "energy_drift_rate_ci_W", "drift_exponent", "drift_exponent_low",
                                      "drift_exponent_high", "linear_momentum_drift_max_rel",

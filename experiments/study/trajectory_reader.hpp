@@ -35,7 +35,7 @@ struct Trajectory {
 /// line, column and a remedy.
 Trajectory parse_trajectory(std::string_view text, const std::string& origin, const Problem& problem);
 
-/// Of a regular file of at most 4 GiB with lines of at most 1 MiB. Throws InputError also where it cannot be read.
+/// Of the file. Throws InputError also where it cannot be read.
 Trajectory read_trajectory(const std::string& path, const Problem& problem);
 
 }  // namespace polhode::study
