@@ -51,8 +51,8 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
                             const std::function<void(CLI::App&)>& more) {
   ParsedOptions parsed;
   Options& options = parsed.options;
-  const std::string meaning = experiment.meaning.empty() ? "" : "\n\n" + experiment.meaning;
-  CLI::App app{experiment.question + meaning + "\n\nAxes take a list (a,b,c) or a range (1e-4:1e-1:10, or 1e-4:1e-1:10:log); the "
+  const std::string explained = experiment.meaning.empty() ? "" : "\n\n" + experiment.meaning;
+  CLI::App app{experiment.question + explained + "\n\nAxes take a list (a,b,c) or a range (1e-4:1e-1:10, or 1e-4:1e-1:10:log); the "
                                      "study is their product. SI units throughout.",
                experiment.name};
   app.get_formatter()->column_width(40);
