@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drifts of known kind: hardly a decided class is wrong, no growth is claimed of round-off, and what is clear is decided.
+// Drifts of known kind: hardly a decided class is wrong, no growth is claimed of round-off, and what is clear is
+// decided.
 #include "experiments/study/drift_class.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,9 @@ const std::set<std::string> growths = {"random walk", "sublinear", "linear", "qu
 class Chance {
  public:
   explicit Chance(unsigned seed) : engine_(seed) {}
-  double uniform(double from, double to) { return from + (to - from) * (static_cast<double>(engine_()) + 0.5) / 4294967296.0; }
+  double uniform(double from, double to) {
+    return from + (to - from) * (static_cast<double>(engine_()) + 0.5) / 4294967296.0;
+  }
   double logarithmic(double from, double to) { return std::exp(uniform(std::log(from), std::log(to))); }
   double normal() { return std::sqrt(-2 * std::log(uniform(0, 1))) * std::cos(2 * pi * uniform(0, 1)); }
   int below(int n) { return std::min(n - 1, static_cast<int>(uniform(0, n))); }
@@ -42,21 +45,25 @@ struct Drift {
   int samples = 0;
   double t_end = 1, round_off = 0;
   std::function<double(double)> law = [](double) { return 0.0; };
-  double walk = 0;   ///< standard deviation at the end
-  double noise = 0;  ///< from sample to sample
+  double walk = 0;                ///< standard deviation at the end
+  double noise = 0;               ///< from sample to sample
   std::vector<double> impacts{};  ///< over t_end
 };
 
-/// 1 in size, of `periods` in the run: a sine, one with a harmonic, or a row of pulses as a body near its unstable axis has.
+/// 1 in size, of `periods` in the run: a sine, one with a harmonic, or a row of pulses as a body near its unstable axis
+/// has.
 std::function<double(double)> oscillation(Chance& chance, double periods) {
   const double phase = chance.uniform(0, 2 * pi), sharp = chance.logarithmic(2, 30), other = chance.uniform(0, 2 * pi);
   switch (chance.below(3)) {
-    case 0: return [=](double s) { return std::sin(2 * pi * periods * s + phase); };
-    case 1: return [=](double s) {
-      const double u = 2 * pi * periods * s + phase;
-      return 0.8 * std::sin(u) + 0.3 * std::sin(2 * u + other);
-    };
-    default: return [=](double s) { return std::exp(sharp * (std::cos(2 * pi * periods * s + phase) - 1)); };
+    case 0:
+      return [=](double s) { return std::sin(2 * pi * periods * s + phase); };
+    case 1:
+      return [=](double s) {
+        const double u = 2 * pi * periods * s + phase;
+        return 0.8 * std::sin(u) + 0.3 * std::sin(2 * u + other);
+      };
+    default:
+      return [=](double s) { return std::exp(sharp * (std::cos(2 * pi * periods * s + phase) - 1)); };
   }
 }
 
@@ -113,7 +120,8 @@ Drift drift(const std::string& kind, Chance& chance) {
   if (kind == "jumps") {
     const int count = 1 + chance.below(6);
     std::vector<double> heights;
-    for (int i = 0; i < count; ++i) d.impacts.push_back(chance.uniform(0.05, 0.95)), heights.push_back(size * chance.uniform(0.3, 1));
+    for (int i = 0; i < count; ++i)
+      d.impacts.push_back(chance.uniform(0.05, 0.95)), heights.push_back(size * chance.uniform(0.3, 1));
     std::sort(d.impacts.begin(), d.impacts.end());
     d.law = [=, at = d.impacts](double s) {
       double sum = 0;
@@ -154,7 +162,8 @@ Drift drift(const std::string& kind, Chance& chance) {
   d.law = [=](double s) { return size * (grows(s) + share * beside(s)); };
   if (chance.one_in(3)) d.walk = std::max(d.walk, std::abs(size) * chance.logarithmic(1e-3, 0.1));
   if (chance.one_in(3)) d.noise = std::abs(size) * chance.logarithmic(1e-3, 0.1);
-  d.clear = above > 100 && d.samples >= 100 && (alone || (periods >= 8 && share < 3)) && kind != "sublinear" && kind != "faster";
+  d.clear = above > 100 && d.samples >= 100 && (alone || (periods >= 8 && share < 3)) && kind != "sublinear" &&
+            kind != "faster";
   return d;
 }
 
@@ -182,7 +191,8 @@ DriftRecord record_of(const Drift& d, Chance& chance) {
 }
 
 TEST(DriftClass, OfAThousandDriftsOfKnownKindIsHardlyEverWrong) {
-  const char* kinds[] = {"round-off", "bounded", "bounded", "random walk", "linear", "linear", "quadratic", "faster", "jumps", "stairs", "sublinear", "saturated", "swelling"};
+  const char* kinds[] = {"round-off", "bounded", "bounded", "random walk", "linear",    "linear",  "quadratic",
+                         "faster",    "jumps",   "stairs",  "sublinear",   "saturated", "swelling"};
   constexpr int drifts = 1000;
   int decided = 0, wrong = 0, clear = 0, clear_and_decided = 0, growth_from_round_off = 0;
   std::string which;
@@ -191,7 +201,8 @@ TEST(DriftClass, OfAThousandDriftsOfKnownKindIsHardlyEverWrong) {
     const Drift d = drift(kinds[i % 13], chance);
     const DriftRecord record = record_of(d, chance);
     const DriftClass c = classify(record);
-    const bool told = c.name != "undecided", right = d.right.contains(c.name) || (record.largest <= record.round_off && c.name == "round-off");
+    const bool told = c.name != "undecided",
+               right = d.right.contains(c.name) || (record.largest <= record.round_off && c.name == "round-off");
     decided += told;
     wrong += told && !right;
     clear += d.clear;
@@ -271,8 +282,14 @@ TEST(DriftClass, OfAnOscillationThatSwellsIsNotBounded) {
 }
 
 TEST(DriftClass, OfTooFewSamplesHasTheDurationThatHasEnough) {
-  DriftRecord r{.blocks = {{0, 0}, {1, 1}, {2, 2}, {3, 3}}, .largest = 3, .largest_early = 1, .round_off = 0, .scale = 10,
-                .samples = 4, .t_end = 3, .impacts = {}};
+  DriftRecord r{.blocks = {{0, 0}, {1, 1}, {2, 2}, {3, 3}},
+                .largest = 3,
+                .largest_early = 1,
+                .round_off = 0,
+                .scale = 10,
+                .samples = 4,
+                .t_end = 3,
+                .impacts = {}};
   const DriftClass c = classify(r);
   EXPECT_EQ(c.name, "undecided");
   EXPECT_DOUBLE_EQ(*c.decided_after, 24);

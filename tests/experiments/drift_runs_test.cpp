@@ -13,7 +13,8 @@ namespace {
 
 const std::set<std::string> growing = {"random walk", "sublinear", "linear", "quadratic", "faster"};
 
-RunResult result_on(const std::string& scenario_name, const std::string& method, double dt, std::optional<double> t_end_s = {}) {
+RunResult result_on(const std::string& scenario_name, const std::string& method, double dt,
+                    std::optional<double> t_end_s = {}) {
   const Scenario scenario = ScenarioSource::open(scenario_name).resolve();
   RunConfig config;
   config.scenario = scenario.name;
@@ -65,7 +66,8 @@ TEST(DriftOfRuns, OfAFallIsRoundOffForWhatIsExactThere) {
     EXPECT_EQ(r.drift_class, "round-off") << dt;
     EXPECT_FALSE(r.drift_exponent || r.drift_decided_after);
   }
-  for (const double dt : {5e-4, 1e-3, 2e-3}) EXPECT_EQ(result_on("peters_hsu", "rk4", dt).drift_class, "round-off") << dt;
+  for (const double dt : {5e-4, 1e-3, 2e-3})
+    EXPECT_EQ(result_on("peters_hsu", "rk4", dt).drift_class, "round-off") << dt;
   // Three turns of the box do not tell RK4's loss from its oscillation.
   const RunResult r = result_on("peters_hsu", "rk4", 2e-2);
   EXPECT_EQ(r.drift_class, "undecided");

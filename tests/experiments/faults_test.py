@@ -94,6 +94,16 @@ class BadRuns(FaultsTest):
         forced = self.call(*study, "--force", status=3)
         self.assertIn(f"{12 - len(failed)} of 12 runs are there already", forced.stderr)
 
+    def test_a_state_that_is_lost_in_a_step_with_contact_has_diverged(self):
+        scenario = self.write("tiny.toml", CONTACT.format(size="[1e-6, 1e-6, 1e-6]", height=0.01, more=""))
+        self.call("--scenario", scenario, "--integrator", "rk4,heun", "--dt", "1e-2,1e-3", "--no-figures")
+        rows = read(self.out / "runs.csv")
+        lost = [r for r in rows if r["status"] != "ok"]
+        self.assertTrue(lost, "no run of a box of 1 µm was lost: this test needs another one")
+        for row in lost:
+            self.assertEqual(row["status"], "diverged")
+            self.assertIn("the state ceased to be finite at t = ", row["message"])
+
     def test_bodies_in_one_place_fail_with_the_cause_and_the_remedy(self):
         scenario = self.write("crowd.toml", 't_end = 1\ncontact = true\n[[body]]\nname = "a"\nmass = 1\nshape = { kind = '
                               '"box", size = [1, 1, 1] }\nrepeat = [1500, 1, 1]\nspacing = [1e-9, 0, 0]\n')
