@@ -42,7 +42,7 @@ int run_program(const std::string& name, const std::function<int()>& program, co
     const auto* system = dynamic_cast<const std::system_error*>(&error);
     if (std::ferror(stdout) != 0 && !printed(name, system ? system->code().value() : 0)) return not_carried_out;
     const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-    say(name, (memory ? std::string("there is not enough memory") : error.what()) + afterwards);
+    say(name, (memory ? std::string("out of memory") : error.what()) + afterwards);
     return not_carried_out;
   }
 }
