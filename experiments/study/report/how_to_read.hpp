@@ -11,17 +11,19 @@ inline constexpr std::string_view how_to_read = R"html(<aside class="box" aria-l
 <dl>
 <dt>Energy drift</dt>
 <dd>Energy is a ledger: kinetic + potential − work of non-conservative forces + energy lost in contact − energy injected by projection.
-Its drift is what the ledger cannot explain, relative to the energy at the start (to the larger of kinetic and
-potential energy where they cancel). A positive drift is energy that the method made.</dd>
-<dt>Drift rate, growth of the drift</dt>
+Its drift is what the ledger cannot explain. It is relative to the energy scale of the motion: the largest kinetic energy or
+change of potential energy along the true motion, or what the scenario fixes. All runs of a scenario and a duration share that
+scale, whatever the origin and the zero of the potential. A positive drift is energy that the method made.</dd>
+<dt>Drift rate, class of the drift</dt>
 <dd>The rate is the slope of a straight line by least squares. The exponent p of |drift| ∝ t<sup>p</sup> is what is left
 when oscillations are set aside: bounded (p below ¼), random walk (below ¾, rounding errors
 have ½; sublinear where the drift goes one way), linear (below 1½),
-quadratic (below 2½), faster; round-off where it never passes 1e-13. The intervals hold the truth in 95 of 100 cases; one
-that reaches into another class says that the run is too short to tell.</dd>
+quadratic (below 2½), faster. The intervals hold the truth in 95 of 100 cases; where one reaches into another class, or an
+oscillation is too slow for the run, the class is undecided, with the duration that would decide. Round-off: the drift never
+passes what rounding can add up to. Saturated: it rests at the size of the energy itself. Jumps: it changes at impacts alone.</dd>
 <dt>Momentum drift</dt>
-<dd>The size of the change of the momentum vector, relative to its size at the start; only where the forces
-conserve it.</dd>
+<dd>The size of the change of the momentum vector, relative to the largest sum of the sizes of the bodies’ momenta along the true
+motion; only where the forces conserve it.</dd>
 <dt>Orientation defect</dt>
 <dd>How far the stored numbers are from a rotation: ||q| − 1| of a quaternion, the Frobenius norm of RᵀR − 1
 of a matrix.</dd>
@@ -43,7 +45,7 @@ stay on one line. Where fewer than three are left, or they scatter, the data tel
 declared order is that of the motion’s error; an invariant may drift by a higher power.</dd>
 <dt>Round-off</dt>
 <dd>A value below 16 ε √steps, what rounding errors alone may add up to (ε = 2.2e-16 in double
-precision).</dd>
+precision). Of the energy, the same of the terms that were added, not of their difference: energy_round_off_J in runs.csv.</dd>
 <dt>– in a table</dt>
 <dd>Not defined for that run: no exact solution is known and no reference proves digits enough, the forces do
 not conserve that momentum, or the run ended too early.</dd>
