@@ -81,7 +81,9 @@ TEST_P(Origin, ChangesNothing) {
   // The solver of many contacts ends its sweeps at other digits, and bodies that rest on each other shake by that.
   const bool many = !scenario.colliders.empty() && scenario.problem.moving() > 2;
   const double close = many ? 1e-2 : 1e-6, shaking = many ? 1e-4 : 0;
-  for (const char* method : {"explicit_euler", "semi_implicit_euler", "rk4", "lie_midpoint"}) {
+  constexpr std::size_t large = 50;  // bodies, of which one method is enough
+  for (const char* method : {"semi_implicit_euler", "explicit_euler", "rk4", "lie_midpoint"}) {
+    if (scenario.problem.moving() > large && method != std::string("semi_implicit_euler")) break;
     const RunConfig config = configured(scenario, method);
     if (!refusal(config, scenario).empty()) continue;
     const RunResult here = carry_out(config, scenario, {}, nullptr);
