@@ -184,8 +184,9 @@ void DriftMeter::measure_errors(const State<double>& state) {
 void DriftMeter::report(RunResult& result) {
   result.energy_initial = finite(energy_start_);
   if (scales_.energy > 0) result.energy_scale = scales_.energy;
-  result.energy_drift_max = finite(sums_.worst_energy);
   result.energy_round_off = scales_.energy_round_off(precision_, result.steps);
+  if (sums_.samples < 2) return;  // a run that took no step has no drift
+  result.energy_drift_max = finite(sums_.worst_energy);
   result.energy_drift_max_rel = finite(sums_.worst_energy / scales_.energy);
   result.energy_drift_final_rel = finite(sums_.last_energy / scales_.energy);
   const double n = static_cast<double>(sums_.samples);

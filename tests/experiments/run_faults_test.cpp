@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "experiments/study/csv.hpp"
+#include "experiments/study/drift_meter.hpp"
 #include "experiments/study/result_numbers.hpp"
 #include "experiments/study/run.hpp"
 #include "experiments/study/scenario.hpp"
@@ -48,6 +49,22 @@ TEST(RunFaults, ATrajectoryThatCannotBeWrittenIsNoFaultOfTheRun) {
   for (const auto format : {TrajectoryFormat::csv, TrajectoryFormat::hdf5}) {
     EXPECT_THROW(carry_out(rk4(scenario), scenario, {format, "/dev/null/folder"}, nullptr), TrajectoryError);
   }
+}
+
+TEST(RunFaults, ARunWithoutAStepHasNoDrift) {
+  const Scenario scenario = ScenarioSource::open("oscillator").resolve();
+  const auto system = make_system<double>(scenario.problem, {});
+  DriftMeter meter(*system, {}, 1, false, {motion_scales(scenario, 1), nullptr});
+  const State<double> start = system->start();
+  const Sample sample{0, system->measure(start.y), 0, 0};
+  meter.look(start, sample);
+  EXPECT_EQ(meter.observe({&sample, 1}), 1u);
+  RunResult result;
+  result.status = "failed";
+  meter.report(result);
+  EXPECT_EQ(result.energy_initial, 0.5);
+  EXPECT_FALSE(result.energy_drift_max || result.energy_drift_max_rel || result.energy_drift_final_rel);
+  EXPECT_FALSE(result.angular_momentum_drift_max_rel || result.orientation_defect_max || result.attitude_error_max);
 }
 
 TEST(ResultNumbers, AreFiniteAndZeroHasNoSign) {
