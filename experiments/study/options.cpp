@@ -77,7 +77,7 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
       ->type_name("KEY=VALUES")
       ->allow_extra_args(false)
       ->group("Axes");
-  std::string study_file;
+  std::optional<std::string> study_file;
   app.add_option("--study", study_file, "read axes from a TOML file; the command line overrides it")
       ->type_name("FILE")
       ->group("Axes");
@@ -123,9 +123,9 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
                                               : TrajectoryFormat::none;
   options.command = command_text(experiment.name, argc, argv);
   options.axes = experiment.defaults;
-  if (study_file.empty() && !given.contains("scenario")) options.vary = experiment.vary;
-  options.plain = given.empty() && vary.empty() && study_file.empty();
-  if (!study_file.empty()) read_study_file(study_file, options);
+  if (!study_file && !given.contains("scenario")) options.vary = experiment.vary;
+  options.plain = given.empty() && vary.empty() && !study_file;
+  if (study_file) read_study_file(*study_file, options);
   for (const std::string& axis : axis_names()) {
     if (given.contains(axis) || options.places.contains(axis)) options.said.insert(axis);
   }

@@ -28,6 +28,7 @@ class InputFiles(unittest.TestCase):
 
     def test_a_study_file_must_be_one(self):
         self.refused("energy_drift", "--study", ".", say="--study .: is a folder")
+        self.refused("energy_drift", "--study", "", say="no such file")
         self.refused("energy_drift", "--study", self.write("empty.toml", ""), say="--study empty.toml: there is nothing in it")
         self.refused("energy_drift", "--study", self.write("comment.toml", "# later\n"), say="there is nothing in it")
         self.refused("energy_drift", "--study", "/dev/zero", say="/dev/zero: byte 1 is zero")
