@@ -177,6 +177,32 @@ TEST(Potential, ZeroChangesNothing) {
   }
 }
 
+/// A method that loses linear momentum too: the angular one is about the mass centre at the start, not the world's origin.
+TEST(Origin, AngularMomentumOfSeveralBodiesIsAboutTheirMassCentre) {
+  const Scenario scenario = ScenarioSource::open("two_bodies").resolve();
+  std::vector<double> drifts;
+  for (const Vector& shift : {Vector(0, 0, 0), Vector(1e3, -1e3, 1e3)}) {
+    const Scenario moved = retold(scenario, shift, {1, 0, 0, 0});
+    const auto system = make_system<double>(moved.problem, {});
+    DriftMeter meter(*system, {}, 1, false, {motion_scales(moved, 1), nullptr});
+    State<double> state = system->start();
+    for (const double kick : {0.0, 0.01}) {
+      state.y[system->layout().slots[0].velocity] += kick;  // m/s
+      state.t = kick;
+      const Sample sample{state.t, system->measure(state.y), 0, 0};
+      meter.look(state, sample);
+      EXPECT_EQ(meter.observe({&sample, 1}), 1u);
+    }
+    RunResult result;
+    result.status = "ok";
+    result.steps = 1;
+    meter.report(result);
+    EXPECT_GT(*result.linear_momentum_drift_max_rel, 1e-3);
+    drifts.push_back(*result.angular_momentum_drift_max_rel);
+  }
+  EXPECT_NEAR(drifts[0], drifts[1], 1e-9);
+}
+
 /// A rod that hangs from its end, let go horizontally: the energies at the start cancel to round-off.
 TEST(Origin, ARodLetGoHorizontallyIsNotDiverged) {
   const Scenario scenario =
