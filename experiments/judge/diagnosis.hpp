@@ -2,9 +2,8 @@
 // What is wrong with a trajectory, found by trying: each reading of its columns, each fault in the equations of rotation
 // and each first-order step implies a motion, and the rows either follow that motion or do not.
 //
-// Rows are set against a motion in two ways: over spans of half a radian, each started from a row, so that errors which
-// have grown since the start do not count; and over the first two radians, started as the scenario says. A miss is an
-// angle: √(attitude² + (ω / rate)²), root mean square without the worst tenth.
+// hypothesis.hpp has what is tried, clock_fit.hpp and step_fit.hpp what is fitted, miss.hpp how far rows are from a motion;
+// the decision is here.
 #pragma once
 
 #include <optional>
@@ -26,7 +25,7 @@ struct Diagnosis {
   std::string words;               ///< what is wrong, as a clause; empty for "none"
   std::string untried;             ///< why nothing, or not all, could be tried; may be empty
   std::string remark;              ///< what fits but may have another cause than a fault; may be empty
-  double miss = 0;                 ///< rad, of the plain reading, over half a radian
+  double miss = 0;                 ///< rad, of the plain reading, see miss.hpp
   double span = 0;                 ///< rad, of the spans over which it was taken
   std::optional<double> factor;    ///< how much better the named reading fits than the plain one
   std::optional<double> margin;    ///< and than the best one of another cause
