@@ -218,7 +218,8 @@ std::size_t LiveSession::observe(std::span<const Sample> samples) {
   for (; taken < samples.size(); ++taken) {
     Sample sample = samples[taken];
     sample.projection += projection_before_;
-    if (!first_look_ && memory_.hopeless(memory_.energy_drift(sample, sum(losses_before_, losses_)))) break;
+    if (first_look_) continue;
+    if (memory_.hopeless(memory_.energy_drift(sample, sum(losses_before_, losses_))) || memory_.hopeless(sample.seen.kinetic)) break;
   }
   return taken;
 }

@@ -31,7 +31,6 @@ const System<double>& SessionMemory::system(const Formulation& f) {
 
 void SessionMemory::begin(const Kept& start) {
   energy_start_ = start.sample.ledger(start.losses.total());
-  kinetic_start_ = start.sample.seen.kinetic;
   momentum_start_ = start.sample.seen.angular_momentum;
   history_ = Thinned<Kept>(capacity_);
   plot_ = Thinned<PlotPoint>(most_points);
@@ -53,12 +52,15 @@ void SessionMemory::forget_after(std::int64_t step) {
   for (Traced& t : traced_) t.points.forget_after(step);
 }
 
-bool SessionMemory::hopeless(double energy_drift) {
-  // The scale is at least the kinetic energy at the start, unless the scenario fixes it.
-  if (!energy_scale_ && !scenario_.energy_scale && std::abs(energy_drift) <= study::hopeless_drift * kinetic_start_) return false;
+bool SessionMemory::hopeless(double energy) {
+  if (!std::isfinite(energy)) return true;
+  // With contact a scale can take a second, in which nothing moves. That of a part of the motion is no larger than that of
+  // the whole; half of it allows for other steps.
+  constexpr double part = 0.01;
+  if (!early_scale_) early_scale_ = study::motion_scales(scenario_, part * scenario_.t_end).energy / 2;
+  if (std::abs(energy) <= study::hopeless_drift * *early_scale_) return false;
   if (!energy_scale_) energy_scale_ = study::motion_scales(scenario_, scenario_.t_end).energy;
-  const double bound = *energy_scale_ > 0 ? study::hopeless_drift * *energy_scale_ : std::numeric_limits<double>::max();
-  return !(std::abs(energy_drift) <= bound);
+  return *energy_scale_ > 0 && std::abs(energy) > study::hopeless_drift * *energy_scale_;
 }
 
 double SessionMemory::first_time() const { return history_.items().empty() ? 0 : history_.items().front().value.state.t; }

@@ -38,11 +38,12 @@ class SessionMemory {
   void add(const Kept& now);
   void forget_after(std::int64_t step);
 
-  /// J, what the ledger cannot explain, and whether it is beyond hope.
+  /// J, what the ledger cannot explain.
   double energy_drift(const Sample& sample, const ContactLosses& losses) const {
     return sample.ledger(losses.total()) - energy_start_;
   }
-  bool hopeless(double energy_drift);
+  /// Whether an energy drift, or a kinetic energy (J), ends the run as diverged, as it does in a study.
+  bool hopeless(double energy);
 
   double first_time() const;  ///< s
   /// The one nearest in time, `now` among them; of two as near the later.
@@ -68,8 +69,9 @@ class SessionMemory {
     Thinned<TracePoint> points;
   };
   std::vector<Traced> traced_;
-  double energy_start_ = 0, kinetic_start_ = 0;  ///< J
-  std::optional<double> energy_scale_;           ///< J, found when it is first needed: it can take a second
+  double energy_start_ = 0;  ///< J
+  /// J, of the first hundredth of the motion and of all of it, found when they are first needed.
+  std::optional<double> early_scale_, energy_scale_;
   Vector3<double> momentum_start_ = Vector3<double>::Zero();
 };
 
