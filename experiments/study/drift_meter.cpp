@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "experiments/study/drift_class.hpp"
+
 namespace polhode::study {
 namespace {
 

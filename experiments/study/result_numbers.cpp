@@ -2,7 +2,10 @@
 #include "experiments/study/result_numbers.hpp"
 
 #include <cmath>
+#include <initializer_list>
 #include <iterator>
+#include <optional>
+#include <vector>
 
 namespace polhode::study {
 namespace {
@@ -11,6 +14,22 @@ namespace {
 bool settle(double& x) {
   x += 0.0;
   return std::isfinite(x);
+}
+
+bool settle_all(std::initializer_list<double*> numbers) {
+  bool finite = true;
+  for (double* x : numbers) finite = settle(*x) && finite;
+  return finite;
+}
+
+/// Keeps the points for which settled(point) is true.
+template <class Point, class Settled>
+void keep_points(std::vector<Point>& points, const Settled& settled) {
+  auto end = points.begin();
+  for (Point& point : points) {
+    if (settled(point)) *end++ = point;
+  }
+  points.erase(end, points.end());
 }
 
 void settle(std::optional<double>& x) {
@@ -27,11 +46,10 @@ void keep_finite(RunResult& result) {
   for (auto drift = result.invariant_drift_max_rel.begin(); drift != result.invariant_drift_max_rel.end();) {
     drift = settle(drift->second) ? std::next(drift) : result.invariant_drift_max_rel.erase(drift);
   }
-  std::erase_if(result.series, [](SeriesPoint& p) {
-    return !(settle(p.t) & settle(p.energy_drift_rel) & settle(p.linear_momentum_drift_rel) &
-             settle(p.angular_momentum_drift_rel) & settle(p.orientation_defect));
+  keep_points(result.series, [](SeriesPoint& p) {
+    return settle_all({&p.t, &p.energy_drift_rel, &p.linear_momentum_drift_rel, &p.angular_momentum_drift_rel, &p.orientation_defect});
   });
-  std::erase_if(result.attitude_errors, [](AttitudeError& e) { return !(settle(e.t) & settle(e.error_rad)); });
+  keep_points(result.attitude_errors, [](AttitudeError& e) { return settle_all({&e.t, &e.error_rad}); });
 }
 
 }  // namespace polhode::study

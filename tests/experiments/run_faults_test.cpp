@@ -35,7 +35,7 @@ TEST(RunFaults, AnExceptionOfOneLaneFailsThatRunAlone) {
   ASSERT_EQ(results.size(), 3u);
   const RunResult alone = carry_out(config, sound, {}, nullptr);
   ASSERT_EQ(alone.status, "ok");
-  for (const std::size_t k : {0, 2}) {
+  for (const std::size_t k : {0u, 2u}) {
     EXPECT_EQ(results[k].status, "ok") << results[k].message;
     EXPECT_EQ(results[k].energy_drift_final_rel, alone.energy_drift_final_rel);
   }
