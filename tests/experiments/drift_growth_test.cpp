@@ -103,7 +103,7 @@ TEST_P(Drifts, HaveTheirClassAndTheirIntervals) {
     EXPECT_GE(counts.exponent_covered, 180);
   }
   EXPECT_GE(counts.slope_covered, 180);
-  EXPECT_LE(counts.width, 0.35);
+  EXPECT_LE(counts.width, 0.3);
 }
 
 INSTANTIATE_TEST_SUITE_P(
