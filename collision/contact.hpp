@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/linear_algebra.hpp"
+#include "core/math/linear_algebra.hpp"
 
 namespace polhode {
 

@@ -2,8 +2,8 @@
 // Where a shape stands in the world.
 #pragma once
 
-#include "core/linear_algebra.hpp"
-#include "core/quaternion.hpp"
+#include "core/math/linear_algebra.hpp"
+#include "core/math/quaternion.hpp"
 
 namespace polhode {
 

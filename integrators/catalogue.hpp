@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/integrator.hpp"
+#include "core/run/integrator.hpp"
 
 namespace polhode {
 

@@ -12,8 +12,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "core/flatten.hpp"
-#include "core/rigid_bodies.hpp"
+#include "core/math/flatten.hpp"
+#include "core/system/rigid_bodies.hpp"
 #include "integrators/catalogue.hpp"
 
 namespace polhode {

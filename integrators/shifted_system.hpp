@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "core/rigid_bodies.hpp"
+#include "core/system/rigid_bodies.hpp"
 
 namespace polhode {
 

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# cmake -P embed_texts.cmake OUTPUT.cpp HEADER TYPE FUNCTION [FILE ...]: writes the table of {name, text} that FUNCTION of
-# polhode::study returns as a span of TYPE, both declared by HEADER; names are those of the files without their endings.
+# cmake -P embed_texts.cmake OUTPUT.cpp HEADER NAMESPACE TYPE FUNCTION [FILE ...]: writes the table of {name, text} that FUNCTION
+# of NAMESPACE returns as a span of TYPE, both declared by HEADER; names are those of the files without their endings.
 set(names)
 set(output ${CMAKE_ARGV3})
 set(header ${CMAKE_ARGV4})
-set(type ${CMAKE_ARGV5})
-set(function ${CMAKE_ARGV6})
+set(namespace ${CMAKE_ARGV5})
+set(type ${CMAKE_ARGV6})
+set(function ${CMAKE_ARGV7})
 math(EXPR last "${CMAKE_ARGC} - 1")
-foreach(i RANGE 7 ${last})
+foreach(i RANGE 8 ${last})
   if(i GREATER last)
     break() # foreach counts down when there is no file
   endif()
@@ -28,7 +29,7 @@ file(WRITE ${output} "// SPDX-License-Identifier: BSD-3-Clause
 
 #include <array>
 
-namespace polhode::study {
+namespace ${namespace} {
 namespace {
 
 constexpr std::array<${type}, ${count}> kTexts{{
@@ -38,5 +39,5 @@ ${table}}};
 
 std::span<const ${type}> ${function}() { return kTexts; }
 
-}  // namespace polhode::study
+}  // namespace ${namespace}
 ")

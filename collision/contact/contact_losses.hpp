@@ -6,7 +6,7 @@
 #include <span>
 
 #include "collision/response.hpp"
-#include "core/contact_model.hpp"
+#include "core/run/contact_model.hpp"
 
 namespace polhode {
 

@@ -12,7 +12,7 @@
 #include "collision/contact/collider.hpp"
 #include "collision/narrow_phase.hpp"
 #include "collision/response.hpp"
-#include "core/system.hpp"
+#include "core/system/system.hpp"
 
 namespace polhode {
 

@@ -17,8 +17,8 @@
 
 #include "collision/contact/contact_scene.hpp"
 #include "collision/contact/guards.hpp"
-#include "collision/contact/held_impulses.hpp"
-#include "core/contact_model.hpp"
+#include "collision/contact/constant_contact_forces.hpp"
+#include "core/run/contact_model.hpp"
 
 namespace polhode {
 

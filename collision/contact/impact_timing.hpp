@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "collision/contact/contact_scene.hpp"
-#include "core/contact_model.hpp"
+#include "core/run/contact_model.hpp"
 
 namespace polhode {
 

@@ -14,7 +14,7 @@
 
 #include "collision/narrow/box_sat.hpp"
 #include "collision/narrow/four.hpp"
-#include "core/lanes.hpp"
+#include "core/math/lanes.hpp"
 
 #ifdef __AVX__
 #include <immintrin.h>

@@ -10,7 +10,7 @@
 #include <immintrin.h>
 #endif
 
-#include "core/linear_algebra.hpp"
+#include "core/math/linear_algebra.hpp"
 
 // Where the processor has narrower registers, GCC warns of how such numbers are passed. They pass within a file only.
 #pragma GCC diagnostic ignored "-Wpsabi"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "collision/response.hpp"
-#include "core/lanes.hpp"
+#include "core/math/lanes.hpp"
 
 namespace polhode {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/lanes.hpp"
+#include "core/math/lanes.hpp"
 
 namespace polhode {
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "collision/response/penetration.hpp"
+#include "collision/response/position_correction.hpp"
 #include "collision/response.hpp"
 
 namespace polhode {

@@ -22,7 +22,7 @@
 #include "collision/response/energy_guard.hpp"
 #include "collision/response/friction_cone.hpp"
 #include "collision/response/islands.hpp"
-#include "collision/response/penetration.hpp"
+#include "collision/response/position_correction.hpp"
 #include "collision/response.hpp"
 
 namespace polhode {

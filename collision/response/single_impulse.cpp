@@ -13,7 +13,7 @@
 #include <cmath>
 
 #include "collision/response/contact_frame.hpp"
-#include "collision/response/penetration.hpp"
+#include "collision/response/position_correction.hpp"
 #include "collision/response.hpp"
 
 namespace polhode {

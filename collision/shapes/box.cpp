@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "collision/shapes/box.hpp"
 
-#include "collision/shape_catalogue.hpp"
+#include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/size_checks.hpp"
-#include "core/shape_inertia.hpp"
+#include "collision/shapes/shape_inertia.hpp"
 
 namespace polhode {
 

@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "collision/shape_catalogue.hpp"
+#include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/obj_mesh.hpp"
 #include "collision/shapes/size_checks.hpp"
-#include "core/inertia.hpp"
+#include "core/problem/inertia.hpp"
 
 namespace polhode {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "collision/shape_catalogue.hpp"
+#include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/obj_mesh.hpp"
 #include "collision/shapes/polyhedron_mass.hpp"
 #include "collision/shapes/qhull_faces.hpp"

@@ -7,7 +7,7 @@
 
 #include "collision/shapes/polytope.hpp"
 #include "collision/shape.hpp"
-#include "core/lanes.hpp"
+#include "core/math/lanes.hpp"
 
 namespace polhode {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "collision/shape_catalogue.hpp"
+#include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/size_checks.hpp"
 
 namespace polhode {

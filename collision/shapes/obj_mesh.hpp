@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/linear_algebra.hpp"
+#include "core/math/linear_algebra.hpp"
 
 namespace polhode {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/linear_algebra.hpp"
+#include "core/math/linear_algebra.hpp"
 
 namespace polhode {
 

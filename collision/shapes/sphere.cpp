@@ -3,9 +3,9 @@
 
 #include <numbers>
 
-#include "collision/shape_catalogue.hpp"
+#include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/size_checks.hpp"
-#include "core/shape_inertia.hpp"
+#include "collision/shapes/shape_inertia.hpp"
 
 namespace polhode {
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/force_kind.hpp"
-#include "core/problem.hpp"
+#include "core/problem/force_kind.hpp"
+#include "core/problem/problem.hpp"
 
 namespace polhode {
 

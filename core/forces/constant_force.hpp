@@ -3,7 +3,7 @@
 // (a thruster) it has none and its work is accounted for.
 #pragma once
 
-#include "core/force_kind.hpp"
+#include "core/problem/force_kind.hpp"
 
 namespace polhode {
 

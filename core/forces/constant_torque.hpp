@@ -2,7 +2,7 @@
 // A constant torque, fixed in the world or in the body. It has no potential: its power is τ · ω.
 #pragma once
 
-#include "core/force_kind.hpp"
+#include "core/problem/force_kind.hpp"
 
 namespace polhode {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/forces/catalogue.hpp"
-#include "core/lanes.hpp"
-#include "core/problem.hpp"
+#include "core/math/lanes.hpp"
+#include "core/problem/problem.hpp"
 
 namespace polhode {
 

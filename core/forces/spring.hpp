@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/flatten.hpp"
+#include "core/math/flatten.hpp"
 #include "core/forces/attachment.hpp"
 
 namespace polhode {

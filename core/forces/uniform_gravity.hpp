@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/force_kind.hpp"
+#include "core/problem/force_kind.hpp"
 
 namespace polhode {
 

@@ -16,14 +16,14 @@
 #include <vector>
 
 #include "experiments/broad_phase/flying_boxes.hpp"
-#include "experiments/study/csv.hpp"
-#include "experiments/study/input_error.hpp"
-#include "experiments/study/report/axis.hpp"
-#include "experiments/study/report/figure_layout.hpp"
-#include "experiments/study/report/notation.hpp"
-#include "experiments/study/report/table.hpp"
-#include "experiments/study/study_view.hpp"
-#include "experiments/study/summary.hpp"
+#include "experiments/study/text/csv.hpp"
+#include "experiments/study/text/input_error.hpp"
+#include "experiments/study/plot/axis.hpp"
+#include "experiments/study/plot/figure_layout.hpp"
+#include "experiments/study/text/notation.hpp"
+#include "experiments/study/plot/table.hpp"
+#include "experiments/study/record/study_view.hpp"
+#include "experiments/study/report/tables/summary.hpp"
 
 namespace polhode::study {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "collision/shape.hpp"
-#include "experiments/study/dice.hpp"
+#include "core/math/portable_random.hpp"
 
 namespace polhode::study {
 

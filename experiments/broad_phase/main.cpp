@@ -5,8 +5,8 @@
 #include "experiments/broad_phase/costs.hpp"
 #include "experiments/broad_phase/options.hpp"
 #include "experiments/broad_phase/recorded.hpp"
-#include "experiments/study/listing.hpp"
-#include "experiments/study/program.hpp"
+#include "experiments/study/plan/listing.hpp"
+#include "experiments/study/text/program.hpp"
 
 namespace polhode::study {
 namespace {

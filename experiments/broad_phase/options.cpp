@@ -4,10 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
-#include "experiments/study/axes.hpp"
-#include "experiments/study/command_line.hpp"
-#include "experiments/study/input_error.hpp"
-#include "experiments/study/suggestion.hpp"
+#include "experiments/study/text/value_lists.hpp"
+#include "experiments/study/text/command_line.hpp"
+#include "experiments/study/text/input_error.hpp"
+#include "experiments/study/text/suggestion.hpp"
 
 namespace polhode::study {
 namespace {

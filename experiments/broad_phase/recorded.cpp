@@ -9,10 +9,10 @@
 #include <cmath>
 #include <iterator>
 
-#include "experiments/study/csv_reader.hpp"
-#include "experiments/study/input_error.hpp"
-#include "experiments/study/report/notation.hpp"
-#include "experiments/study/text_file.hpp"
+#include "experiments/study/text/csv_reader.hpp"
+#include "experiments/study/text/input_error.hpp"
+#include "experiments/study/text/notation.hpp"
+#include "experiments/study/text/text_file.hpp"
 
 namespace polhode::study {
 namespace {

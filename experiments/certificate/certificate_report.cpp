@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/study/csv.hpp"
-#include "experiments/study/plan.hpp"
-#include "experiments/study/report/notation.hpp"
-#include "experiments/study/traits/certificate.hpp"
+#include "experiments/study/text/csv.hpp"
+#include "experiments/study/plan/plan.hpp"
+#include "experiments/study/text/notation.hpp"
+#include "experiments/certificate/certificate.hpp"
 
 namespace polhode::study {
 namespace {

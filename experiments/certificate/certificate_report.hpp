@@ -2,7 +2,7 @@
 // The certificates of a study as tables, sentences and certificate.csv.
 #pragma once
 
-#include "experiments/study/study_view.hpp"
+#include "experiments/study/record/study_view.hpp"
 
 namespace polhode::study {
 

@@ -7,13 +7,13 @@
 #include <map>
 #include <set>
 
-#include "experiments/study/csv.hpp"
-#include "experiments/study/declared_order.hpp"
-#include "experiments/study/order_estimate.hpp"
-#include "experiments/study/plan.hpp"
-#include "experiments/study/report/curves.hpp"
-#include "experiments/study/report/error_ladder.hpp"
-#include "experiments/study/report/notation.hpp"
+#include "experiments/study/text/csv.hpp"
+#include "experiments/study/curves/declared_order.hpp"
+#include "experiments/study/statistics/order_estimate.hpp"
+#include "experiments/study/plan/plan.hpp"
+#include "experiments/study/curves/curves.hpp"
+#include "experiments/study/curves/error_ladder.hpp"
+#include "experiments/study/text/notation.hpp"
 #include "integrators/catalogue.hpp"
 
 namespace polhode::study {

@@ -2,7 +2,7 @@
 // The observed order of every curve of a study beside the declared one.
 #pragma once
 
-#include "experiments/study/study_view.hpp"
+#include "experiments/study/record/study_view.hpp"
 
 namespace polhode::study {
 

@@ -8,11 +8,11 @@
 #include <map>
 #include <tuple>
 
-#include "experiments/study/csv.hpp"
-#include "experiments/study/narrow_phase_choice.hpp"
-#include "experiments/study/report/curves.hpp"
-#include "experiments/study/report/notation.hpp"
-#include "experiments/study/report/plain_panel.hpp"
+#include "experiments/study/text/csv.hpp"
+#include "experiments/study/scenario/narrow_phase_choice.hpp"
+#include "experiments/study/curves/curves.hpp"
+#include "experiments/study/text/notation.hpp"
+#include "experiments/study/plot/plain_panel.hpp"
 
 namespace polhode::study {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "experiments/study/study_view.hpp"
+#include "experiments/study/record/study_view.hpp"
 
 namespace polhode::study {
 

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "experiments/study/report/notation.hpp"
+#include "experiments/study/text/notation.hpp"
 
 namespace polhode::study {
 namespace {

@@ -13,7 +13,7 @@
 #include "experiments/judge/own_columns.hpp"
 #include "experiments/judge/row_states.hpp"
 #include "experiments/judge/step_fit.hpp"
-#include "experiments/study/report/notation.hpp"
+#include "experiments/study/text/notation.hpp"
 
 namespace polhode::study {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "experiments/judge/reading.hpp"
-#include "experiments/study/trajectory_score.hpp"
+#include "experiments/judge/trajectory_score.hpp"
 
 namespace polhode::study {
 

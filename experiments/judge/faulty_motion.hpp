@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "core/system.hpp"
+#include "core/system/system.hpp"
 
 namespace polhode::study {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/study/report/notation.hpp"
+#include "experiments/study/text/notation.hpp"
 
 namespace polhode::study {
 namespace {

@@ -9,11 +9,11 @@
 #include <limits>
 #include <utility>
 
-#include "experiments/study/csv.hpp"
-#include "experiments/study/report/axis.hpp"
-#include "experiments/study/report/drift_words.hpp"
-#include "experiments/study/report/figure_layout.hpp"
-#include "experiments/study/report/notation.hpp"
+#include "experiments/study/text/csv.hpp"
+#include "experiments/study/plot/axis.hpp"
+#include "experiments/study/report/findings/drift_words.hpp"
+#include "experiments/study/plot/figure_layout.hpp"
+#include "experiments/study/text/notation.hpp"
 
 namespace polhode::study {
 namespace {

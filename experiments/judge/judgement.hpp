@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "experiments/judge/first_line.hpp"
-#include "experiments/study/study_view.hpp"
+#include "experiments/study/record/study_view.hpp"
 
 namespace polhode::study {
 

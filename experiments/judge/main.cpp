@@ -8,13 +8,13 @@
 
 #include "experiments/judge/judgement.hpp"
 #include "experiments/judge/options.hpp"
-#include "experiments/study/csv.hpp"
-#include "experiments/study/plan.hpp"
-#include "experiments/study/program.hpp"
-#include "experiments/study/result_folder.hpp"
-#include "experiments/study/results.hpp"
-#include "experiments/study/store.hpp"
-#include "experiments/study/summary.hpp"
+#include "experiments/study/text/csv.hpp"
+#include "experiments/study/plan/plan.hpp"
+#include "experiments/study/text/program.hpp"
+#include "experiments/study/store/result_folder.hpp"
+#include "experiments/study/report/tables/results.hpp"
+#include "experiments/study/store/store.hpp"
+#include "experiments/study/report/tables/summary.hpp"
 
 namespace polhode::study {
 namespace {

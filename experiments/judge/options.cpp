@@ -4,9 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "experiments/study/axes.hpp"
-#include "experiments/study/command_line.hpp"
-#include "experiments/study/input_error.hpp"
+#include "experiments/study/text/value_lists.hpp"
+#include "experiments/study/text/command_line.hpp"
+#include "experiments/study/text/input_error.hpp"
 
 namespace polhode::study {
 JudgeOptions parse_judge_options(int argc, const char* const* argv) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/problem.hpp"
+#include "core/problem/problem.hpp"
 
 namespace polhode::study {
 

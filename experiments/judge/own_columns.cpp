@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "experiments/judge/diagnosis.hpp"
-#include "experiments/study/report/notation.hpp"
+#include "experiments/study/text/notation.hpp"
 
 namespace polhode::study {
 namespace {

@@ -2,7 +2,7 @@
 // What the columns of a trajectory may mean other than the format says.
 #pragma once
 
-#include "experiments/study/trajectory_reader.hpp"
+#include "experiments/study/trajectory/trajectory_reader.hpp"
 
 namespace polhode::study {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "experiments/study/characteristic_rate.hpp"
+#include "experiments/study/scenario/characteristic_rate.hpp"
 
 namespace polhode::study {
 namespace {

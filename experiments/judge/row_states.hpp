@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/exact_motion.hpp"
+#include "core/exact/exact_motion.hpp"
 #include "experiments/judge/faulty_motion.hpp"
 #include "experiments/judge/reading.hpp"
-#include "experiments/study/scenario.hpp"
+#include "experiments/study/scenario/scenario.hpp"
 
 namespace polhode::study {
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "experiments/study/report/notation.hpp"
+#include "experiments/study/text/notation.hpp"
 #include "integrators/catalogue.hpp"
 
 namespace polhode::study {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "collision/narrow/box_sat.hpp"
-#include "experiments/study/dice.hpp"
+#include "core/math/portable_random.hpp"
 
 namespace polhode {
 

@@ -13,9 +13,9 @@
 
 #include "collision/shapes/box.hpp"
 #include "experiments/narrow_phase/box_pairs.hpp"
-#include "experiments/study/csv.hpp"
-#include "experiments/study/report/axis.hpp"
-#include "experiments/study/report/notation.hpp"
+#include "experiments/study/text/csv.hpp"
+#include "experiments/study/plot/axis.hpp"
+#include "experiments/study/text/notation.hpp"
 
 namespace polhode::study {
 namespace {

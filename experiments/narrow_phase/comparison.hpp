@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "collision/narrow_phase.hpp"
-#include "experiments/study/analysis.hpp"
+#include "experiments/study/record/analysis.hpp"
 
 namespace polhode::study {
 

@@ -7,14 +7,14 @@
 #include "experiments/narrow_phase/comparison.hpp"
 #include "experiments/narrow_phase/options.hpp"
 #include "experiments/narrow_phase/pairs.hpp"
-#include "experiments/study/command_line.hpp"
-#include "experiments/study/input_error.hpp"
-#include "experiments/study/listing.hpp"
-#include "experiments/study/program.hpp"
-#include "experiments/study/study_view.hpp"
-#include "experiments/study/suggestion.hpp"
-#include "experiments/study/summary.hpp"
-#include "experiments/study/text_file.hpp"
+#include "experiments/study/text/command_line.hpp"
+#include "experiments/study/text/input_error.hpp"
+#include "experiments/study/plan/listing.hpp"
+#include "experiments/study/text/program.hpp"
+#include "experiments/study/record/study_view.hpp"
+#include "experiments/study/text/suggestion.hpp"
+#include "experiments/study/report/tables/summary.hpp"
+#include "experiments/study/text/text_file.hpp"
 
 namespace polhode::study {
 namespace {

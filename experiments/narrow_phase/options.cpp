@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "experiments/study/command_line.hpp"
+#include "experiments/study/text/command_line.hpp"
 
 namespace polhode::study {
 

@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "collision/shapes/box.hpp"
-#include "experiments/study/csv.hpp"
-#include "experiments/study/csv_reader.hpp"
-#include "experiments/study/input_error.hpp"
+#include "experiments/study/text/csv.hpp"
+#include "experiments/study/text/csv_reader.hpp"
+#include "experiments/study/text/input_error.hpp"
 
 namespace polhode::study {
 namespace {

@@ -2,7 +2,7 @@
 // What a pile of bodies costs, whether its energy rises, and how deep its bodies are in each other.
 #pragma once
 
-#include "experiments/study/study_view.hpp"
+#include "experiments/study/record/study_view.hpp"
 
 namespace polhode::study {
 

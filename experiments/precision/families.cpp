@@ -9,7 +9,7 @@
 #include <map>
 #include <tuple>
 
-#include "experiments/study/report/notation.hpp"
+#include "experiments/study/text/notation.hpp"
 
 namespace polhode::study::precision {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "experiments/precision/families.hpp"
 #include "experiments/precision/rounding_figures.hpp"
-#include "experiments/study/csv.hpp"
-#include "experiments/study/growth_estimate.hpp"
-#include "experiments/study/report/notation.hpp"
+#include "experiments/study/text/csv.hpp"
+#include "experiments/precision/growth_estimate.hpp"
+#include "experiments/study/text/notation.hpp"
 
 namespace polhode::study {
 namespace {

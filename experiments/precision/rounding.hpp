@@ -2,7 +2,7 @@
 // Rounding told from truncation, by runs that differ in nothing but the arithmetic.
 #pragma once
 
-#include "experiments/study/study_view.hpp"
+#include "experiments/study/record/study_view.hpp"
 
 namespace polhode::study {
 

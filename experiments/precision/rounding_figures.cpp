@@ -9,8 +9,8 @@
 #include <set>
 #include <utility>
 
-#include "experiments/study/report/axis.hpp"
-#include "experiments/study/report/figure_layout.hpp"
+#include "experiments/study/plot/axis.hpp"
+#include "experiments/study/plot/figure_layout.hpp"
 
 namespace polhode::study {
 namespace {

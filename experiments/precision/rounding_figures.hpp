@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiments/precision/families.hpp"
-#include "experiments/study/report/figure.hpp"
+#include "experiments/study/plot/figure.hpp"
 
 namespace polhode::study {
 

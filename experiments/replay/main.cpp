@@ -10,13 +10,13 @@
 #include "experiments/replay/page.hpp"
 #include "experiments/replay/recorder.hpp"
 #include "experiments/replay/study_reader.hpp"
-#include "experiments/study/build_info.hpp"
-#include "experiments/study/input_error.hpp"
-#include "experiments/study/listing.hpp"
-#include "experiments/study/plan.hpp"
-#include "experiments/study/program.hpp"
-#include "experiments/study/report/replay_link.hpp"
-#include "experiments/study/text_file.hpp"
+#include "experiments/study/text/build_info.hpp"
+#include "experiments/study/text/input_error.hpp"
+#include "experiments/study/plan/listing.hpp"
+#include "experiments/study/plan/plan.hpp"
+#include "experiments/study/text/program.hpp"
+#include "experiments/study/report/page/replay_link.hpp"
+#include "experiments/study/text/text_file.hpp"
 
 namespace polhode::study {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "experiments/study/axes.hpp"
-#include "experiments/study/input_error.hpp"
-#include "experiments/study/report/replay_link.hpp"
+#include "experiments/study/text/value_lists.hpp"
+#include "experiments/study/text/input_error.hpp"
+#include "experiments/study/report/page/replay_link.hpp"
 
 namespace polhode::study {
 

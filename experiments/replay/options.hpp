@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "experiments/study/options.hpp"
+#include "experiments/study/plan/options.hpp"
 
 namespace polhode::study {
 

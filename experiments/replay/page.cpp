@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "experiments/replay/page_parts.hpp"
-#include "experiments/study/input_error.hpp"
-#include "experiments/study/report/notation.hpp"
-#include "experiments/study/report/read_file.hpp"
+#include "experiments/study/text/input_error.hpp"
+#include "experiments/study/text/notation.hpp"
+#include "experiments/study/text/read_file.hpp"
 
 namespace polhode::study {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "experiments/study/report/figure_style.hpp"
-#include "experiments/study/report/notation.hpp"
+#include "experiments/study/plot/figure_style.hpp"
+#include "experiments/study/text/notation.hpp"
 
 namespace polhode::study {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "experiments/replay/recording.hpp"
-#include "experiments/study/plan.hpp"
+#include "experiments/study/plan/plan.hpp"
 
 namespace polhode::study {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "experiments/study/report/notation.hpp"
+#include "experiments/study/text/notation.hpp"
 
 namespace polhode::study {
 

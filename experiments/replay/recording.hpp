@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/contact_model.hpp"
-#include "experiments/study/drift_meter.hpp"
-#include "experiments/study/scene.hpp"
+#include "core/run/contact_model.hpp"
+#include "experiments/study/metrics/drift_meter.hpp"
+#include "experiments/scene/scene.hpp"
 
 namespace polhode::study {
 

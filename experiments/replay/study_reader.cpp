@@ -7,14 +7,14 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "experiments/study/axes.hpp"
-#include "experiments/study/csv_reader.hpp"
-#include "experiments/study/input_error.hpp"
-#include "experiments/study/plan.hpp"
-#include "experiments/study/references.hpp"
-#include "experiments/study/scenario_keys.hpp"
-#include "experiments/study/text_file.hpp"
-#include "experiments/study/trajectory_reader.hpp"
+#include "experiments/study/text/value_lists.hpp"
+#include "experiments/study/text/csv_reader.hpp"
+#include "experiments/study/text/input_error.hpp"
+#include "experiments/study/plan/plan.hpp"
+#include "experiments/study/metrics/references.hpp"
+#include "experiments/study/scenario/scenario_keys.hpp"
+#include "experiments/study/text/text_file.hpp"
+#include "experiments/study/trajectory/trajectory_reader.hpp"
 
 namespace polhode::study {
 namespace {

@@ -9,9 +9,9 @@
 #include <map>
 #include <set>
 
-#include "experiments/study/report/axis.hpp"
-#include "experiments/study/report/figure_layout.hpp"
-#include "experiments/study/report/notation.hpp"
+#include "experiments/study/plot/axis.hpp"
+#include "experiments/study/plot/figure_layout.hpp"
+#include "experiments/study/text/notation.hpp"
 
 namespace polhode::study {
 namespace {

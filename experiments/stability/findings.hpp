@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "experiments/study/step_ladder.hpp"
+#include "experiments/stability/step_ladder.hpp"
 
 namespace polhode::study {
 

@@ -2,7 +2,7 @@
 // Up to which step is each method stable on a motion and follows it, and what becomes of the energy beyond it?
 #include <fmt/format.h>
 
-#include "experiments/study/step_ladder.hpp"
+#include "experiments/stability/step_ladder.hpp"
 #include "experiments/stability/stability.hpp"
 #include "experiments/study/study.hpp"
 

@@ -12,10 +12,10 @@
 
 #include "experiments/stability/charts.hpp"
 #include "experiments/stability/findings.hpp"
-#include "experiments/study/axes.hpp"
-#include "experiments/study/csv.hpp"
-#include "experiments/study/plan.hpp"
-#include "experiments/study/report/notation.hpp"
+#include "experiments/study/text/value_lists.hpp"
+#include "experiments/study/text/csv.hpp"
+#include "experiments/study/plan/plan.hpp"
+#include "experiments/study/text/notation.hpp"
 #include "integrators/catalogue.hpp"
 
 namespace polhode::study {

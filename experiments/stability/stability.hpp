@@ -2,7 +2,7 @@
 // What the experiment `stability` makes of its runs: critical steps, linear theory beside them, and maps.
 #pragma once
 
-#include "experiments/study/study_view.hpp"
+#include "experiments/study/record/study_view.hpp"
 
 namespace polhode::study {
 

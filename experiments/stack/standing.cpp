@@ -7,9 +7,9 @@
 #include <map>
 #include <tuple>
 
-#include "experiments/study/csv.hpp"
-#include "experiments/study/report/notation.hpp"
-#include "experiments/study/report/plain_panel.hpp"
+#include "experiments/study/text/csv.hpp"
+#include "experiments/study/text/notation.hpp"
+#include "experiments/study/plot/plain_panel.hpp"
 
 namespace polhode::study {
 namespace {

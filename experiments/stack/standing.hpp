@@ -2,7 +2,7 @@
 // How long stacks stand, how deep their boxes sink into each other, and what becomes of the energy.
 #pragma once
 
-#include "experiments/study/study_view.hpp"
+#include "experiments/study/record/study_view.hpp"
 
 namespace polhode::study {
 

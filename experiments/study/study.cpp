@@ -11,20 +11,20 @@
 #include <stdexcept>
 #include <thread>
 
-#include "experiments/study/axes.hpp"
-#include "experiments/study/input_error.hpp"
-#include "experiments/study/listing.hpp"
-#include "experiments/study/options.hpp"
-#include "experiments/study/plan.hpp"
-#include "experiments/study/program.hpp"
+#include "experiments/study/text/value_lists.hpp"
+#include "experiments/study/text/input_error.hpp"
+#include "experiments/study/plan/listing.hpp"
+#include "experiments/study/plan/options.hpp"
+#include "experiments/study/plan/plan.hpp"
+#include "experiments/study/text/program.hpp"
 #include "experiments/study/progress.hpp"
-#include "experiments/study/references.hpp"
-#include "experiments/study/report/notation.hpp"
-#include "experiments/study/result_folder.hpp"
-#include "experiments/study/results.hpp"
-#include "experiments/study/run.hpp"
-#include "experiments/study/store.hpp"
-#include "experiments/study/summary.hpp"
+#include "experiments/study/metrics/references.hpp"
+#include "experiments/study/text/notation.hpp"
+#include "experiments/study/store/result_folder.hpp"
+#include "experiments/study/report/tables/results.hpp"
+#include "experiments/study/run/run.hpp"
+#include "experiments/study/store/store.hpp"
+#include "experiments/study/report/tables/summary.hpp"
 #include "experiments/study/workers.hpp"
 
 namespace polhode::study {

@@ -2,7 +2,7 @@
 // A study from the command line to the report: what the main of every experiment calls.
 #pragma once
 
-#include "experiments/study/experiment.hpp"
+#include "experiments/study/plan/experiment.hpp"
 
 namespace polhode::study {
 

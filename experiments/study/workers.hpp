@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/study/plan.hpp"
-#include "experiments/study/store.hpp"
+#include "experiments/study/plan/plan.hpp"
+#include "experiments/study/store/store.hpp"
 
 namespace polhode::study {
 

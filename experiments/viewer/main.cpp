@@ -2,8 +2,8 @@
 // How does a scenario move? A window to watch it in, pictures and films of it, and sessions that can be run again.
 #include <fmt/format.h>
 
-#include "experiments/study/listing.hpp"
-#include "experiments/study/program.hpp"
+#include "experiments/study/plan/listing.hpp"
+#include "experiments/study/text/program.hpp"
 #include "experiments/viewer/options.hpp"
 
 namespace polhode::viewer {

@@ -8,10 +8,10 @@
 #include <map>
 
 #include "collision/response.hpp"
-#include "experiments/study/axes.hpp"
-#include "experiments/study/command_line.hpp"
-#include "experiments/study/input_error.hpp"
-#include "experiments/study/suggestion.hpp"
+#include "experiments/study/text/value_lists.hpp"
+#include "experiments/study/text/command_line.hpp"
+#include "experiments/study/text/input_error.hpp"
+#include "experiments/study/text/suggestion.hpp"
 
 namespace polhode::viewer {
 namespace {

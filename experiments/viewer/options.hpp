@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "experiments/viewer/show.hpp"
+#include "experiments/viewer/stage/show.hpp"
 
 namespace polhode::viewer {
 

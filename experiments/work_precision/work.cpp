@@ -10,15 +10,15 @@
 #include <set>
 #include <utility>
 
-#include "experiments/study/csv.hpp"
-#include "experiments/study/declared_order.hpp"
-#include "experiments/study/envelope.hpp"
-#include "experiments/study/report/axis.hpp"
-#include "experiments/study/report/curves.hpp"
-#include "experiments/study/report/error_ladder.hpp"
-#include "experiments/study/report/figure_layout.hpp"
-#include "experiments/study/report/figure_style.hpp"
-#include "experiments/study/report/notation.hpp"
+#include "experiments/study/text/csv.hpp"
+#include "experiments/study/curves/declared_order.hpp"
+#include "experiments/work_precision/envelope.hpp"
+#include "experiments/study/plot/axis.hpp"
+#include "experiments/study/curves/curves.hpp"
+#include "experiments/study/curves/error_ladder.hpp"
+#include "experiments/study/plot/figure_layout.hpp"
+#include "experiments/study/plot/figure_style.hpp"
+#include "experiments/study/text/notation.hpp"
 #include "integrators/catalogue.hpp"
 
 namespace polhode::study {

@@ -2,7 +2,7 @@
 // The true error of every run against what it cost, and the lower envelope of each motion's curves.
 #pragma once
 
-#include "experiments/study/study_view.hpp"
+#include "experiments/study/record/study_view.hpp"
 
 namespace polhode::study {
 

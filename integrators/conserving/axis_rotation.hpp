@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/quaternion.hpp"
+#include "core/math/quaternion.hpp"
 
 namespace polhode {
 

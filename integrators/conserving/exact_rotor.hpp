@@ -4,7 +4,7 @@
 // digits to offer. Source: Celledoni, Fassò, Säfström & Zanna, SIAM J. Sci. Comput. 30 (2008) 2084.
 #pragma once
 
-#include "core/free_top.hpp"
+#include "core/exact/free_top.hpp"
 #include "integrators/conserving/rotor_splitting.hpp"
 
 namespace polhode {

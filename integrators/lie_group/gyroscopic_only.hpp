@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "core/formulation.hpp"
-#include "core/problem.hpp"
+#include "core/system/formulation.hpp"
+#include "core/problem/problem.hpp"
 
 namespace polhode {
 

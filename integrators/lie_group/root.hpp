@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "core/linear_algebra.hpp"
+#include "core/math/linear_algebra.hpp"
 
 namespace polhode {
 

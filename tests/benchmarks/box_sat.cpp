@@ -10,7 +10,7 @@
 #include "collision/narrow/box_sat.hpp"
 #include "collision/narrow_phase.hpp"
 #include "collision/shapes/box.hpp"
-#include "experiments/study/dice.hpp"
+#include "core/math/portable_random.hpp"
 
 #ifdef POLHODE_HAS_ODE
 #include <ode/collision.h>

@@ -18,7 +18,7 @@
 #include "collision/narrow_phase.hpp"
 #include "collision/shapes/box.hpp"
 #include "collision/shapes/convex_hull.hpp"
-#include "experiments/study/dice.hpp"
+#include "core/math/portable_random.hpp"
 
 #ifdef POLHODE_HAS_FCL
 #include "tests/benchmarks/peers/fcl.hpp"

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "collision/contact/time_stepping.hpp"
-#include "core/simulate.hpp"
+#include "core/run/simulate.hpp"
 #include "integrators/catalogue.hpp"
-#include "tests/collision/pile.hpp"
+#include "tests/collision/response/pile.hpp"
 
 #ifdef POLHODE_HAS_BULLET
 #include <btBulletDynamicsCommon.h>

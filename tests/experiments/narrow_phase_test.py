@@ -7,7 +7,7 @@ import unittest
 
 from programs import call, read, temporary_folder
 
-CASES = pathlib.Path(__file__).resolve().parents[1] / "collision" / "collision_cases.csv"
+CASES = pathlib.Path(__file__).resolve().parents[1] / "collision" / "narrow" / "collision_cases.csv"
 NAMES = "id,class,ahx,ahy,ahz,apx,apy,apz,aqw,aqx,aqy,aqz,bhx,bhy,bhz,bpx,bpy,bpz,bqw,bqx,bqy,bqz"
 ROW = "7,kissing,1,1,1,0,0,0,1,0,0,0,1,1,1,3,0,0,2,0,0,0"
 

@@ -7,13 +7,13 @@
 #include <functional>
 #include <numbers>
 
-#include "experiments/study/characteristic_rate.hpp"
-#include "experiments/study/critical_step.hpp"
-#include "experiments/study/followed.hpp"
-#include "experiments/study/scenario.hpp"
-#include "experiments/study/step_ladder.hpp"
-#include "experiments/study/step_map.hpp"
-#include "experiments/study/verdict.hpp"
+#include "experiments/study/scenario/characteristic_rate.hpp"
+#include "experiments/stability/critical_step.hpp"
+#include "experiments/stability/followed.hpp"
+#include "experiments/study/scenario/scenario.hpp"
+#include "experiments/stability/step_ladder.hpp"
+#include "experiments/stability/step_map.hpp"
+#include "experiments/stability/verdict.hpp"
 
 namespace polhode::study {
 namespace {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/invariants.hpp"
-#include "core/orientation_chart.hpp"
-#include "core/simulate.hpp"
+#include "core/system/invariants.hpp"
+#include "core/system/orientation_chart.hpp"
+#include "core/run/simulate.hpp"
 #include "integrators/catalogue.hpp"
 #include "tests/laws/formulations.hpp"
 #include "tests/laws/problems.hpp"

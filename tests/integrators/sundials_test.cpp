@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "core/simulate.hpp"
+#include "core/run/simulate.hpp"
 #include "integrators/catalogue.hpp"
 #include "tests/laws/probe_forces.hpp"
 #include "tests/laws/problems.hpp"

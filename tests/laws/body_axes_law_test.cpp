@@ -2,7 +2,7 @@
 // The primitives of a system in body axes: one mechanics, whatever the formulation.
 #include <gtest/gtest.h>
 
-#include "core/rigid_bodies.hpp"
+#include "core/system/rigid_bodies.hpp"
 #include "tests/laws/formulations.hpp"
 #include "tests/laws/problems.hpp"
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "collision/broad_phase.hpp"
-#include "experiments/study/dice.hpp"
+#include "core/math/portable_random.hpp"
 #include "tests/laws/allocations.hpp"
 
 namespace polhode {

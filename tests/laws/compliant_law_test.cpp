@@ -6,14 +6,14 @@
 #include <limits>
 
 #include "collision/contact/contact_scene.hpp"
-#include "collision/response/compliant.hpp"
+#include "collision/contact/compliant.hpp"
 #include "collision/shapes/box.hpp"
 #include "collision/shapes/capsule.hpp"
 #include "collision/shapes/ellipsoid.hpp"
 #include "collision/shapes/half_space.hpp"
 #include "collision/shapes/sphere.hpp"
-#include "core/inertia.hpp"
-#include "experiments/study/dice.hpp"
+#include "core/problem/inertia.hpp"
+#include "core/math/portable_random.hpp"
 #include "tests/laws/allocations.hpp"
 
 namespace polhode::laws {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/simulate_ensemble.hpp"
+#include "core/run/simulate_ensemble.hpp"
 #include "integrators/catalogue.hpp"
 #include "tests/laws/formulations.hpp"
 #include "tests/laws/problems.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/formulation.hpp"
+#include "core/system/formulation.hpp"
 
 namespace polhode::laws {
 

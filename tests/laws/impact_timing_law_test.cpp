@@ -9,7 +9,7 @@
 #include "collision/shapes/box.hpp"
 #include "collision/shapes/half_space.hpp"
 #include "collision/shapes/sphere.hpp"
-#include "core/inertia.hpp"
+#include "core/problem/inertia.hpp"
 #include "integrators/catalogue.hpp"
 #include "tests/laws/allocations.hpp"
 

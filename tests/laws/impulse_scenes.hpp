@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "collision/response.hpp"
-#include "experiments/study/dice.hpp"
+#include "core/math/portable_random.hpp"
 
 namespace polhode::laws {
 

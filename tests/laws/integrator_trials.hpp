@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/simulate.hpp"
+#include "core/run/simulate.hpp"
 #include "integrators/catalogue.hpp"
 #include "tests/laws/formulations.hpp"
 #include "tests/laws/probe_forces.hpp"

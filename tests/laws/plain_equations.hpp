@@ -10,7 +10,7 @@
 #include <Eigen/LU>
 #include <vector>
 
-#include "core/system.hpp"
+#include "core/system/system.hpp"
 
 namespace polhode::laws {
 
@@ -127,7 +127,7 @@ S plain_power(const System<S>& system, S t, const VectorX<S>& y) {
   return power;
 }
 
-/// ẏ = f(t, y), with y laid out as core/state.hpp says.
+/// ẏ = f(t, y), with y laid out as core/system/state.hpp says.
 template <class S>
 VectorX<S> plain_rate(const System<S>& system, S t, const VectorX<S>& y) {
   const Formulation& f = system.formulation();

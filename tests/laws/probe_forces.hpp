@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/force.hpp"
+#include "core/problem/force.hpp"
 
 namespace polhode::laws {
 

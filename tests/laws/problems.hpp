@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/forces/catalogue.hpp"
-#include "core/problem.hpp"
+#include "core/problem/problem.hpp"
 
 namespace polhode::laws {
 

@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "core/problem.hpp"
-#include "core/system.hpp"
+#include "core/problem/problem.hpp"
+#include "core/system/system.hpp"
 
 namespace polhode::laws {
 

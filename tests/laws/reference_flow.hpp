@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/system.hpp"
+#include "core/system/system.hpp"
 
 namespace polhode::laws {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision/response/penetration.hpp"
+#include "collision/response/position_correction.hpp"
 #include "tests/laws/response_trials.hpp"
 
 namespace polhode::laws {

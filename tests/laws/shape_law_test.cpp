@@ -7,10 +7,10 @@
 #include <fstream>
 #include <random>
 
-#include "collision/shape_catalogue.hpp"
+#include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/compound.hpp"
 #include "collision/shapes/half_space.hpp"
-#include "core/inertia.hpp"
+#include "core/problem/inertia.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace polhode::laws {

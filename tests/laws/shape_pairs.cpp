@@ -8,7 +8,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "collision/shape_catalogue.hpp"
+#include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/box.hpp"
 #include "collision/shapes/capsule.hpp"
 #include "collision/shapes/compound.hpp"
@@ -16,7 +16,7 @@
 #include "collision/shapes/ellipsoid.hpp"
 #include "collision/shapes/half_space.hpp"
 #include "collision/shapes/sphere.hpp"
-#include "experiments/study/dice.hpp"
+#include "core/math/portable_random.hpp"
 
 namespace polhode::laws {
 namespace {

@@ -70,7 +70,7 @@ def main():
     code, sample = blocks(shape)
     copies.write(one("the shape's file", r"Save it as `(\S+)`", shape), code)
     line = one("the shape's line", r"`(SHAPE\(.*?\))`", shape)
-    copies.add("collision/shape_catalogue.cpp", r"#define POLHODE_SHAPES\(SHAPE\) \\\n", f"  {line} \\\n")
+    copies.add("collision/shapes/shape_catalogue.cpp", r"#define POLHODE_SHAPES\(SHAPE\) \\\n", f"  {line} \\\n")
     copies.add("tests/laws/shape_law_test.cpp", samples, sample)
 
 

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "collision/shape_catalogue.hpp"
+#include "collision/shapes/shape_catalogue.hpp"
 #include "core/forces/catalogue.hpp"
-#include "experiments/study/run.hpp"
+#include "experiments/study/run/run.hpp"
 
 namespace polhode::study {
 namespace {

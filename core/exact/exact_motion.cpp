@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/exact/exact_motion.hpp"
+
+#include <algorithm>
+
+namespace polhode {
+namespace {
+
+bool torque_free(const System<double>& system, std::size_t body) {
+  return std::none_of(system.forces().begin(), system.forces().end(),
+                      [&](const auto& force) { return force->effect_on(body).torque; });
+}
+
+}  // namespace
+
+ExactMotion::ExactMotion(const System<double>& system) {
+  const Problem& problem = system.problem();
+  double fastest = 0;
+  bool all_paths = true;
+  for (std::size_t i = 0; i < system.moving(); ++i) {
+    rotations_.push_back(exact_rotation(system, i));
+    paths_.push_back(exact_path(system, i));
+    has_angular_velocity_ = has_angular_velocity_ && rotations_[i];
+    has_attitude_ = has_attitude_ && rotations_[i] && rotations_[i](0).orientation;
+    fastest = std::max(fastest, problem.starts[i].angular_velocity.norm());
+    if (problem.bodies[i].pinned) continue;
+    any_path_ = true;
+    all_paths = all_paths && paths_[i];
+  }
+  has_position_ = any_path_ && all_paths;
+  if (fastest > 0) speed_scale_ = fastest;
+}
+
+ExactMotion::BodyAt ExactMotion::at(double t, std::size_t body) const {
+  BodyAt known;
+  if (paths_[body]) known.path = paths_[body](t);
+  if (rotations_[body]) known.rotation = rotations_[body](t);
+  return known;
+}
+
+ExactMotion::Error ExactMotion::error(const System<double>& system, const State<double>& state) const {
+  Error error;
+  const auto raise = [](std::optional<double>& worst, double e) {
+    if (!worst || !(e <= *worst)) worst = e;
+  };
+  for (std::size_t i = 0; i < system.moving(); ++i) {
+    const BodySnapshot<double> now = system.snapshot(state.y, i);
+    if (has_angular_velocity_) {
+      const RotationAt exact = rotations_[i](state.t);
+      if (has_attitude_) raise(error.attitude, angle_between(now.orientation, *exact.orientation));
+      raise(error.angular_velocity, (now.angular_velocity - exact.angular_velocity).norm() / speed_scale_);
+    }
+    if (has_position_ && paths_[i]) raise(error.position, (now.position - paths_[i](state.t).position).norm());
+  }
+  return error;
+}
+
+ConservedMomenta conserved_momenta(const System<double>& system) {
+  const auto& forces = system.forces();
+  const bool internal = std::all_of(forces.begin(), forces.end(), [](const auto& f) { return f->internal(); });
+  bool any_pinned = false;
+  for (std::size_t i = 0; i < system.moving(); ++i) any_pinned = any_pinned || system.problem().bodies[i].pinned;
+  ConservedMomenta conserved;
+  conserved.linear = internal && !any_pinned;
+  if (system.moving() == 1) {
+    conserved.angular = torque_free(system, 0);
+  } else {
+    conserved.angular = internal && !any_pinned;
+  }
+  return conserved;
+}
+
+}  // namespace polhode

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The exact motion of a problem, where there is one: of each body the rotation (core/exact/exact_rotation.hpp) and the path
+// of the mass centre (core/exact/exact_path.hpp), each on its own, since they decouple in all motions that are known here.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/exact/exact_path.hpp"
+#include "core/exact/exact_rotation.hpp"
+#include "core/system/system.hpp"
+
+namespace polhode {
+
+class ExactMotion {
+ public:
+  /// Looks at what the forces of the system can do; the motion is that of the full equations, with the gyroscopic term.
+  explicit ExactMotion(const System<double>& system);
+
+  bool has_attitude() const { return has_attitude_; }                  ///< for every moving body
+  bool has_angular_velocity() const { return has_angular_velocity_; }  ///< for every moving body
+  bool has_position() const { return has_position_; }  ///< for every moving body that is not pinned, if there is one
+  /// Attitude and position of every moving body.
+  bool is_complete() const { return has_attitude_ && (has_position_ || !any_path_); }
+  bool has_anything() const { return has_attitude_ || has_angular_velocity_ || has_position_; }
+
+  struct BodyAt {
+    std::optional<PathAt> path;
+    std::optional<RotationAt> rotation;
+  };
+  /// What is known of a moving body at t (s), also where it is not known of every body.
+  BodyAt at(double t, std::size_t body) const;
+
+  struct Error {
+    std::optional<double> position;          ///< m, largest over the bodies
+    std::optional<double> attitude;          ///< rad, likewise
+    std::optional<double> angular_velocity;  ///< relative to the largest |ω| at the start
+  };
+  Error error(const System<double>& system, const State<double>& state) const;
+
+ private:
+  bool has_attitude_ = true, has_angular_velocity_ = true, has_position_ = false;
+  bool any_path_ = false;  ///< a body is not pinned
+  std::vector<ExactRotation> rotations_;
+  std::vector<ExactPath> paths_;
+  double speed_scale_ = 1;  ///< rad/s
+};
+
+/// Which of a problem's momenta its forces conserve.
+struct ConservedMomenta {
+  bool linear = false;
+  bool angular = false;  ///< of one body about its reference point, of several about the world's origin
+};
+ConservedMomenta conserved_momenta(const System<double>& system);
+
+}  // namespace polhode

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/exact/reference_motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace polhode {
+namespace {
+
+using Real = long double;
+using Flat = VectorX<Real>;
+
+constexpr int columns = 8;  // the order is twice this
+constexpr int rates_per_step = columns * columns + 1;
+/// Right-hand sides of one body in the finest attempt: about two seconds.
+constexpr double budget = 4e6;
+/// rad and relative: round-off of the doubles that are judged, divided by the 100 by which a judge must be better.
+constexpr double enough = 1e-17;
+
+/// The midpoint rule by 2, 4, … 16 substeps, and its extrapolation.
+class Stepper {
+ public:
+  explicit Stepper(const System<Real>& system) : system_(system) {}
+
+  /// One step of size `big` from y at t. All is in increments over y, so that the extrapolation magnifies their
+  /// round-off and not that of y.
+  void step(Real t, Real big, Flat& y) {
+    rate(t, y);
+    const Flat first = rate_;
+    for (int j = 0; j < columns; ++j) {
+      const int n = 2 * (j + 1);
+      const Real h = big / Real(n);
+      before_.setZero(y.size());
+      now_ = h * first;
+      for (int i = 1; i < n; ++i) {
+        at_ = y + now_;
+        rate(t + h * Real(i), at_);
+        before_ += 2 * h * rate_;
+        before_.swap(now_);
+      }
+      for (int k = 0; k < j; ++k) {  // Aitken and Neville, with n_j² as abscissae
+        const Real ratio = Real(j + 1) / Real(j - k);
+        Flat& behind = row_[std::size_t(k)];
+        at_ = now_ + (now_ - behind) / (ratio * ratio - 1);
+        behind.swap(now_);
+        now_.swap(at_);
+      }
+      row_[std::size_t(j)] = now_;
+    }
+    y += now_;
+  }
+
+ private:
+  void rate(Real t, const Flat& y) {
+    rate_.resize(y.size());
+    system_.rate(t, y.data(), rate_.data());
+  }
+
+  const System<Real>& system_;
+  Flat rate_, before_, now_, at_;
+  std::array<Flat, columns> row_;  // T_{j,1} … T_{j,j} of the last j
+};
+
+void raise(double& worst, Real x) {
+  if (!(x <= Real(worst))) worst = std::isfinite(x) ? static_cast<double>(x) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+double ReferenceMotion::Uncertainty::largest() const { return std::max({position, attitude, angular_velocity}); }
+
+ReferenceMotion::ReferenceMotion(const Problem& problem, bool gyroscopic, double t_end, const std::atomic<bool>* stop,
+                                 std::function<void(System<long double>&)> prepare)
+    : problem_(problem), gyroscopic_(gyroscopic), prepare_(std::move(prepare)), t_end_(t_end) {
+  double fastest = 0;
+  for (std::size_t i = 0; i < problem.moving(); ++i) {
+    fastest = std::max(fastest, problem.starts[i].angular_velocity.norm());
+  }
+  if (fastest > 0) speed_scale_ = fastest;
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  uncertainty_ = {unknown, unknown, unknown};
+  const auto system = make();
+  const double most = std::max(4.0, budget / static_cast<double>(problem.moving() * intervals * rates_per_step));
+  states_ = march(*system, steps_, stop);
+  double before = unknown;
+  for (int finer = 2; finer <= most && !(stop && *stop); finer *= 2) {
+    std::vector<Flat> states = march(*system, finer, stop);
+    if (stop && *stop) break;
+    const Uncertainty change = difference(*system, states_, states);
+    const double now = change.largest();
+    if (now >= before && before < 1e-10) break;  // round-off: what there is was better
+    uncertainty_ = change;
+    states_ = std::move(states);
+    steps_ = finer;
+    if (now <= enough || (now > before / 4 && now < 1e-10)) break;
+    before = now;
+  }
+}
+
+std::unique_ptr<System<long double>> ReferenceMotion::make() const {
+  auto system = make_system<Real>(problem_, {Orientation::quaternion, AngularState::velocity_body, gyroscopic_});
+  if (prepare_) prepare_(*system);
+  return system;
+}
+
+std::vector<Flat> ReferenceMotion::march(const System<Real>& system, int steps, const std::atomic<bool>* stop) const {
+  std::vector<Flat> states = {system.start().y};
+  Stepper stepper(system);
+  for (std::size_t k = 0; k < intervals; ++k) {
+    Flat y = states.back();
+    const Real from = instant(k), big = (Real(instant(k + 1)) - from) / Real(steps);
+    for (int i = 0; i < steps; ++i) {
+      if (stop && *stop) return states;
+      stepper.step(from + big * Real(i), big, y);
+    }
+    if (!y.allFinite()) break;
+    states.push_back(std::move(y));
+  }
+  return states;
+}
+
+ReferenceMotion::Uncertainty ReferenceMotion::difference(const System<Real>& system, const std::vector<Flat>& a,
+                                                         const std::vector<Flat>& b) const {
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  if (a.size() != intervals + 1 || b.size() != intervals + 1) return {unknown, unknown, unknown};
+  Uncertainty worst;
+  for (std::size_t k = 0; k <= intervals; ++k) {
+    for (std::size_t i = 0; i < system.moving(); ++i) {
+      const BodySnapshot<Real> one = system.snapshot(a[k], i), two = system.snapshot(b[k], i);
+      if (!problem_.bodies[i].pinned) raise(worst.position, (one.position - two.position).norm());
+      raise(worst.attitude, angle_between<Real>(one.orientation, two.orientation));
+      raise(worst.angular_velocity, (one.angular_velocity - two.angular_velocity).norm() / Real(speed_scale_));
+    }
+  }
+  return worst;
+}
+
+ReferenceMotion::Follower::Follower(std::shared_ptr<const ReferenceMotion> reference)
+    : reference_(std::move(reference)), system_(reference_->make()), y_(reference_->states_.front()) {}
+
+ExactMotion::Error ReferenceMotion::Follower::error(const System<double>& system, const State<double>& state) {
+  const ReferenceMotion& reference = *reference_;
+  const double interval = reference.t_end_ / intervals;
+  const std::size_t last = reference.states_.size() - 1;
+  std::size_t k = std::min(last, static_cast<std::size_t>(std::max(0.0, state.t / interval)));
+  while (k > 0 && reference.instant(k) > state.t) --k;
+  if (t_ > state.t || reference.instant(k) >= t_) {
+    t_ = reference.instant(k);
+    y_ = reference.states_[k];
+  }
+  if (state.t > t_) {
+    const Real span = Real(state.t) - Real(t_), size = Real(interval) / Real(reference.steps_);
+    const int steps = std::max(1, static_cast<int>(std::ceil(span / size * (1 - Real(1e-15)))));
+    const Real big = span / Real(steps);
+    Stepper stepper(*system_);
+    for (int i = 0; i < steps; ++i) stepper.step(Real(t_) + big * Real(i), big, y_);
+    t_ = state.t;
+  }
+  ExactMotion::Error error;
+  const auto keep = [](std::optional<double>& worst, Real x) {
+    if (!worst || !(x <= Real(*worst))) worst = static_cast<double>(x);
+  };
+  for (std::size_t i = 0; i < system.moving(); ++i) {
+    const BodySnapshot<double> now = system.snapshot(state.y, i);
+    const BodySnapshot<Real> right = system_->snapshot(y_, i);
+    if (!reference.problem_.bodies[i].pinned) keep(error.position, (now.position.cast<Real>() - right.position).norm());
+    keep(error.attitude, angle_between<Real>(now.orientation.cast<Real>(), right.orientation));
+    keep(error.angular_velocity,
+         (now.angular_velocity.cast<Real>() - right.angular_velocity).norm() / Real(reference.speed_scale_));
+  }
+  return error;
+}
+
+}  // namespace polhode

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An initial value problem of mechanics: bodies, where they start, and the forces between them.
+#pragma once
+
+#include <vector>
+
+#include "core/problem/body.hpp"
+#include "core/problem/force_kind.hpp"
+
+namespace polhode {
+
+/// Moving bodies stand first, static ones last; forces name bodies by their index here.
+struct Problem {
+  std::vector<Body> bodies;
+  std::vector<BodyStart> starts;
+  std::vector<ForceParameters> forces;
+
+  std::size_t moving() const {
+    std::size_t n = 0;
+    while (n < bodies.size() && !bodies[n].fixed) ++n;
+    return n;
+  }
+};
+
+}  // namespace polhode

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the drivers of single runs and of ensembles share: how samples go to an observer, and how an end is told.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/run/simulate.hpp"
+
+namespace polhode {
+
+/// The longest stretch that is measured in one call.
+inline constexpr std::int64_t longest_stretch = 64;
+
+/// How many samples were taken: fewer than all when the run is to end as diverged at the next one, because of `why`.
+struct TakenSamples {
+  std::size_t count = 0;
+  const char* why = nullptr;
+};
+/// Hands the finite ones to the observer.
+TakenSamples hand_over(std::span<const Sample> samples, Observer& observer);
+
+/// The first step of dt from t0 on, after the k-th, at whose end the observer wants to look.
+std::int64_t step_of_next_look(const Observer& observer, double t0, double dt, std::int64_t k);
+
+/// "… at t = 1.25 s".
+std::string at_time(std::string what, double t);
+
+}  // namespace polhode

@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/run/simulate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <new>
+#include <stdexcept>
+#include <type_traits>
+
+#include "core/run/run_samples.hpp"
+
+namespace polhode {
+namespace {
+
+// t_end counts as a whole number of steps when it is one to this relative accuracy: 10/0.1 must not leave a step of
+// 1e-15 s behind.
+constexpr double whole_tolerance = 1e-9;
+// An adaptive method whose steps stay below this share of the run for so many steps will not get there.
+constexpr double least_progress = 1e-14;
+constexpr int patience = 1000;
+
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.12g", x);
+  return text;
+}
+
+// Positive numbers only, so that a NaN or an infinity anywhere makes it false; no short circuit, so that it vectorises.
+template <class S>
+bool is_finite(const VectorX<S>& y) {
+  constexpr S largest = std::numeric_limits<S>::max();
+  bool finite = true;
+  for (Eigen::Index i = 0; i < y.size(); ++i) finite &= std::abs(y[i]) <= largest;
+  return finite;
+}
+
+// The double state that observers see: the run's own one, or a copy.
+template <class S>
+struct View {
+  State<double> copy;
+  const State<double>& of(const State<S>& state) {
+    copy.t = state.t;
+    copy.y = state.y.template cast<double>();
+    return copy;
+  }
+};
+template <>
+struct View<double> {
+  const State<double>& of(const State<double>& state) { return state; }
+};
+
+template <class S>
+class Loop {
+ public:
+  Loop(const System<S>& system, const System<double>& truth, Integrator<S>& integrator, State<S>& state,
+       const Schedule& schedule, Observer& observer, const std::atomic<bool>* stop, ContactModel* contact)
+      : system_(system),
+        truth_(truth),
+        integrator_(integrator),
+        state_(state),
+        schedule_(schedule),
+        observer_(observer),
+        stop_(stop),
+        contact_(contact),
+        t0_(state.t),
+        observed_(state.t),
+        account_(schedule.normalise && system.projection_changes_energy()) {}
+
+  RunOutcome run() {
+    if constexpr (std::is_same_v<S, double>) {
+      if (contact_) contact_->begin(integrator_, state_);
+    } else if (contact_) {
+      throw std::invalid_argument("contact works in double only");
+    }
+    integrator_.begin(state_);
+    const Sample start = measure(state_);
+    observer_.look(view_.of(state_), start);
+    if (take_samples({&start, 1}) && !interrupted()) {
+      if (schedule_.adaptive) adaptive();
+      else if (schedule_.next_step) given();
+      else fixed();
+    }
+    outcome_.t = state_.t;
+    // A stretch may have gone on beyond the step at which the run was called off.
+    const std::int64_t taken = outcome_.steps + surplus_steps_;
+    outcome_.evaluations = surplus_steps_ > 0 ? integrator_.evaluations() / taken * outcome_.steps : integrator_.evaluations();
+    return outcome_;
+  }
+
+ private:
+  Sample measure(const State<S>& state) {
+    const State<double>& seen = view_.of(state);
+    return {seen.t, truth_.measure(seen.y), seen.y[seen.y.size() - 1], projection_energy_};
+  }
+
+  /// Hands samples to the observer; false ends the run as diverged.
+  bool take_samples(std::span<const Sample> samples) {
+    const TakenSamples taken = hand_over(samples, observer_);
+    if (!taken.why) return true;
+    state_.t = samples[taken.count].t;
+    diverged(taken.why);
+    surplus_steps_ = static_cast<std::int64_t>(samples.size() - taken.count) - 1;
+    outcome_.steps -= surplus_steps_;
+    return false;
+  }
+
+  void diverged(const char* why) {
+    outcome_.status = RunStatus::diverged;
+    outcome_.message = at_time(why, state_.t);
+  }
+
+  bool interrupted() {
+    if (!stop_ || !stop_->load(std::memory_order_relaxed)) return false;
+    outcome_.status = RunStatus::interrupted;
+    outcome_.message = at_time("interrupted", state_.t);
+    return true;
+  }
+
+  StepResult step(double h) {
+    if constexpr (std::is_same_v<S, double>) {
+      if (contact_) return contact_->step(integrator_, state_, h);
+    }
+    return integrator_.step(state_, h);
+  }
+
+  /// Takes steps by the method; false where it fails or throws, and the outcome says why.
+  template <class Steps>
+  bool done(const Steps& steps) {
+    std::string why;
+    try {
+      why = steps().failure;
+    } catch (const std::bad_alloc&) {
+      throw;  // no fault of the method
+    } catch (const std::exception& error) {
+      why = error.what();
+      if (!is_finite(state_.y)) {
+        diverged("the state ceased to be finite");
+        return false;
+      }
+    }
+    if (why.empty()) return true;
+    fail(std::move(why));
+    return false;
+  }
+
+  void fail(std::string why) {
+    outcome_.status = RunStatus::failed;
+    outcome_.message = at_time(std::move(why), state_.t);
+  }
+
+  /// One step by the method, then projection and the check for NaN; false ends the run.
+  bool take_step(double h, std::optional<double> t_after) {
+    const double before_step = state_.t;
+    if (!done([&] { return step(h); })) return false;
+    const bool ended = contact_ && contact_->ended();
+    if (t_after && !ended) state_.t = *t_after;  // t_k = k h, never accumulated
+    if (contact_ && !contact_->impacts().empty()) observer_.meet(contact_->impacts());
+    if (contact_ && !contact_->transitions().empty()) observer_.slides_end(contact_->transitions());
+    ++outcome_.steps;
+    const bool progress = t_after || state_.t - before_step > least_progress * schedule_.t_end || state_.t >= schedule_.t_end;
+    steps_without_progress_ = progress ? 0 : steps_without_progress_ + 1;
+    if (steps_without_progress_ > patience) {
+      fail("the step size fell to nothing");
+      return false;
+    }
+    if (!is_finite(state_.y)) {
+      diverged("the state ceased to be finite");
+      return false;
+    }
+    if (integrator_.projects_natively()) {
+      projection_energy_ = integrator_.projection_energy();
+    } else if (schedule_.normalise) {
+      const double before = account_ ? energy() : 0.0;
+      system_.project(state_.y);
+      if (account_) projection_energy_ += energy() - before;
+      integrator_.discard_history(state_);
+    }
+    if (ended) {
+      if (state_.t > observed_) observe_now();
+      return false;
+    }
+    return !interrupted();
+  }
+
+  double energy() { return truth_.measure(view_.of(state_).y).energy(); }
+
+  bool observe_now() { return observe(state_); }
+  bool observe(const State<S>& state) {
+    const Sample sample = measure(state);
+    observed_ = sample.t;
+    if (contact_) observer_.account(contact_->losses());
+    if (!take_samples({&sample, 1})) return false;
+    if (sample.t < observer_.next_look()) return true;
+    observer_.look(view_.of(state), sample);
+    return !interrupted();
+  }
+
+  double sample_time(std::int64_t k) const {
+    if (k == *schedule_.samples) return schedule_.t_end;
+    return t0_ + static_cast<double>(k) * (schedule_.t_end - t0_) / static_cast<double>(*schedule_.samples);
+  }
+
+  void fixed() {
+    const StepPlan plan = plan_steps(schedule_.t_end - t0_, schedule_.dt);
+    const std::int64_t steps = plan.whole + (plan.last > 0 ? 1 : 0);
+    const std::int64_t stride = schedule_.samples ? steps / *schedule_.samples : 1;
+    std::int64_t k = 0;
+    // All whole steps but the last of the run go by stretches where the method takes them and every step is seen.
+    if (integrator_.takes_stretches() && stride == 1 && !contact_) {
+      const std::int64_t until = plan.last > 0 ? plan.whole : plan.whole - 1;
+      while (k < until) {
+        const std::int64_t n = std::min(longest_stretch, std::min(until, step_of_next_look(observer_, t0_, schedule_.dt, k)) - k);
+        if (!take_stretch(k, n)) return;
+        k += n;
+      }
+    }
+    while (k < steps) {
+      ++k;
+      const double h = k <= plan.whole ? schedule_.dt : plan.last;
+      const bool sampled = k % stride == 0;
+      double t_after = t0_ + static_cast<double>(k) * schedule_.dt;
+      if (sampled && schedule_.samples) t_after = sample_time(k / stride);
+      if (k == steps) t_after = schedule_.t_end;
+      if (!take_step(h, t_after)) return;
+      if (sampled && !observe_now()) return;
+    }
+  }
+
+  bool take_stretch(std::int64_t k, std::int64_t n) {
+    const Stretch stretch{schedule_.dt, n, t0_, k, schedule_.normalise, samples_.data()};
+    if (!done([&] { return integrator_.advance(state_, stretch); })) return false;
+    outcome_.steps += n;
+    const std::span<Sample> samples(samples_.data(), static_cast<std::size_t>(n));
+    for (Sample& s : samples) s.projection = projection_energy_ += s.projection;
+    if (!take_samples(samples)) return false;
+    if (samples.back().t >= observer_.next_look()) observer_.look(view_.of(state_), samples.back());
+    return !interrupted();
+  }
+
+  /// Steps of the sizes that are given; t adds them up.
+  void given() {
+    if (schedule_.samples) throw std::invalid_argument("steps that are given one by one are all observed; ask for no samples");
+    while (state_.t < schedule_.t_end) {
+      double h = schedule_.next_step();
+      if (h == 0) return;
+      if (!(h > 0) || !std::isfinite(h)) throw std::invalid_argument("a step must be a positive number of seconds, or 0 to end");
+      const double left = schedule_.t_end - state_.t;
+      const bool last = h >= left * (1 - whole_tolerance);
+      if (h > left * (1 + whole_tolerance)) h = left;
+      if (!take_step(h, last ? schedule_.t_end : state_.t + h) || !observe_now()) return;
+    }
+  }
+
+  void adaptive() {
+    State<S> between = state_;
+    std::int64_t next = 1;
+    // A method that is projected, or has no dense output, must end its steps on the samples themselves.
+    const bool shorten = schedule_.samples && (schedule_.normalise || contact_ || !integrator_.has_dense_output());
+    while (state_.t < schedule_.t_end) {
+      const double target = shorten ? sample_time(next) : schedule_.t_end;
+      if (outcome_.steps >= schedule_.most_steps) return fail(too_many_steps());
+      if (!take_step(target - state_.t, std::nullopt)) return;
+      if (!schedule_.samples) {
+        if (!observe_now()) return;
+        continue;
+      }
+      for (; next <= *schedule_.samples && sample_time(next) <= state_.t; ++next) {
+        if (sample_time(next) == state_.t) {
+          if (!observe_now()) return;
+        } else if (integrator_.interpolate(sample_time(next), between)) {
+          if (!observe(between)) return;
+        } else {
+          outcome_.status = RunStatus::failed;
+          outcome_.message = at_time("no dense output", sample_time(next));
+          return;
+        }
+      }
+    }
+  }
+
+  std::string too_many_steps() const {
+    std::string why = "not at the end after ";
+    why += std::to_string(schedule_.most_steps);
+    return why += " steps; take a larger --tolerance, a shorter --t-end or more --max-steps; it stood";
+  }
+
+  const System<S>& system_;
+  const System<double>& truth_;
+  Integrator<S>& integrator_;
+  State<S>& state_;
+  const Schedule& schedule_;
+  Observer& observer_;
+  const std::atomic<bool>* stop_;
+  ContactModel* contact_;
+  const double t0_;     ///< s, where the run starts
+  double observed_;     ///< s, when the last sample was seen that did not go by in a stretch
+  const bool account_;  ///< projections can change the energy, so it is measured around them
+  View<S> view_;
+  double projection_energy_ = 0;
+  std::int64_t surplus_steps_ = 0;
+  int steps_without_progress_ = 0;
+  std::array<Sample, longest_stretch> samples_;
+  RunOutcome outcome_;
+};
+
+}  // namespace
+
+StepPlan plan_steps(double t_end, double dt) {
+  if (!(dt > 0) || !std::isfinite(dt)) throw std::invalid_argument("dt must be a positive number of seconds");
+  if (!(t_end > 0) || !std::isfinite(t_end)) throw std::invalid_argument("t_end must be a positive number of seconds");
+  const double ratio = t_end / dt;
+  if (ratio > 9e15) throw std::invalid_argument("dt is too small for t_end: more than 9e15 steps");
+  StepPlan plan;
+  const double nearest = std::round(ratio);
+  if (nearest >= 1 && std::abs(ratio - nearest) <= whole_tolerance * std::max(1.0, nearest * 1e-3)) {
+    plan.whole = static_cast<std::int64_t>(nearest);
+    return plan;
+  }
+  plan.whole = static_cast<std::int64_t>(std::floor(ratio));
+  plan.last = t_end - static_cast<double>(plan.whole) * dt;
+  return plan;
+}
+
+std::string sampling_problem(const Schedule& schedule) {
+  if (schedule.adaptive || !schedule.samples) return {};
+  const StepPlan plan = plan_steps(schedule.t_end, schedule.dt);
+  const std::int64_t n = *schedule.samples;
+  if (plan.last == 0 && plan.whole % n == 0) return {};
+  const double spacing = schedule.t_end / static_cast<double>(n);
+  const double fitting = spacing / std::max(1.0, std::round(spacing / schedule.dt));
+  return std::to_string(n) + " samples of " + number(schedule.t_end) + " s do not fall on whole steps of " +
+         number(schedule.dt) + " s; dt = " + number(fitting) + " would fit, or leave --samples out to see every step";
+}
+
+template <class S>
+RunOutcome simulate(const System<S>& system, const System<double>& truth, Integrator<S>& integrator, State<S>& state,
+                    const Schedule& schedule, Observer& observer, const std::atomic<bool>* stop, ContactModel* contact) {
+  return Loop<S>(system, truth, integrator, state, schedule, observer, stop, contact).run();
+}
+
+template RunOutcome simulate(const System<float>&, const System<double>&, Integrator<float>&, State<float>&,
+                             const Schedule&, Observer&, const std::atomic<bool>*, ContactModel*);
+template RunOutcome simulate(const System<double>&, const System<double>&, Integrator<double>&, State<double>&,
+                             const Schedule&, Observer&, const std::atomic<bool>*, ContactModel*);
+template RunOutcome simulate(const System<long double>&, const System<double>&, Integrator<long double>&,
+                             State<long double>&, const Schedule&, Observer&, const std::atomic<bool>*, ContactModel*);
+
+}  // namespace polhode

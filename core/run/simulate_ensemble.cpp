@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/run/simulate_ensemble.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/run/run_samples.hpp"
+
+namespace polhode {
+namespace {
+
+class EnsembleLoop {
+ public:
+  EnsembleLoop(const System<Lanes>& system, Integrator<Lanes>& integrator, std::span<const LaneRun> runs,
+               const Schedule& schedule, const std::atomic<bool>* stop)
+      : integrator_(integrator),
+        runs_(runs),
+        schedule_(schedule),
+        stop_(stop),
+        state_(system.start()),
+        lanes_(runs.size()),
+        samples_(std::size_t(longest_stretch) * std::size_t(lane_count)) {}
+
+  std::vector<RunOutcome> run() {
+    integrator_.begin(state_);
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      Lane& lane = lanes_[i];
+      lane.state = runs_[i].truth.start();
+      const Sample start{0, runs_[i].truth.measure(lane.state.y), lane.state.y[lane.state.y.size() - 1], 0};
+      runs_[i].observer.look(lane.state, start);
+      take(i, {&start, 1}, 0);
+    }
+    all_steps();
+    std::vector<RunOutcome> outcomes;
+    for (Lane& lane : lanes_) {
+      if (lane.running) lane.outcome.t = state_.t;
+      lane.outcome.evaluations = taken_ > 0 ? integrator_.evaluations() / taken_ * lane.outcome.steps : 0;
+      outcomes.push_back(lane.outcome);
+    }
+    return outcomes;
+  }
+
+ private:
+  struct Lane {
+    RunOutcome outcome;
+    State<double> state;  ///< for looks
+    double projection_energy = 0;
+    bool running = true;
+  };
+
+  bool any_running() const {
+    return std::any_of(lanes_.begin(), lanes_.end(), [](const Lane& lane) { return lane.running; });
+  }
+
+  void all_steps() {
+    const StepPlan plan = plan_steps(schedule_.t_end, schedule_.dt);
+    const std::int64_t steps = plan.whole + (plan.last > 0 ? 1 : 0);
+    std::int64_t k = 0;
+    while (k < steps && any_running() && !interrupted()) {
+      // The last step ends at t_end itself and may be a shorter one.
+      Stretch stretch{schedule_.dt, 1, 0, k, schedule_.normalise};
+      if (k < steps - 1) {
+        stretch.count = std::min(longest_stretch, steps - 1 - k);
+        for (std::size_t i = 0; i < runs_.size(); ++i) {
+          if (!lanes_[i].running) continue;
+          stretch.count = std::min(stretch.count, step_of_next_look(runs_[i].observer, 0, schedule_.dt, k) - k);
+        }
+      } else if (plan.last > 0) {
+        stretch = {plan.last, 1, static_cast<double>(k) * schedule_.dt, 0, schedule_.normalise};
+      }
+      stretch.samples = samples_.data();
+      stretch.lanes = static_cast<int>(runs_.size());
+      stretch.lane_stride = longest_stretch;
+      integrator_.advance(state_, stretch);
+      taken_ += stretch.count;
+      k += stretch.count;
+      if (k == steps) state_.t = schedule_.t_end;
+      for (std::size_t i = 0; i < runs_.size(); ++i) {
+        if (lanes_[i].running) show(i, stretch.count, k == steps);
+      }
+    }
+  }
+
+  /// The samples of lane i in the stretch that was taken last.
+  void show(std::size_t i, std::int64_t count, bool last) {
+    Lane& lane = lanes_[i];
+    const std::span<Sample> samples(samples_.data() + i * std::size_t(longest_stretch), static_cast<std::size_t>(count));
+    for (Sample& s : samples) s.projection = lane.projection_energy += s.projection;
+    if (last) samples.back().t = schedule_.t_end;
+    if (!take(i, samples, count)) return;
+    if (samples.back().t < runs_[i].observer.next_look()) return;
+    lane.state.t = samples.back().t;
+    for (Eigen::Index n = 0; n < state_.y.size(); ++n) lane.state.y[n] = state_.y[n][static_cast<int>(i)];
+    runs_[i].observer.look(lane.state, samples.back());
+  }
+
+  /// False ends the run of the lane as diverged.
+  bool take(std::size_t i, std::span<const Sample> samples, std::int64_t steps) {
+    Lane& lane = lanes_[i];
+    const TakenSamples taken = hand_over(samples, runs_[i].observer);
+    lane.outcome.steps += steps;
+    if (!taken.why) return true;
+    const double t = samples[taken.count].t;
+    lane.outcome.steps -= std::int64_t(samples.size() - taken.count) - 1;
+    lane.outcome.t = t;
+    lane.outcome.status = RunStatus::diverged;
+    lane.outcome.message = at_time(taken.why, t);
+    lane.running = false;
+    return false;
+  }
+
+  bool interrupted() {
+    if (!stop_ || !stop_->load(std::memory_order_relaxed)) return false;
+    for (Lane& lane : lanes_) {
+      if (!lane.running) continue;
+      lane.outcome.status = RunStatus::interrupted;
+      lane.outcome.message = at_time("interrupted", state_.t);
+    }
+    return true;
+  }
+
+  Integrator<Lanes>& integrator_;
+  std::span<const LaneRun> runs_;
+  const Schedule& schedule_;
+  const std::atomic<bool>* stop_;
+  State<Lanes> state_;
+  std::vector<Lane> lanes_;
+  std::vector<Sample> samples_;
+  std::int64_t taken_ = 0;
+};
+
+}  // namespace
+
+std::vector<RunOutcome> simulate_ensemble(const System<Lanes>& system, Integrator<Lanes>& integrator,
+                                          std::span<const LaneRun> runs, const Schedule& schedule,
+                                          const std::atomic<bool>* stop) {
+  return EnsembleLoop(system, integrator, runs, schedule, stop).run();
+}
+
+}  // namespace polhode

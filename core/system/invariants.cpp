@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sources: Goldstein, Poole & Safko, Classical Mechanics, 3rd ed., section 5.7 (p_φ, p_ψ); S. Kowalevski, Acta Math.
+// 12 (1889) 177–232; Marsden & Ratiu, Introduction to Mechanics and Symmetry, section 1.4 (Casimirs).
+#include "core/system/invariants.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/forces/catalogue.hpp"
+
+namespace polhode {
+
+namespace {
+
+using Vector = Vector3<double>;
+using Snapshot = BodySnapshot<double>;
+
+// What the problem is like.
+
+bool acts_on_first_body(const ForceParameters& f) {
+  return std::find(f.bodies.begin(), f.bodies.end(), std::size_t{0}) != f.bodies.end();
+}
+
+bool is_gravity(const ForceParameters& f) { return f.kind == "uniform_gravity"; }
+
+/// m/s², world: of all uniform gravities that pull at the first body.
+Vector gravity(const Problem& problem) {
+  Vector g = Vector::Zero();
+  for (const ForceParameters& f : problem.forces) {
+    if (is_gravity(f) && acts_on_first_body(f)) g += f.vector("acceleration");
+  }
+  return g;
+}
+
+/// The vertical: against gravity, +z where there is none.
+Vector up(const Problem& problem) {
+  const Vector g = gravity(problem);
+  return g.isZero(0) ? Vector(Vector::UnitZ()) : Vector(-g.normalized());
+}
+
+/// Whether a force can exert a torque on the first body about its reference point.
+bool has_torque(const Problem& problem, bool gravity_too) {
+  for (const ForceParameters& f : problem.forces) {
+    if (is_gravity(f) && !gravity_too) continue;
+    if (make_force<double>(f, problem.bodies)->effect_on(0).torque) return true;
+  }
+  return false;
+}
+
+bool equal(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); }
+
+bool has_principal_axes(const Body& body) { return body.inertia.isDiagonal(0); }
+
+// Refusals: empty, or the reason.
+
+std::string refuse_unless_alone(const Problem& problem) {
+  return problem.moving() == 1 ? "" : "it is of the only body that moves";
+}
+
+std::string refuse_unless_top(const Problem& problem) {
+  if (std::string reason = refuse_unless_alone(problem); !reason.empty()) return reason;
+  if (!problem.bodies.front().pinned) return "it is of a body with pinned = true";
+  if (has_torque(problem, false)) return "a force besides uniform gravity exerts a torque";
+  return "";
+}
+
+std::string refuse_p_psi(const Problem& problem) {
+  if (std::string reason = refuse_unless_alone(problem); !reason.empty()) return reason;
+  const Body& body = problem.bodies.front();
+  if (!has_principal_axes(body) || !equal(body.inertia(0, 0), body.inertia(1, 1))) {
+    return "it is of a symmetric top, whose inertia is [I1, I1, I3]";
+  }
+  if (body.center_of_mass.x() != 0 || body.center_of_mass.y() != 0) return "the mass centre is not on body axis 3";
+  return has_torque(problem, false) ? "a force besides uniform gravity exerts a torque" : "";
+}
+
+std::string refuse_kovalevskaya(const Problem& problem) {
+  if (std::string reason = refuse_unless_top(problem); !reason.empty()) return reason;
+  const Body& body = problem.bodies.front();
+  const double i3 = body.inertia(2, 2);
+  if (!has_principal_axes(body) || !equal(body.inertia(0, 0), 2 * i3) || !equal(body.inertia(1, 1), 2 * i3)) {
+    return "it is of a top whose inertia is [2, 2, 1] I3";
+  }
+  if (body.center_of_mass.y() != 0 || body.center_of_mass.z() != 0) return "the mass centre is not on body axis 1";
+  return "";
+}
+
+std::string refuse_casimir(const Problem& problem) {
+  if (std::string reason = refuse_unless_alone(problem); !reason.empty()) return reason;
+  return has_torque(problem, true) ? "a force exerts a torque" : "";
+}
+
+// Values.
+
+Vector angular_velocity_body(const Snapshot& s) { return s.rotation.transpose() * s.angular_velocity; }
+
+double p_phi(const Problem& problem, const Snapshot& s) { return up(problem).dot(s.angular_momentum); }
+
+double p_psi(const Problem& problem, const Snapshot& s) {
+  return problem.bodies.front().inertia.row(2).dot(angular_velocity_body(s));
+}
+
+/// k = m g l/I3, 1/s², with l the mass centre's coordinate on body axis 1, of either sign.
+double kovalevskaya_k(const Problem& problem) {
+  const Body& body = problem.bodies.front();
+  return body.mass * gravity(problem).norm() * body.center_of_mass.x() / body.inertia(2, 2);
+}
+
+double kovalevskaya(const Problem& problem, const Snapshot& s) {
+  const Vector w = angular_velocity_body(s), gamma = s.rotation.transpose() * up(problem);
+  const double k = kovalevskaya_k(problem);
+  const double real = w[0] * w[0] - w[1] * w[1] - k * gamma[0];
+  const double imaginary = 2 * w[0] * w[1] - k * gamma[1];
+  return real * real + imaginary * imaginary;
+}
+
+double casimir(const Problem&, const Snapshot& s) { return s.angular_momentum.norm(); }
+
+// Scales: the size of the terms, never that of their difference.
+
+double momentum_scale(const Problem&, const Snapshot& s) { return s.angular_momentum.norm(); }
+
+double kovalevskaya_scale(const Problem& problem, const Snapshot& s) {
+  const double size = angular_velocity_body(s).squaredNorm() + std::abs(kovalevskaya_k(problem));
+  return size * size;
+}
+
+}  // namespace
+
+const std::vector<InvariantKind>& invariant_catalogue() {
+  static const std::vector<InvariantKind> invariants = {
+      {"p_phi", "kg m^2/s",
+       "vertical component of a top's angular momentum about its pivot, against gravity or along z", refuse_unless_top,
+       p_phi, momentum_scale},
+      {"p_psi", "kg m^2/s", "I3 W3, a symmetric top's angular momentum along body axis 3", refuse_p_psi, p_psi,
+       momentum_scale},
+      {"kovalevskaya", "1/s^4",
+       "(W1^2 - W2^2 - k g1)^2 + (2 W1 W2 - k g2)^2, g the vertical in body axes, k = m g l/I3, inertia [2, 2, 1] I3",
+       refuse_kovalevskaya, kovalevskaya, kovalevskaya_scale},
+      {"casimir", "kg m^2/s", "|L| about the mass centre, or the pivot, of a body without torque", refuse_casimir,
+       casimir, momentum_scale},
+  };
+  return invariants;
+}
+
+const InvariantKind* find_invariant(std::string_view name) {
+  const auto& all = invariant_catalogue();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const InvariantKind& i) { return i.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace polhode

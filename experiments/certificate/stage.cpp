@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/certificate/stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace polhode::study {
+namespace {
+
+/// f = m (sin 4t, cos 3t, 2t) N and τ = tr(I)/3 (2 cos 5t, 1 − 3t, sin 3t − 1) N m on every moving body, m in kg, I in
+/// kg m² and t in s; does work.
+template <class S>
+class Shaking final : public ForceModel<S> {
+ public:
+  explicit Shaking(const Problem& problem) {
+    for (std::size_t i = 0; i < problem.moving(); ++i) {
+      scales_.push_back({S(problem.bodies[i].mass), S(problem.bodies[i].inertia.trace() / 3)});
+    }
+  }
+
+  void add_wrench(S t, std::span<const BodyMotion<S>>, std::span<Wrench<S>> wrenches) const override {
+    for (std::size_t i = 0; i < scales_.size(); ++i) {
+      wrenches[i].force += scales_[i].mass * force(t);
+      wrenches[i].torque += scales_[i].inertia * torque(t);
+    }
+  }
+  bool does_work() const override { return true; }
+  S power(S t, std::span<const BodyMotion<S>> bodies) const override {
+    S p(0);
+    for (std::size_t i = 0; i < scales_.size(); ++i) {
+      p += scales_[i].mass * force(t).dot(bodies[i].velocity) +
+           scales_[i].inertia * torque(t).dot(bodies[i].angular_velocity);
+    }
+    return p;
+  }
+  Effect effect_on(std::size_t) const override { return {true, std::nullopt}; }
+
+ private:
+  struct Scale {
+    S mass, inertia;
+  };
+  static Vector3<S> force(S t) {
+    using std::cos, std::sin;
+    return Vector3<S>(sin(S(4) * t), cos(S(3) * t), S(2) * t);
+  }
+  static Vector3<S> torque(S t) {
+    using std::cos, std::sin;
+    return Vector3<S>(S(2) * cos(S(5) * t), S(1) - S(3) * t, sin(S(3) * t) - S(1));
+  }
+  std::vector<Scale> scales_;
+};
+
+}  // namespace
+
+template <class S>
+void shake(System<S>& system) {
+  system.add_force(std::make_unique<Shaking<S>>(system.problem()));
+}
+
+template <class S>
+std::unique_ptr<System<S>> Stage::system(const Formulation& formulation) const {
+  auto made = make_system<S>(problem, formulation);
+  if (shaken) shake(*made);
+  return made;
+}
+
+std::string Stage::refusal(const Subject& subject) const {
+  return subject.entry.refusal ? subject.entry.refusal(problem, subject.formulation) : std::string();
+}
+
+std::vector<Stage> stages_of(const std::vector<Scenario>& scenarios) {
+  std::vector<Stage> stages;
+  for (const Scenario& scenario : scenarios) {
+    Stage stage{.name = scenario.name, .problem = scenario.problem};
+    stage.free = scenario.problem.forces.empty();
+    stage.conservative = !stage.free && !make_system<double>(scenario.problem, {})->forces_do_work();
+    stages.push_back(std::move(stage));
+  }
+  if (stages.empty()) return stages;
+  const auto forced = std::find_if(stages.begin(), stages.end(), [](const Stage& s) { return !s.free; });
+  Stage shaken = forced == stages.end() ? stages.front() : *forced;
+  shaken.name += ", shaken";
+  shaken.free = shaken.conservative = false;
+  shaken.shaken = true;
+  stages.push_back(std::move(shaken));
+  return stages;
+}
+
+template void shake(System<double>&);
+template void shake(System<long double>&);
+template std::unique_ptr<System<double>> Stage::system(const Formulation&) const;
+template std::unique_ptr<System<long double>> Stage::system(const Formulation&) const;
+
+}  // namespace polhode::study

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/curves/curves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "experiments/study/scenario/motion_size.hpp"
+#include "experiments/study/statistics/order_estimate.hpp"
+#include "experiments/study/text/notation.hpp"
+#include "integrators/catalogue.hpp"
+
+namespace polhode::study::report {
+
+namespace {
+
+/// Names in the catalogue's order, then names that it does not know in the order of the runs.
+std::vector<std::string> methods_of(const std::vector<RunRecord>& runs) {
+  std::vector<std::string> found;
+  for (const auto& run : runs) {
+    if (std::find(found.begin(), found.end(), run.config.integrator) == found.end()) {
+      found.push_back(run.config.integrator);
+    }
+  }
+  const auto& catalogue = integrator_catalogue();
+  const auto place = [&](const std::string& name) {
+    return std::find_if(catalogue.begin(), catalogue.end(), [&](const auto& e) { return e.declaration.name == name; });
+  };
+  std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
+  return found;
+}
+
+/// Which texts occur in the study for an option: it is worth naming where there are several.
+class Options {
+ public:
+  using Describe = std::string (*)(const RunConfig&);
+
+  Options(const std::vector<RunRecord>& runs, std::vector<Describe> all) {
+    for (const auto describe : all) {
+      const bool varies = std::any_of(runs.begin(), runs.end(), [&](const auto& run) {
+        return describe(run.config) != describe(runs.front().config);
+      });
+      if (varies) varying_.push_back(describe);
+    }
+  }
+
+  std::vector<std::string> describe(const RunConfig& config) const {
+    std::vector<std::string> texts;
+    for (const auto describe_one : varying_) {
+      if (auto text = describe_one(config); !text.empty()) texts.push_back(std::move(text));
+    }
+    return texts;
+  }
+
+ private:
+  std::vector<Describe> varying_;
+};
+
+/// How long, and seen how often, of scenarios whose runs differ in that. Scenarios of different length need no telling
+/// apart by it.
+class Durations {
+ public:
+  explicit Durations(const StudyView& study) {
+    for (const auto& run : study.runs) {
+      ends_[run.config.scenario].insert(study.durations_follow_steps ? 0 : run.config.t_end);
+      samples_[run.config.scenario].insert(run.config.samples);
+    }
+  }
+
+  std::vector<std::string> describe(const RunConfig& config) const {
+    std::vector<std::string> details;
+    if (ends_.at(config.scenario).size() > 1) details.push_back(fmt::format("t_end = {} s", rounded(config.t_end)));
+    if (samples_.at(config.scenario).size() > 1) {
+      details.push_back(config.samples ? fmt::format("{} samples", *config.samples) : "every step seen");
+    }
+    return details;
+  }
+
+ private:
+  std::map<std::string, std::set<double>> ends_;
+  std::map<std::string, std::set<std::optional<std::int64_t>>> samples_;
+};
+
+Options variant_options(const std::vector<RunRecord>& runs) {
+  return {runs,
+          {[](const RunConfig& c) { return std::string(name(c.formulation.orientation)); },
+           [](const RunConfig& c) { return std::string(name(c.formulation.angular_state)); },
+           [](const RunConfig& c) { return fmt::format("gyroscopic {}", c.formulation.gyroscopic ? "on" : "off"); },
+           [](const RunConfig& c) { return fmt::format("normalize {}", c.normalise ? "step" : "never"); },
+           [](const RunConfig& c) { return fmt::format("rotation {}", name(c.formulation.rotation_from)); },
+           [](const RunConfig& c) { return std::string(name(c.precision)); },
+           [](const RunConfig& c) { return c.contact ? c.contact->broad_phase : std::string(); },
+           [](const RunConfig& c) { return c.contact ? c.contact->narrow_phase : std::string(); },
+           [](const RunConfig& c) { return c.contact ? c.contact->response : std::string(); },
+           [](const RunConfig& c) { return c.contact ? c.contact->impact_timing : std::string(); },
+           [](const RunConfig& c) { return c.order.value_or(0) > 0 ? fmt::format("order {}", *c.order) : std::string(); },
+           [](const RunConfig& c) { return c.summation ? std::string(name(*c.summation)) : std::string(); }}};
+}
+
+Case case_of(const RunConfig& config, const Durations& durations) {
+  Case found{.scenario = config.scenario, .details = {}};
+  for (const auto& varied : config.varied) {
+    if (varied.value.empty()) continue;
+    found.details.push_back(fmt::format("{} = {}", varied.key, rounded(varied.value)));
+  }
+  for (auto& text : durations.describe(config)) found.details.push_back(std::move(text));
+  return found;
+}
+
+std::string joined(const std::vector<std::string>& texts) { return fmt::format("{}", fmt::join(texts, ", ")); }
+
+/// Tells cases apart with all digits of their values.
+std::string identity(const Case& motion, const RunConfig& config) {
+  std::string text = motion.label();
+  for (const auto& varied : config.varied) text += '\n' + varied.key + '=' + varied.value;
+  return text;
+}
+
+/// The index of a key in order of first sight.
+template <class Key>
+std::pair<std::size_t, bool> index_of(std::map<Key, std::size_t>& seen, const Key& key) {
+  const auto [at, added] = seen.emplace(key, seen.size());
+  return {at->second, added};
+}
+
+void sort_by_step(Curve& curve) {
+  std::stable_sort(curve.runs.begin(), curve.runs.end(),
+                   [](const auto* a, const auto* b) { return abscissa(*a).value_or(0) > abscissa(*b).value_or(0); });
+}
+
+}  // namespace
+
+std::string Case::label() const {
+  return details.empty() ? scenario : fmt::format("{}, {}", scenario, joined(details));
+}
+
+std::string Grouping::label(const Curve& curve) const {
+  const auto& variant = variants[curve.variant_index];
+  return variant.empty() ? methods[curve.method_index] : fmt::format("{} ({})", methods[curve.method_index], variant);
+}
+
+Grouping group(const StudyView& study) {
+  Grouping grouping;
+  grouping.methods = methods_of(study.runs);
+  std::map<std::string, std::size_t> method_index, cases, variants;
+  for (const auto& method : grouping.methods) method_index.emplace(method, method_index.size());
+  std::map<std::tuple<std::size_t, std::size_t, std::size_t, bool>, std::size_t> curves;
+  std::vector<double> sizes;  // m, of the motions of the cases
+  const Durations durations(study);
+  const auto formulations = variant_options(study.runs);
+
+  for (const auto& run : study.runs) {
+    Case motion = case_of(run.config, durations);
+    const auto [case_index, new_case] = index_of(cases, identity(motion, run.config));
+    if (new_case) {
+      grouping.cases.push_back(std::move(motion));
+      sizes.push_back(run.scenario ? motion_size(*run.scenario, run.config.t_end) : std::numeric_limits<double>::infinity());
+    }
+
+    const auto variant = joined(formulations.describe(run.config));
+    const auto [variant_index, new_variant] = index_of(variants, variant);
+    if (new_variant) grouping.variants.push_back(variant);
+
+    const auto method = method_index.at(run.config.integrator);
+    const bool adaptive = run.config.tolerance.has_value();
+    const auto [curve, new_curve] = index_of(curves, std::tuple(case_index, variant_index, method, adaptive));
+    if (new_curve) grouping.curves.push_back({case_index, variant_index, method, adaptive, sizes[case_index], {}});
+    grouping.curves[curve].runs.push_back(&run);
+  }
+  for (auto& curve : grouping.curves) sort_by_step(curve);
+  return grouping;
+}
+
+namespace quantity {
+
+Quantity energy_drift() {
+  return {
+      "energy_drift_max_rel", "energy drift", "largest energy drift (relative)", "", 0, true, [](const RunResult& r) {
+        return r.energy_drift_max_rel;
+      },
+      [](const RunResult& r) -> std::optional<double> {
+        if (!r.energy_round_off || !r.energy_scale) return std::nullopt;
+        return *r.energy_round_off / *r.energy_scale;
+      }};
+}
+Quantity linear_momentum_drift() {
+  return {"linear_momentum_drift_max_rel",
+          "linear momentum drift",
+          "linear momentum drift (relative)",
+          "",
+          0,
+          true,
+          [](const RunResult& r) { return r.linear_momentum_drift_max_rel; }};
+}
+Quantity angular_momentum_drift() {
+  return {"angular_momentum_drift_max_rel",
+          "angular momentum drift",
+          "angular momentum drift (relative)",
+          "",
+          0,
+          true,
+          [](const RunResult& r) { return r.angular_momentum_drift_max_rel; }};
+}
+Quantity orientation_defect() {
+  return {
+      "orientation_defect_max", "orientation defect", "orientation defect (1)", "", 0, true, [](const RunResult& r) {
+        return r.orientation_defect_max;
+      }};
+}
+Quantity position_error() {
+  // A metre has no scale of its own: positions of some hundred metres carry rounding of 1e-13 m a step.
+  return {"position_error_max_m",
+          "position error",
+          "largest position error (m)",
+          " m",
+          1e-10,
+          false,
+          [](const RunResult& r) { return r.position_error_max; }};
+}
+Quantity attitude_error() {
+  return {"attitude_error_max_rad",
+          "attitude error",
+          "largest attitude error (rad)",
+          " rad",
+          0,
+          true,
+          [](const RunResult& r) { return r.attitude_error_max; }};
+}
+Quantity invariant_drift(const std::string& name) {
+  return {name + "_drift_max_rel",
+          name + " drift",
+          name + " drift (relative)",
+          "",
+          0,
+          true,
+          [name](const RunResult& r) -> std::optional<double> {
+            const auto at = r.invariant_drift_max_rel.find(name);
+            return at == r.invariant_drift_max_rel.end() ? std::nullopt : std::optional(at->second);
+          }};
+}
+
+}  // namespace quantity
+
+std::optional<double> abscissa(const RunRecord& run) {
+  return run.config.tolerance ? run.config.tolerance : run.config.dt;
+}
+
+std::string step_label(const RunRecord& run) {
+  if (run.config.tolerance) return fmt::format("tolerance = {}", rounded(*run.config.tolerance));
+  return run.config.dt ? fmt::format("dt = {} s", rounded(*run.config.dt)) : "no step";
+}
+
+std::string run_label(const Grouping& grouping, const Curve& curve, const RunRecord& run) {
+  return fmt::format("{} at {}", grouping.label(curve), step_label(run));
+}
+
+bool completed(const RunRecord& run) { return run.result.status == "ok"; }
+bool ended_early(const RunRecord& run) { return run.result.status == "diverged" || run.result.status == "failed"; }
+
+std::optional<double> value(const RunRecord& run, const Quantity& quantity) {
+  const auto found = completed(run) ? quantity.of(run.result) : std::nullopt;
+  return found && std::isfinite(*found) ? found : std::nullopt;
+}
+
+bool is_measured(const Curve& curve, const Quantity& quantity) {
+  return std::any_of(curve.runs.begin(), curve.runs.end(), [&](const auto* run) { return value(*run, quantity); });
+}
+
+std::string printed(const RunRecord& run, const Quantity& quantity) {
+  const auto found = value(run, quantity);
+  return found ? number(*found) : "";
+}
+
+double round_off_level(const RunRecord& run) {
+  const auto steps = static_cast<double>(std::max<std::int64_t>(run.result.steps, 1));
+  return 16 * epsilon(run.config.precision) * std::sqrt(steps);
+}
+
+double round_off_level(const RunRecord& run, const Quantity& quantity) {
+  const auto own = quantity.round_off_of ? quantity.round_off_of(run.result) : std::nullopt;
+  return std::max({round_off_level(run), quantity.round_off, own.value_or(0)});
+}
+
+double lost_level(const Curve& curve, const Quantity& quantity) { return quantity.bounded ? motion_lost : curve.motion_size; }
+
+bool follows(const RunRecord& run, const Curve& curve, const Quantity& quantity) {
+  const auto found = value(run, quantity);
+  return found && *found < lost_level(curve, quantity);
+}
+
+bool off_the_motion(const RunRecord& run, const Curve& curve) {
+  for (const auto& quantity : {quantity::attitude_error(), quantity::position_error()}) {
+    if (value(run, quantity) && !follows(run, curve, quantity)) return true;
+  }
+  return false;
+}
+
+}  // namespace polhode::study::report

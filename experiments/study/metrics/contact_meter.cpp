@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/metrics/contact_meter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace polhode::study {
+namespace {
+
+constexpr std::int64_t instants = 1000, between_depths = 10;
+constexpr double settled_at = 2;  // s
+constexpr double left = 0.1;      // of its radius: so far from where it was at the start a body has left its place
+
+void raise(std::optional<double>& worst, double now) {
+  if (std::isfinite(now) && !(worst && *worst >= now)) worst = now;
+}
+
+}  // namespace
+
+ContactMeter::ContactMeter(const System<double>& system, const Scenario& scenario, const ContactConfig& config, double t_end,
+                           Observer& next)
+    : system_(system),
+      next_(next),
+      scene_(scenario.problem, scenario.colliders, config.broad_phase, config.narrow_phase),
+      t_end_(t_end) {}
+
+std::size_t ContactMeter::observe(std::span<const Sample> samples) {
+  for (const Sample& sample : samples) {
+    const double energy = sample.seen.energy() - sample.work;
+    if (first_) energy_start_ = energy_least_ = energy;
+    first_ = false;
+    energy_least_ = std::min(energy_least_, energy);
+    raise(found_.energy_rise_max, energy - energy_least_);
+    raise(found_.energy_change_max, std::abs(energy - energy_start_));
+  }
+  return next_.observe(samples);
+}
+
+void ContactMeter::meet(std::span<const Impact> impacts) {
+  if (!found_.first_impact && !impacts.empty()) found_.first_impact = impacts.front().t;
+  next_.meet(impacts);
+}
+
+void ContactMeter::account(const ContactLosses& losses) {
+  found_.impact_loss = losses.impact;
+  found_.friction_loss = losses.friction;
+  found_.penetration_energy = losses.penetration;
+  next_.account(losses);
+}
+
+double ContactMeter::next_look() const {
+  // A little early, so that a sample at the very instant counts, however its time was rounded.
+  constexpr double early = 1 - 1e-12;
+  return std::min(early * t_end_ * static_cast<double>(instant_) / instants, next_.next_look());
+}
+
+void ContactMeter::look(const State<double>& state, const Sample& sample) {
+  if (state.t == 0 || sample.t >= next_.next_look()) next_.look(state, sample);
+  const auto reached = static_cast<std::int64_t>(std::floor((1 + 1e-12) * state.t / t_end_ * instants));
+  if (reached < instant_) return;
+  shape_poses(system_, state.y, poses_);
+  measure_places(state);
+  // Depths at the first instant at or after each tenth.
+  if (instant_ == 0 || reached / between_depths > (instant_ - 1) / between_depths) measure_depth(state);
+  instant_ = reached + 1;
+}
+
+void ContactMeter::measure_depth(const State<double>& state) {
+  if (!state.y.allFinite()) return;
+  scene_.near_pairs(poses_, poses_, {}, 0);
+  double deepest = 0;
+  for (const ImpulseContact& c : scene_.contacts(poses_, 0)) deepest = std::max(deepest, c.depth);
+  raise(found_.penetration_max, deepest);
+  found_.penetration_end = deepest;
+}
+
+void ContactMeter::measure_places(const State<double>& state) {
+  if (started_.empty()) started_ = poses_;
+  if (settled_.empty() && state.t >= settled_at * (1 - 1e-12)) settled_ = poses_;
+  for (std::size_t i = 0; i < system_.moving(); ++i) {
+    const double moved = (poses_[i].position - started_[i].position).norm();
+    if (!found_.left_place && moved > left * scene_.radius(i) && scene_.radius(i) > 0) found_.left_place = state.t;
+    if (!settled_.empty()) raise(found_.displacement_max, (poses_[i].position - settled_[i].position).norm());
+  }
+}
+
+void ContactMeter::report(RunResult& result) const { result.contact = found_; }
+
+}  // namespace polhode::study

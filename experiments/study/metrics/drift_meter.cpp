@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/metrics/drift_meter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "experiments/study/metrics/drift_class.hpp"
+
+namespace polhode::study {
+namespace {
+
+constexpr int exact_instants = 50;
+constexpr int most_attitude_errors = 64;
+
+/// max(a, |x|) that a NaN does not get lost in.
+void raise(double& worst, double x) {
+  const double size = std::abs(x);
+  if (!(size <= worst)) worst = size;
+}
+
+std::optional<double> finite(double x) { return std::isfinite(x) ? std::optional(x) : std::nullopt; }
+
+}  // namespace
+
+void ThinnedSeries::add(double t, double energy, double linear2, double angular2, double defect) {
+  if (in_open_ == 0 || !(std::abs(energy) <= std::abs(open_.energy_drift_rel))) {
+    open_.t = t;
+    open_.energy_drift_rel = energy;
+  }
+  if (in_open_ == 0) {
+    open_.linear_momentum_drift_rel = linear2;
+    open_.angular_momentum_drift_rel = angular2;
+    open_.orientation_defect = defect;
+  } else {
+    open_.linear_momentum_drift_rel = std::max(open_.linear_momentum_drift_rel, linear2);
+    open_.angular_momentum_drift_rel = std::max(open_.angular_momentum_drift_rel, angular2);
+    open_.orientation_defect = std::max(open_.orientation_defect, defect);
+  }
+  if (++in_open_ == per_point_) close();
+}
+
+void ThinnedSeries::close() {
+  points_.push_back(open_);
+  in_open_ = 0;
+  if (points_.size() == capacity) merge();
+}
+
+void ThinnedSeries::merge() {
+  for (std::size_t i = 0; i < capacity / 2; ++i) {
+    const SeriesPoint &a = points_[2 * i], &b = points_[2 * i + 1];
+    SeriesPoint p = std::abs(a.energy_drift_rel) >= std::abs(b.energy_drift_rel) ? a : b;
+    p.linear_momentum_drift_rel = std::max(a.linear_momentum_drift_rel, b.linear_momentum_drift_rel);
+    p.angular_momentum_drift_rel = std::max(a.angular_momentum_drift_rel, b.angular_momentum_drift_rel);
+    p.orientation_defect = std::max(a.orientation_defect, b.orientation_defect);
+    points_[i] = p;
+  }
+  points_.resize(capacity / 2);
+  per_point_ *= 2;
+}
+
+std::vector<SeriesPoint> ThinnedSeries::finish(double energy_scale, double linear_scale, double angular_scale) {
+  std::vector<SeriesPoint> points = points_;
+  if (in_open_ > 0) points.push_back(open_);
+  const auto over = [](double drift, double scale) { return scale > 0 ? drift / scale : 0.0; };
+  for (SeriesPoint& p : points) {
+    p.energy_drift_rel = over(p.energy_drift_rel, energy_scale);
+    p.linear_momentum_drift_rel = over(std::sqrt(p.linear_momentum_drift_rel), linear_scale);
+    p.angular_momentum_drift_rel = over(std::sqrt(p.angular_momentum_drift_rel), angular_scale);
+  }
+  return points;
+}
+
+DriftMeter::DriftMeter(const System<double>& system, const std::vector<std::string>& invariants, double t_end,
+                       bool exact_at_samples, TrueMotion motion, Precision precision)
+    : system_(system),
+      t_end_(t_end),
+      exact_at_samples_(exact_at_samples),
+      conserved_(conserved_momenta(system)),
+      exact_(system),
+      reference_(std::move(motion.reference)),
+      has_exact_(exact_.has_anything() || reference_),
+      scales_(std::move(motion.scales)),
+      precision_(precision),
+      polhode_(PolhodeError::of(system)) {
+  if (reference_) follower_.emplace(reference_);
+  for (const std::string& name : invariants) invariants_.push_back({find_invariant(name)});
+}
+
+void DriftMeter::start(const State<double>& state, const Sample& sample) {
+  const Measurement<double>& m = sample.seen;
+  started_ = true;
+  energy_start_ = sample.ledger(0);
+  linear_start_ = m.linear_momentum;
+  angular_start_ = m.angular_momentum;
+  for (Watched& w : invariants_) {
+    const BodySnapshot<double> body = system_.snapshot(state.y, 0);
+    w.start = w.kind->value(system_.problem(), body);
+  }
+}
+
+std::size_t DriftMeter::observe(std::span<const Sample> samples) {
+  const double bound = scales_.energy > 0 ? hopeless_drift * scales_.energy : std::numeric_limits<double>::max();
+  const double per_t_end = 1 / t_end_, energy_start = energy_start_;
+  const ConservedMomenta conserved = conserved_;
+  const bool several = system_.moving() > 1;
+  Sums sums = sums_;  // a copy, which the compiler can keep in registers
+  std::size_t taken = 0;
+  for (; taken < samples.size(); ++taken) {
+    const Sample& sample = samples[taken];
+    const Measurement<double>& m = sample.seen;
+    const double energy = sample.ledger(lost_in_contact_) - energy_start;
+    const double linear2 = conserved.linear ? (m.linear_momentum - linear_start_).squaredNorm() : 0.0;
+    double angular2 = 0;
+    if (conserved.angular) {
+      Vector3<double> change = m.angular_momentum - angular_start_;
+      if (several) change -= scales_.mass_center.cross(m.linear_momentum - linear_start_);
+      angular2 = change.squaredNorm();
+    }
+    raise(sums.worst_energy, energy);
+    raise(sums.worst_linear2, linear2);
+    raise(sums.worst_angular2, angular2);
+    raise(sums.worst_defect, m.orientation_defect);
+    sums.last_energy = energy;
+    series_.add(sample.t, energy, linear2, angular2, m.orientation_defect);
+    blocks_.add(sample.t, energy);
+    const double s = sample.t * per_t_end;
+    sums.t += s;
+    sums.tt += s * s;
+    sums.d += energy;
+    sums.td += s * energy;
+    ++sums.samples;
+    if (!(std::abs(energy) <= bound && m.kinetic <= bound)) break;
+  }
+  sums_ = sums;
+  return taken;
+}
+
+double DriftMeter::next_look() const {
+  if (!invariants_.empty() || (has_exact_ && exact_at_samples_)) return 0;
+  return has_exact_ ? next_exact_ : std::numeric_limits<double>::infinity();
+}
+
+void DriftMeter::look(const State<double>& state, const Sample& sample) {
+  if (!started_) start(state, sample);
+  if (!invariants_.empty()) measure_further(state);
+  if (!has_exact_ || (!exact_at_samples_ && state.t < next_exact_)) return;
+  measure_errors(state);
+  while (next_exact_ <= state.t) {
+    // A little early, so that a sample at the very instant counts, however its time was rounded.
+    constexpr double early = 1 - 1e-12;
+    next_exact_ = exact_count_ < exact_instants ? early * static_cast<double>(++exact_count_) * t_end_ / exact_instants
+                                                : std::numeric_limits<double>::infinity();
+  }
+}
+
+void DriftMeter::measure_further(const State<double>& state) {
+  const BodySnapshot<double> body = system_.snapshot(state.y, 0);
+  for (Watched& w : invariants_) raise(w.worst, w.kind->value(system_.problem(), body) - w.start);
+}
+
+void DriftMeter::measure_errors(const State<double>& state) {
+  errors_until_ = state.t;
+  ExactMotion::Error e = exact_.error(system_, state);
+  const double next_kept = t_end_ * static_cast<double>(attitude_errors_.size()) / most_attitude_errors;
+  if (e.attitude && state.t >= next_kept * (1 - 1e-12)) attitude_errors_.push_back({state.t, *e.attitude});
+  if (follower_) {
+    const ExactMotion::Error r = follower_->error(system_, state);
+    if (!e.position) e.position = r.position;
+    if (!e.attitude) e.attitude = r.attitude;
+    if (!e.angular_velocity) e.angular_velocity = r.angular_velocity;
+  }
+  const auto keep = [](std::optional<double>& worst, const std::optional<double>& now) {
+    if (now && !(worst && *now <= *worst)) worst = now;
+  };
+  keep(worst_error_.position, e.position);
+  keep(worst_error_.attitude, e.attitude);
+  keep(worst_error_.angular_velocity, e.angular_velocity);
+  if (!polhode_) return;
+  const PolhodeError::At at = polhode_->at(state.t, system_.snapshot(state.y, 0));
+  raise(worst_polhode_.phase, at.phase);
+  raise(worst_polhode_.phase_rad, at.phase_rad);
+  raise(worst_polhode_.off, at.off);
+}
+
+void DriftMeter::report(RunResult& result) {
+  result.energy_initial = finite(energy_start_);
+  if (scales_.energy > 0) result.energy_scale = scales_.energy;
+  result.energy_round_off = scales_.energy_round_off(precision_, result.steps);
+  if (sums_.samples < 2) return;  // a run that took no step has no drift
+  result.energy_drift_max = finite(sums_.worst_energy);
+  result.energy_drift_max_rel = finite(sums_.worst_energy / scales_.energy);
+  result.energy_drift_final_rel = finite(sums_.last_energy / scales_.energy);
+  const double n = static_cast<double>(sums_.samples);
+  const double spread = n * sums_.tt - sums_.t * sums_.t;
+  if (sums_.samples > 2 && spread > 0) {
+    result.energy_drift_rate = finite((n * sums_.td - sums_.t * sums_.d) / spread / t_end_);
+  }
+  if (conserved_.linear) result.linear_momentum_drift_max_rel = finite(std::sqrt(sums_.worst_linear2) / scales_.linear);
+  if (conserved_.angular) result.angular_momentum_drift_max_rel = finite(std::sqrt(sums_.worst_angular2) / scales_.angular);
+  for (std::size_t k = 0; k < invariants_.size(); ++k) {
+    const auto drift = finite(invariants_[k].worst / scales_.invariants[k]);
+    if (drift) result.invariant_drift_max_rel[invariants_[k].kind->name] = *drift;
+  }
+  result.orientation_defect_max = finite(sums_.worst_defect);
+  const auto only_finite = [](const std::optional<double>& x) { return x ? finite(*x) : std::nullopt; };
+  result.position_error_max = only_finite(worst_error_.position);
+  result.attitude_error_max = only_finite(worst_error_.attitude);
+  result.angular_velocity_error_max_rel = only_finite(worst_error_.angular_velocity);
+  if (polhode_) {
+    result.polhode_phase_error_max = finite(worst_polhode_.phase);
+    result.polhode_phase_error_max_rad = finite(worst_polhode_.phase_rad);
+    result.polhode_off_error_max_rel = finite(worst_polhode_.off);
+  }
+  if (reference_) judge_by_reference(result);
+  result.attitude_errors = attitude_errors_;
+  // What was seen before a run broke off, often its start alone, says nothing of how wrong it was in the end.
+  const bool broke_off = result.status != "ok" && !(errors_until_ >= result.t_reached && result.t_reached > 0);
+  if (broke_off) forget_errors(result);
+  result.series = series_.finish(scales_.energy, scales_.linear, scales_.angular);
+  if (result.status == "ok") classify(result);
+}
+
+void DriftMeter::forget_errors(RunResult& result) {
+  result.position_error_max = result.attitude_error_max = result.angular_velocity_error_max_rel = std::nullopt;
+  result.polhode_phase_error_max = result.polhode_phase_error_max_rad = result.polhode_off_error_max_rel = std::nullopt;
+  result.attitude_errors.clear();
+}
+
+void DriftMeter::judge_by_reference(RunResult& result) const {
+  constexpr double better = 100;
+  const auto judge = [](bool known, double uncertainty, std::optional<double>& error, std::optional<double>& used) {
+    if (known) return;
+    used = uncertainty;
+    if (!(error && *error >= better * uncertainty)) error.reset();
+  };
+  const ReferenceMotion::Uncertainty& u = reference_->uncertainty();
+  bool all_pinned = true;  // then no position is measured
+  for (std::size_t i = 0; i < system_.moving(); ++i) all_pinned = all_pinned && system_.problem().bodies[i].pinned;
+  judge(exact_.has_position() || all_pinned, u.position, result.position_error_max, result.position_reference);
+  judge(exact_.has_attitude(), u.attitude, result.attitude_error_max, result.attitude_reference);
+  judge(exact_.has_angular_velocity(), u.angular_velocity, result.angular_velocity_error_max_rel,
+        result.angular_velocity_reference_rel);
+}
+
+void DriftMeter::meet(std::span<const Impact> impacts) {
+  constexpr double apart = 1e-3;  // of the run: less than a block
+  for (const Impact& impact : impacts) {
+    if (impacts_.empty() || impact.t > impacts_.back() + apart * t_end_) impacts_.push_back(impact.t);
+  }
+}
+
+void DriftMeter::classify(RunResult& result) const {
+  DriftRecord record;
+  record.blocks = blocks_.finish();
+  record.largest = sums_.worst_energy;
+  if (!(scales_.energy > 0)) record.largest_early = record.largest;  // then the series has no energies
+  for (const SeriesPoint& p : result.series) {
+    if (p.t <= t_end_ / 2) record.largest_early = std::max(record.largest_early, std::abs(p.energy_drift_rel) * scales_.energy);
+  }
+  record.round_off = result.energy_round_off.value_or(0);
+  record.scale = scales_.energy;
+  record.samples = sums_.samples;
+  record.t_end = t_end_;
+  record.impacts = impacts_;
+  const DriftClass found = polhode::study::classify(record);
+  result.drift_class = found.name;
+  result.energy_drift_rate_ci = found.slope_half_width;
+  result.drift_exponent = found.exponent;
+  result.drift_exponent_low = found.low;
+  result.drift_exponent_high = found.high;
+  result.drift_decided_after = found.decided_after;
+}
+
+}  // namespace polhode::study

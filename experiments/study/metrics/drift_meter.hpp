@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Watches a run and measures how far its invariants drift and how far it is from the exact motion.
+//
+// Energy is a ledger: E = kinetic + potential − work of non-conservative forces + energy lost in contact − energy injected
+// by projection. Its drift is what the ledger cannot explain. Relative drifts are told against the scales of the motion.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/exact/exact_motion.hpp"
+#include "core/system/invariants.hpp"
+#include "core/exact/reference_motion.hpp"
+#include "core/run/simulate.hpp"
+#include "experiments/study/statistics/drift_growth.hpp"
+#include "experiments/study/metrics/polhode_error.hpp"
+#include "experiments/study/metrics/references.hpp"
+#include "experiments/study/record/run_record.hpp"
+
+namespace polhode::study {
+
+/// The history of a run in a fixed number of stretches, however long it is: when all are in use, neighbours merge.
+class ThinnedSeries {
+ public:
+  /// In any units: energy signed, the squares of the momenta's changes.
+  void add(double t, double energy, double linear2, double angular2, double defect);
+  /// Energy and momenta over these scales.
+  std::vector<SeriesPoint> finish(double energy_scale, double linear_scale, double angular_scale);
+
+ private:
+  static constexpr std::size_t capacity = 256;
+  void close();
+  void merge();
+
+  std::vector<SeriesPoint> points_;
+  SeriesPoint open_;
+  std::size_t in_open_ = 0;
+  std::size_t per_point_ = 1;  ///< samples in one stretch
+};
+
+class DriftMeter final : public Observer {
+ public:
+  /// `exact_at_samples`: the errors against the exact motion are taken at every sample; otherwise at 50 instants spread
+  /// evenly over the run (the first sample at or after each) and at its end, since they cost more than a step.
+  /// `motion.reference`: stands for what is not known exactly; may be null. `precision`: of the run.
+  DriftMeter(const System<double>& system, const std::vector<std::string>& invariants, double t_end,
+             bool exact_at_samples, TrueMotion motion, Precision precision = Precision::dual);
+
+  std::size_t observe(std::span<const Sample> samples) override;
+  void look(const State<double>& state, const Sample& sample) override;
+  double next_look() const override;
+  void account(const ContactLosses& losses) override { lost_in_contact_ = losses.total(); }
+  void meet(std::span<const Impact> impacts) override;
+
+  /// J, against which energy drifts are told; 0: against none.
+  double energy_scale() const { return scales_.energy; }
+
+  /// Fills the measured part of the result, which has its status and its steps. Of a run that broke off there are errors
+  /// against the exact motion only where they were measured at its last state.
+  void report(RunResult& result);
+
+ private:
+  void start(const State<double>& state, const Sample& sample);
+  void measure_further(const State<double>& state);
+  void measure_errors(const State<double>& state);
+  static void forget_errors(RunResult& result);
+  void judge_by_reference(RunResult& result) const;
+  void classify(RunResult& result) const;
+
+  struct Watched {
+    const InvariantKind* kind;
+    double start = 0, worst = 0;
+  };
+
+  const System<double>& system_;
+  double t_end_;
+  bool exact_at_samples_;
+  ConservedMomenta conserved_;
+  std::vector<Watched> invariants_;
+  ExactMotion exact_;
+  std::shared_ptr<const ReferenceMotion> reference_;
+  std::optional<ReferenceMotion::Follower> follower_;
+  bool has_exact_;  ///< or a reference
+  bool started_ = false;
+
+  MotionScales scales_;
+  Precision precision_;
+  double energy_start_ = 0;
+  double lost_in_contact_ = 0;  ///< J
+  Vector3<double> linear_start_, angular_start_;
+  double next_exact_ = 0;
+  std::int64_t exact_count_ = 0;
+  ExactMotion::Error worst_error_;
+  double errors_until_ = 0;  ///< s, when they were measured last
+  std::vector<AttitudeError> attitude_errors_;
+  std::optional<PolhodeError> polhode_;
+  PolhodeError::At worst_polhode_;
+  struct Sums {
+    std::int64_t samples = 0;
+    // In J, and the squares of kg m/s and kg m²/s: divided by their scales in the end.
+    double worst_energy = 0, last_energy = 0, worst_linear2 = 0, worst_angular2 = 0, worst_defect = 0;
+    double t = 0, tt = 0, d = 0, td = 0;  ///< for the least-squares slope of the drift, over t/t_end
+  };
+  Sums sums_;
+  ThinnedSeries series_;
+  BlockMeans blocks_;
+  std::vector<double> impacts_;  ///< s, thinned
+};
+
+}  // namespace polhode::study

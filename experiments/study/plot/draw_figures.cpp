@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// figures/ of a study: for each figure a gnuplot script and its data, what gnuplot draws from them, and PGFPlots.
+#include <fmt/format.h>
+
+#include <deque>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "experiments/study/text/child_process.hpp"
+#include "experiments/study/plot/draw_figures.hpp"
+#include "experiments/study/plot/gnuplot_figure.hpp"
+#include "experiments/study/text/notation.hpp"
+#include "experiments/study/plot/pgfplots_figure.hpp"
+#include "experiments/study/text/read_file.hpp"
+#include "experiments/study/report/figures/study_figures.hpp"
+#include "experiments/study/record/study_view.hpp"
+#include "experiments/study/text/text_file.hpp"
+
+namespace polhode::study {
+
+namespace {
+
+using namespace report;
+namespace fs = std::filesystem;
+
+constexpr std::size_t children = 2;
+
+/// A picture of an earlier study must not stand among those of this one. Ours are known by their script, which begins
+/// with its name.
+void remove_old_figures(const fs::path& folder) {
+  if (!fs::exists(folder)) return;
+  std::vector<std::string> names;
+  for (const auto& file : fs::directory_iterator(folder)) {
+    const std::string name = file.path().stem().string();
+    if (file.path().extension() != ".gp") continue;
+    if (read_file(file.path()).value_or("").starts_with(fmt::format("# {}: ", name))) names.push_back(name);
+  }
+  for (const auto& name : names) {
+    for (const auto* ending : {".gp", ".dat", ".svg", ".pdf", ".tex"}) fs::remove(folder / (name + ending));
+  }
+}
+
+void write_sources(const FigureSet& set, const fs::path& folder) {
+  write_text(folder / style_file, gnuplot_style(set));
+  for (const auto& figure : set.figures) {
+    write_text(folder / (figure.name + ".gp"), gnuplot_script(figure));
+    write_text(folder / (figure.name + ".dat"), gnuplot_data(figure));
+    write_text(folder / (figure.name + ".tex"), pgfplots(figure));
+  }
+}
+
+/// Cairo writes the time of day into a PDF, and not every version lets SOURCE_DATE_EPOCH change that. Digits are
+/// replaced one for one, so that the offsets in the file stay right.
+void fix_date(const fs::path& pdf) {
+  auto text = read_file(pdf);
+  if (!text) return;
+  const std::string_view key = "/CreationDate (D:", date = "19700101000000";
+  const auto at = text->find(key);
+  if (at == std::string::npos || at + key.size() + date.size() > text->size()) return;
+  text->replace(at + key.size(), date.size(), date);
+  write_text(pdf, *text);
+}
+
+std::optional<ChildProcess> start_gnuplot(const std::string& name, const fs::path& folder) {
+  // -d: no start-up files, which would change what is drawn. TZ: Cairo writes the time zone as well.
+  return ChildProcess::start({"gnuplot", "-d", name + ".gp"}, folder,
+                             {{"SOURCE_DATE_EPOCH", "0"}, {"TZ", "UTC0"}, {"LC_ALL", "C.UTF-8"}});
+}
+
+void finish_gnuplot(ChildProcess& child, const std::string& name, const fs::path& folder) {
+  const auto outcome = child.wait();
+  const auto file = folder / name;
+  if (outcome.exit_status != 0) {
+    throw std::runtime_error(fmt::format("gnuplot failed on {}.gp with exit status {}: {}", file.string(),
+                                         outcome.exit_status, one_line(outcome.printed)));
+  }
+  for (const auto* ending : {".svg", ".pdf"}) {
+    const fs::path made = file.string() + ending;
+    if (!fs::exists(made) || fs::file_size(made) == 0) {
+      throw std::runtime_error(fmt::format("gnuplot left no {}: {}", made.string(), one_line(outcome.printed)));
+    }
+  }
+  fix_date(file.string() + ".pdf");
+}
+
+std::string not_installed(const FigureSet& set, const std::string& where) {
+  std::vector<std::string> names;
+  for (const auto& figure : set.figures) names.push_back(figure.name + ".gp");
+  return fmt::format(
+      "gnuplot is not installed: {0}/ has scripts, data and LaTeX, but no SVG and PDF. Install it (Debian: apt-get "
+      "install gnuplot-nox) and repeat the command, or run gnuplot in {0}/ on {1}.",
+      where, words(names));
+}
+
+}  // namespace
+
+std::string draw_figures(const FigureSet& set, const fs::path& study_folder, const std::string& where) {
+  const auto folder = study_folder / where;
+  remove_old_figures(folder);
+  if (set.figures.empty()) return "";
+  fs::create_directories(folder);
+  write_sources(set, folder);
+
+  std::deque<std::pair<std::string, ChildProcess>> running;
+  const auto finish_oldest = [&] {
+    auto [name, child] = std::move(running.front());
+    running.pop_front();
+    finish_gnuplot(child, name, folder);
+  };
+  for (const auto& figure : set.figures) {
+    if (running.size() == children) finish_oldest();
+    auto child = start_gnuplot(figure.name, folder);
+    if (!child) return not_installed(set, where);
+    running.emplace_back(figure.name, std::move(*child));
+  }
+  while (!running.empty()) finish_oldest();
+  return "";
+}
+
+std::string write_figures(const StudyView& study) {
+  const bool alone = study.analysis && study.analysis->alone;
+  const auto grouping = group(study);
+  auto said = draw_figures(alone ? FigureSet{study.analysis->figures, {}} : figures_of(study, grouping), study.folder,
+                           "figures");
+  if (!study.analysis) return said;
+  const auto said_of_timed =
+      draw_figures({.figures = study.analysis->timed.figures, .absent = {}}, study.folder, timings_folder);
+  return said.empty() ? said_of_timed : said;
+}
+
+}  // namespace polhode::study

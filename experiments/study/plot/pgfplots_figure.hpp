@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A figure as LaTeX: a tikzpicture of PGFPlots that needs no other file.
+#pragma once
+
+#include <string>
+
+#include "experiments/study/plot/figure.hpp"
+
+namespace polhode::study::report {
+
+std::string pgfplots(const Figure& figure);
+
+}  // namespace polhode::study::report

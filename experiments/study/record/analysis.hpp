@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What an experiment makes of its finished runs beyond what every study shows. It is the first thing in the report, it
+// ends the study on the terminal, and its tables, figures and files stand beside those of the study.
+//
+// Everything but the timed part must be the same bytes for the same runs.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/study/plot/figure.hpp"
+#include "experiments/study/plot/table.hpp"
+
+namespace polhode::study {
+
+inline constexpr const char* timings_folder = "timings";
+
+struct Analysis {
+  struct NamedTable {
+    std::string name;  ///< of tables/NAME.tex and tables/NAME.md
+    report::Table table;
+  };
+  struct File {
+    std::filesystem::path name;  ///< in the folder of results: "orders.csv"
+    std::string text;
+  };
+
+  /// Its runs are means to another end: the report shows it instead of what every study says and draws of its runs.
+  bool alone = false;
+  std::string heading{};                 ///< of its part of the report: "Observed order"
+  std::vector<std::string> sentences{};  ///< what is seen
+  std::vector<std::string> method{};     ///< how the numbers were made; below the tables
+  std::vector<NamedTable> tables{};      ///< the first one stands on the terminal too
+  std::vector<report::Figure> figures{};
+  std::vector<File> files{};
+
+  /// What was made from wall times, which differ from call to call. It is kept apart in timings/, and the report shows
+  /// those figures by reference, so that its own bytes do not depend on them; titles and captions must not either.
+  struct Timed {
+    std::vector<std::string> sentences{};  ///< on the terminal only
+    std::vector<report::Figure> figures{};
+    std::vector<File> files{};  ///< in timings/
+  };
+  Timed timed{};
+};
+
+}  // namespace polhode::study

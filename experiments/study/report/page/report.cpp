@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// report.html of a study: one page that opens alone. What is seen comes first, then the figures, then what was run.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "experiments/study/text/build_info.hpp"
+#include "experiments/study/report/findings/findings.hpp"
+#include "experiments/study/plot/gnuplot_figure.hpp"
+#include "experiments/study/report/page/how_to_read.hpp"
+#include "experiments/study/report/findings/method_table.hpp"
+#include "experiments/study/text/notation.hpp"
+#include "experiments/study/report/page/page_style.hpp"
+#include "experiments/study/text/read_file.hpp"
+#include "experiments/study/report/page/replay_link.hpp"
+#include "experiments/study/report/tables/run_table.hpp"
+#include "experiments/study/report/figures/study_figures.hpp"
+#include "experiments/study/record/study_view.hpp"
+#include "experiments/study/text/text_file.hpp"
+#include "integrators/catalogue.hpp"
+
+namespace polhode::study {
+
+namespace {
+
+using namespace report;
+
+constexpr std::size_t open_rows = 40;  // a table up to here stands open, a longer one folded
+constexpr std::size_t open_rows_of_analysis = 60;
+constexpr std::size_t most_open_rows_in_text = 12;
+constexpr std::size_t most_runs_shown = 400;  // of thousands: runs.csv has them all
+constexpr std::size_t most_curves_shown = 300;
+
+/// "energy_drift" → "Energy drift".
+std::string title_of(const StudyView& study) {
+  std::string title = study.experiment;
+  std::replace(title.begin(), title.end(), '_', ' ');
+  if (!title.empty() && title.front() >= 'a' && title.front() <= 'z')
+    title.front() = static_cast<char>(title.front() - 'a' + 'A');
+  return title;
+}
+
+/// A sentence in which no line breaks within a number like 2e-7.
+std::string prose(std::string_view text) {
+  static const std::regex number_with_exponent("[0-9.]+e-[0-9]+");
+  return std::regex_replace(html(text), number_with_exponent, "<span class=\"nowrap\">$&</span>");
+}
+
+std::string paragraph(std::string_view text) { return fmt::format("<p>{}</p>\n", prose(text)); }
+
+std::string list(const std::vector<std::string>& items) {
+  std::string out = "<ul>\n";
+  for (const auto& item : items) out += fmt::format("<li>{}</li>\n", prose(item));
+  return out + "</ul>\n";
+}
+
+std::string folded(const std::string& summary, const std::string& content, bool open) {
+  return fmt::format("<details{}>\n<summary>{}</summary>\n{}</details>\n", open ? " open" : "", html(summary), content);
+}
+
+bool alone(const StudyView& study) { return study.analysis && study.analysis->alone; }
+
+std::string command_html(const StudyView& study) {
+  return fmt::format("<h3>The command that makes this again</h3>\n<pre><code>{}</code></pre>\n", html(study.command));
+}
+
+/// The contents are links, one after the other.
+std::string head(const StudyView& study, std::string_view contents) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{} – "
+      "polhode</title>\n<style>{}</style>\n"
+      "</head>\n<body>\n<header>\n<h1>{}</h1>\n<p class=\"question\">{}</p>\n"
+      "<nav aria-label=\"Contents\"><ul><li><a href=\"#seen\">What is seen</a></li>{}</ul></nav>\n</header>\n<main>\n",
+      html(title_of(study)), page_style, html(title_of(study)), html(study.question), contents);
+}
+
+std::string head(const StudyView& study) {
+  constexpr const char* of_curves = "<li><a href=\"#figures\">Figures</a></li><li><a href=\"#methods\">Method by method</a></li>";
+  constexpr const char* of_runs = "<li><a href=\"#run\">What was run</a></li><li><a href=\"#runs\">All runs</a></li>";
+  return head(study, std::string(alone(study) ? "" : of_curves) + of_runs);
+}
+
+/// What the experiment made of its runs: the answer to its question, so before everything else.
+std::string analysis_html(const Analysis& analysis) {
+  std::string out = fmt::format("<h3>{}</h3>\n", html(analysis.heading));
+  if (!analysis.sentences.empty()) out += list(analysis.sentences);
+  for (const auto& [name, table] : analysis.tables) {
+    out += table.rows.size() > open_rows_of_analysis ? folded(table.caption, html(table, Caption::spoken), false) : html(table);
+    out += fmt::format("<p>For a text: <a href=\"tables/{0}.tex\">LaTeX</a>, <a href=\"tables/{0}.md\">Markdown</a>.</p>\n",
+                       name);
+  }
+  for (const auto& sentence : analysis.method) out += paragraph(sentence);
+  std::vector<std::string> links;
+  for (const auto& file : analysis.files) links.push_back(fmt::format("<a href=\"{0}\">{0}</a>", file.name.string()));
+  if (!links.empty()) out += fmt::format("<p>All digits: {}.</p>\n", fmt::join(links, ", "));
+  return out;
+}
+
+std::string what_is_seen(const StudyView& study, const Findings& findings) {
+  std::string out = fmt::format("<section id=\"seen\">\n<h2>What is seen</h2>\n<p class=\"outcome\">{}</p>\n",
+                                html(findings.outcome));
+  out += replay_line(study.folder);
+  if (alone(study)) return out + analysis_html(*study.analysis) + "</section>\n";
+  for (const auto& caution : findings.cautions) {
+    out += fmt::format("<div class=\"caution\" role=\"note\"><strong>Caution</strong> {}</div>\n", prose(caution));
+  }
+  if (study.analysis) out += analysis_html(*study.analysis);
+  for (const auto& topic : findings.topics) {
+    out += fmt::format("<h3>{}</h3>\n", html(topic.heading));
+    if (!topic.sentences.empty()) out += list(topic.sentences);
+    for (const auto& table : topic.tables) {
+      out += table.rows.size() > most_open_rows_in_text ? folded(table.caption, html(table, Caption::spoken), false)
+                                                        : html(table);
+    }
+  }
+  return out + "</section>\n";
+}
+
+/// The picture, if it was drawn from these very data: an older one in the folder may show another study.
+std::optional<std::string> picture(const StudyView& study, const Figure& figure) {
+  const auto file = (study.folder / "figures" / figure.name).string();
+  if (read_file(file + ".gp") != gnuplot_script(figure) || read_file(file + ".dat") != gnuplot_data(figure))
+    return std::nullopt;
+  return read_file(file + ".svg");
+}
+
+std::string file_links(const Figure& figure, std::string_view folder = "figures") {
+  std::vector<std::string> links;
+  for (const auto* kind : {"svg", "pdf", "dat", "gp", "tex"}) {
+    links.push_back(fmt::format("<a href=\"{2}/{0}.{1}\">{1}</a>", figure.name, kind, folder));
+  }
+  return fmt::format("{}", fmt::join(links, ", "));
+}
+
+constexpr const char* not_drawn =
+    "<p class=\"none\">Not drawn: figures were not asked for, or gnuplot is not installed.</p>";
+
+std::string figure_html(const StudyView& study, const Figure& figure) {
+  const auto svg = picture(study, figure);
+  const auto drawing =
+      svg ? fmt::format("<div class=\"drawing\"><img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\"></div>",
+                        html(figure.title + ". " + figure.caption), base64(*svg))
+          : std::string(not_drawn);
+  return fmt::format("<figure id=\"{}\">\n{}\n<figcaption><b>{}.</b> {}{}</figcaption>\n</figure>\n", figure.name,
+                     drawing, html(figure.title), html(figure.caption),
+                     svg ? fmt::format(" Files: {}.", file_links(figure)) : "");
+}
+
+/// By reference, not by content: wall times differ from call to call, and the bytes of this page must not.
+std::string timed_figures(const StudyView& study) {
+  std::string out;
+  if (!study.analysis) return out;
+  const Analysis::Timed& timed = study.analysis->timed;
+  for (const auto& figure : timed.figures) {
+    const bool drawn = std::filesystem::exists(study.folder / timings_folder / (figure.name + ".svg"));
+    const auto drawing = drawn ? fmt::format("<div class=\"drawing\"><img alt=\"{}\" src=\"{}/{}.svg\"></div>",
+                                             html(figure.title), timings_folder, figure.name)
+                               : std::string(not_drawn);
+    out += fmt::format(
+        "<figure id=\"{}\">\n{}\n<figcaption><b>{}.</b> {} Wall times differ from call to call: this picture stays in "
+        "its own file, is no part of this page, and is gone where the page is moved alone.{}</figcaption>\n</figure>\n",
+        figure.name, drawing, html(figure.title), html(figure.caption),
+        drawn ? fmt::format(" Files: {}.", file_links(figure, timings_folder)) : "");
+  }
+  std::vector<std::string> links;
+  for (const auto& file : timed.files) {
+    links.push_back(fmt::format("<a href=\"{0}/{1}\">{0}/{1}</a>", timings_folder, file.name.string()));
+  }
+  if (!links.empty()) out += fmt::format("<p>From wall times too: {}.</p>\n", fmt::join(links, ", "));
+  return out;
+}
+
+std::string figures(const StudyView& study, const FigureSet& set) {
+  std::string out = "<section id=\"figures\">\n<h2>Figures</h2>\n";
+  const std::size_t own = study.analysis ? study.analysis->figures.size() : 0;
+  for (std::size_t i = 0; i < set.figures.size(); ++i) {
+    if (i == own) out += timed_figures(study);
+    out += figure_html(study, set.figures[i]);
+  }
+  if (own >= set.figures.size()) out += timed_figures(study);
+  for (const auto& absent : set.absent)
+    out += paragraph(fmt::format("There is no figure “{}”: {}.", absent.title, absent.reason));
+  return out + "</section>\n";
+}
+
+std::string methods(const Grouping& grouping) {
+  auto table = method_table(grouping);
+  const auto all = table.rows.size();
+  if (all > most_curves_shown) table.rows.resize(most_curves_shown);
+  std::string out = "<section id=\"methods\">\n<h2>Method by method</h2>\n";
+  if (all > open_rows) {
+    const auto summary = all > most_curves_shown ? fmt::format("The first {} of {} rows", most_curves_shown, all)
+                                                 : fmt::format("{} rows", all);
+    out += folded(summary, html(table), false);
+  } else {
+    out += html(table);
+  }
+  return out + "</section>\n";
+}
+
+/// "1 body (box, 10 kg)" and the forces on it.
+std::string bodies_and_forces(const Scenario& scenario) {
+  std::vector<std::string> bodies;
+  for (const auto& body : scenario.problem.bodies) {
+    if (bodies.size() == 6) {
+      bodies.push_back(fmt::format("{} more", scenario.problem.bodies.size() - 6));
+      break;
+    }
+    bodies.push_back(body.fixed
+                         ? fmt::format("{} (static)", body.name)
+                         : fmt::format("{} ({} kg{})", body.name, rounded(body.mass), body.pinned ? ", pinned" : ""));
+  }
+  std::set<std::string> forces;
+  for (const auto& force : scenario.problem.forces) forces.insert(force.kind);
+  return fmt::format("Bodies: {}. Forces: {}.", bodies.empty() ? "none" : words(bodies),
+                     forces.empty() ? "none" : words({forces.begin(), forces.end()}));
+}
+
+std::string scenarios(const StudyView& study) {
+  std::string out = "<h3>Scenarios</h3>\n<dl>\n";
+  for (const auto& scenario : study.scenarios) {
+    out += fmt::format("<dt>{} <code>{}</code></dt>\n<dd>{}{}{}</dd>\n", html(scenario.title), html(scenario.name),
+                       html(scenario.description), scenario.description.empty() ? "" : "<br>",
+                       html(bodies_and_forces(scenario)));
+  }
+  return out + "</dl>\n";
+}
+
+std::string catalogue_table(const Grouping& grouping) {
+  using Kind = Column::Kind;
+  Table table{.caption = "The methods",
+              .columns = {{"name", "", Kind::name},
+                          {"family", "", Kind::text},
+                          {"order"},
+                          {"step", "", Kind::text},
+                          {"what it is", "", Kind::text}},
+              .rows = {}};
+  for (const auto& name : grouping.methods) {
+    const auto* entry = find_integrator(name);
+    if (entry == nullptr) {
+      table.rows.push_back({name, "", "", "", ""});
+      continue;
+    }
+    const auto& d = entry->declaration;
+    table.rows.push_back({name, d.family, d.order > 0 ? std::to_string(d.order) : "variable",
+                          d.adaptive ? "chosen to a tolerance" : "fixed",
+                          fmt::format("{}{}", d.summary, d.implicit ? " (implicit)" : "")});
+  }
+  return html(table);
+}
+
+/// "0.1, 0.01" or, of many, "20 values from 0.1 to 1e-4", largest first.
+std::string value_list(const std::set<double, std::greater<>>& values) {
+  constexpr std::size_t most = 12;
+  std::vector<std::string> texts;
+  for (const double value : values) texts.push_back(rounded(value));
+  if (texts.size() <= most) return fmt::format("{}", fmt::join(texts, ", "));
+  return fmt::format("{} values from {} to {}", texts.size(), texts.front(), texts.back());
+}
+
+std::string options_html(const StudyView& study) {
+  std::set<double, std::greater<>> steps, tolerances, ends;
+  std::set<std::string> orientations, states, gyroscopic, normalise, rotation, precision, orders, summation, samples;
+  std::set<std::string> broad, narrow, responses, timings;
+  for (const auto& run : study.runs) {
+    const auto& c = run.config;
+    if (c.dt) steps.insert(*c.dt);
+    if (c.tolerance) tolerances.insert(*c.tolerance);
+    ends.insert(c.t_end);
+    orientations.emplace(name(c.formulation.orientation));
+    states.emplace(name(c.formulation.angular_state));
+    gyroscopic.emplace(c.formulation.gyroscopic ? "on" : "off");
+    normalise.emplace(c.normalise ? "step" : "never");
+    if (c.formulation.orientation == Orientation::quaternion) rotation.emplace(name(c.formulation.rotation_from));
+    precision.emplace(name(c.precision));
+    if (c.contact) {
+      broad.insert(c.contact->broad_phase);
+      narrow.insert(c.contact->narrow_phase);
+      responses.insert(c.contact->response);
+      timings.insert(c.contact->impact_timing);
+    }
+    if (c.order.value_or(0) > 0) orders.insert(std::to_string(*c.order));
+    if (c.summation) summation.emplace(name(*c.summation));
+    samples.insert(c.samples ? std::to_string(*c.samples) : "every step");
+  }
+  std::string out = "<h3>Options</h3>\n<dl>\n";
+  const auto add = [&](const char* term, const std::string& text) {
+    if (!text.empty()) out += fmt::format("<dt>{}</dt><dd>{}</dd>\n", term, html(text));
+  };
+  const auto texts = [](const std::set<std::string>& all) { return fmt::format("{}", fmt::join(all, ", ")); };
+  add("dt (s), fixed-step methods", value_list(steps));
+  add("tolerance, relative and absolute alike, adaptive methods", value_list(tolerances));
+  add("t_end (s)", value_list(ends));
+  for (const auto& key : study.varied_keys) {
+    std::set<std::string> values;
+    for (const auto& run : study.runs) {
+      for (const auto& varied : run.config.varied) {
+        if (varied.key == key && !varied.value.empty()) values.insert(rounded(varied.value));
+      }
+    }
+    add(html(key).c_str(), values.size() <= 12 ? texts(values) : fmt::format("{} values", values.size()));
+  }
+  add("orientation", texts(orientations));
+  add("angular state", texts(states));
+  add("gyroscopic term", texts(gyroscopic));
+  add("normalize", texts(normalise));
+  add("rotation from (quaternions)", texts(rotation));
+  add("precision", texts(precision));
+  add("broad phase", texts(broad));
+  add("narrow phase", texts(narrow));
+  add("response to contact", texts(responses));
+  add("timing of impacts", texts(timings));
+  add("order, of methods that offer several", texts(orders));
+  add("summation of the state", texts(summation));
+  add("observed at (samples)", texts(samples));
+  return out + "</dl>\n";
+}
+
+std::string what_was_run(const StudyView& study, const Grouping& grouping) {
+  return fmt::format(
+      "<section id=\"run\">\n<h2>What was run</h2>\n{}<h3>Methods</h3>\n{}{}{}</section>\n", scenarios(study),
+      catalogue_table(grouping), options_html(study), command_html(study));
+}
+
+std::string all_runs(const StudyView& study) {
+  auto table = run_table(study, Extent::all, most_runs_shown);
+  table.caption = "In the order of runs.csv";
+  const auto n = study.runs.size();
+  std::string out =
+      "<section id=\"runs\">\n<h2>All runs</h2>\n<p>All digits and all options: <a href=\"runs.csv\">runs.csv</a>; for "
+      "a text: "
+      "<a href=\"tables/summary.tex\">LaTeX</a>, <a href=\"tables/summary.md\">Markdown</a>, "
+      "<a href=\"tables/values.tex\">LaTeX commands</a>; what made them: <a "
+      "href=\"manifest.json\">manifest.json</a>.</p>\n";
+  const auto summary =
+      n > most_runs_shown ? fmt::format("The first {} of {} runs", most_runs_shown, n) : count(n, "run");
+  return out + folded(summary, html(table), n <= open_rows) + "</section>\n";
+}
+
+std::string foot() {
+  const auto& build = build_info();
+  return fmt::format(
+      "</main>\n<footer><p>Made by polhode {}, commit {}. SI units throughout.</p></footer>\n</body>\n</html>\n",
+      html(build.version), html(build.commit));
+}
+
+/// Of an experiment that integrates nothing: its own part is all.
+std::string report_without_runs(const StudyView& study) {
+  return head(study, "<li><a href=\"#figures\">Figures</a></li>") + "<section id=\"seen\">\n<h2>What is seen</h2>\n" +
+         analysis_html(*study.analysis) + command_html(study) + "</section>\n" +
+         figures(study, {study.analysis->figures, {}}) + foot();
+}
+
+}  // namespace
+
+void write_report(const StudyView& study) {
+  if (study.runs.empty() && study.analysis) {
+    write_text(study.folder / "report.html", report_without_runs(study));
+    return;
+  }
+  const auto grouping = group(study);
+  if (alone(study)) {
+    write_text(study.folder / "report.html", head(study) + what_is_seen(study, findings_of(study, grouping)) +
+                                                 what_was_run(study, grouping) + all_runs(study) + foot());
+    return;
+  }
+  const auto set = figures_of(study, grouping);
+  write_text(study.folder / "report.html", head(study) + what_is_seen(study, findings_of(study, grouping)) +
+                                               std::string(how_to_read) + figures(study, set) + methods(grouping) +
+                                               what_was_run(study, grouping) + all_runs(study) + foot());
+}
+
+}  // namespace polhode::study

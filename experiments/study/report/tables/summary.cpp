@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/report/tables/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "experiments/study/text/value_lists.hpp"
+#include "experiments/study/plan/plan.hpp"
+#include "experiments/study/text/notation.hpp"
+
+namespace polhode::study {
+namespace {
+
+constexpr std::size_t most_rows = 100;  // that a terminal shows in full
+constexpr std::size_t rows_of_more = 40;
+constexpr std::size_t most_reasons = 10;
+
+std::string number(const std::optional<double>& x) { return x ? fmt::format("{:.3g}", *x) : "-"; }
+
+/// The columns of the configuration that differ between runs, and always the method and its step or tolerance.
+std::vector<std::size_t> shown_columns(const std::vector<std::vector<std::string>>& cells,
+                                       const std::vector<std::string>& names) {
+  std::vector<std::size_t> shown;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const bool always = names[k] == "integrator";
+    const bool differs = std::any_of(cells.begin(), cells.end(), [&](const auto& c) { return c[k] != cells[0][k]; });
+    const bool size = (names[k] == "dt_s" || names[k] == "tolerance") && !cells[0][k].empty();
+    if (always || differs || size) shown.push_back(k);
+  }
+  return shown;
+}
+
+/// Runs to show: all, or evenly spread ones.
+std::vector<std::size_t> shown_rows(std::size_t n) {
+  std::vector<std::size_t> rows;
+  const std::size_t m = n <= most_rows ? n : rows_of_more;
+  for (std::size_t i = 0; i < m; ++i) rows.push_back(m == n ? i : i * (n - 1) / (m - 1));
+  return rows;
+}
+
+/// "(40 of 120 runs, evenly spread; the other 80 are in runs.csv)", or nothing where all are shown.
+std::string left_out(std::size_t n, const char* what, const std::string& where) {
+  if (n <= most_rows) return {};
+  return fmt::format("({} of {} {}, evenly spread; the other {} are in {})\n", rows_of_more, n, what, n - rows_of_more, where);
+}
+
+/// Columns of equal width, on the left or on the right.
+std::string aligned(const std::vector<std::vector<std::string>>& table, const std::vector<bool>& left) {
+  std::vector<std::size_t> width(table[0].size());
+  for (const auto& row : table) {
+    for (std::size_t k = 0; k < row.size(); ++k) width[k] = std::max(width[k], report::length(row[k]));
+  }
+  std::string text;
+  for (const auto& row : table) {
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      const std::string blanks(width[k] - report::length(row[k]), ' ');
+      text += (left[k] ? row[k] + blanks : blanks + row[k]) + "  ";
+    }
+    while (text.back() == ' ') text.pop_back();
+    text += '\n';
+  }
+  return text;
+}
+
+std::string plain(const report::Table& table) {
+  std::vector<std::vector<std::string>> cells(1);
+  std::vector<bool> left;
+  for (const auto& column : table.columns) {
+    cells[0].push_back(column.unit.empty() ? column.header : fmt::format("{} ({})", column.header, column.unit));
+    left.push_back(column.kind != report::Column::Kind::number);
+  }
+  for (const std::size_t i : shown_rows(table.rows.size())) {
+    auto& row = cells.emplace_back(table.rows[i]);
+    for (auto& cell : row) {
+      if (cell.empty()) cell = "-";
+    }
+  }
+  return aligned(cells, left);
+}
+
+/// Why runs were refused, or failed.
+std::string reasons_of(const StudyView& study) {
+  std::vector<Unfinished> runs;
+  for (const RunRecord& run : study.runs) {
+    if (run.result.status == "refused" || run.result.status == "failed") runs.push_back({run.result.status, run.result.message});
+  }
+  const std::string text = reasons(runs);
+  return text.empty() ? "" : "\n" + text;
+}
+
+/// The answer of the experiment in place of the table of runs.
+std::string analysis_summary(const Analysis& analysis) {
+  std::string text;
+  if (!analysis.tables.empty()) {
+    const report::Table& table = analysis.tables.front().table;
+    text += plain(table);
+    text += left_out(table.rows.size(), "rows", "tables/" + analysis.tables.front().name + ".md");
+  }
+  for (const auto* sentences : {&analysis.sentences, &analysis.timed.sentences}) {
+    for (const std::string& sentence : *sentences) text += "\n" + sentence + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string summary_table(const StudyView& study) {
+  // Where the analysis is the result, a refusal is one of its answers and stands in its table.
+  if (study.analysis) return analysis_summary(*study.analysis) + (study.analysis->alone ? "" : reasons_of(study));
+  const std::vector<std::string> names = config_columns(study.varied_keys, study.named);
+  std::vector<std::vector<std::string>> cells;
+  for (const RunRecord& run : study.runs) cells.push_back(config_cells(run.config));
+  const auto columns = shown_columns(cells, names);
+  std::vector<std::vector<std::string>> table(1);
+  for (const std::size_t k : columns) table[0].push_back(names[k]);
+  for (const char* h : {"status", "energy drift", "its class", "ang. momentum", "defect", "attitude rad"}) table[0].emplace_back(h);
+  const auto rows = shown_rows(study.runs.size());
+  for (const std::size_t i : rows) {
+    const RunResult& r = study.runs[i].result;
+    auto& row = table.emplace_back();
+    for (const std::size_t k : columns) row.push_back(report::rounded(cells[i][k]));
+    row.push_back(r.status);
+    row.push_back(number(r.energy_drift_max_rel));
+    row.push_back(r.drift_class.empty()     ? "-"
+                  : r.drift_decided_after ? fmt::format("{} (try {} s)", r.drift_class, report::number(*r.drift_decided_after, 2))
+                                          : r.drift_class);
+    for (const auto& x : {r.angular_momentum_drift_max_rel, r.orientation_defect_max, r.attitude_error_max}) {
+      row.push_back(number(x));
+    }
+  }
+  std::vector<bool> left;
+  for (std::size_t k = 0; k < table[0].size(); ++k) {
+    left.push_back(k == columns.size() || k == columns.size() + 2 ||
+                   (k < columns.size() && names[columns[k]] != "dt_s" && names[columns[k]] != "tolerance"));
+  }
+  std::string text = aligned(table, left);
+  return text + left_out(study.runs.size(), "runs", "runs.csv") + reasons_of(study);
+}
+
+std::string reasons(const std::vector<Unfinished>& runs) {
+  std::vector<std::pair<Unfinished, std::size_t>> found;  // each once, with its count
+  for (Unfinished run : runs) {
+    run.message = run.message.substr(0, run.message.find(" at t = "));  // which is another one in each run
+    const auto same = [&](const auto& f) { return f.first.status == run.status && f.first.message == run.message; };
+    const auto known = std::find_if(found.begin(), found.end(), same);
+    if (known == found.end()) found.emplace_back(std::move(run), 1);
+    else ++known->second;
+  }
+  std::string text;
+  for (std::size_t i = 0; i < std::min(found.size(), most_reasons); ++i) {
+    text += fmt::format("{} {}: {}\n", report::count(found[i].second, "run"), found[i].first.status, found[i].first.message);
+  }
+  if (found.size() > most_reasons) {
+    text += fmt::format("… and {} more; all are in the column message of runs.csv\n",
+                        report::count(found.size() - most_reasons, "reason"));
+  }
+  return text;
+}
+
+}  // namespace polhode::study

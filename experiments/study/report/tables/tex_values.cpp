@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/report/tables/tex_values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <string_view>
+
+#include "experiments/study/curves/error_ladder.hpp"
+#include "experiments/study/text/notation.hpp"
+
+namespace polhode::study::report {
+
+namespace {
+
+constexpr const char* explanation =
+    R"(% The numbers of this study, for use in a text: \input{{values.tex}}, then for example
+% \{}
+% A name is \polhode, scenario, method, varied keys with their values, options that are not the default, step or
+% tolerance, quantity. Digits and signs are spelt, and numbers are written with an exponent: 0.001 = 1e-3 is
+% OneEMinusThree; four digits at most. Where two runs would share a name, the run's id follows, its digits 0 to f
+% as a to p. Units: EnergyDriftRate W, EnergyInitial J, PositionErrorMax m, AttitudeErrorMax rad; drifts and
+% AngularVelocityErrorMax are relative. What is not defined for a run has no command.
+)";
+
+constexpr std::array<std::string_view, 10> digits = {"Zero", "One", "Two",   "Three", "Four",
+                                                     "Five", "Six", "Seven", "Eight", "Nine"};
+
+/// Letters with each word capitalised, digits and signs spelt; anything else parts words.
+std::string spelt(std::string_view text) {
+  std::string out;
+  bool begins_word = true;
+  for (const char c : text) {
+    if (c >= '0' && c <= '9')
+      out += digits[static_cast<std::size_t>(c - '0')];
+    else if (c == '.')
+      out += "Point";
+    else if (c == '-')
+      out += "Minus";
+    else if (c == ',')
+      out += "And";
+    else if (std::isalpha(static_cast<unsigned char>(c)) != 0) {
+      out += begins_word ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+      begins_word = false;
+      continue;
+    }
+    begins_word = true;
+  }
+  return out;
+}
+
+std::string spelt_name(std::string text) {
+  std::replace(text.begin(), text.end(), '.', ' ');
+  std::replace(text.begin(), text.end(), '-', ' ');
+  return spelt(text);
+}
+
+/// With an exponent, so that a number has one name: 0.001 and 1e-3 are both "OneEMinusThree". Four digits at most: a
+/// logarithmic range has values with seventeen.
+std::string spelt_number(double value) {
+  if (value == 0 || !std::isfinite(value)) return spelt(exact(value));
+  const auto printed = scientific(std::strtod(fmt::format("{:.3e}", value).c_str(), nullptr));
+  const auto e = printed.find('e');
+  return spelt(printed.substr(0, e)) + "E" + spelt(printed.substr(e + 1));
+}
+
+/// A TOML value: numbers as numbers, the rest letter by letter.
+std::string spelt_value(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return end != text.c_str() && *end == '\0' ? spelt_number(value) : spelt(text);
+}
+
+double usual_t_end(const StudyView& study, const std::string& scenario) {
+  const auto at =
+      std::find_if(study.scenarios.begin(), study.scenarios.end(), [&](const auto& s) { return s.name == scenario; });
+  return at == study.scenarios.end() ? std::nan("") : at->t_end;
+}
+
+std::string options_of(const RunConfig& c, double t_end) {
+  std::string out;
+  const Formulation usual;
+  if (c.formulation.orientation != usual.orientation) out += spelt_name(std::string(name(c.formulation.orientation)));
+  if (c.formulation.angular_state != usual.angular_state)
+    out += spelt_name(std::string(name(c.formulation.angular_state)));
+  if (!c.formulation.gyroscopic) out += "GyroscopicOff";
+  if (c.normalise) out += "NormalizeStep";
+  if (c.formulation.rotation_from != usual.rotation_from) out += "RotationStored";
+  if (c.precision != Precision::dual) out += spelt_name(std::string(name(c.precision)));
+  if (is_compensated(c)) out += "Compensated";
+  if (c.t_end != t_end) out += "TEnd" + spelt_number(c.t_end);
+  if (c.samples) out += "Samples" + spelt(std::to_string(*c.samples));
+  return out;
+}
+
+std::string name_of(const RunConfig& c, double t_end) {
+  std::string out = "polhode" + spelt_name(c.scenario) + spelt_name(c.integrator);
+  for (const auto& varied : c.varied) {
+    if (!varied.value.empty()) out += spelt_name(varied.key) + spelt_value(varied.value);
+  }
+  out += options_of(c, t_end);
+  if (c.dt) out += "Dt" + spelt_number(*c.dt);
+  if (c.tolerance) out += "Tolerance" + spelt_number(*c.tolerance);
+  return out;
+}
+
+std::string letters_of(const std::string& id) {
+  std::string out;
+  for (const char c : id) {
+    const int digit = c >= '0' && c <= '9' ? c - '0' : std::tolower(static_cast<unsigned char>(c)) - 'a' + 10;
+    if (digit >= 0 && digit < 26) out += static_cast<char>('a' + digit);
+  }
+  return out;
+}
+
+void define(std::string& out, const std::string& command, const std::optional<double>& value) {
+  if (!value || !std::isfinite(*value)) return;
+  const auto printed = tex_number(number(*value, 4));
+  out += fmt::format("\\newcommand{{\\{}}}{{\\ensuremath{{{}}}}}\n", command, printed.substr(1, printed.size() - 2));
+}
+
+void define_count(std::string& out, const std::string& command, std::int64_t n) {
+  if (n > 0) out += fmt::format("\\newcommand{{\\{}}}{{\\ensuremath{{{}}}}}\n", command, n);
+}
+
+void define_run(std::string& out, const std::string& run, const RunResult& r) {
+  define(out, run + "EnergyDriftMax", r.energy_drift_max_rel);
+  define(out, run + "EnergyDriftMaxJ", r.energy_drift_max);
+  define(out, run + "EnergyScale", r.energy_scale);
+  define(out, run + "EnergyDriftFinal", r.energy_drift_final_rel);
+  define(out, run + "EnergyDriftRate", r.energy_drift_rate);
+  define(out, run + "EnergyDriftRateInterval", r.energy_drift_rate_ci);
+  define(out, run + "DriftExponent", r.drift_exponent);
+  define(out, run + "DriftExponentLow", r.drift_exponent_low);
+  define(out, run + "DriftExponentHigh", r.drift_exponent_high);
+  define(out, run + "LinearMomentumDriftMax", r.linear_momentum_drift_max_rel);
+  define(out, run + "AngularMomentumDriftMax", r.angular_momentum_drift_max_rel);
+  for (const auto& [invariant, drift] : r.invariant_drift_max_rel)
+    define(out, run + spelt_name(invariant) + "DriftMax", drift);
+  define(out, run + "OrientationDefectMax", r.orientation_defect_max);
+  define(out, run + "PositionErrorMax", r.position_error_max);
+  define(out, run + "AttitudeErrorMax", r.attitude_error_max);
+  define(out, run + "AngularVelocityErrorMax", r.angular_velocity_error_max_rel);
+  define(out, run + "PolhodePhaseErrorMax", r.polhode_phase_error_max);
+  define(out, run + "PolhodeOffErrorMax", r.polhode_off_error_max_rel);
+  define(out, run + "EnergyInitial", r.energy_initial);
+  define_count(out, run + "Steps", r.steps);
+  define_count(out, run + "Evaluations", r.evaluations);
+}
+
+/// A curve's slopes, under the name of its runs without the step.
+void define_slopes(std::string& out, const StudyView& study) {
+  const auto grouping = group(study);
+  std::map<std::string, int> uses;
+  std::string lines;
+  for (const auto& curve : grouping.curves) {
+    auto config = curve.runs.front()->config;
+    config.dt = config.tolerance = std::nullopt;
+    const auto name = name_of(config, usual_t_end(study, config.scenario)) + (curve.adaptive ? "Tolerance" : "");
+    if (uses[name]++ > 0) continue;
+    for (const auto& [quantity, ending] : {std::pair(quantity::energy_drift(), "EnergyDriftSlope"),
+                                           std::pair(quantity::angular_momentum_drift(), "AngularMomentumDriftSlope"),
+                                           std::pair(quantity::attitude_error(), "AttitudeErrorSlope")}) {
+      if (const auto line = told_line(observed_order(curve, quantity))) define(lines, name + ending, line->order);
+    }
+  }
+  if (!lines.empty()) out += "\n% Observed slopes against the step (Tolerance: against the tolerance).\n" + lines;
+}
+
+}  // namespace
+
+std::vector<std::string> tex_names(const StudyView& study) {
+  std::vector<std::string> names;
+  std::map<std::string, int> uses;
+  for (const auto& run : study.runs) {
+    names.push_back(name_of(run.config, usual_t_end(study, run.config.scenario)));
+    ++uses[names.back()];
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (uses[names[i]] > 1) names[i] += letters_of(study.runs[i].id);
+  }
+  return names;
+}
+
+std::string tex_values(const StudyView& study) {
+  const auto names = tex_names(study);
+  const auto done = std::find_if(study.runs.begin(), study.runs.end(), [](const auto& run) { return completed(run); });
+  const auto example = done == study.runs.end()
+                           ? "polhodeRuns"
+                           : names[static_cast<std::size_t>(done - study.runs.begin())] + "EnergyDriftMax";
+  std::string out = fmt::format(explanation, example);
+  define_count(out, "polhodeRuns", static_cast<std::int64_t>(study.runs.size()));
+  for (std::size_t i = 0; i < study.runs.size(); ++i) {
+    out += fmt::format("\n% {}{}\n", one_line(study.runs[i].id),
+                       completed(study.runs[i]) ? "" : ", " + one_line(study.runs[i].result.status));
+    define_run(out, names[i], study.runs[i].result);
+  }
+  define_slopes(out, study);
+  return out;
+}
+
+}  // namespace polhode::study::report

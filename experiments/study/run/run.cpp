@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/run/run.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <new>
+#include <stdexcept>
+
+#include "collision/contact/impact_timing.hpp"
+#include "core/run/simulate_ensemble.hpp"
+#include "experiments/study/metrics/contact_meter.hpp"
+#include "experiments/study/metrics/drift_meter.hpp"
+#include "experiments/study/scenario/narrow_phase_choice.hpp"
+#include "experiments/study/record/result_numbers.hpp"
+#include "experiments/study/setup/run_setup.hpp"
+#include "integrators/catalogue.hpp"
+
+namespace polhode::study {
+namespace {
+
+std::string_view status_text(RunStatus status) {
+  switch (status) {
+    case RunStatus::ok: return "ok";
+    case RunStatus::diverged: return "diverged";
+    case RunStatus::failed: return "failed";
+    default: return "interrupted";
+  }
+}
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+RunResult result_of(const RunOutcome& outcome, DriftMeter& meter, double seconds) {
+  RunResult result;
+  result.status = status_text(outcome.status);
+  result.message = outcome.message;
+  result.t_reached = outcome.t;
+  result.steps = outcome.steps;
+  result.evaluations = outcome.evaluations;
+  meter.report(result);
+  result.seconds = seconds;
+  return result;
+}
+
+/// `seconds`: of the way from the start to the end, without what is made before it.
+template <class S>
+RunOutcome run_in(const System<S>& system, const System<double>& truth, const RunConfig& config, Observer& observer,
+                  const std::atomic<bool>* stop, double& seconds, ContactModel* contact = nullptr) {
+  const auto integrator = integrator_of<S>(config, system);
+  State<S> state = system.start();
+  const auto started = Clock::now();
+  RunOutcome outcome = simulate(system, truth, *integrator, state, schedule_of(config), observer, stop, contact);
+  seconds = seconds_since(started);
+  return outcome;
+}
+
+RunOutcome run_on(const System<double>& truth, const RunConfig& config, Observer& observer,
+                  const std::atomic<bool>* stop, double& seconds, ContactModel* contact) {
+  const auto other = [&]<class S>() {
+    const auto system = make_system<S>(truth.problem(), truth.formulation());
+    return run_in<S>(*system, truth, config, observer, stop, seconds);
+  };
+  switch (config.precision) {
+    case Precision::single: return other.operator()<float>();
+    case Precision::extended: return other.operator()<long double>();
+    default: return run_in<double>(truth, truth, config, observer, stop, seconds, contact);
+  }
+}
+
+TrueMotion true_motion_of(const RunConfig& config, const Scenario& scenario, const std::atomic<bool>* stop,
+                          References* shared) {
+  References own;
+  return (shared ? *shared : own).of(config, scenario, stop);
+}
+
+/// The outcome of a run, which is its failure where something is thrown out of it.
+template <class Run>
+RunOutcome guarded(const Scenario& scenario, const Run& run) {
+  RunOutcome outcome;
+  try {
+    return run();
+  } catch (const TrajectoryError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    outcome.message = fmt::format("out of memory, with {} bodies; take fewer of them, or fewer runs at a time with --jobs",
+                                  scenario.problem.bodies.size());
+  } catch (const std::exception& error) {
+    outcome.message = error.what();
+  }
+  outcome.status = RunStatus::failed;
+  return outcome;
+}
+
+RunResult measured(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory,
+                   const std::atomic<bool>* stop, References* references) {
+  const auto truth = make_system<double>(scenario.problem, config.formulation);
+  std::optional<ContactSetup> contact;
+  if (config.contact) contact.emplace(*truth, scenario, *config.contact);
+  DriftMeter meter(*truth, scenario.invariants, config.t_end, config.samples.has_value(),
+                   true_motion_of(config, scenario, stop, references), config.precision);
+  std::optional<ContactMeter> contact_meter;
+  if (config.contact) contact_meter.emplace(*truth, scenario, *config.contact, config.t_end, meter);
+  Observer& seen = contact_meter ? static_cast<Observer&>(*contact_meter) : meter;
+  const auto writer = trajectory.open ? trajectory.open(*truth, seen)
+                                      : open_trajectory(trajectory.format, trajectory.folder, *truth, seen);
+  Observer& observer = writer ? static_cast<Observer&>(*writer) : seen;
+  double seconds = 0;
+  const RunOutcome outcome = guarded(
+      scenario, [&] { return run_on(*truth, config, observer, stop, seconds, contact ? contact->model.get() : nullptr); });
+  if (writer && outcome.status != RunStatus::interrupted) writer->close();  // else it stays unfinished by name
+  RunResult result = result_of(outcome, meter, seconds);
+  if (contact_meter) contact_meter->report(result);
+  return result;
+}
+
+std::vector<RunResult> side_by_side(std::span<const LanedRun> runs, const std::atomic<bool>* stop, References* references) {
+  const RunConfig& config = runs.front().config;
+  std::vector<Problem> problems;
+  std::vector<std::unique_ptr<System<double>>> truths;
+  std::vector<std::unique_ptr<DriftMeter>> meters;
+  std::vector<LaneRun> lanes;
+  for (const LanedRun& run : runs) {
+    problems.push_back(run.scenario.problem);
+    truths.push_back(make_system<double>(run.scenario.problem, config.formulation));
+    meters.push_back(std::make_unique<DriftMeter>(
+        *truths.back(), run.scenario.invariants, config.t_end, false,
+        true_motion_of(run.config, run.scenario, stop, references)));
+    lanes.push_back({*truths.back(), *meters.back()});
+  }
+  problems.resize(std::size_t(lane_count), problems.back());  // lanes that nobody looks at
+  const auto system = make_ensemble(problems, config.formulation);
+  const auto integrator = integrator_of<Lanes>(config, *system);
+  const auto started = Clock::now();
+  const auto outcomes = simulate_ensemble(*system, *integrator, lanes, schedule_of(config), stop);
+  const double seconds = seconds_since(started) / static_cast<double>(runs.size());
+  std::vector<RunResult> results;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    results.push_back(result_of(outcomes[i], *meters[i], seconds));
+    keep_finite(results.back());
+  }
+  return results;
+}
+
+}  // namespace
+
+std::string refusal(const RunConfig& config, const Scenario& scenario) {
+  const IntegratorEntry* entry = find_integrator(config.integrator);
+  if (!config.formulation.gyroscopic && config.formulation.angular_state == AngularState::momentum_world) {
+    return "gyroscopic off makes no sense with the momentum state: dL/dt = torque has no gyroscopic term to leave out";
+  }
+  const bool has = config.precision == Precision::single     ? static_cast<bool>(entry->make_float)
+                   : config.precision == Precision::extended ? static_cast<bool>(entry->make_long_double)
+                                                             : static_cast<bool>(entry->make);
+  if (!has) return config.integrator + " works in double only, not in " + std::string(name(config.precision));
+  if (config.tolerance && *config.tolerance < epsilon(config.precision)) {
+    return fmt::format("{}: a tolerance of {:g} is below the {:.2g} to which numbers are kept in {}", config.integrator,
+                       *config.tolerance, epsilon(config.precision), name(config.precision));
+  }
+  const Declaration& declared = entry->declaration;
+  if (const int order = config.order.value_or(0); order > 0 && (order < declared.lowest_order || order > declared.highest_order)) {
+    return fmt::format("{} has the orders {} to {}, not {}", config.integrator, declared.lowest_order,
+                       declared.highest_order, order);
+  }
+  if (is_compensated(config) && !entry->declaration.additive) {
+    return config.integrator + (entry->declaration.adaptive
+                                    ? ": compensated summation is for methods of a fixed step"
+                                    : ": compensated summation makes no sense: its step is not the sum of the state "
+                                      "and an increment");
+  }
+  if (config.contact) {
+    if (config.precision != Precision::dual) return "contact works in double only, not in " + std::string(name(config.precision));
+    if (config.reference) return "no reference can be made of a motion with contact; leave --reference out";
+    const std::string& timing = config.contact->impact_timing;
+    if (declared.adaptive && !timing.empty() && find_impact_timing(timing)->fixed_steps_only) {
+      return config.integrator + " chooses its own steps, and " + timing +
+             " is about steps; take --impact-timing event_located";
+    }
+    if (scenario.end_at_contact && !find_response(config.contact->response)->make) {
+      return config.contact->response + " knows no impacts for end_at_contact to end at; take another --response";
+    }
+    if (std::string reason = narrow_phase_refusal(config.contact->narrow_phase, scenario); !reason.empty()) return reason;
+  }
+  if (entry->refusal) {
+    if (std::string reason = entry->refusal(scenario.problem, config.formulation); !reason.empty()) {
+      return config.integrator + ": " + reason;
+    }
+  }
+  const Schedule schedule = schedule_of(config);
+  if (!schedule.adaptive) plan_steps(schedule.t_end, schedule.dt);  // throws on a step that is too small
+  return sampling_problem(schedule);
+}
+
+RunResult carry_out(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory,
+                    const std::atomic<bool>* stop, References* references) {
+  RunResult result;
+  const RunOutcome outcome = guarded(scenario, [&] {
+    result = measured(config, scenario, trajectory, stop, references);
+    return RunOutcome{};
+  });
+  if (outcome.status == RunStatus::failed) {
+    result = {};
+    result.status = status_text(outcome.status);
+    result.message = outcome.message;
+  }
+  keep_finite(result);
+  return result;
+}
+
+std::string ensemble_key(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory) {
+  const bool plain = config.dt && !config.contact && !config.samples && config.precision == Precision::dual &&
+                     !is_compensated(config) && trajectory.format == TrajectoryFormat::none;
+  if (!plain || !find_integrator(config.integrator)->make_lanes) return {};
+  const std::string key = lane_key(*make_system<double>(scenario.problem, config.formulation));
+  if (key.empty()) return {};
+  const Formulation& f = config.formulation;
+  return fmt::format("{} {} {} {} {} {} {} {} {}", key, config.integrator, name(f.orientation), name(f.angular_state),
+                     f.gyroscopic, name(f.rotation_from), config.normalise, *config.dt, config.t_end);
+}
+
+std::vector<RunResult> carry_out_together(std::span<const LanedRun> runs, const std::atomic<bool>* stop,
+                                          References* references) {
+  try {
+    return side_by_side(runs, stop, references);
+  } catch (const std::exception&) {
+    std::vector<RunResult> results;
+    for (const LanedRun& run : runs) results.push_back(carry_out(run.config, run.scenario, {}, stop, references));
+    return results;
+  }
+}
+
+}  // namespace polhode::study

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/scenario/narrow_phase_choice.hpp"
+
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "collision/narrow_phase.hpp"
+
+namespace polhode::study {
+
+std::string narrow_phase_refusal(std::string_view narrow_phase, const Scenario& scenario) {
+  const auto narrow = find_narrow_phase(narrow_phase)->make();
+  const Pose here, above{{0, 0, 1000}, Matrix3<double>::Identity()};
+  std::set<std::pair<std::string_view, std::string_view>> asked;  // by kind, each once
+  for (std::size_t a = 0; a < scenario.problem.moving(); ++a) {
+    const ShapePointer& of_a = scenario.colliders[a].shape;
+    for (std::size_t b = a + 1; of_a && b < scenario.colliders.size(); ++b) {
+      const ShapePointer& of_b = scenario.colliders[b].shape;
+      if (!of_b || !asked.emplace(of_a->kind(), of_b->kind()).second) continue;
+      try {
+        narrow->distance(*of_a, above, *of_b, here);
+      } catch (const std::invalid_argument& error) {
+        return error.what();
+      }
+    }
+  }
+  return {};
+}
+
+std::string narrow_phase_for(const Scenario& scenario) {
+  return narrow_phase_refusal("sat", scenario).empty() ? "sat" : "gjk";
+}
+
+}  // namespace polhode::study

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where scenarios come from, and how a fault in one is told.
+#include "experiments/study/scenario/scenario.hpp"
+
+#include <filesystem>
+
+#include "experiments/study/scenario/builtin_scenarios.hpp"
+#include "experiments/study/text/input_error.hpp"
+#include "experiments/study/scenario/scenario_override.hpp"
+#include "experiments/study/scenario/scenario_reader.hpp"
+#include "experiments/study/text/suggestion.hpp"
+#include "experiments/study/text/text_file.hpp"
+#include "experiments/study/text/toml_cursor.hpp"
+
+namespace polhode::study {
+
+struct ScenarioSource::Parsed {
+  std::string name;
+  std::string origin;  ///< as messages name it: the path as the user gave it, or "builtin NAME"
+  TomlValue root;
+
+  Parsed(std::string given_name, std::string given_origin, std::string_view text)
+      : name(std::move(given_name)), origin(std::move(given_origin)), root(parsed(text)) {}
+
+  TomlValue parsed(std::string_view text) const {
+    try {
+      return parse_toml(text);
+    } catch (const TomlSyntaxError& error) {
+      throw InputError(at(error.place) + error.message);
+    }
+  }
+
+  std::string at(TomlPlace place) const {
+    return origin + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) + ": ";
+  }
+
+  Scenario resolve(std::span<const Override> overrides) const;
+  [[noreturn]] void tell(const Fault& fault, std::span<const Override> overrides,
+                         const std::vector<std::string>& paths) const;
+  bool sound_by_itself() const;
+};
+
+namespace {
+
+constexpr std::string_view list_scenarios = "./run energy_drift --list scenarios";
+
+std::vector<std::string_view> builtin_names() {
+  std::vector<std::string_view> all;
+  for (const BuiltinScenario& scenario : builtin_scenarios()) all.push_back(scenario.name);
+  return all;
+}
+
+bool is_path(const std::string& name) { return name.find('/') != std::string::npos || name.ends_with(".toml"); }
+
+std::string text_of(const std::string& path) {
+  std::error_code error;
+  if (path.find('/') == std::string::npos && !std::filesystem::exists(path, error)) {
+    const std::string stem = std::filesystem::path(path).stem().string();
+    throw InputError(path + ": no such file, or it cannot be read" + suggestion_of_many(stem, builtin_names(), list_scenarios));
+  }
+  return read_text(path);
+}
+
+/// Whether the override that set `path` speaks for a fault at `at`, which may lie above it.
+bool speaks_for(const std::string& path, const std::string& at) { return path == at || path.starts_with(at + "."); }
+
+}  // namespace
+
+// Faults.
+
+bool ScenarioSource::Parsed::sound_by_itself() const {
+  try {
+    read_scenario(root, name);
+    return true;
+  } catch (const Fault&) {
+    return false;
+  }
+}
+
+void ScenarioSource::Parsed::tell(const Fault& fault, std::span<const Override> overrides,
+                                  const std::vector<std::string>& paths) const {
+  const std::string path = fault.path.empty() ? "" : fault.path + ": ";
+  if (fault.place.from_override >= 0) {
+    const auto i = static_cast<std::size_t>(fault.place.from_override);
+    const bool said = i < paths.size() && speaks_for(paths[i], fault.path);
+    throw InputError(overrides[i].label() + ": " + (said ? "" : path) + fault.message);
+  }
+  // The file's text is at fault only if it fails by itself; otherwise what the overrides made of the rest is.
+  std::string blamed;
+  if (!overrides.empty() && sound_by_itself()) {
+    for (const Override& override : overrides) blamed += (blamed.empty() ? "" : ", ") + override.label();
+    blamed += ": ";
+  }
+  throw InputError(blamed + at(fault.place) + path + fault.message);
+}
+
+Scenario ScenarioSource::Parsed::resolve(std::span<const Override> overrides) const {
+  std::vector<std::string> paths;
+  try {
+    if (overrides.empty()) return read_scenario(root, name);
+    TomlValue tree = root;
+    for (std::size_t i = 0; i < overrides.size(); ++i) {
+      paths.push_back(apply_override(tree, overrides[i], static_cast<int>(i)));
+    }
+    return read_scenario(tree, name);
+  } catch (const Fault& fault) {
+    tell(fault, overrides, paths);
+  }
+}
+
+// The interface.
+
+ScenarioSource ScenarioSource::open(const std::string& name_or_path, const std::string& label) {
+  if (is_path(name_or_path)) {
+    const std::string stem = std::filesystem::path(name_or_path).stem().string();
+    return ScenarioSource(std::make_unique<Parsed>(stem, name_or_path, text_of(name_or_path)));
+  }
+  for (const BuiltinScenario& scenario : builtin_scenarios()) {
+    if (scenario.name != name_or_path) continue;
+    return ScenarioSource(std::make_unique<Parsed>(name_or_path, "builtin " + name_or_path, scenario.text));
+  }
+  throw InputError(label + ": no built-in scenario is called '" + name_or_path + "'" +
+                   suggestion_of_many(name_or_path, builtin_names(), list_scenarios) + "; a file's name holds a '/' or ends in .toml");
+}
+
+ScenarioSource ScenarioSource::parse(std::string text, std::string origin) {
+  const std::string stem = std::filesystem::path(origin).stem().string();
+  return ScenarioSource(std::make_unique<Parsed>(stem, std::move(origin), text));
+}
+
+ScenarioSource::ScenarioSource(std::unique_ptr<Parsed> parsed) : parsed_(std::move(parsed)) {}
+ScenarioSource::ScenarioSource(ScenarioSource&&) noexcept = default;
+ScenarioSource& ScenarioSource::operator=(ScenarioSource&&) noexcept = default;
+ScenarioSource::~ScenarioSource() = default;
+
+const std::string& ScenarioSource::name() const { return parsed_->name; }
+
+Scenario ScenarioSource::resolve(std::span<const Override> overrides) const { return parsed_->resolve(overrides); }
+
+}  // namespace polhode::study

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The keys of a scenario and their defaults, for the reader and for overrides alike. The keys of forces and shapes
+// stand in their own catalogues.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/problem/force_kind.hpp"
+#include "experiments/study/text/toml_value.hpp"
+
+namespace polhode::study {
+
+/// Where a key decides how a run goes; elsewhere a run is the same whatever it says, so that it makes no axis.
+enum class Decides { always, with_contact, never };
+
+struct ScenarioKey {
+  std::string_view name;
+  std::optional<TomlValue> otherwise;  ///< absent: the key has no default of its own
+  Decides decides = Decides::always;
+};
+
+const std::vector<ScenarioKey>& root_keys();
+const std::vector<ScenarioKey>& body_keys();
+
+std::vector<std::string_view> names(const std::vector<ScenarioKey>& keys);
+const ScenarioKey* find_key(const std::vector<ScenarioKey>& keys, std::string_view name);
+
+/// The default of a key that has one.
+const TomlValue& otherwise(const std::vector<ScenarioKey>& keys, std::string_view name);
+
+TomlValue to_toml(const ParameterValue& value);
+
+}  // namespace polhode::study

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/scenario/scenario_override.hpp"
+
+#include <charconv>
+#include <optional>
+#include <vector>
+
+#include "core/forces/catalogue.hpp"
+#include "experiments/study/scenario/scenario_keys.hpp"
+#include "experiments/study/text/suggestion.hpp"
+#include "experiments/study/text/toml_cursor.hpp"
+
+namespace polhode::study {
+
+namespace {
+
+using Type = TomlValue::Type;
+
+void mark(TomlValue& value, TomlPlace place) {
+  value.place = place;
+  for (TomlValue& item : value.items) mark(item, place);
+  for (TomlEntry& entry : value.entries) {
+    entry.key_place = place;
+    mark(entry.value, place);
+  }
+}
+
+std::vector<std::string> parts_of(const std::string& key) {
+  std::vector<std::string> parts(1);
+  for (const char c : key) {
+    if (c == '.') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+/// The walk of one override down the tree.
+class Walk {
+ public:
+  Walk(TomlValue& root, const Override& override, int index)
+      : root_(root), place_{0, 0, index}, parts_(parts_of(override.key)), value_(parsed(override.value)) {}
+
+  std::string run() {
+    const std::string& first = parts_.front();
+    if (first == "body" || first == "force") {
+      into_element(first);
+    } else {
+      into_table(root_, root_keys(), 0);
+    }
+    std::string path = parts_.front();
+    for (std::size_t i = 1; i < parts_.size(); ++i) path += '.' + parts_[i];
+    return path;
+  }
+
+ private:
+  [[noreturn]] void fail(std::string message) const { throw Fault{place_, "", std::move(message)}; }
+
+  TomlValue parsed(const std::string& text) const {
+    try {
+      TomlValue line = parse_toml("value = " + text);
+      if (line.entries.size() != 1 || line.entries[0].key != "value") fail("'" + text + "' is more than one value");
+      mark(line.entries[0].value, place_);
+      return std::move(line.entries[0].value);
+    } catch (const TomlSyntaxError& error) {
+      fail("'" + text + "' is not a TOML value such as 0.5, [1, 0, 0], true or \"world\": " + error.message);
+    }
+  }
+
+  /// The number that a part says, if it is one below `count`.
+  static std::optional<std::size_t> index_in(const std::string& part, std::size_t count) {
+    std::size_t i = 0;
+    const char* end = part.data() + part.size();
+    const auto [stop, error] = std::from_chars(part.data(), end, i);
+    if (error != std::errc() || stop != end || i >= count) return std::nullopt;
+    return i;
+  }
+
+  void into_element(const std::string& list) {
+    TomlValue* elements = root_.find(list);
+    const std::size_t count = elements && elements->type == Type::list ? elements->items.size() : 0;
+    if (parts_.size() < 3) fail("it must name one key of one " + list + ", as in " + list + ".0.KEY");
+    std::optional<std::size_t> index = index_in(parts_[1], count);
+    for (std::size_t i = 0; list == "body" && !index && i < count; ++i) {
+      const TomlValue* name = elements->items[i].find("name");
+      if ((name ? name->text : "body" + std::to_string(i)) == parts_[1]) index = i;
+    }
+    if (!index) fail("the scenario has no " + list + " '" + parts_[1] + "'; " + they_are(list, elements, count));
+    parts_[1] = std::to_string(*index);
+    TomlValue& element = elements->items[*index];
+    if (element.type != Type::table) fail(list + "." + parts_[1] + " is not a table");
+    into_table(element, list == "body" ? body_keys() : force_keys(element), 2);
+  }
+
+  static std::string they_are(const std::string& list, const TomlValue* elements, std::size_t count) {
+    if (count == 0) return "it has none";
+    std::string text = "it has " + std::to_string(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const TomlValue* name = elements->items[i].find(list == "body" ? "name" : "kind");
+      text += (i == 0 ? ": " : ", ") + std::to_string(i) + (name ? " (" + name->text + ")" : "");
+    }
+    return text;
+  }
+
+  static std::vector<ScenarioKey> force_keys(const TomlValue& force) {
+    std::vector<ScenarioKey> keys = {{"kind", std::nullopt}, {"bodies", std::nullopt}};
+    const TomlValue* kind = force.find("kind");
+    if (const ForceEntry* entry = kind ? find_force(kind->text) : nullptr) {
+      for (const Parameter& p : entry->kind.parameters) {
+        const bool required = p.need == Parameter::Need::required;
+        keys.push_back({p.key, required ? std::nullopt : std::optional(to_toml(p.value))});
+      }
+    }
+    return keys;
+  }
+
+  /// parts_[depth] is a key of this table, and those after it lead into its value.
+  void into_table(TomlValue& table, const std::vector<ScenarioKey>& keys, std::size_t depth) {
+    const std::string& name = parts_[depth];
+    const ScenarioKey* key = find_key(keys, name);
+    if (!key) fail("there is no key '" + name + "'" + suggestion(name, "There are", names(keys)));
+    const TomlValue* said = root_.find("contact");
+    const bool contact = said && said->boolean;
+    const bool unread = name == "shape" && !contact && (table.find("inertia") || table.find("point_masses"));
+    if (key->decides == Decides::never || (key->decides == Decides::with_contact && !contact) || unread) {
+      fail("the " + name + " decides nothing about a run" +
+           (unread ? " while the inertia is given beside it" : key->decides == Decides::never ? "" : " without contact = true"));
+    }
+    TomlValue* found = table.find(name);
+    if (!found && depth + 1 < parts_.size()) {
+      if (!key->otherwise) fail("the scenario gives no " + name + " of which to set a part; " + instead(name));
+      found = &table.insert(name, *key->otherwise).value;
+    }
+    if (found) {
+      into_value(*found, depth + 1);
+    } else {
+      table.insert(name, std::move(value_));
+    }
+  }
+
+  static std::string instead(const std::string& name) {
+    const char* const text = "write inertia = [I1, I2, I3] in the scenario, or set the whole inertia or the shape";
+    return name == "inertia" ? text : "set the whole " + name;
+  }
+
+  void into_value(TomlValue& value, std::size_t depth) {
+    if (depth == parts_.size()) {
+      value = std::move(value_);
+      return;
+    }
+    const std::string& part = parts_[depth];
+    if (value.type == Type::list) {
+      const std::optional<std::size_t> index = index_in(part, value.items.size());
+      if (!index) fail("'" + part + "' is not a place in a list of " + std::to_string(value.items.size()) + ", from 0");
+      into_value(value.items[*index], depth + 1);
+    } else if (value.type == Type::table) {
+      if (TomlValue* found = value.find(part)) return into_value(*found, depth + 1);
+      if (depth + 1 < parts_.size()) fail("there is no '" + part + "' of which to set a part");
+      value.insert(part, std::move(value_));
+    } else {
+      fail("there is nothing below '" + parts_[depth - 1] + "'");
+    }
+  }
+
+  TomlValue& root_;
+  TomlPlace place_;
+  std::vector<std::string> parts_;
+  TomlValue value_;
+};
+
+}  // namespace
+
+std::string apply_override(TomlValue& root, const Override& override, int index) {
+  return Walk(root, override, index).run();
+}
+
+}  // namespace polhode::study

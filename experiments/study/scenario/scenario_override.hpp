@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sets one key of a scenario's tree: "body.0.inertia.1", "body.box.mass", "force.0.stiffness", "gravity.2".
+#pragma once
+
+#include <string>
+
+#include "experiments/study/scenario/scenario.hpp"
+#include "experiments/study/text/toml_value.hpp"
+
+namespace polhode::study {
+
+/// Sets the key, which may be absent where it has a default; `index` is the override's among all, and goes into the
+/// place of what it sets. Whether the value will do is for the reader of the result to say. Returns the path with
+/// bodies by number. Throws a Fault that belongs to the override.
+std::string apply_override(TomlValue& root, const Override& override, int index);
+
+}  // namespace polhode::study

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/store/result_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <vector>
+
+#include "experiments/study/record/analysis.hpp"
+#include "experiments/study/text/input_error.hpp"
+#include "experiments/study/store/store.hpp"
+
+namespace polhode::study {
+namespace {
+
+/// What a study writes beside its store: files, and folders.
+constexpr const char* files[] = {"runs.csv",   "timings.csv", "manifest.json", "report.html", "trajectory.csv",
+                                 "energy.csv", "events.csv",  "trajectory.h5", "replay.html"};
+constexpr const char* folders[] = {"figures", "tables", timings_folder, "trajectories"};
+
+std::vector<std::filesystem::path> products(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> all;
+  for (const char* name : files) all.push_back(path / name);
+  for (const char* name : folders) all.push_back(path / name);
+  return all;
+}
+
+/// Files where the study needs a folder, and folders where it writes a file.
+std::vector<std::filesystem::path> misplaced(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> all;
+  const auto look = [&](const std::filesystem::path& at, bool folder) {
+    std::error_code error;
+    const auto status = std::filesystem::status(at, error);
+    if (std::filesystem::exists(status) && std::filesystem::is_directory(status) != folder) all.push_back(at);
+  };
+  for (const char* name : folders) look(path / name, true);
+  for (const char* name : files) look(path / name, false);
+  for (const char* suffix : {"", "-wal", "-shm"}) look(path / (std::string(Store::file_name) + suffix), false);
+  std::error_code error;
+  for (const auto& run : std::filesystem::directory_iterator(path / "trajectories", error)) {
+    look(run.path(), true);
+    for (const char* name : {"trajectory.csv", "energy.csv", "events.csv", "trajectory.h5"}) look(run.path() / name, false);
+  }
+  return all;
+}
+
+bool holds_only(const std::filesystem::path& path, const std::set<std::string>& ids) {
+  try {
+    const std::set<std::string> stored = Store::ids_in(path);
+    return std::includes(ids.begin(), ids.end(), stored.begin(), stored.end()) && !stored.empty();
+  } catch (const std::runtime_error&) {
+    return false;  // damaged
+  }
+}
+
+void refuse_other_study(const std::filesystem::path& path, const std::set<std::string>& ids) {
+  const std::string remedy = "; name another folder with --out, or overwrite it with --force";
+  for (const auto& at : misplaced(path)) {
+    throw InputError("--out: " + at.string() + " is a " +
+                     (std::filesystem::is_directory(at) ? "folder where the study writes a file" : "file where the study needs a folder") +
+                     "; move it away, or overwrite it with --force");
+  }
+  std::set<std::string> stored;
+  try {
+    stored = Store::ids_in(path);
+  } catch (const std::runtime_error& error) {
+    throw InputError("--out: " + std::string(error.what()) + remedy);
+  }
+  if (!std::includes(ids.begin(), ids.end(), stored.begin(), stored.end())) {
+    throw InputError("--out: " + path.string() + " holds the results of a different study" + remedy);
+  }
+  if (!std::filesystem::exists(path / Store::file_name)) {
+    for (const auto& product : products(path)) {
+      if (std::filesystem::exists(product)) throw InputError("--out: " + product.string() + " is there already" + remedy);
+    }
+  }
+}
+
+}  // namespace
+
+ResultFolder::ResultFolder(const std::filesystem::path& path, const std::set<std::string>& ids, bool force) {
+  std::error_code error;
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_directory(path, error)) {
+    throw InputError("--out: " + path.string() + " is not a folder; name another one");
+  }
+  const std::size_t length = std::filesystem::weakly_canonical(std::filesystem::absolute(path), error).string().size();
+  if (length > Store::longest_folder()) {
+    throw InputError("--out: " + path.string() + ": its absolute path has " + std::to_string(length) +
+                     " bytes, and SQLite, which keeps the results, takes " + std::to_string(Store::longest_folder()) +
+                     " at most; name a folder with a shorter path");
+  }
+  std::filesystem::create_directories(path, error);
+  if (error) throw InputError("--out: cannot create " + path.string() + ": " + error.message());
+  // Locked before it is read, so that of two programs only one sees a folder that is just being filled.
+  lock_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ < 0) {
+    fail("cannot read " + path.string() + ": " + std::strerror(errno) + "; make it readable (chmod u+r), or name another folder");
+  }
+  if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EWOULDBLOCK) {
+      fail("another program is writing into " + path.string() + "; wait for it, or name another folder");
+    }
+    fail("cannot lock " + path.string() + ": " + std::strerror(errno) + "; name a folder on another file system");
+  }
+  // For root every folder looks writable until one tries.
+  const std::filesystem::path probe = path / ".writable";
+  const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (file < 0) fail("cannot write into " + path.string() + ": " + std::strerror(errno));
+  close(file);
+  std::filesystem::remove(probe, error);
+  if (!force) {
+    try {
+      refuse_other_study(path, ids);
+    } catch (...) {
+      close(lock_);
+      throw;
+    }
+    return;
+  }
+  for (const auto& at : misplaced(path)) std::filesystem::remove_all(at, error);
+  if (holds_only(path, ids)) return;
+  for (const auto& product : products(path)) std::filesystem::remove_all(product, error);  // nothing of the other study stays
+  for (const char* suffix : {"", "-wal", "-shm"}) {
+    std::filesystem::remove(path / (std::string(Store::file_name) + suffix), error);
+  }
+}
+
+void ResultFolder::fail(const std::string& why) {
+  close(lock_);
+  throw InputError("--out: " + why);
+}
+
+ResultFolder::~ResultFolder() {
+  if (lock_ >= 0) close(lock_);
+}
+
+}  // namespace polhode::study

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads tables of numbers that any program wrote as CSV (RFC 4180), a row at a time. The first line names the columns, which
+// go by their names, in any order; others are passed over. Lines may end in CR LF; empty lines, and those that begin with #,
+// are skipped. Every error is an InputError with file, line, column and a remedy; so is a line of more than 1 MiB, a zero
+// byte, which no text has, and a file that has no end.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/study/text/text_file.hpp"
+
+namespace polhode::study {
+
+class CsvReader {
+ public:
+  /// Opens the file, of `most` bytes at most, and reads the names of its columns.
+  explicit CsvReader(const std::string& path, std::size_t most = 1024 * mebibyte);
+
+  const std::vector<std::string>& names() const { return names_; }
+
+  /// The place of a column that must be there, and only once.
+  std::size_t column(std::string_view name) const;
+  std::vector<std::size_t> columns(const std::vector<std::string>& names) const;  ///< the same of each
+
+  /// The next row; false at the end of the file.
+  bool next();
+
+  std::size_t line() const { return line_number_; }  ///< of the present row, from 1
+
+  const std::string& text(std::size_t column) const { return cells_[column]; }
+  std::int64_t integer(std::size_t column) const;
+  double number(std::size_t column) const;  ///< may be infinite ("inf"), never NaN
+
+  /// About a cell of the present row: "boxes.csv:3:8: hx is negative; …".
+  [[noreturn]] void fail(std::size_t column, const std::string& what) const;
+
+ private:
+  bool next_line();
+  bool read_line();
+  void split();
+  std::string name_and(std::size_t column) const;
+  [[noreturn]] void fail_at(std::size_t character, const std::string& what) const;
+
+  std::string path_;
+  std::ifstream file_;
+  std::size_t most_, bytes_ = 0;
+  std::vector<char> buffer_;  // of a line
+  std::size_t line_number_ = 0;
+  std::string line_;
+  std::vector<std::string> names_;
+  std::vector<std::string> cells_;
+  std::vector<std::size_t> places_;  // of each cell's first character, from 1
+};
+
+}  // namespace polhode::study

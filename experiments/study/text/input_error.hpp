@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bad input from the user: one line that says where it stands and what would be right.
+#pragma once
+
+#include <stdexcept>
+#include <string_view>
+
+#include "experiments/study/text/legible.hpp"
+
+namespace polhode::study {
+
+/// what() is the one line, without the program's name, legible whatever the user gave. main() prints it on stderr and exits
+/// with 2.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(std::string_view message) : std::runtime_error(legible(message)) {}
+};
+
+}  // namespace polhode::study

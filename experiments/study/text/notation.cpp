@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/text/notation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+namespace polhode::study::report {
+
+namespace {
+
+/// 3.20e-05 → 3.2e-5, 1.00e+06 → 1e6.
+std::string without_padding(const std::string& printed) {
+  const auto e = printed.find('e');
+  std::string mantissa = printed.substr(0, e);
+  if (mantissa.find('.') != std::string::npos) {
+    mantissa.erase(mantissa.find_last_not_of('0') + 1);
+    if (mantissa.back() == '.') mantissa.pop_back();
+  }
+  return fmt::format("{}e{}", mantissa, std::atoi(printed.c_str() + e + 1));
+}
+
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
+
+template <class Escape>
+std::string escaped(std::string_view text, Escape escape) {
+  std::string out;
+  out.reserve(text.size() + 8);
+  for (const char c : text) {
+    if (is_control(c))
+      out += ' ';
+    else if (const std::string_view replacement = escape(c); !replacement.empty())
+      out += replacement;
+    else
+      out += c;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string number(double value, int digits) {
+  if (!std::isfinite(value)) return "not finite";
+  const double size = std::abs(value);
+  if (size > 0 && (size < 1e-3 || size >= 1e6)) return without_padding(fmt::format("{:.{}e}", value, digits - 1));
+  if (size >= std::pow(10.0, digits)) return fmt::format("{:.0f}", value);
+  return fmt::format("{:.{}g}", value, digits);
+}
+
+std::string rounded(double value) { return number(value, 5); }
+
+std::string rounded(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return end != text.c_str() && *end == '\0' && std::isfinite(value) ? rounded(value) : text;
+}
+
+std::string scientific(double value) {
+  for (int precision = 0; precision < 17; ++precision) {
+    auto printed = fmt::format("{:.{}e}", value, precision);
+    if (std::strtod(printed.c_str(), nullptr) == value) return without_padding(printed);
+  }
+  return without_padding(fmt::format("{:.16e}", value));
+}
+
+std::string exact(double value) {
+  if (!std::isfinite(value)) return "not finite";
+  const double size = std::abs(value);
+  if (size > 0 && (size < 1e-3 || size >= 1e6)) return scientific(value);
+  return fmt::format("{}", value);
+}
+
+std::string count(std::size_t n, std::string_view noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
+
+std::string words(const std::vector<std::string>& items) {
+  std::string out;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (i > 0) out += i + 1 == items.size() ? " and " : ", ";
+    out += items[i];
+  }
+  return out;
+}
+
+std::string html(std::string_view text) {
+  return escaped(text, [](char c) -> std::string_view {
+    switch (c) {
+      case '&':
+        return "&amp;";
+      case '<':
+        return "&lt;";
+      case '>':
+        return "&gt;";
+      case '"':
+        return "&quot;";
+      case '\'':
+        return "&#39;";
+      default:
+        return {};
+    }
+  });
+}
+
+std::string markdown(std::string_view text) {
+  return escaped(text, [](char c) -> std::string_view {
+    switch (c) {
+      case '|':
+        return "\\|";
+      case '_':
+        return "\\_";
+      case '*':
+        return "\\*";
+      case '`':
+        return "\\`";
+      case '<':
+        return "&lt;";
+      case '&':
+        return "&amp;";
+      case '\\':
+        return "\\\\";
+      case '[':
+        return "\\[";
+      default:
+        return {};
+    }
+  });
+}
+
+std::string tex(std::string_view text) {
+  return escaped(text, [](char c) -> std::string_view {
+    switch (c) {
+      case '\\':
+        return "\\textbackslash{}";
+      case '{':
+        return "\\{";
+      case '}':
+        return "\\}";
+      case '$':
+        return "\\$";
+      case '&':
+        return "\\&";
+      case '#':
+        return "\\#";
+      case '%':
+        return "\\%";
+      case '_':
+        return "\\_";
+      case '^':
+        return "\\textasciicircum{}";
+      case '~':
+        return "\\textasciitilde{}";
+      case '<':
+        return "\\textless{}";
+      case '>':
+        return "\\textgreater{}";
+      case '"':
+        return "\\textquotedbl{}";
+      default:
+        return {};
+    }
+  });
+}
+
+std::string tex_number(std::string_view printed) {
+  const auto e = printed.find('e');
+  if (printed.empty() || printed.find_first_not_of("0123456789+-.e") != std::string_view::npos) return tex(printed);
+  if (e == std::string_view::npos) return fmt::format("${}$", printed);
+  const auto mantissa = printed.substr(0, e), exponent = printed.substr(e + 1);
+  if (mantissa == "1") return fmt::format("$10^{{{}}}$", exponent);
+  return fmt::format("${}\\times10^{{{}}}$", mantissa, exponent);
+}
+
+std::string gnuplot(std::string_view text) {
+  return "'" + escaped(text, [](char c) -> std::string_view { return c == '\'' ? "''" : ""; }) + "'";
+}
+
+std::string one_line(std::string_view text) {
+  return escaped(text, [](char) -> std::string_view { return {}; });
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t k) -> unsigned {
+      return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U;
+    };
+    const unsigned group = byte(0) << 16U | byte(1) << 8U | byte(2);
+    out += alphabet[group >> 18U];
+    out += alphabet[group >> 12U & 63U];
+    out += i + 1 < bytes.size() ? alphabet[group >> 6U & 63U] : '=';
+    out += i + 2 < bytes.size() ? alphabet[group & 63U] : '=';
+  }
+  return out;
+}
+
+std::size_t length(std::string_view utf8) {
+  return static_cast<std::size_t>(
+      std::count_if(utf8.begin(), utf8.end(), [](char c) { return !continues_character(c); }));
+}
+
+std::string shortened(std::string_view utf8, std::size_t characters) {
+  if (length(utf8) <= characters) return std::string(utf8);
+  std::size_t end = 0;
+  for (std::size_t kept = 0; end < utf8.size(); ++end) {
+    if (!continues_character(utf8[end]) && ++kept == characters) break;
+  }
+  return std::string(utf8.substr(0, end)) + "…";
+}
+
+}  // namespace polhode::study::report

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/trajectory/trajectory_rows.hpp"
+
+namespace polhode::study {
+
+std::vector<std::string> trajectory_columns(const System<double>& system) {
+  std::vector<std::string> names = {
+      "t_s",           "body",          "px_m",          "py_m",           "pz_m",           "qw",
+      "qx",            "qy",            "qz",            "vx_m_per_s",     "vy_m_per_s",     "vz_m_per_s",
+      "wx_rad_per_s",  "wy_rad_per_s",  "wz_rad_per_s",  "lx_kg_m2_per_s", "ly_kg_m2_per_s", "lz_kg_m2_per_s",
+      "energy_J"};
+  if (system.formulation().orientation == Orientation::matrix) {
+    for (const char* name : {"r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"}) names.emplace_back(name);
+  }
+  return names;
+}
+
+std::vector<double> trajectory_row(const System<double>& system, const State<double>& state, std::size_t body,
+                                   double energy) {
+  const BodySnapshot<double> s = system.snapshot(state.y, body);
+  std::vector<double> row = {state.t, static_cast<double>(body)};
+  const auto append = [&](const auto& v) {
+    for (Eigen::Index i = 0; i < v.size(); ++i) row.push_back(v[i]);
+  };
+  append(s.position);
+  append(s.orientation);
+  append(s.velocity);
+  append(s.angular_velocity);
+  append(s.angular_momentum);
+  row.push_back(energy);
+  if (system.formulation().orientation == Orientation::matrix) {
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) row.push_back(s.rotation(i, j));
+    }
+  }
+  return row;
+}
+
+std::vector<std::string> energy_columns() {
+  return {"t_s", "kinetic_J", "potential_J", "work_J", "impact_loss_J", "friction_loss_J", "penetration_J",
+          "projection_J", "drift_J"};
+}
+
+std::vector<double> energy_row(const Sample& sample, const ContactLosses& contact, double energy_start) {
+  const Measurement<double>& m = sample.seen;
+  return {sample.t,  m.kinetic, m.potential, sample.work, contact.impact, contact.friction,
+          contact.penetration, sample.projection, sample.ledger(contact.total()) - energy_start};
+}
+
+}  // namespace polhode::study

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The columns of a trajectory, once for every format.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/run/contact_model.hpp"
+#include "core/run/integrator.hpp"
+
+namespace polhode::study {
+
+/// t_s, body, p, q, v, ω, L, energy_J, and with the matrix chart r11 … r33: world axes, SI units; p and v are of the mass
+/// centre, L about the reference point.
+std::vector<std::string> trajectory_columns(const System<double>& system);
+
+/// One row for each moving body, in the order of the columns.
+std::vector<double> trajectory_row(const System<double>& system, const State<double>& state, std::size_t body,
+                                   double energy);
+
+std::vector<std::string> energy_columns();
+/// The ledger; energy_start is what it showed at the start.
+std::vector<double> energy_row(const Sample& sample, const ContactLosses& contact, double energy_start);
+
+
+}  // namespace polhode::study

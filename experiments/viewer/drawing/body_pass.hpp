@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws the bodies, those of one surface in one call, and their shadows on the floors.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "experiments/viewer/drawing/gl_objects.hpp"
+#include "experiments/viewer/drawing/surface_mesh.hpp"
+#include "experiments/viewer/drawing/view_state.hpp"
+
+namespace polhode::viewer {
+
+/// A body as the card has it: where it stands from the eye, and its colour.
+struct BodyInstance {
+  Matrix3<float> rotation;
+  Vector3<float> position;
+  Colour colour;
+  float emphasis = 0;  ///< 1: the edges are strong
+};
+
+class BodyPass {
+ public:
+  explicit BodyPass(const std::vector<study::Surface>& surfaces);
+
+  float radius(std::size_t surface) const { return surfaces_[surface]->radius; }
+  /// Who is drawn from now on, for each surface; they are sorted by their distance.
+  void place(std::span<std::vector<BodyInstance>> instances);
+  void draw(const ViewState& view, bool edges) const;
+  /// Right after FloorPass::draw_floor, on the plane normal · x = offset; `reach` m above it they have faded.
+  void draw_shadows(const ViewState& view, const Vector3<double>& normal, double offset, double reach) const;
+
+ private:
+  struct OnCard {
+    VertexArray vertices;
+    float radius = 0;
+    std::size_t instances = 0;
+  };
+  std::vector<std::unique_ptr<OnCard>> surfaces_;
+  Program solid_, shadow_;
+};
+
+}  // namespace polhode::viewer

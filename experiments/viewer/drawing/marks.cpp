@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/viewer/drawing/marks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace polhode::viewer {
+
+namespace {
+
+/// A dot with a rim.
+void add_dot(std::vector<LineInstance>& lines, const Vector3<float>& at, float width, Colour rim, Colour inside) {
+  lines.push_back({at, at, rim, rim, width, 1});
+  lines.push_back({at, at, inside, inside, width - 3, 1});
+}
+
+void add_line(std::vector<LineInstance>& lines, const Vector3<float>& from, const Vector3<float>& to, Colour colour,
+              float width) {
+  lines.push_back({from, to, colour, colour, width, 0});
+}
+
+Vector3<double> arrow(const FrameBody& body, const Vector3<double>& vector, const VectorScale& scale, double reach,
+                      const Cast& cast) {
+  const double length = vector.norm();
+  if (!(body.angular_velocity.norm() > least_angular_velocity) || !(length > 0)) return Vector3<double>::Zero();
+  return vector * (reach * cast.typical_radius * scale.share(length) / length);
+}
+
+/// The helix of a spring from one end to the other: straight at both ends, its turns wider apart the longer it is.
+class Coil {
+ public:
+  Coil(const Vector3<double>& from, const Vector3<double>& to, double radius) : from_(from), way_(to - from) {
+    const Vector3<double> along = way_.normalized();
+    const Vector3<double> rough = std::abs(along[2]) < 0.8 ? Vector3<double>::UnitZ() : Vector3<double>::UnitX();
+    radius_ = std::min(radius, 0.15 * way_.norm());
+    aside_ = rough.cross(along).normalized();
+    up_ = along.cross(aside_);
+  }
+  static constexpr int turns = 11, points_a_turn = 16, points = turns * points_a_turn;
+
+  /// The point of that number, 0 to `points`.
+  Vector3<double> point(int i) const {
+    return from_ + way_ * (lead + (1 - 2 * lead) * i / points) + radius_ * taper(i) * outward(i);
+  }
+  Vector3<double> outward(int i) const {
+    const double angle = 2 * std::numbers::pi * i / points_a_turn;
+    return std::cos(angle) * aside_ + std::sin(angle) * up_;
+  }
+
+ private:
+  static constexpr double lead = 0.08;
+  /// The first and the last half turn open from the axis.
+  static double taper(int i) { return std::min({1.0, 2.0 * i / points_a_turn, 2.0 * (points - i) / points_a_turn}); }
+  Vector3<double> from_, way_, aside_, up_;
+  double radius_;
+};
+
+}  // namespace
+
+void VectorScales::see(const Frame& frame) {
+  double fastest = 0, most = 0;
+  for (const FrameBody& body : frame.bodies) {
+    if (!(body.angular_velocity.norm() > least_angular_velocity)) continue;
+    fastest = std::max(fastest, body.angular_velocity.norm());
+    most = std::max(most, body.angular_momentum.norm());
+  }
+  angular_velocity.see(fastest);
+  angular_momentum.see(most);
+}
+
+Vector3<double> angular_velocity_arrow(const FrameBody& body, const Cast& cast, const VectorScales& scales) {
+  return arrow(body, body.angular_velocity, scales.angular_velocity, longest_angular_velocity, cast);
+}
+
+Vector3<double> angular_momentum_arrow(const FrameBody& body, const Cast& cast, const VectorScales& scales) {
+  return arrow(body, body.angular_momentum, scales.angular_momentum, longest_angular_momentum, cast);
+}
+
+void Marks::clear() {
+  lines.clear();
+  trails.clear();
+  over.clear();
+  arrows.clear();
+}
+
+void Marks::add_arrow(const Vector3<double>& from, const Vector3<double>& way, double radius, Colour colour,
+                      const ViewState& view) {
+  if (!(way.squaredNorm() > 0)) return;
+  constexpr double least_pixels = 1.3, most_pixels = 4.5;
+  const double pixel = double(view.line_scale) / view.pixels_per_metre(from);
+  arrows.push_back({view.from_eye(from), way.cast<float>(),
+                    float(std::clamp(radius, least_pixels * pixel, most_pixels * pixel)), colour});
+}
+
+void Marks::add_springs(const study::Scene& scene, const Cast& cast, const Frame& frame, const ViewState& view) {
+  const auto point_of = [&](std::size_t body, const Vector3<double>& anchor) -> Vector3<double> {
+    const auto found = std::lower_bound(cast.moving.begin(), cast.moving.end(), body);
+    const Vector3<double> from_center = anchor - scene.bodies[body].center_of_mass;
+    if (found == cast.moving.end() || *found != body) return scene.bodies[body].start.to_world(from_center);
+    const FrameBody& b = frame.bodies[std::size_t(found - cast.moving.begin())];
+    return b.position + rotation_matrix(b.orientation) * from_center;
+  };
+  for (const study::SceneSpring& spring : scene.springs) {
+    const Vector3<double> from = spring.other ? point_of(*spring.other, spring.anchor_other) : spring.anchor_other;
+    const Vector3<double> to = point_of(spring.body, spring.anchor);
+    if (!((to - from).squaredNorm() > 0)) continue;
+    const double radius = 0.13 * cast.typical_radius;
+    const auto width =
+        float(std::clamp(0.22 * radius * view.pixels_per_metre((from + to) / 2) / double(view.line_scale), 1.4, 6.0));
+    const Coil coil(from, to, radius);
+    Vector3<float> last = view.from_eye(from);
+    for (int i = 0; i <= Coil::points; ++i) {
+      const Vector3<float> next = view.from_eye(coil.point(i));
+      const double towards_eye = -coil.outward(i).dot(view.forward.cast<double>());
+      const Colour colour = mix(colours::spring, {172, 180, 190}, 0.5 + 0.5 * towards_eye);
+      lines.push_back({last, next, colour, colour, width, 1});
+      last = next;
+    }
+    add_line(lines, last, view.from_eye(to), colours::spring, width);
+    for (const Vector3<double>& end : {from, to})
+      add_dot(over, view.from_eye(end), width + 6, colours::ink, {255, 255, 255});
+  }
+}
+
+void Marks::add_pivots(const study::Scene& scene, const Cast& cast, const Frame& frame, const ViewState& view) {
+  for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
+    const Vector3<double>& center = scene.bodies[cast.moving[i]].center_of_mass;
+    if (center.isZero()) continue;
+    const FrameBody& body = frame.bodies[i];
+    const Vector3<double> pivot = body.position - rotation_matrix(body.orientation) * center;
+    const Vector3<float> foot = view.from_eye(pivot);
+    add_line(over, foot, view.from_eye(body.position), colours::ink, 2.5f);
+    add_dot(over, foot, 11, colours::ink, {255, 255, 255});
+  }
+}
+
+void Marks::add_contacts(const Frame& frame, const Cast& cast, double depth_scale, const ViewState& view) {
+  const double length = 0.75 * cast.typical_radius;
+  for (const FrameContact& contact : frame.contacts) {
+    const Vector3<double> half_depth = contact.normal * (depth_scale * contact.depth / 2);
+    const Vector3<float> low = view.from_eye(contact.point - half_depth),
+                         high = view.from_eye(contact.point + half_depth);
+    over.push_back({low, high, colours::depth, colours::depth, 5, 0});
+    add_dot(over, view.from_eye(contact.point), 8, colours::contact, {255, 255, 255});
+    add_arrow(contact.point, length * contact.normal, 0.022 * cast.typical_radius, colours::normal, view);
+  }
+}
+
+void Marks::add_cells(const Frame& frame, const ViewState& view) {
+  const Colour colour = with_alpha(colours::cell, 0.45);
+  for (const Bounds& cell : frame.cells) {
+    std::array<Vector3<float>, 8> corner;
+    for (unsigned i = 0; i < 8; ++i) {
+      corner[i] = view.from_eye({i & 1 ? cell.max()[0] : cell.min()[0], i & 2 ? cell.max()[1] : cell.min()[1],
+                                 i & 4 ? cell.max()[2] : cell.min()[2]});
+    }
+    for (unsigned i = 0; i < 8; ++i) {
+      for (unsigned axis = 1; axis < 8; axis *= 2) {
+        if ((i & axis) == 0) add_line(lines, corner[i], corner[i | axis], colour, 1);
+      }
+    }
+  }
+}
+
+void Marks::add_trails(std::span<const Trail> given, const ViewState& view) {
+  for (const Trail& trail : given) {
+    const Colour dark = mix(body_colour(trail.body), colours::ink, 0.35);
+    const auto colour = [&](std::size_t i) {
+      return with_alpha(dark, 0.05 + 0.9 * double(i) / double(trail.points.size() - 1));
+    };
+    constexpr double least_pixels = 3;  // of a segment: shorter ones are drawn as one
+    for (std::size_t i = 1, last = 0; i < trail.points.size(); ++i) {
+      const Vector3<double>&from = trail.points[last], &to = trail.points[i];
+      const bool short_yet = (to - from).norm() * view.pixels_per_metre(to) < least_pixels;
+      if (short_yet && i + 1 < trail.points.size()) continue;
+      trails.push_back({view.from_eye(from), view.from_eye(to), colour(last), colour(i), 2.8f, 0});
+      last = i;
+    }
+  }
+}
+
+void Marks::add_axes(const Frame& frame, const Cast& cast, const ViewState& view) {
+  for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
+    const Matrix3<double> axes = rotation_matrix(frame.bodies[i].orientation);
+    for (int k = 0; k < 3; ++k) {
+      add_arrow(frame.bodies[i].position, axis_length(cast.radius[i]) * axes.col(k), 0.022 * cast.radius[i],
+                colours::axes[std::size_t(k)], view);
+    }
+  }
+}
+
+}  // namespace polhode::viewer

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The camera as the shaders have it: lengths count from the eye, so that floats do for scenes of any size.
+#pragma once
+
+#include <cmath>
+
+#include "experiments/viewer/drawing/camera.hpp"
+#include "experiments/viewer/drawing/look.hpp"
+
+namespace polhode::viewer {
+
+struct ViewState {
+  Vector3<double> eye;
+  Eigen::Matrix4f to_clip;    ///< from world axes about the eye
+  Eigen::Vector3f forward;    ///< unit, world axes
+  Eigen::Vector2f half_size;  ///< pixels
+  double distance;            ///< m, from the eye to the target
+  Vector3<double> target;
+  float line_scale;        ///< pixels for each that a width says
+  float pixels_per_slope;  ///< pixels of a metre across at a metre ahead
+
+  ViewState(const Camera& camera, const Rectangle& area, double scale_of_lines)
+      : eye(camera.eye()),
+        half_size(float(area.width) / 2, float(area.height) / 2),
+        distance(camera.distance),
+        target(camera.target),
+        line_scale(float(scale_of_lines)) {
+    Eigen::Matrix4d turn = camera.view();
+    turn.topRightCorner<3, 1>().setZero();
+    to_clip = (camera.projection(double(area.width) / area.height) * turn).cast<float>();
+    forward = (target - eye).normalized().cast<float>();
+    pixels_per_slope = half_size[1] / float(std::tan(camera.field_of_view / 2));
+  }
+
+  Vector3<float> from_eye(const Vector3<double>& point) const { return (point - eye).cast<float>(); }
+
+  /// Of a metre across at a point; of one behind the eye as of one close to it.
+  double pixels_per_metre(const Vector3<double>& point) const {
+    const double ahead = (point - eye).dot(forward.cast<double>());
+    return double(pixels_per_slope) / std::max(ahead, 1e-3 * distance);
+  }
+};
+
+}  // namespace polhode::viewer

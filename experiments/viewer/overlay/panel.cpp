@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/viewer/overlay/panel.hpp"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "collision/contact/impact_timing.hpp"
+#include "experiments/study/scenario/builtin_scenarios.hpp"
+#include "integrators/catalogue.hpp"
+
+namespace polhode::viewer {
+namespace {
+
+bool button(Controls& controls, const char* label, const char* name) {
+  const bool pressed = ImGui::Button(label);
+  controls.named(name);
+  return pressed;
+}
+
+bool check(Controls& controls, const char* label, const char* name, bool& value) {
+  const bool changed = ImGui::Checkbox(label, &value);
+  controls.named(name);
+  return changed;
+}
+
+/// A list to choose from; true where `value` is another one now.
+bool choose(Controls& controls, const char* label, const std::string& name, const std::vector<std::string>& items, std::string& value) {
+  bool changed = false;
+  const bool open = ImGui::BeginCombo(label, value.c_str(), ImGuiComboFlags_HeightLarge);
+  if (!open) {
+    controls.field_named(name);
+    return false;
+  }
+  for (const std::string& item : items) {
+    const std::string full = name + "/" + item;
+    if (ImGui::Selectable(item.c_str(), item == value) && item != value) {
+      value = item;
+      changed = true;
+    }
+    controls.named(full);
+    if (controls.reveal == full) ImGui::SetScrollHereY();
+  }
+  ImGui::EndCombo();
+  return changed;
+}
+
+/// A positive number, taken with Enter.
+bool enter(Controls& controls, const char* label, const char* name, double& value) {
+  double typed = value;
+  const bool entered = ImGui::InputDouble(label, &typed, 0, 0, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue);
+  controls.field_named(name);
+  if (!entered || !(typed > 0) || !std::isfinite(typed)) return false;
+  value = typed;
+  return true;
+}
+
+template <class Catalogue>
+std::vector<std::string> names_of(const Catalogue& catalogue) {
+  std::vector<std::string> names;
+  for (const auto& entry : catalogue) names.emplace_back(entry.name);
+  return names;
+}
+
+std::vector<std::string> integrators() {
+  std::vector<std::string> names;
+  for (const IntegratorEntry& entry : integrator_catalogue()) names.push_back(entry.declaration.name);
+  return names;
+}
+
+}  // namespace
+
+PanelWishes Panel::draw(Stage& stage, Controls& controls, float width, float height) {
+  PanelWishes wishes;
+  ImGui::SetNextWindowPos({0, 0});
+  ImGui::SetNextWindowSize({width, height});
+  ImGui::Begin("polhode", nullptr, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
+  ImGui::PushItemWidth(-110);
+  if (stage.live()) {
+    std::string scenario = stage.setup().scenario;
+    if (choose(controls, "scenario", "scenario", names_of(study::builtin_scenarios()), scenario)) wishes.scenario = scenario;
+  }
+  time(stage, controls);
+  const std::size_t runs_before = stage.size();
+  if (stage.live()) {
+    runs(stage, controls);
+    method(stage, controls);
+  }
+  shown(stage, controls);
+  wishes.camera = button(controls, "camera home", "camera") || stage.size() != runs_before;
+  ImGui::SameLine();
+  wishes.picture = button(controls, "save picture", "picture");
+  numbers(stage);
+  ImGui::PopItemWidth();
+  ImGui::End();
+  return wishes;
+}
+
+void Panel::time(Stage& stage, Controls& controls) {
+  const SessionStatus& first = stage.views().front()->status;
+  bool playing = false;
+  for (const auto& view : stage.views()) playing |= view->status.playing;
+  if (button(controls, playing ? "pause" : "play", playing ? "pause" : "play")) {
+    stage.each([&](Session& s) { playing ? s.pause() : s.play(); });
+  }
+  ImGui::SameLine();
+  if (button(controls, "step", "step")) stage.each([](Session& s) { s.step(); });
+  ImGui::SameLine();
+  if (button(controls, "reset", "reset")) stage.each([](Session& s) { s.reset(); });
+  speed_ = first.speed;
+  float speed = float(speed_);
+  if (ImGui::SliderFloat("speed", &speed, 0.01F, 100, "%.3g s per s", ImGuiSliderFlags_Logarithmic)) {
+    speed_ = std::clamp(double(speed), 0.01, 100.0);
+    stage.each([this](Session& s) { s.set_speed(speed_); });
+  }
+  controls.field_named("speed");
+  double from = first.t_first, to = first.t_last;
+  for (const auto& view : stage.views()) {
+    from = std::max(from, view->status.t_first);
+    to = std::min(to, view->status.t_last);
+  }
+  double t = std::clamp(stage.views().front()->frame.t, from, std::max(from, to));
+  if (ImGui::SliderScalar("time / s", ImGuiDataType_Double, &t, &from, &to, "%.3f") && to > from) {
+    stage.each([t](Session& s) { s.scrub(t); });
+  }
+  controls.field_named("time");
+  if (stage.live() && check(controls, "pause on collision", "pause_on_collision", pause_on_collision_)) {
+    stage.each([this](Session& s) { s.pause_on_collision(pause_on_collision_); });
+  }
+}
+
+void Panel::runs(Stage& stage, Controls& controls) {
+  run_ = std::min(run_, stage.size() - 1);
+  ImGui::Separator();
+  for (std::size_t k = 0; k < stage.size(); ++k) {
+    if (k > 0) ImGui::SameLine();
+    const std::string label = fmt::format("run {}", k + 1);
+    if (ImGui::RadioButton(label.c_str(), k == run_)) run_ = k;
+    controls.named(fmt::format("run_{}", k + 1));
+  }
+  constexpr std::size_t most = 6;
+  if (stage.size() < most && button(controls, "add beside", "add")) {
+    stage.add(stage.views()[run_]->configuration);
+    stage.each([this](Session& s) {
+      s.set_speed(speed_);
+      s.pause_on_collision(pause_on_collision_);
+    });
+    stage.look_at_all();
+    run_ = stage.size() - 1;
+  }
+  if (stage.size() > 1) {
+    ImGui::SameLine();
+    if (button(controls, "remove", "remove")) {
+      stage.remove(run_);
+      stage.look_at_all();
+      run_ = std::min(run_, stage.size() - 1);
+    }
+  }
+}
+
+void Panel::change(Stage& stage, const Configuration& configuration) { refused_ = stage.session(run_).change(configuration); }
+
+void Panel::method(Stage& stage, Controls& controls) {
+  Configuration c = stage.views()[run_]->configuration;
+  study::RunConfig& run = c.run;
+  std::string method = run.integrator;
+  if (choose(controls, "integrator", "integrator", integrators(), method)) {
+    choose_integrator(c, method, run.dt.value_or(1e-3), run.tolerance.value_or(1e-8));
+    change(stage, c);
+  }
+  if (run.dt) {
+    if (double dt = *run.dt; enter(controls, "dt / s", "dt", dt)) run.dt = dt, change(stage, c);
+  } else if (double tolerance = run.tolerance.value_or(1e-8); enter(controls, "tolerance", "tolerance", tolerance)) {
+    run.tolerance = tolerance;
+    change(stage, c);
+  }
+  std::string drive(name(c.drive));
+  if (choose(controls, "drive", "drive", {"accumulator", "frame_clock"}, drive)) {
+    c.drive = drive == "accumulator" ? Drive::accumulator : Drive::frame_clock;
+    change(stage, c);
+  }
+  std::string chart(name(run.formulation.orientation)), state(name(run.formulation.angular_state));
+  if (choose(controls, "chart", "chart", {"quaternion", "matrix"}, chart)) {
+    run.formulation.orientation = chart == "matrix" ? Orientation::matrix : Orientation::quaternion;
+    change(stage, c);
+  }
+  if (choose(controls, "angular state", "angular_state", {"velocity_world", "velocity_body", "momentum_world"}, state)) {
+    run.formulation.angular_state = state == "velocity_world"  ? AngularState::velocity_world
+                                    : state == "velocity_body" ? AngularState::velocity_body
+                                                               : AngularState::momentum_world;
+    change(stage, c);
+  }
+  if (check(controls, "gyroscopic term", "gyroscopic", run.formulation.gyroscopic)) change(stage, c);
+  if (check(controls, "normalise each step", "normalise", run.normalise)) change(stage, c);
+  if (run.contact) {
+    study::ContactConfig& contact = *run.contact;
+    if (choose(controls, "broad phase", "broad_phase", names_of(broad_phase_catalogue()), contact.broad_phase)) change(stage, c);
+    if (choose(controls, "narrow phase", "narrow_phase", names_of(narrow_phase_catalogue()), contact.narrow_phase)) change(stage, c);
+    if (choose(controls, "response", "response", names_of(response_catalogue()), contact.response)) {
+      const bool force = !find_response(contact.response)->make;
+      contact.impact_timing = force ? "" : contact.impact_timing.empty() ? "time_stepping" : contact.impact_timing;
+      change(stage, c);
+    }
+    if (!contact.impact_timing.empty() &&
+        choose(controls, "timing", "impact_timing", names_of(impact_timing_catalogue()), contact.impact_timing)) {
+      change(stage, c);
+    }
+  }
+  if (!refused_.empty()) ImGui::TextWrapped("not changed: %s", refused_.c_str());
+}
+
+void Panel::shown(Stage& stage, Controls& controls) {
+  ImGui::Separator();
+  if (stage.moving().size() > 1) {
+    std::string body = stage.moving()[stage.selected];
+    if (choose(controls, "body", "body", stage.moving(), body)) {
+      stage.selected = std::size_t(std::find(stage.moving().begin(), stage.moving().end(), body) - stage.moving().begin());
+    }
+  }
+  Look& look = stage.look;
+  const auto beside = [] { ImGui::SameLine(150); };
+  check(controls, "body axes", "axes", look.axes);
+  beside();
+  check(controls, "angular velocity", "angular_velocity", look.angular_velocity);
+  check(controls, "trails", "trails", stage.trails);
+  beside();
+  check(controls, "angular momentum", "angular_momentum", look.angular_momentum);
+  check(controls, "polhode", "polhode", look.polhode);
+  beside();
+  check(controls, "contacts", "contacts", look.contacts);
+  check(controls, "broad-phase cells", "cells", stage.cells);
+  beside();
+  if (check(controls, "Poinsot's plane", "poinsot", look.poinsot) && look.poinsot) look.polhode = true;
+}
+
+void Panel::numbers(Stage& stage) {
+  ImGui::Separator();
+  const View& view = *stage.views()[std::min(run_, stage.size() - 1)];
+  const Frame& frame = view.frame;
+  ImGui::Text("step %lld, t = %.6f s", static_cast<long long>(frame.step), frame.t);
+  ImGui::Text("energy %.9g J", frame.kinetic + frame.potential);
+  ImGui::Text("energy drift %.3g J", frame.energy_drift);
+  ImGui::Text("momentum drift %.3g kg m²/s", frame.momentum_drift);
+  ImGui::Text("orientation defect %.3g", frame.defect);
+  ImGui::Text("%zu contacts", frame.contacts.size());
+  ImGui::Text("%.0f frames per second", double(ImGui::GetIO().Framerate));
+}
+
+}  // namespace polhode::viewer

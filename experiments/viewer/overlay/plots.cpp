@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/viewer/overlay/plots.hpp"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace polhode::viewer {
+namespace {
+
+/// Okabe and Ito's, as in the figures of a study.
+constexpr std::array<ImU32, 6> runs = {IM_COL32(0, 114, 178, 255), IM_COL32(213, 94, 0, 255),   IM_COL32(0, 158, 115, 255),
+                                       IM_COL32(204, 121, 167, 255), IM_COL32(230, 159, 0, 255), IM_COL32(0, 0, 0, 255)};
+constexpr ImU32 ink = IM_COL32(38, 44, 52, 255), pale = IM_COL32(200, 206, 214, 255);
+
+struct Quantity {
+  const char* title;
+  double (*of)(const PlotPoint&);
+  double PlotPoint::*further = nullptr;  ///< a second curve, thin
+};
+
+constexpr std::array<Quantity, 4> quantities = {{
+    {"energy: kinetic, thin: potential / J", [](const PlotPoint& p) { return p.kinetic; }, &PlotPoint::potential},
+    {"energy drift / J", [](const PlotPoint& p) { return p.energy_drift; }},
+    {"angular momentum drift / (kg m²/s)", [](const PlotPoint& p) { return p.momentum_drift; }},
+    {"orientation defect", [](const PlotPoint& p) { return p.defect; }},
+}};
+
+struct Range {
+  double low = INFINITY, high = -INFINITY;
+  void hold(double x) {
+    if (!std::isfinite(x)) return;
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+  bool empty() const { return !(low <= high); }
+  /// Never of no height, so that a constant is a line in the middle.
+  void widen() {
+    const double least = std::max(std::abs(low), std::abs(high)) * 1e-12;
+    if (high - low > least) return;
+    const double by = std::max(std::abs(high) * 0.5, 1e-300);
+    low -= by;
+    high += by;
+  }
+};
+
+void plot(Stage& stage, const Quantity& quantity, ImVec2 from, ImVec2 to) {
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  Range values, times;
+  for (const auto& view : stage.views()) {
+    for (const PlotPoint& p : view->plot) {
+      times.hold(p.t);
+      values.hold(quantity.of(p));
+      if (quantity.further) values.hold(p.*quantity.further);
+    }
+    times.hold(view->frame.t);
+  }
+  list->AddText({from.x, from.y}, ink, quantity.title);
+  const float line = ImGui::GetTextLineHeight(), upper = from.y + line + 3, lower = to.y - line - 2;
+  list->AddRect({from.x, upper}, {to.x, lower}, pale);
+  if (values.empty() || times.empty()) return;
+  values.widen();
+  times.widen();
+  const auto place = [&](double t, double x) {
+    return ImVec2(from.x + float((t - times.low) / (times.high - times.low)) * (to.x - from.x),
+                  lower - 2 - float((x - values.low) / (values.high - values.low)) * (lower - upper - 4));
+  };
+  if (values.low < 0 && values.high > 0) list->AddLine(place(times.low, 0), place(times.high, 0), pale);
+  std::vector<ImVec2> curve;
+  const auto draw = [&](const View& view, auto of, ImU32 colour, float thick) {
+    curve.clear();
+    for (const PlotPoint& p : view.plot) {
+      if (const double x = of(p); std::isfinite(x)) curve.push_back(place(p.t, x));
+    }
+    for (std::size_t i = 1; i < curve.size(); ++i) list->AddLine(curve[i - 1], curve[i], colour, thick);  // no mitres
+  };
+  for (std::size_t k = 0; k < stage.size(); ++k) {
+    const View& view = *stage.views()[k];
+    const ImU32 colour = runs[k % runs.size()];
+    if (quantity.further) draw(view, [&](const PlotPoint& p) { return p.*quantity.further; }, colour, 1);
+    draw(view, quantity.of, colour, 2);
+    const float x = place(view.frame.t, values.low).x;
+    list->AddLine({x, upper}, {x, lower}, colour, 1);
+  }
+  const std::string high = fmt::format("{:.3g}", values.high), low = fmt::format("{:.3g}", values.low);
+  list->AddText({from.x + 4, upper + 1}, ink, high.c_str());
+  list->AddText({from.x + 4, lower - line - 1}, ink, low.c_str());
+  const std::string last = fmt::format("{:.3g} s", times.high);
+  list->AddText({from.x, lower + 1}, ink, fmt::format("{:.3g}", times.low).c_str());
+  list->AddText({to.x - ImGui::CalcTextSize(last.c_str()).x, lower + 1}, ink, last.c_str());
+}
+
+}  // namespace
+
+void draw_plots(Stage& stage, float left, float upper, float width, float height) {
+  ImGui::SetNextWindowPos({left, upper});
+  ImGui::SetNextWindowSize({width, height});
+  ImGui::Begin("plots", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus);
+  const float legend = stage.size() > 1 ? ImGui::GetTextLineHeight() + 4 : 0, margin = 12;
+  const float each = (width - margin * float(quantities.size() + 1)) / float(quantities.size());
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const float x = left + margin + float(i) * (each + margin);
+    plot(stage, quantities[i], {x, upper + 6}, {x + each, upper + height - 6 - legend});
+  }
+  float x = left + margin;
+  for (std::size_t k = 0; k < stage.size() && legend > 0; ++k) {
+    const std::string text = stage.title(k, *stage.views()[k]);
+    const float y = upper + height - legend - 2;
+    ImGui::GetWindowDrawList()->AddLine({x, y + 8}, {x + 20, y + 8}, runs[k % runs.size()], 3);
+    ImGui::GetWindowDrawList()->AddText({x + 26, y}, ink, text.c_str());
+    x += 46 + ImGui::CalcTextSize(text.c_str()).x;
+  }
+  ImGui::End();
+}
+
+}  // namespace polhode::viewer

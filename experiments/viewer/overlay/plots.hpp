@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Energy, momentum and orientation defect against time, as they happen.
+#pragma once
+
+#include "experiments/viewer/stage/stage.hpp"
+
+namespace polhode::viewer {
+
+/// A strip of plots at the lower edge of the picture, one curve for each run.
+void draw_plots(Stage& stage, float left, float upper, float width, float height);
+
+}  // namespace polhode::viewer

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+#include "experiments/study/text/value_lists.hpp"
+#include "experiments/viewer/session/segment_run.hpp"
+#include "experiments/viewer/session/session_record.hpp"
+
+namespace polhode::viewer {
+namespace {
+
+std::string quoted(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') out += '\\';
+    if (byte < 0x20 || byte == 0x7f) out += fmt::format("\\u{:04x}", byte);
+    else out += c;
+  }
+  return out + '"';
+}
+
+std::string line(std::string_view key, std::string_view text) { return fmt::format("{} = {}\n", key, quoted(text)); }
+std::string line(std::string_view key, double x) { return fmt::format("{} = {}\n", key, study::exact(x)); }
+std::string line(std::string_view key, bool on) { return fmt::format("{} = {}\n", key, on); }
+
+/// A file's path as seen from the record's folder, so that both can be moved together.
+std::string seen_from(const std::filesystem::path& record, const std::string& scenario) {
+  if (!is_path(scenario)) return scenario;
+  std::error_code error;
+  const auto folder = std::filesystem::absolute(record, error).parent_path();
+  const std::string path = std::filesystem::proximate(std::filesystem::absolute(scenario, error), folder, error).string();
+  if (error || path.empty()) return scenario;
+  return is_path(path) ? path : "./" + path;
+}
+
+}  // namespace
+
+bool is_path(const std::string& scenario) { return scenario.find('/') != std::string::npos || scenario.ends_with(".toml"); }
+
+std::int64_t RecordedSegment::steps() const {
+  std::int64_t sum = 0;
+  for (const SegmentPart& part : parts) sum += part.steps;
+  return sum;
+}
+
+SessionWriter::SessionWriter(const std::filesystem::path& path, const SessionSetup& setup, const study::Scenario& scenario)
+    : path_(path.string()) {
+  std::error_code ignored;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
+  file_ = std::fopen(path_.c_str(), "wb");
+  if (!file_) throw std::runtime_error("cannot write " + path_ + ": " + std::strerror(errno));
+  std::string text = "# A session of polhode's viewer, as it went; it can be carried out again.\nversion = 1\n";
+  text += line("scenario", seen_from(path, setup.scenario)) + line("scenario_digest", digest(scenario.canonical));
+  for (const study::Override& o : setup.overrides) {
+    text += "\n[[override]]\n" + line("key", o.key) + line("value", o.value);
+  }
+  append(text);
+}
+
+SessionWriter::~SessionWriter() {
+  if (file_) std::fclose(file_);
+}
+
+void SessionWriter::begin(SegmentStart from, const Configuration& configuration) {
+  const study::RunConfig& run = configuration.run;
+  const Formulation& f = run.formulation;
+  std::string text = "\n[[segment]]\n";
+  if (from.segment > 0) {
+    text += line("from_segment", static_cast<double>(from.segment)) + line("from_step", static_cast<double>(from.step));
+  }
+  text += line("drive", name(configuration.drive)) + line("integrator", run.integrator);
+  if (run.dt) text += line("dt", *run.dt);
+  if (run.tolerance) text += line("tolerance", *run.tolerance);
+  if (run.order) text += line("order", static_cast<double>(*run.order));
+  if (run.summation) text += line("summation", study::name(*run.summation));
+  text += line("t_end", run.t_end) + line("orientation", polhode::name(f.orientation)) +
+          line("angular_state", polhode::name(f.angular_state)) + line("gyroscopic", f.gyroscopic) +
+          line("rotation_from", polhode::name(f.rotation_from)) + line("normalise", run.normalise);
+  if (run.contact) {
+    text += line("broad_phase", run.contact->broad_phase) + line("narrow_phase", run.contact->narrow_phase) +
+            line("response", run.contact->response);
+    if (!run.contact->impact_timing.empty()) text += line("impact_timing", run.contact->impact_timing);
+  }
+  append(text);
+}
+
+void SessionWriter::add(const SegmentPart& part) {
+  std::string text = "\n[[segment.part]]\n";
+  if (part.sizes.empty()) {
+    text += line("steps", static_cast<double>(part.steps));
+  } else {
+    text += "sizes = [";
+    for (const double h : part.sizes) text += (text.back() == '[' ? "" : ", ") + study::exact(h);
+    text += "]\n";
+  }
+  append(text + line("digest", part.digest));
+}
+
+void SessionWriter::append(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), file_) == text.size() && std::fflush(file_) == 0) return;
+  throw std::runtime_error("cannot write " + path_ + ": " + std::strerror(errno));
+}
+
+}  // namespace polhode::viewer

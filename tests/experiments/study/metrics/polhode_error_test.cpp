@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The error along the polhode and off it: known shifts are given back, and methods err as they are known to.
+#include "experiments/study/metrics/polhode_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "experiments/study/run/run.hpp"
+
+namespace polhode::study {
+namespace {
+
+Problem top(const Vector3<double>& moments, const Vector3<double>& omega) {
+  Problem problem;
+  problem.bodies.resize(1);
+  problem.bodies[0].inertia = moments.asDiagonal();
+  problem.starts.resize(1);
+  problem.starts[0].angular_velocity = omega;
+  problem.starts[0].angular_velocity_in_body = true;
+  return problem;
+}
+
+/// The body in the exact motion at t + shift, its momentum in the body stretched by a factor.
+BodySnapshot<double> shifted(const Problem& problem, double t, double shift, double factor) {
+  const FreeTop exact(problem.bodies[0].inertia, identity_quaternion<double>(), problem.starts[0].angular_velocity);
+  BodySnapshot<double> body{};
+  body.rotation.setIdentity();
+  body.angular_velocity = factor * exact.at(t + shift).angular_velocity_body;
+  return body;
+}
+
+const std::vector<Problem>& tops() {
+  static const std::vector<Problem> all = {
+      top({0.6, 0.8, 1.0}, {3, 0.5, -0.9}), top({2, 3, 1}, {0, std::sqrt(0.51), std::sqrt(3)}),
+      top({3, 5, 9}, {0, 0.4, 0.01 / 9}),  // near the separatrix
+      top({2, 2, 1}, {1, 0, 3})};
+  return all;
+}
+
+TEST(PolhodeError, GivesAShiftBack) {
+  for (const Problem& problem : tops()) {
+    const auto system = make_system<double>(problem, {});
+    for (const double rate : {1e-9, -1e-4, 0.3}) {
+      auto error = PolhodeError::of(*system);
+      ASSERT_TRUE(error);
+      for (double t = 0; t <= 200; t += 0.5) {
+        const auto at = error->at(t, shifted(problem, t, rate * t, 1));
+        ASSERT_NEAR(at.phase, rate * t, 1e-10 + 1e-12 * t) << rate << " at " << t;
+        EXPECT_NEAR(at.phase_rad, at.phase * problem.starts[0].angular_velocity.norm(), 1e-9);
+        EXPECT_LE(at.off, 1e-12);
+      }
+    }
+  }
+}
+
+TEST(PolhodeError, GivesADistanceBack) {
+  for (const Problem& problem : tops()) {
+    const auto system = make_system<double>(problem, {});
+    auto error = PolhodeError::of(*system);
+    for (double t = 0; t <= 50; t += 0.5) {
+      // A longer momentum in the same direction: the nearest point is the same, since ẏ is at right angles to y.
+      const auto at = error->at(t, shifted(problem, t, 0.01 * t, 1.001));
+      ASSERT_NEAR(at.phase, 0.01 * t, 1e-7);
+      ASSERT_NEAR(at.off, 0.001, 1e-7);
+    }
+  }
+}
+
+TEST(PolhodeError, HasNoMeaningWhereThereIsNoCurve) {
+  const Problem sphere = top({1, 1, 1}, {1, 2, 3}), spin = top({1, 2, 3}, {0, 0, 2});
+  EXPECT_FALSE(PolhodeError::of(*make_system<double>(sphere, {})));
+  EXPECT_FALSE(PolhodeError::of(*make_system<double>(spin, {})));
+  for (const char* name : {"lagrange_top", "spring_box", "two_bodies", "oscillator"}) {
+    EXPECT_FALSE(PolhodeError::of(*make_system<double>(ScenarioSource::open(name).resolve().problem, {}))) << name;
+  }
+  EXPECT_TRUE(PolhodeError::of(*make_system<double>(ScenarioSource::open("peters_hsu").resolve().problem, {})));
+}
+
+RunResult result_of(const std::string& method, double dt) {
+  const Scenario scenario = ScenarioSource::open("hairer_vilmart").resolve();
+  RunConfig config;
+  config.scenario = scenario.name;
+  config.integrator = method;
+  config.formulation.angular_state = AngularState::velocity_body;
+  config.dt = dt;
+  config.t_end = 10;
+  return carry_out(config, scenario, {}, nullptr);
+}
+
+TEST(PolhodeError, TellsMethodsApart) {
+  // It conserves what makes the polhode, and is late on it by O(h²).
+  const RunResult dmv = result_of("dmv", 0.01), coarse = result_of("dmv", 0.02);
+  EXPECT_LE(*dmv.polhode_off_error_max_rel, 1e-13);
+  EXPECT_GE(*dmv.polhode_phase_error_max, 1e-4);
+  EXPECT_NEAR(*coarse.polhode_phase_error_max / *dmv.polhode_phase_error_max, 4, 0.1);
+  const RunResult euler = result_of("explicit_euler", 0.001);
+  EXPECT_GE(*euler.polhode_off_error_max_rel, 1e-4);
+  EXPECT_GE(*euler.polhode_phase_error_max_rad, 1e-4);
+}
+
+}  // namespace
+}  // namespace polhode::study

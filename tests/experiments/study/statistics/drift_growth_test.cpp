@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Drifts whose law is known: hardly a decided class is wrong, most are decided, and the intervals hold the truth about as
+// often as they say.
+#include "experiments/study/statistics/drift_growth.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <ostream>
+#include <random>
+
+#include "experiments/study/metrics/drift_class.hpp"
+
+namespace polhode::study {
+namespace {
+
+using std::numbers::pi;
+using Random = std::mt19937;
+
+constexpr int samples = 8000, seeds = 200;
+constexpr double t_end = 100;
+
+/// drift = trend(t/t_end) + oscillation + random walk + noise, less its value at the start.
+struct Law {
+  const char* expected;
+  double exponent;
+  std::function<double(double)> trend;
+  double slope;                   ///< of the least-squares line, per t_end
+  double amplitude = 0;           ///< of the oscillation, with a second harmonic
+  double shortest = 1, longest = 5;  ///< period, s
+  double walk = 0;                ///< standard deviation at the end
+  double noise = 0;
+  double least_decided = 0.95;
+};
+
+struct Counts {
+  int decided = 0, right = 0, exponent_covered = 0, slope_covered = 0;
+  double width = 0;  ///< mean half width of the exponent's interval
+};
+
+void run(const Law& law, int seed, Counts& counts) {
+  Random random(static_cast<unsigned>(seed));
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  const double period = law.shortest + (law.longest - law.shortest) * uniform(random), phase = 2 * pi * uniform(random);
+  BlockMeans blocks;
+  double walk = 0, start = 0, largest = 0, sum_t = 0, sum_tt = 0, sum_d = 0, sum_td = 0;
+  for (int k = 0; k <= samples; ++k) {
+    const double t = t_end * k / samples, u = 2 * pi * t / period + phase;
+    double d = law.trend(t / t_end) + law.amplitude * (std::sin(u) + 0.3 * std::sin(2 * u)) + walk;
+    if (law.noise > 0) d += law.noise * normal(random);
+    if (k == 0) start = d;
+    d -= start;
+    blocks.add(t, d);
+    largest = std::max(largest, std::abs(d));
+    sum_t += t;
+    sum_tt += t * t;
+    sum_d += d;
+    sum_td += t * d;
+    if (law.walk > 0) walk += law.walk * normal(random) / std::sqrt(samples);
+  }
+  const double n = samples + 1, slope = (n * sum_td - sum_t * sum_d) / (n * sum_tt - sum_t * sum_t);
+  const auto growth = growth_of(blocks.finish());
+  ASSERT_TRUE(growth);
+  EXPECT_LE(growth->low, growth->exponent);
+  EXPECT_LE(growth->exponent, growth->high);
+  const DriftClass c = classify({.blocks = blocks.finish(), .largest = largest, .largest_early = largest, .round_off = 1e-12,
+                                 .scale = 1e6, .samples = samples + 1, .t_end = t_end, .impacts = {}});
+  counts.decided += c.name != "undecided";
+  counts.right += c.name == law.expected;
+  // Of what stays bounded the exponent is that of its noise, below 0.
+  counts.exponent_covered += std::max(growth->low, 0.0) <= law.exponent && law.exponent <= growth->high;
+  counts.slope_covered += std::abs(slope - law.slope / t_end) <= growth->slope_half_width_95;
+  counts.width += (growth->high - growth->low) / 2 / seeds;
+}
+
+Counts run(const Law& law) {
+  Counts counts;
+  for (int seed = 1; seed <= seeds; ++seed) run(law, seed, counts);
+  return counts;
+}
+
+double none(double) { return 0; }
+double linear(double s) { return s; }
+double quadratic(double s) { return s * s; }
+
+void PrintTo(const Law& law, std::ostream* out) {
+  *out << law.expected << ", amplitude " << law.amplitude << ", walk " << law.walk << ", noise " << law.noise;
+}
+
+class Drifts : public testing::TestWithParam<Law> {};
+
+TEST_P(Drifts, HaveTheirClassAndTheirIntervals) {
+  const Law& law = GetParam();
+  const Counts counts = run(law);
+  EXPECT_GE(counts.right, 0.98 * counts.decided);
+  EXPECT_GE(counts.decided, law.least_decided * seeds);
+  // 95 % of 200 is 190; a binomial number is below 180 once in a thousand times.
+  if (law.exponent > 0) {
+    EXPECT_GE(counts.exponent_covered, 180);
+  }
+  EXPECT_GE(counts.slope_covered, 180);
+  EXPECT_LE(counts.width, 0.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Laws, Drifts,
+    testing::Values(Law{"bounded", 0, none, 0, 1}, Law{"bounded", 0, none, 0, 1, 0.3, 0.7},
+                    Law{"bounded", 0, none, 0, 1, 1, 5, 0, 0.3}, Law{"bounded", 0, none, 0, 0, 1, 5, 0, 1},
+                    Law{"linear", 1, linear, 1, 1, 1, 5, 0, 0.05}, Law{"linear", 1, linear, 1, 5, 1, 2, 0, 0.05, 0.8},
+                    Law{"linear", 1, linear, 1, 0, 1, 5, 0.1, 0, 0.35}, Law{"quadratic", 2, quadratic, 1, 2, 1, 5, 0, 0.05},
+                    Law{"random walk", 0.5, none, 0, 0, 1, 5, 1, 0, 0.6}, Law{"random walk", 0.5, none, 0, 0, 1, 5, 1, 0.1, 0.4}));
+
+TEST(Drift, OfAFewOscillationsIsLeftUndecided) {
+  const Law law{"bounded", 0, none, 0, 1, 30, 45};
+  EXPECT_EQ(run(law).decided, 0);
+}
+
+TEST(Drift, WithoutEnoughOrFiniteNumbersHasNoClass) {
+  BlockMeans few;
+  for (int k = 0; k < 31; ++k) few.add(k, k);
+  EXPECT_FALSE(growth_of(few.finish()));
+  BlockMeans zero;
+  for (int k = 0; k < 100; ++k) zero.add(k, 0);
+  EXPECT_FALSE(growth_of(zero.finish()));
+  BlockMeans broken;
+  for (int k = 0; k < 100; ++k) broken.add(k, k == 50 ? std::nan("") : k);
+  EXPECT_FALSE(growth_of(broken.finish()));
+}
+
+TEST(Drift, OfOneSizeOverTheBlocksIsTheSameInAnyUnit) {
+  BlockMeans small, large;
+  for (int k = 0; k < 1000; ++k) {
+    const double d = k + 30 * std::sin(0.3 * k);
+    small.add(k, 1e-200 * d);
+    large.add(k, 1e200 * d);
+  }
+  const auto a = growth_of(small.finish()), b = growth_of(large.finish());
+  ASSERT_TRUE(a && b);
+  EXPECT_NEAR(a->exponent, b->exponent, 1e-9);
+  EXPECT_NEAR(a->exponent, 1, 0.01);
+  EXPECT_TRUE(a->secular);
+}
+
+}  // namespace
+}  // namespace polhode::study
