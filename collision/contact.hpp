@@ -10,8 +10,8 @@
 
 namespace polhode {
 
-/// Which parts of two shapes touch. The numbers are those of the shapes' own faces, edges and vertices, and stay the same
-/// while the contact does: warm starting knows a contact by them.
+/// Which parts of two shapes touch. The numbers are those of the shapes' own faces, edges and vertices, and stay the
+/// same while the contact does: warm starting knows a contact by them.
 struct Feature {
   /// A vertex of A and a face of B, a face of A and a vertex of B, an edge of each, anything else.
   enum class Kind : std::uint8_t { vertex_face, face_vertex, edge_edge, other };
@@ -32,10 +32,11 @@ struct Manifold {
   static constexpr std::size_t capacity = 8;
   Vector3<double> normal = Vector3<double>::Zero();  ///< unit, world, from B to A: the impulse on A is +j n
   std::array<ContactPoint, capacity> points{};
-  std::size_t count = 0;                             ///< 0: no contact
+  std::size_t count = 0;  ///< 0: no contact
 };
 
-/// Signed distance of two shapes: positive apart, negative the depth of overlap, the smallest translation that separates.
+/// Signed distance of two shapes: positive apart, negative the depth of overlap, the smallest translation that
+/// separates.
 struct Distance {
   double distance = 0;                               ///< m
   Vector3<double> normal = Vector3<double>::Zero();  ///< unit, world, from B to A

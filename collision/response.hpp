@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The port of contact response: what happens to the velocities of bodies that meet. One catalogue, interchangeable by name.
+// The port of contact response: what happens to the velocities of bodies that meet. One catalogue, interchangeable by
+// name.
 #pragma once
 
 #include <cstdint>
@@ -40,18 +41,18 @@ struct ImpulseBody {
   }
 };
 
-/// One point where two bodies touch, and the law that they obey there: with v the velocity of A relative to B at the point,
-/// j the impulse on A and n from B to A,
+/// One point where two bodies touch, and the law that they obey there: with v the velocity of A relative to B at the
+/// point, j the impulse on A and n from B to A,
 ///   v'·n >= wanted,   j·n >= 0,   one of them with equality;   |j − (j·n) n| <= friction · j·n, against the slip.
 struct ImpulseContact {
-  std::uint32_t a = 0, b = 0;  ///< numbers of the bodies, a < b; contacts come sorted by them
+  std::uint32_t a = 0, b = 0;                        ///< numbers of the bodies, a < b; contacts come sorted by them
   Vector3<double> normal = Vector3<double>::Zero();  ///< unit, world, from B to A
   Vector3<double> point = Vector3<double>::Zero();   ///< m, world
-  double depth = 0;            ///< m, negative where they are apart
-  double friction = 0;         ///< Coulomb's
-  double restitution = 0;      ///< 0 for a contact that is too slow to bounce
-  double approach = 0;         ///< m/s, v·n before the impact; restitution reflects it
-  double wanted = 0;           ///< m/s: −restitution · approach of an impact, 0 at rest, −gap/h where they may still meet
+  double depth = 0;                                  ///< m, negative where they are apart
+  double friction = 0;                               ///< Coulomb's
+  double restitution = 0;                            ///< 0 for a contact that is too slow to bounce
+  double approach = 0;                               ///< m/s, v·n before the impact; restitution reflects it
+  double wanted = 0;  ///< m/s: −restitution · approach of an impact, 0 at rest, −gap/h where they may still meet
   Feature feature{};
   Vector3<double> impulse = Vector3<double>::Zero();  ///< N s, on A: the answer
 };
@@ -70,8 +71,8 @@ class Response {
 
 /// What a response by forces needs to know of surfaces, beside restitution and friction.
 struct Compliance {
-  double stiffness = 0;       ///< N/m, of each point of contact; 0: what the response derives from the masses
-  double slip_speed = 1e-3;   ///< m/s: at this slip friction has 1/√2 of what it tends to
+  double stiffness = 0;      ///< N/m, of each point of contact; 0: what the response derives from the masses
+  double slip_speed = 1e-3;  ///< m/s: at this slip friction has 1/√2 of what it tends to
 };
 
 /// One that answers by impulses has `make`; one that is a force, and leaves all else to the method, has `make_force`.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The port of shapes: what broad and narrow phases ask of a solid, in its own axes. A new shape is one file and one line
-// in the catalogue.
+// The port of shapes: what broad and narrow phases ask of a solid, in its own axes. A new shape is one file and one
+// line in the catalogue.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -22,7 +22,17 @@ struct MassProperties {
 };
 
 /// The shapes that narrow phases know in closed form; any other convex shape they know by its support function alone.
-enum class ShapeTag : std::uint8_t { sphere, box, capsule, cylinder, ellipsoid, convex_hull, compound, half_space, other };
+enum class ShapeTag : std::uint8_t {
+  sphere,
+  box,
+  capsule,
+  cylinder,
+  ellipsoid,
+  convex_hull,
+  compound,
+  half_space,
+  other
+};
 
 /// A closed convex solid, or a compound of such. Built once and never changed; a size that is zero, negative or not
 /// finite is refused when it is built, by std::invalid_argument with the reason.

@@ -67,8 +67,9 @@ class FixedStep final : public Integrator<typename System::Scalar> {
   }
 
  private:
-  static constexpr bool can_fail = std::is_same_v<const char*, decltype(std::declval<Method<System>&>().step(
-      std::declval<const System&>(), S(), S(), std::declval<Flat&>()))>;
+  static constexpr bool can_fail =
+      std::is_same_v<const char*, decltype(std::declval<Method<System>&>().step(std::declval<const System&>(), S(), S(),
+                                                                                std::declval<Flat&>()))>;
 
   // Flattened: without it the compiler leaves calls between the stages, which doubles the cost of a step of one body.
   // Not for float and long double, whose steps nobody waits for: it would be a third of the time to compile a method.

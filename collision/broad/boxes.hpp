@@ -39,8 +39,8 @@ inline bool overlap(const Box& a, const Box& b) {
 }
 
 inline bool contains(const Box& outer, const Box& inner) {
-  return all(outer.low[0] <= inner.low[0], inner.high[0] <= outer.high[0], outer.low[1] <= inner.low[1], inner.high[1] <= outer.high[1],
-             outer.low[2] <= inner.low[2], inner.high[2] <= outer.high[2]);
+  return all(outer.low[0] <= inner.low[0], inner.high[0] <= outer.high[0], outer.low[1] <= inner.low[1],
+             inner.high[1] <= outer.high[1], outer.low[2] <= inner.low[2], inner.high[2] <= outer.high[2]);
 }
 
 inline Box hull(const Box& a, const Box& b) {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Binary space partitioning by planes across the axes: Fuchs, Kedem and Naylor, "On Visible Surface Generation by a priori
-// Tree Structures" (1980); with planes across the axes it is the k-d tree of Bentley (1975). A box is listed in every leaf
-// that its fat box reaches, and only the boxes of one leaf are tested against each other.
+// Binary space partitioning by planes across the axes: Fuchs, Kedem and Naylor, "On Visible Surface Generation by a
+// priori Tree Structures" (1980); with planes across the axes it is the k-d tree of Bentley (1975). A box is listed in
+// every leaf that its fat box reaches, and only the boxes of one leaf are tested against each other.
 //
-// When a body leaves its fat box, one way down the tree finds the leaves of the old box and of the new one; its entries there
-// are renewed, and the leaves of the new one looked through for new pairs. All others are kept. Memory is what this waits
-// for: all ways down come first, so that it is known beforehand which leaves are next; and the boxes of a leaf are asked all at
-// once, seven bits for a side (broad/cell_block.hpp), what is hit then of the boxes themselves. Then leaves in which many
-// gather are split at the median centre, where a plane tells enough of them apart, and two that have become poor are joined.
+// When a body leaves its fat box, one way down the tree finds the leaves of the old box and of the new one; its entries
+// there are renewed, and the leaves of the new one looked through for new pairs. All others are kept. Memory is what
+// this waits for: all ways down come first, so that it is known beforehand which leaves are next; and the boxes of a
+// leaf are asked all at once, seven bits for a side (broad/cell_block.hpp), what is hit then of the boxes themselves.
+// Then leaves in which many gather are split at the median centre, where a plane tells enough of them apart, and two
+// that have become poor are joined.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,10 +31,10 @@ using broad::cells::Reach;
 
 using Index = std::uint32_t;
 constexpr Index none = ~Index(0);
-constexpr Index capacity = 16;         // entries of a leaf, before a plane is looked for
-constexpr Index poor = 8;              // entries of two leaves, to be one again
-constexpr double larger_side = 0.8;    // of the entries, at most, for a plane to be worth it
-constexpr double both_sides = 1.7;     // entries on both sides together, over those before
+constexpr Index capacity = 16;       // entries of a leaf, before a plane is looked for
+constexpr Index poor = 8;            // entries of two leaves, to be one again
+constexpr double larger_side = 0.8;  // of the entries, at most, for a plane to be worth it
+constexpr double both_sides = 1.7;   // entries on both sides together, over those before
 
 constexpr std::size_t leaves_ahead = 24, heads_ahead = 16, chunks_ahead = 8;  // visits, when memory is asked for them
 
@@ -44,8 +45,8 @@ struct Node {
   std::uint8_t axis = 0;
 };
 
-/// The units in which a leaf counts the sides of its boxes, from 1 to 126. What is beyond is taken for the first or the last,
-/// which keeps the order of numbers, whatever the units are.
+/// The units in which a leaf counts the sides of its boxes, from 1 to 126. What is beyond is taken for the first or the
+/// last, which keeps the order of numbers, whatever the units are.
 struct Frame {
   static constexpr int units = 126;
 
@@ -72,7 +73,7 @@ struct Frame {
 
 /// What else there is of a node.
 struct alignas(32) Leaf {
-  Index head = none;       // the entries, in chunks of which only the first may have room
+  Index head = none;  // the entries, in chunks of which only the first may have room
   Index count = 0;
   Index limit = capacity;  // entries at which a plane is looked for
   Index parent = none;     // of an inner node too
@@ -85,7 +86,8 @@ struct Visit {
   bool was, is;
 };
 
-/// Entries of a leaf side by side in memory, in as many lanes from the first on. Which bodies they are stands elsewhere.
+/// Entries of a leaf side by side in memory, in as many lanes from the first on. Which bodies they are stands
+/// elsewhere.
 struct alignas(64) Chunk : broad::cells::Sides {
   Index count = 0, next = none;
   Chunk() { hide_all(); }
@@ -315,7 +317,8 @@ class BspTree final : public BroadPhase {
   bool join(Index v) {
     const Index first = nodes_[v].child;
     const std::array<Leaf, 2> both = {leaves_[first], leaves_[first + 1]};
-    if (nodes_[first].child != none || nodes_[first + 1].child != none || both[0].count + both[1].count > poor) return false;
+    if (nodes_[first].child != none || nodes_[first + 1].child != none || both[0].count + both[1].count > poor)
+      return false;
     std::array<Index, poor> bodies{};
     std::size_t count = 0;
     for (const Leaf& leaf : both) {
@@ -423,7 +426,8 @@ class BspTree final : public BroadPhase {
     const Reach r = leaves_[v].frame.reach(box);
     const Limits x(r.low[0], r.high[0]), y(r.low[1], r.high[1]), z(r.low[2], r.high[2]);
     for (Index c = leaves_[v].head; c != none; c = chunks_[c].next) {
-      broad::cells::for_lanes(chunks_[c].overlapping(x, y, z), [&](std::size_t lane) { hit(body, bodies_in_[lanes * c + lane]); });
+      broad::cells::for_lanes(chunks_[c].overlapping(x, y, z),
+                              [&](std::size_t lane) { hit(body, bodies_in_[lanes * c + lane]); });
     }
   }
 
@@ -459,11 +463,11 @@ class BspTree final : public BroadPhase {
   };
 
   broad::FatBoxes fat_;
-  std::vector<Node> nodes_;  // the root first
+  std::vector<Node> nodes_;   // the root first
   std::vector<Leaf> leaves_;  // of the same numbers
   std::vector<Visit> visits_;
   std::vector<Chunk> chunks_;
-  std::vector<Index> bodies_in_;  // the lanes of the chunks
+  std::vector<Index> bodies_in_;   // the lanes of the chunks
   std::vector<Index> free_nodes_;  // pairs of children that are not in use
   Index free_chunk_ = none;        // a list of chunks that are not in use
   std::vector<double> centres_;

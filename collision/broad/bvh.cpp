@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A bounding volume hierarchy that follows the motion: a binary tree of boxes over fat leaves. Leaves that a body left get
-// a new box in place, and the boxes above them are refitted, with tree rotations wherever these lower the surface area
-// (Kopta, Ize, Spjut, Brunvand, Davis and Kensler, "Fast, Effective BVH Updates for Animated Scenes", 2012). A leaf that
-// jumped is taken out and inserted where it adds the least area (Goldsmith and Salmon 1987; Catto, "Dynamic Bounding Volume
-// Hierarchies", 2019).
+// A bounding volume hierarchy that follows the motion: a binary tree of boxes over fat leaves. Leaves that a body left
+// get a new box in place, and the boxes above them are refitted, with tree rotations wherever these lower the surface
+// area (Kopta, Ize, Spjut, Brunvand, Davis and Kensler, "Fast, Effective BVH Updates for Animated Scenes", 2012). A
+// leaf that jumped is taken out and inserted where it adds the least area (Goldsmith and Salmon 1987; Catto, "Dynamic
+// Bounding Volume Hierarchies", 2019).
 //
-// Pairs of fat boxes are kept from step to step. The tree is traversed against itself (van den Bergen 1999), but only where
-// a leaf has changed, and the pairs that are kept are tested as they are.
+// Pairs of fat boxes are kept from step to step. The tree is traversed against itself (van den Bergen 1999), but only
+// where a leaf has changed, and the pairs that are kept are tested as they are.
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -251,7 +251,7 @@ class Bvh final : public BroadPhase {
       const Node& o = nodes_[other];
       if (o.leaf()) continue;
       const double before = area(o.box);
-      const double left = area(hull(nodes_[child].box, nodes_[o.right].box)) - before;   // in the left one's place
+      const double left = area(hull(nodes_[child].box, nodes_[o.right].box)) - before;  // in the left one's place
       const double right = area(hull(nodes_[child].box, nodes_[o.left].box)) - before;
       if (left < best) best = left, best_child = child, best_grandchild = o.left;
       if (right < best) best = right, best_child = child, best_grandchild = o.right;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boxes of a cell of uniform_grid, or of a leaf of bsp_tree, side by side in a block of two lines of memory: seven bits for a side, relative to the
-// cell, so that a word holds one side of eight boxes, and all are compared with a box in a few instructions (Lamport,
-// "Multiple Byte Processing with Full-Word Instructions", 1975). Numbers are rounded down throughout, which keeps their
-// order: no overlap is missed, and one by less than a unit may be none.
+// The boxes of a cell of uniform_grid, or of a leaf of bsp_tree, side by side in a block of two lines of memory: seven
+// bits for a side, relative to the cell, so that a word holds one side of eight boxes, and all are compared with a box
+// in a few instructions (Lamport, "Multiple Byte Processing with Full-Word Instructions", 1975). Numbers are rounded
+// down throughout, which keeps their order: no overlap is missed, and one by less than a unit may be none.
 #pragma once
 
 #include <algorithm>
@@ -52,13 +52,15 @@ void for_lanes(Words bits, const Visit& visit) {
   }
 }
 
-/// What a side of a box in a cell may come to where that overlaps the box in question: once for each lane, with the top bits
-/// set. Of what is beyond the cell's reach, that much is kept.
+/// What a side of a box in a cell may come to where that overlaps the box in question: once for each lane, with the top
+/// bits set. Of what is beyond the cell's reach, that much is kept.
 struct Limits {
   Limits() = default;
   Limits(std::int64_t low, std::int64_t high)
-      : begins(words(std::clamp<std::int64_t>(high, 0, largest - 1))), ends(words(largest - std::clamp<std::int64_t>(low, 0, largest))) {}
-  Limits(std::int64_t low, std::int64_t high, std::int64_t cell) : Limits(low - (cell << cell_bits), high - (cell << cell_bits)) {}
+      : begins(words(std::clamp<std::int64_t>(high, 0, largest - 1))),
+        ends(words(largest - std::clamp<std::int64_t>(low, 0, largest))) {}
+  Limits(std::int64_t low, std::int64_t high, std::int64_t cell)
+      : Limits(low - (cell << cell_bits), high - (cell << cell_bits)) {}
   static Words words(std::int64_t side) { return both(static_cast<Word>(side) * in_all_lanes | top_bits); }
   Words begins{}, ends{};
 };
@@ -94,7 +96,8 @@ struct Sides {
     return lanes_of_word * half + static_cast<std::size_t>(std::countr_zero(free(half))) / 8;
   }
 
-  /// The top bits of those lanes that overlap the box: where a side is no more than it may be, nothing is borrowed from them.
+  /// The top bits of those lanes that overlap the box: where a side is no more than it may be, nothing is borrowed from
+  /// them.
   Words overlapping(const Limits& x, const Limits& y, const Limits& z) const {
     return (x.begins - begins[0]) & (x.ends - ends[0]) & (y.begins - begins[1]) & (y.ends - ends[1]) &
            (z.begins - begins[2]) & (z.ends - ends[2]) & both(top_bits);

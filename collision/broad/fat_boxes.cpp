@@ -10,9 +10,9 @@ namespace polhode::broad {
 namespace {
 
 constexpr double fewest_ahead = 20, most_ahead = 32;  // steps that the room is for
-constexpr double widest = 0.5;     // reach ahead over the longest edge
-constexpr double hopeless = 0.1;    // path of a step over the longest edge, above which room is of no use
-constexpr double thin = 0.01;       // margin on all sides over the edge across it
+constexpr double widest = 0.5;                        // reach ahead over the longest edge
+constexpr double hopeless = 0.1;  // path of a step over the longest edge, above which room is of no use
+constexpr double thin = 0.01;     // margin on all sides over the edge across it
 
 constexpr std::size_t boxes_ahead = 64, bodies_ahead = 8;  // asked of memory, which does not foresee it
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boxes with room around them, which need no care while the true box stays within: what makes structures over moving bodies
-// cheap to keep (van den Bergen 1999; Bullet's and Box2D's dynamic trees). The room reaches ahead, a number of steps of the
-// body's own mean motion since it got its last one; a thin margin on all sides is for what jitters. Bodies that each step carries far have none.
+// Boxes with room around them, which need no care while the true box stays within: what makes structures over moving
+// bodies cheap to keep (van den Bergen 1999; Bullet's and Box2D's dynamic trees). The room reaches ahead, a number of
+// steps of the body's own mean motion since it got its last one; a thin margin on all sides is for what jitters. Bodies
+// that each step carries far have none.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +15,24 @@ namespace polhode::broad {
 
 class FatBoxes {
  public:
-  /// The bodies of a step. True where it is a new scene, and everything is to be built anew; then left() are all bodies,
-  /// otherwise those whose true box left its fat one. They have a new one. Throws std::invalid_argument as check() does.
+  /// The bodies of a step. True where it is a new scene, and everything is to be built anew; then left() are all
+  /// bodies, otherwise those whose true box left its fat one. They have a new one. Throws std::invalid_argument as
+  /// check() does.
   bool update(std::span<const Bounds> bounds);
 
   std::size_t size() const { return fat_.size(); }
   const Box& fat(std::uint32_t body) const { return fat_[body]; }
-  const Box& before(std::size_t k) const { return before_[k]; }      ///< the fat box that left()[k] had; of a new scene none
-  std::span<const std::uint32_t> left() const { return left_; }      ///< in order
+  const Box& before(std::size_t k) const {
+    return before_[k];
+  }  ///< the fat box that left()[k] had; of a new scene none
+  std::span<const std::uint32_t> left() const { return left_; }  ///< in order
   bool has_left(std::uint32_t body) const { return has_left_[body] != 0; }
 
   /// Without bounds, or so far out that a surface area is no finite number: not for a tree.
   static bool too_large(const Box& b) {
     constexpr double most = 1e75;
-    return !all(b.low[0] > -most, b.low[1] > -most, b.low[2] > -most, b.high[0] < most, b.high[1] < most, b.high[2] < most);
+    return !all(b.low[0] > -most, b.low[1] > -most, b.low[2] > -most, b.high[0] < most, b.high[1] < most,
+                b.high[2] < most);
   }
 
  private:

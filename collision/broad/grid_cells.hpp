@@ -17,7 +17,8 @@ class GridCells {
   void add(std::size_t level, const cells::Reach& reach) {
     for (int corner = 0; corner < 8; ++corner) {
       Cell cell{static_cast<std::int64_t>(level)};
-      for (std::size_t k = 0; k < 3; ++k) cell[k + 1] = (corner >> k & 1 ? reach.high[k] : reach.low[k]) >> cells::cell_bits;
+      for (std::size_t k = 0; k < 3; ++k)
+        cell[k + 1] = (corner >> k & 1 ? reach.high[k] : reach.low[k]) >> cells::cell_bits;
       reached_.push_back(cell);
     }
   }

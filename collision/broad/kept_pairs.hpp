@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pairs whose fat boxes overlap, kept from step to step, as the neighbour lists of molecular dynamics are (Verlet,
-// "Computer 'experiments' on classical fluids", 1967). A structure over the fat boxes is asked only about bodies that left
-// theirs; all other pairs are those of the step before, and their true boxes are tested as they come.
+// "Computer 'experiments' on classical fluids", 1967). A structure over the fat boxes is asked only about bodies that
+// left theirs; all other pairs are those of the step before, and their true boxes are tested as they come.
 #pragma once
 
 #include <cstddef>

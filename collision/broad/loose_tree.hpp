@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The loose quadtree (Dim 2: halves along x and y) and octree (Dim 3): Ulrich, "Loose Octrees", Game Programming Gems
-// (2000); the trees are those of Finkel and Bentley (1974) and of Meagher (1980). A body stands in the node that holds its
-// centre, no deeper than where cells are as wide as the body, so that large bodies stay in inner nodes and the boxes of a
-// cell reach out of it by half a cell at most. Nodes are split where many bodies gather and joined where they leave.
+// (2000); the trees are those of Finkel and Bentley (1974) and of Meagher (1980). A body stands in the node that holds
+// its centre, no deeper than where cells are as wide as the body, so that large bodies stay in inner nodes and the
+// boxes of a cell reach out of it by half a cell at most. Nodes are split where many bodies gather and joined where
+// they leave.
 //
 // A body that stays in its cell stays in its node. Each step the bodies are laid out in the order of the tree, with the
-// box around all that a node and those below it hold; the tree is then traversed against itself. That the pairs are right
-// rests on these boxes alone, never on where a body stands.
+// box around all that a node and those below it hold; the tree is then traversed against itself. That the pairs are
+// right rests on these boxes alone, never on where a body stands.
 #pragma once
 
 #include <algorithm>
@@ -57,7 +58,8 @@ class LooseTree final : public BroadPhase {
     return sorted_;
   }
 
-  /// The loose cells of the nodes that hold something: a half wider on each side. A quadtree's reach over the height of the scene.
+  /// The loose cells of the nodes that hold something: a half wider on each side. A quadtree's reach over the height of
+  /// the scene.
   void cells(std::vector<Bounds>& all) const override {
     if (nodes_.empty()) return;
     Extent heights;
@@ -74,13 +76,13 @@ class LooseTree final : public BroadPhase {
 
   struct Node {
     std::array<double, Dim> middle{};
-    double half = 0;                    // of the cell's edge
+    double half = 0;  // of the cell's edge
     int depth = 0;
     Index parent = none, child = none;  // the first of its children, which stand side by side
     Index head = none;                  // the list of its bodies
     Index count = 0;
-    Index begin = 0, own_end = 0;       // in the layout: its own bodies
-    Box box{};                          // around all, itself and below
+    Index begin = 0, own_end = 0;  // in the layout: its own bodies
+    Box box{};                     // around all, itself and below
     bool empty = true;
   };
 
@@ -128,7 +130,8 @@ class LooseTree final : public BroadPhase {
   bool stays(Index i) const {
     const Node& node = nodes_[home_[i]];
     const bool as_deep_as_may_be = node.child == none || !fits_below(boxes_[i], node);
-    return as_deep_as_may_be && (node.parent == none || (size_of(boxes_[i]) <= 2 * node.half && within(boxes_[i], node)));
+    return as_deep_as_may_be &&
+           (node.parent == none || (size_of(boxes_[i]) <= 2 * node.half && within(boxes_[i], node)));
   }
 
   Index child_of(const Node& node, const Box& b) const {
@@ -312,11 +315,11 @@ class LooseTree final : public BroadPhase {
   static constexpr double far = 1e150;
 
   std::vector<Box> boxes_;
-  std::vector<Node> nodes_;                     // the root first
-  std::vector<Index> free_;                     // blocks of children that are not in use
-  std::vector<Index> home_, next_, before_;     // of each body: its node, and its neighbours in that one's list
-  std::size_t astray_ = 0;                      // bodies put in from outside the root's cell in the last step
-  std::vector<Box> laid_;                       // in the order of the tree
+  std::vector<Node> nodes_;                  // the root first
+  std::vector<Index> free_;                  // blocks of children that are not in use
+  std::vector<Index> home_, next_, before_;  // of each body: its node, and its neighbours in that one's list
+  std::size_t astray_ = 0;                   // bodies put in from outside the root's cell in the last step
+  std::vector<Box> laid_;                    // in the order of the tree
   std::vector<Index> bodies_;
   PairList found_;
   std::span<const BodyPair> sorted_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pairs as a broad phase finds them, in any order but none twice, and sorted in the end: counted by their first body, which
-// takes linear time, and the few of each body as they come. Where pairs are few, bodies are counted together, so that the
-// time goes with the pairs, not with the bodies.
+// Pairs as a broad phase finds them, in any order but none twice, and sorted in the end: counted by their first body,
+// which takes linear time, and the few of each body as they come. Where pairs are few, bodies are counted together, so
+// that the time goes with the pairs, not with the bodies.
 #pragma once
 
 #include <cstddef>

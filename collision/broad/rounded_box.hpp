@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A box in single precision, half as large in memory. Rounding keeps the order of numbers, so that boxes that overlap
-// overlap also as rounded, and boxes that overlap as rounded with some room to spare do so indeed. What is between the two
-// must be asked of the boxes themselves.
+// overlap also as rounded, and boxes that overlap as rounded with some room to spare do so indeed. What is between the
+// two must be asked of the boxes themselves.
 #pragma once
 
 #include <algorithm>

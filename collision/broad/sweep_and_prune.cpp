@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sweep and prune: the boxes stand sorted by where they begin on one axis, and each is tested against those that begin
-// before it ends. Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies" (1992), section 4.1; Cohen, Lin, Manocha and
-// Ponamgi, "I-COLLIDE" (1995). From step to step boxes change places with near neighbours only, so that insertion keeps
-// the order in near linear time. The axis is the one on which the boxes are spread the furthest.
+// before it ends. Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies" (1992), section 4.1; Cohen, Lin, Manocha
+// and Ponamgi, "I-COLLIDE" (1995). From step to step boxes change places with near neighbours only, so that insertion
+// keeps the order in near linear time. The axis is the one on which the boxes are spread the furthest.
 //
-// On the two other axes the sweep compares single-precision copies, many at a time. Rounding keeps the order of numbers, so
-// that boxes which overlap overlap also as rounded; the few that pass are tested as they are.
+// On the two other axes the sweep compares single-precision copies, many at a time. Rounding keeps the order of
+// numbers, so that boxes which overlap overlap also as rounded; the few that pass are tested as they are.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -25,9 +25,9 @@ namespace {
 
 using broad::Box;
 
-constexpr std::size_t block = 16;            // boxes compared at a time
-constexpr std::size_t moves_per_body = 32;   // by insertion, before sorting anew is cheaper
-constexpr double worth_another_axis = 1.5;   // times the spread on the present one
+constexpr std::size_t block = 16;           // boxes compared at a time
+constexpr std::size_t moves_per_body = 32;  // by insertion, before sorting anew is cheaper
+constexpr double worth_another_axis = 1.5;  // times the spread on the present one
 
 class SweepAndPrune final : public BroadPhase {
  public:
@@ -117,7 +117,8 @@ class SweepAndPrune final : public BroadPhase {
 
   void sweep(std::size_t i) {
     const Box& box = swept_[i];
-    const float high1 = broad::rounded(box.high[axis_]), low2 = low2_[i], high2 = high2_[i], low3 = low3_[i], high3 = high3_[i];
+    const float high1 = broad::rounded(box.high[axis_]), low2 = low2_[i], high2 = high2_[i], low3 = low3_[i],
+                high3 = high3_[i];
     for (std::size_t j = i + 1; low1_[j] <= high1; j += block) {
       Hits hits{};
       for (std::size_t half = 0; half < 2; ++half) {
@@ -142,7 +143,9 @@ class SweepAndPrune final : public BroadPhase {
   using Hits [[gnu::vector_size(lanes * sizeof(float))]] = std::int32_t;
   using Pairs [[gnu::vector_size(lanes * sizeof(float))]] = std::uint64_t;
 
-  static void load(const std::vector<float>& numbers, std::size_t k, Lanes& x) { std::memcpy(&x, &numbers[k], sizeof x); }
+  static void load(const std::vector<float>& numbers, std::size_t k, Lanes& x) {
+    std::memcpy(&x, &numbers[k], sizeof x);
+  }
 
   static unsigned all_of(const Hits& hits) {
     const auto pairs = reinterpret_cast<Pairs>(hits);
@@ -151,8 +154,8 @@ class SweepAndPrune final : public BroadPhase {
   }
 
   std::size_t axis_ = 0;
-  std::vector<Box> boxes_, swept_;      // by number; by where they begin
-  std::vector<std::uint32_t> order_;    // the bodies by where they begin
+  std::vector<Box> boxes_, swept_;    // by number; by where they begin
+  std::vector<std::uint32_t> order_;  // the bodies by where they begin
   std::vector<Begin> begins_;
   std::vector<float> low1_, low2_, high2_, low3_, high3_;
   broad::PairList found_;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A uniform grid without bounds, with coarser ones above it for boxes that are too large: the hierarchical hash grid of
-// Ericson, "Real-Time Collision Detection" (2005), section 7.2, after Mirtich, "Impulse-based Dynamic Simulation" (1996),
-// section 3.4. Half a cell is as large as common boxes are; the cells of each further level are four times as wide.
+// Ericson, "Real-Time Collision Detection" (2005), section 7.2, after Mirtich, "Impulse-based Dynamic Simulation"
+// (1996), section 3.4. Half a cell is as large as common boxes are; the cells of each further level are four times as
+// wide.
 //
-// The grid holds fat boxes, and only a body that left its own is looked up again; pairs of fat boxes are kept. A box stands
-// in the cell of its lower corner, on the first level on which it reaches no further than the next half cell. What
-// overlaps a box stands in two cells along each axis at most; this needs no more than that rounding keeps the order of
-// numbers. The boxes of a cell are asked all at once, seven bits for a side (broad/cell_block.hpp); what is hit is then asked
-// of the boxes themselves.
+// The grid holds fat boxes, and only a body that left its own is looked up again; pairs of fat boxes are kept. A box
+// stands in the cell of its lower corner, on the first level on which it reaches no further than the next half cell.
+// What overlaps a box stands in two cells along each axis at most; this needs no more than that rounding keeps the
+// order of numbers. The boxes of a cell are asked all at once, seven bits for a side (broad/cell_block.hpp); what is
+// hit is then asked of the boxes themselves.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -37,7 +38,7 @@ constexpr double half_cell_of_size = 1.05;  // half the edge of a cell over the 
 constexpr double still_right = 1.3;         // half a cell over what it would be now, or the other way round
 constexpr std::size_t slots_per_body = 1;
 constexpr std::size_t boxes_ahead = 8, blocks_ahead = 6;  // bodies, when memory is asked for theirs
-constexpr std::uint32_t steps_between_looks = 32;  // at the sizes of boxes
+constexpr std::uint32_t steps_between_looks = 32;         // at the sizes of boxes
 
 class UniformGrid final : public BroadPhase {
  public:
@@ -81,7 +82,8 @@ class UniformGrid final : public BroadPhase {
     int bits = 6;
     while (std::size_t(1) << bits < slots_per_body * fat_.size()) ++bits;
     slots_.resize(std::size_t(1) << bits);
-    // In a cube of about as many cells as there are slots no two share one; the odd steps fill all slots from any row of cells.
+    // In a cube of about as many cells as there are slots no two share one; the odd steps fill all slots from any row
+    // of cells.
     step_y_ = (Index(1) << (bits + 2) / 3) + 1;
     step_z_ = (Index(1) << (2 * bits + 2) / 3) + 1;
     blocks_.reserve(fat_.size() + 1);  // each but the first holds a body
@@ -106,8 +108,8 @@ class UniformGrid final : public BroadPhase {
     levels_ = 0;
   }
 
-  /// So that all common boxes are on the first level, for each further one is searched too. False where cells stay, as they
-  /// do while the largest of these needs no others.
+  /// So that all common boxes are on the first level, for each further one is searched too. False where cells stay, as
+  /// they do while the largest of these needs no others.
   bool choose_cells() {
     const double most = common * median_size();
     double largest_size = -1;
@@ -118,7 +120,8 @@ class UniformGrid final : public BroadPhase {
     if (largest_size < 0) return false;
     double edge = half_cell_of_size * largest_size;
     if (!(edge >= smallest_edge)) edge = edge_for_points();
-    if (largest_size <= half_cell_ && edge <= still_right * half_cell_ && half_cell_ <= still_right * edge) return false;
+    if (largest_size <= half_cell_ && edge <= still_right * half_cell_ && half_cell_ <= still_right * edge)
+      return false;
     half_cell_ = edge;
     for (double& per_metre : per_metre_) {
       per_metre = (1 << half_cell_bits) / edge;
@@ -191,8 +194,8 @@ class UniformGrid final : public BroadPhase {
     return home;
   }
 
-  /// Places bodies, and leaves them in movers_ in the order of their cells' slots: of those that are looked up one after the
-  /// other many need the same blocks, and blocks that are new together stand in this order in memory.
+  /// Places bodies, and leaves them in movers_ in the order of their cells' slots: of those that are looked up one
+  /// after the other many need the same blocks, and blocks that are new together stand in this order in memory.
   template <class BodyAt>
   void place_all(std::size_t count, const BodyAt& body_at) {
     const auto fewer = std::bit_floor(std::clamp<std::size_t>(count, 1, slots_.size()));
@@ -353,7 +356,8 @@ class UniformGrid final : public BroadPhase {
       cells *= static_cast<double>(most[k] + 1);
     }
     if (broad::all(most[0] <= 1, most[1] <= 1, most[2] <= 1)) return search_eight(body, r, level, low);
-    const bool few = *std::max_element(most.begin(), most.end()) < key_mask && cells <= static_cast<double>(blocks_.size());
+    const bool few =
+        *std::max_element(most.begin(), most.end()) < key_mask && cells <= static_cast<double>(blocks_.size());
     if (!few) {
       for (Index other = 0; other < fat_.size(); ++other) {
         if (place_[other] < on_no_level && blocks_[place_[other] / lanes].level() == level) found(body, other);
@@ -415,7 +419,8 @@ class UniformGrid final : public BroadPhase {
     for (; rest != 0; rest &= rest - 1) {
       const auto c = static_cast<std::size_t>(std::countr_zero(rest));
       const Block& first = blocks_[block[c]];
-      for (Index b = first.key == keys[c] ? first.more : cell_in(first.next, keys[c]); b != no_block; b = blocks_[b].more) {
+      for (Index b = first.key == keys[c] ? first.more : cell_in(first.next, keys[c]); b != no_block;
+           b = blocks_[b].more) {
         hit_lanes(body, b, blocks_[b].overlapping(limits[0][c & 1], limits[1][c >> 1 & 1], limits[2][c >> 2]));
       }
     }
@@ -466,22 +471,22 @@ class UniformGrid final : public BroadPhase {
   };
   std::array<Hit, 1024> hits_;
   std::size_t hit_count_ = 0;
-  std::size_t levels_ = 0;                       // that have ever held one
-  std::vector<Index> slots_;                     // the first block of each hash
-  Index step_y_ = 1, step_z_ = 1;                // of the hash, from a cell to the next
+  std::size_t levels_ = 0;         // that have ever held one
+  std::vector<Index> slots_;       // the first block of each hash
+  Index step_y_ = 1, step_z_ = 1;  // of the hash, from a cell to the next
   std::vector<Block> blocks_;
-  std::vector<Index> bodies_in_;                 // the lanes of the blocks
-  Index free_block_ = no_block;                      // a list of those not in use
+  std::vector<Index> bodies_in_;  // the lanes of the blocks
+  Index free_block_ = no_block;   // a list of those not in use
   struct Mover {
     Index body;
     Home home;
   };
-  std::vector<Home> homes_;                      // of those that left their fat boxes
-  std::vector<Mover> movers_;                    // the same in the order of their cells' slots
-  std::vector<Index> starts_;                    // of that order
-  std::vector<Index> place_;                     // of each body: its block and lane
-  std::vector<Index> large_;                     // on no level
-  double half_cell_ = -1;  // of the first level, m
+  std::vector<Home> homes_;    // of those that left their fat boxes
+  std::vector<Mover> movers_;  // the same in the order of their cells' slots
+  std::vector<Index> starts_;  // of that order
+  std::vector<Index> place_;   // of each body: its block and lane
+  std::vector<Index> large_;   // on no level
+  double half_cell_ = -1;      // of the first level, m
   std::vector<double> sample_;
   std::uint32_t steps_ = 0;
   std::span<const BodyPair> pairs_;

@@ -20,7 +20,7 @@ bool is_round(ShapeTag tag) { return tag == ShapeTag::sphere || tag == ShapeTag:
 
 double damping_ratio(double restitution) {
   const double wanted = -std::log(std::max(restitution, std::exp(-2.0)));  // 2 ζ φ/sin φ with ζ = cos φ, from 0 to 2
-  double low = 0, high = 0.5 * std::numbers::pi;  // it falls with φ
+  double low = 0, high = 0.5 * std::numbers::pi;                           // it falls with φ
   for (int k = 0; k < 60; ++k) {
     const double middle = 0.5 * (low + high);
     (2 * middle / std::tan(middle) > wanted ? low : high) = middle;
@@ -95,7 +95,8 @@ bool Compliant::has_potential(const ImpulseContact& c) const {
   return on_plane(a, b) || on_plane(b, a);
 }
 
-void Compliant::add_wrench(double, std::span<const BodyMotion<double>> bodies, std::span<Wrench<double>> wrenches) const {
+void Compliant::add_wrench(double, std::span<const BodyMotion<double>> bodies,
+                           std::span<Wrench<double>> wrenches) const {
   for (const ImpulseContact& c : contacts(bodies)) {
     const Push p = push_of(c, bodies);
     const Vector3<double> f = p.normal * c.normal + p.friction;
@@ -123,7 +124,8 @@ double Compliant::power(double, std::span<const BodyMotion<double>> bodies) cons
 }
 
 ResponseEntry compliant() {
-  return {"compliant", "f = max(0, k d + c ḋ) and smooth friction at each point: a force, so that --impact-timing means nothing",
+  return {"compliant",
+          "f = max(0, k d + c ḋ) and smooth friction at each point: a force, so that --impact-timing means nothing",
           nullptr, [](const System<double>& system, ContactScene& scene, const Compliance& compliance) {
             return std::unique_ptr<ForceModel<double>>(new Compliant(system, scene, compliance));
           }};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The impulses of a step as forces that are held through it: both bodies feel, equal and opposite and along one line, the force
-// whose time integral is the impulse, so that momentum and angular momentum are left alone. The line goes with the mass centre
-// of the two, and with a body that touches what cannot move: a ball that rolls keeps its arm. A body at rest stays at rest
-// under any method, which a jump of its velocity before or after the step would not let it.
+// The impulses of a step as forces that are held through it: both bodies feel, equal and opposite and along one line,
+// the force whose time integral is the impulse, so that momentum and angular momentum are left alone. The line goes
+// with the mass centre of the two, and with a body that touches what cannot move: a ball that rolls keeps its arm. A
+// body at rest stays at rest under any method, which a jump of its velocity before or after the step would not let it.
 #pragma once
 
 #include <vector>
@@ -25,7 +25,8 @@ class HeldImpulses final : public ForceModel<double> {
     release();
     for (const ImpulseContact& c : contacts) {
       const ImpulseBody &a = bodies[c.a], &b = bodies[c.b];
-      if (pairs_.empty() || pairs_.back().a != c.a || pairs_.back().b != c.b) pairs_.push_back({c.a, c.b, line_share(a, b)});
+      if (pairs_.empty() || pairs_.back().a != c.a || pairs_.back().b != c.b)
+        pairs_.push_back({c.a, c.b, line_share(a, b)});
       Pair& p = pairs_.back();
       const Vector3<double> f = c.impulse / h;
       p.force += f;
@@ -33,7 +34,8 @@ class HeldImpulses final : public ForceModel<double> {
     }
   }
 
-  void add_wrench(double, std::span<const BodyMotion<double>> bodies, std::span<Wrench<double>> wrenches) const override {
+  void add_wrench(double, std::span<const BodyMotion<double>> bodies,
+                  std::span<Wrench<double>> wrenches) const override {
     for (const Pair& p : pairs_) {
       const Vector3<double> from_b_to_a = bodies[p.a].position - bodies[p.b].position;
       wrenches[p.a].force += p.force;
@@ -50,7 +52,7 @@ class HeldImpulses final : public ForceModel<double> {
  private:
   struct Pair {
     std::uint32_t a, b;
-    double share;  ///< of A in the point that the line goes with
+    double share;                                      ///< of A in the point that the line goes with
     Vector3<double> force = Vector3<double>::Zero();   ///< N, on A
     Vector3<double> torque = Vector3<double>::Zero();  ///< N m, on A, about that point
   };

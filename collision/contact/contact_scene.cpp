@@ -39,7 +39,8 @@ ContactScene::ContactScene(const Problem& problem, std::vector<Collider> collide
   }
   for (const Collider& c : colliders_) {
     if (!(c.restitution >= 0 && c.restitution <= 1)) throw std::invalid_argument("a restitution must be from 0 to 1");
-    if (!(c.friction >= 0) || !std::isfinite(c.friction)) throw std::invalid_argument("a friction must not be negative");
+    if (!(c.friction >= 0) || !std::isfinite(c.friction))
+      throw std::invalid_argument("a friction must not be negative");
     radii_.push_back(radius_of(c));
   }
   for (std::size_t i = 0; i < colliders_.size(); ++i) {
@@ -47,7 +48,8 @@ ContactScene::ContactScene(const Problem& problem, std::vector<Collider> collide
   }
   for (std::size_t i = 0; i < moving_; ++i) {
     if (colliders_[i].shape && !colliders_[i].shape->finite()) {
-      throw std::invalid_argument("the body '" + problem.bodies[i].name + "' has a shape without end and must be static");
+      throw std::invalid_argument("the body '" + problem.bodies[i].name +
+                                  "' has a shape without end and must be static");
     }
   }
   bounds_.resize(colliders_.size());
@@ -103,7 +105,8 @@ std::uint32_t ContactScene::new_memory() {
   return k;
 }
 
-std::span<ImpulseContact> ContactScene::contacts(std::span<const Pose> poses, double margin, std::span<const double> reach) {
+std::span<ImpulseContact> ContactScene::contacts(std::span<const Pose> poses, double margin,
+                                                 std::span<const double> reach) {
   contacts_.clear();
   const double least = margin;
   for (const NearPair& n : near_) {

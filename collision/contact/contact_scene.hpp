@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What of the bodies can touch, and the way from where they stand to the points where they do: broad phase, narrow phase,
-// and what a pair remembers from one step to the next.
+// What of the bodies can touch, and the way from where they stand to the points where they do: broad phase, narrow
+// phase, and what a pair remembers from one step to the next.
 #pragma once
 
 #include <memory>
@@ -23,14 +23,14 @@ class ContactScene {
   ContactScene(const Problem& problem, std::vector<Collider> colliders, std::string_view broad_phase,
                std::string_view narrow_phase);
 
-  /// The pairs with a moving body of which some two points may come closer than `margin` (m) while each body goes from one
-  /// of its poses to the other, on a path that leaves the chord by at most `bulge` (m); sorted.
-  std::span<const BodyPair> near_pairs(std::span<const Pose> from, std::span<const Pose> to, std::span<const double> bulge,
-                                       double margin);
+  /// The pairs with a moving body of which some two points may come closer than `margin` (m) while each body goes from
+  /// one of its poses to the other, on a path that leaves the chord by at most `bulge` (m); sorted.
+  std::span<const BodyPair> near_pairs(std::span<const Pose> from, std::span<const Pose> to,
+                                       std::span<const double> bulge, double margin);
 
-  /// The points of the near pairs that were found last where surfaces are no further apart than `margin` and what both bodies
-  /// `reach` (m, by body; none: 0); sorted by pairs.
-  /// Depth, point, normal, feature and the pair's surface are filled in; approach and wanted are left to the caller.
+  /// The points of the near pairs that were found last where surfaces are no further apart than `margin` and what both
+  /// bodies `reach` (m, by body; none: 0); sorted by pairs. Depth, point, normal, feature and the pair's surface are
+  /// filled in; approach and wanted are left to the caller.
   std::span<ImpulseContact> contacts(std::span<const Pose> poses, double margin, std::span<const double> reach = {});
 
   /// Of the near pair number k.

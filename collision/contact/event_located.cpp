@@ -12,12 +12,12 @@
 namespace polhode {
 namespace {
 
-constexpr double quiet = 1e-11;            // m/s, of round-off in a contact that rests
-constexpr double resting_step = 1e-3;      // s, at most, through which a method that chooses its steps holds contacts
-constexpr int most_impacts = 1000;         // in a step
+constexpr double quiet = 1e-11;              // m/s, of round-off in a contact that rests
+constexpr double resting_step = 1e-3;        // s, at most, through which a method that chooses its steps holds contacts
+constexpr int most_impacts = 1000;           // in a step
 constexpr int most_inner_steps = 1'000'000;  // of a method that chooses its steps, in one of them
-constexpr int deepest_search = 20;         // halvings of a flight: a dip shorter than 1e-6 of it is not seen
-constexpr double brief = 1e-6;             // of a hold: a slide that ends sooner is none
+constexpr int deepest_search = 20;           // halvings of a flight: a dip shorter than 1e-6 of it is not seen
+constexpr double brief = 1e-6;               // of a hold: a slide that ends sooner is none
 
 /// As many steps as it takes to go on by h.
 StepResult advance(Integrator<double>& method, State<double>& state, double h) {
@@ -120,7 +120,8 @@ bool EventLocated::take_impacts(Integrator<double>& method, State<double>& state
     any = any || c.approach < -limit;
     if (bounce <= limit || no_bounce_) {  // its flight would be too low: the series of 2 v eⁿ / a, all at once
       const double pull = -normal_acceleration(c);
-      if (bounce > 0 && pull > 0 && c.restitution < 1) rests_from_[k] = state.t + 2 * bounce / pull / (1 - c.restitution);
+      if (bounce > 0 && pull > 0 && c.restitution < 1)
+        rests_from_[k] = state.t + 2 * bounce / pull / (1 - c.restitution);
       c.restitution = 0;
     }
     c.wanted = -c.restitution * std::min(c.approach, 0.0);
@@ -188,8 +189,8 @@ bool EventLocated::resolve_hold(Integrator<double>& method, const State<double>&
   return true;
 }
 
-/// m/s: of a pair that slides at first, how far it is from ceasing to in the hold that was resolved last. While a point of it
-/// slides on, the fastest slip along what it was; else less than zero, by what friction has to spare.
+/// m/s: of a pair that slides at first, how far it is from ceasing to in the hold that was resolved last. While a point
+/// of it slides on, the fastest slip along what it was; else less than zero, by what friction has to spare.
 double EventLocated::slip_left(std::span<const Slide> pair) const {
   double fastest = -std::numeric_limits<double>::infinity(), spare = 0;
   for (const Slide& s : pair) {
@@ -221,14 +222,15 @@ double EventLocated::least_slip_left() const {
   return least;
 }
 
-/// s: when in a hold of h, which was resolved, the first of the pairs that slide ceases to; h where none does. Resolves the
-/// hold until then; 0 where the method fails.
+/// s: when in a hold of h, which was resolved, the first of the pairs that slide ceases to; h where none does. Resolves
+/// the hold until then; 0 where the method fails.
 double EventLocated::first_transition(Integrator<double>& method, const State<double>& state, double h) {
   slides_.clear();
   for (std::size_t k = 0; k < resting_.size(); ++k) {
     const ImpulseContact& c = resting_[k];
     if (c.friction == 0) continue;  // it never sticks
-    if (std::binary_search(stuck_.begin(), stuck_.end(), BodyPair{c.a, c.b})) continue;  // its slip is the method's error
+    if (std::binary_search(stuck_.begin(), stuck_.end(), BodyPair{c.a, c.b}))
+      continue;  // its slip is the method's error
     const Vector3<double> slip = slip_of(bodies_, c);
     Slide s{k, slip.norm(), slip.stableNormalized(), 0};
     s.mobility = s.along.dot(mobility_along(bodies_[c.a], bodies_[c.b], c.point, s.along));
@@ -284,7 +286,8 @@ void EventLocated::note_stuck() {
     bool sticks = true;
     for (; k < resting_.size() && resting_[k].a == resting_[first].a && resting_[k].b == resting_[first].b; ++k) {
       const ImpulseContact& c = resting_[k];
-      const double could = (bodies_[c.a].inverse_mass + bodies_[c.b].inverse_mass) * c.friction * c.impulse.dot(c.normal);
+      const double could =
+          (bodies_[c.a].inverse_mass + bodies_[c.b].inverse_mass) * c.friction * c.impulse.dot(c.normal);
       sticks = sticks && slip_of(end_, c).norm() <= quiet + brief * (slip_of(bodies_, c).norm() + could);
     }
     if (sticks) stuck_.push_back({resting_[first].a, resting_[first].b});
@@ -421,7 +424,8 @@ StepResult EventLocated::step(Integrator<double>& method, State<double>& state, 
       impacts_.clear();
       transitions_.clear();
       return {"more than " + std::to_string(most_impacts) +
-              " impacts in one step; take --impact-timing time_stepping, or a response that answers all points of a face at once"};
+              " impacts in one step; take --impact-timing time_stepping, or a response that answers all points of a "
+              "face at once"};
     }
     before_impacts_ = state;
     const ContactLosses losses_before_impacts = losses_;

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact as events: between impacts the bodies fly as the method makes them, and an impact is found where a signed distance
-// crosses zero. A method with roots of its own (CVODE) finds it by these, one with dense output on that, any other by a
-// bracketing search over re-taken steps (TOMS 748: Alefeld, Potra & Shi, Algorithm 748, 1995). So the flight keeps the order
-// of the method, and the error of an event's time falls with it.
+// Contact as events: between impacts the bodies fly as the method makes them, and an impact is found where a signed
+// distance crosses zero. A method with roots of its own (CVODE) finds it by these, one with dense output on that, any
+// other by a bracketing search over re-taken steps (TOMS 748: Alefeld, Potra & Shi, Algorithm 748, 1995). So the flight
+// keeps the order of the method, and the error of an event's time falls with it.
 //
-// Policies. Several impacts at one instant go to the response together. A distance that may have dipped below zero between
-// two instants, by the bounds of guards.hpp, is looked at between them, until the dip is shorter than 1e-6 of the step. A
-// bounce that would rise by less than a hop, 1e-11 of the largest body, or that the method is too inaccurate to tell from
-// rest, is not flown: the contact rests (Zeno). A contact that rests is held through the step by the impulses that the
-// response asks for, as in time stepping, but no longer than it slides: the end of a pair's slide is found by the same search,
-// over re-taken holds, where the slip that is left crosses zero. A pair that is held may sink by 1e-7 of the largest body
-// before it is looked at again. After 1000 impacts in one step the run fails and says so: it never hangs. So it ends with
-// single_impulse where a body settles on a face: with one impulse for a pair it rocks from side to side, ever faster, and no
-// point of it rests before the others.
+// Policies. Several impacts at one instant go to the response together. A distance that may have dipped below zero
+// between two instants, by the bounds of guards.hpp, is looked at between them, until the dip is shorter than 1e-6 of
+// the step. A bounce that would rise by less than a hop, 1e-11 of the largest body, or that the method is too
+// inaccurate to tell from rest, is not flown: the contact rests (Zeno). A contact that rests is held through the step
+// by the impulses that the response asks for, as in time stepping, but no longer than it slides: the end of a pair's
+// slide is found by the same search, over re-taken holds, where the slip that is left crosses zero. A pair that is held
+// may sink by 1e-7 of the largest body before it is looked at again. After 1000 impacts in one step the run fails and
+// says so: it never hangs. So it ends with single_impulse where a body settles on a face: with one impulse for a pair
+// it rocks from side to side, ever faster, and no point of it rests before the others.
 #pragma once
 
+#include "collision/contact/constant_contact_forces.hpp"
 #include "collision/contact/contact_scene.hpp"
 #include "collision/contact/guards.hpp"
-#include "collision/contact/constant_contact_forces.hpp"
 #include "core/run/contact_model.hpp"
 
 namespace polhode {
@@ -35,8 +35,8 @@ class EventLocated final : public ContactModel {
 
  private:
   struct Flight {
-    double length = 0;     ///< s
-    bool impact = false;   ///< ends where two bodies meet
+    double length = 0;    ///< s
+    bool impact = false;  ///< ends where two bodies meet
   };
 
   /// A contact that slides where a hold begins.
@@ -67,8 +67,8 @@ class EventLocated final : public ContactModel {
   void foresee(const State<double>& state, double h);
   void watch(const State<double>& from, const State<double>& to);
   bool go_to(Integrator<double>& method, const State<double>& start, double s, State<double>& there);
-  double first_below(Integrator<double>& method, const State<double>& start, double from, const Guards::Look& at_from, double to,
-                     const Guards::Look& at_to, int depth);
+  double first_below(Integrator<double>& method, const State<double>& start, double from, const Guards::Look& at_from,
+                     double to, const Guards::Look& at_to, int depth);
   void account_held(const State<double>& end);
 
   System<double>& system_;
@@ -81,11 +81,11 @@ class EventLocated final : public ContactModel {
   ContactLengths lengths_;
   Guards guards_;
   std::vector<Guards::Look> looks_;  ///< of each halving of a flight, and of its ends
-  bool no_bounce_ = false; ///< the impacts at this instant were tried, and did not lead apart
-  bool all_rest_ = false;  ///< what touches did not come apart in the flight before
-  bool sinking_ = false;   ///< a held pair reached its allowance, and it was no impact
-  bool one_step_ = true;   ///< the flight is a step of the method, not several that hold contacts
-  bool searched_ = false;  ///< the method was stepped elsewhere than along the flight
+  bool no_bounce_ = false;           ///< the impacts at this instant were tried, and did not lead apart
+  bool all_rest_ = false;            ///< what touches did not come apart in the flight before
+  bool sinking_ = false;             ///< a held pair reached its allowance, and it was no impact
+  bool one_step_ = true;             ///< the flight is a step of the method, not several that hold contacts
+  bool searched_ = false;            ///< the method was stepped elsewhere than along the flight
   std::vector<Pose> poses_;
   std::vector<ImpulseBody> bodies_, later_, end_;
   std::vector<ImpulseContact> resting_, rested_;  ///< held now, and in the flight before

@@ -30,7 +30,11 @@ ContactLengths::ContactLengths(const ContactScene& scene) {
 }
 
 Guards::Guards(const System<double>& system, ContactScene& scene)
-    : system_(system), scene_(scene), lengths_(scene), bulge_(scene.size(), 0), speed_(scene.size(), 0),
+    : system_(system),
+      scene_(scene),
+      lengths_(scene),
+      bulge_(scene.size(), 0),
+      speed_(scene.size(), 0),
       pulls_(scene.size()) {}
 
 double Guards::Pull::along(const Vector3<double>& n) const {
@@ -38,7 +42,8 @@ double Guards::Pull::along(const Vector3<double>& n) const {
   return steady + radius * rate * across;
 }
 
-void Guards::watch(const State<double>& from, const State<double>& to, std::span<const ImpulseContact> resting, double deeper) {
+void Guards::watch(const State<double>& from, const State<double>& to, std::span<const ImpulseContact> resting,
+                   double deeper) {
   shape_poses(system_, from.y, poses_);
   shape_poses(system_, to.y, end_poses_);
   impulse_bodies(system_, from.y, bodies_);
@@ -64,11 +69,11 @@ void Guards::watch(const State<double>& from, const State<double>& to, std::span
     Guard& g = guards_[k];
     g.pair = pairs[k];
     g.speed = speed_[g.pair.a] + speed_[g.pair.b];
-    const bool held = std::any_of(resting.begin(), resting.end(), [&](const ImpulseContact& c) {
-      return c.a == g.pair.a && c.b == g.pair.b;
-    });
+    const bool held = std::any_of(resting.begin(), resting.end(),
+                                  [&](const ImpulseContact& c) { return c.a == g.pair.a && c.b == g.pair.b; });
     if (held) {
-      // As deep as it is, and no deeper: sinking from one bounce to the next would feed them. A body that rolls may sink on.
+      // As deep as it is, and no deeper: sinking from one bounce to the next would feed them. A body that rolls may
+      // sink on.
       g.allowance = std::max(lengths_.sink, deeper - distance);
       g.speed = 0;
       g.leaving = g.allowance > lengths_.sink;

@@ -8,7 +8,8 @@
 
 namespace polhode {
 
-TimeStepping::TimeStepping(System<double>& system, ContactScene& scene, std::unique_ptr<Response> response, Reflected reflected)
+TimeStepping::TimeStepping(System<double>& system, ContactScene& scene, std::unique_ptr<Response> response,
+                           Reflected reflected)
     : system_(system), scene_(scene), response_(std::move(response)), reflected_(reflected) {
   auto held = std::make_unique<HeldImpulses>(scene.all_free());
   held_ = held.get();
@@ -22,8 +23,8 @@ void TimeStepping::begin(Integrator<double>&, const State<double>&) {
   impacts_.clear();
 }
 
-/// The contacts where the step starts, and those that it may reach: a surface that is apart lets the bodies come as close
-/// as they are in the step. Only an impact that bounces waits until the surfaces have met.
+/// The contacts where the step starts, and those that it may reach: a surface that is apart lets the bodies come as
+/// close as they are in the step. Only an impact that bounces waits until the surfaces have met.
 std::span<ImpulseContact> TimeStepping::find_contacts(const State<double>& start, double h) {
   shape_poses(system_, start.y, poses_);
   reach_.assign(bodies_.size(), 0);
@@ -67,7 +68,8 @@ StepResult TimeStepping::step(Integrator<double>& method, State<double>& state, 
   impulse_bodies(system_, state.y, start_);
   bodies_ = start_;
   impulse_motions(system_, free_.y, bodies_);
-  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].position = start_[i].position;  // the free end's velocities alone
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    bodies_[i].position = start_[i].position;  // the free end's velocities alone
   const std::span<ImpulseContact> contacts = find_contacts(state, h);
   if (contacts.empty()) {
     std::swap(state.y, free_.y);

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact at the step: no impact is looked for within it. The method takes the step once without contact; the response says
-// which impulses its end velocities need to obey the contacts where the step begins; and the method takes the step again with
-// these impulses held as forces. With semi-implicit Euler that is the scheme of game engines (Stewart & Trinkle, An implicit
-// time-stepping scheme for rigid body dynamics, 1996; Catto, Iterative dynamics with temporal coherence, 2005), digit for
-// digit but for the order of sums.
+// Contact at the step: no impact is looked for within it. The method takes the step once without contact; the response
+// says which impulses its end velocities need to obey the contacts where the step begins; and the method takes the step
+// again with these impulses held as forces. With semi-implicit Euler that is the scheme of game engines (Stewart &
+// Trinkle, An implicit time-stepping scheme for rigid body dynamics, 1996; Catto, Iterative dynamics with temporal
+// coherence, 2005), digit for digit but for the order of sums.
 #pragma once
 
-#include "collision/contact/contact_scene.hpp"
 #include "collision/contact/constant_contact_forces.hpp"
+#include "collision/contact/contact_scene.hpp"
 #include "core/run/contact_model.hpp"
 
 namespace polhode {
 
-/// Which velocity restitution reflects: that at the start of the step, or that which its end would have without contact.
-/// A bouncing ball keeps the modified energy of semi-implicit Euler with the first; the second adds a step of gravity.
+/// Which velocity restitution reflects: that at the start of the step, or that which its end would have without
+/// contact. A bouncing ball keeps the modified energy of semi-implicit Euler with the first; the second adds a step of
+/// gravity.
 enum class Reflected { at_start, at_free_end };
 
 class TimeStepping final : public ContactModel {

@@ -11,8 +11,8 @@
 namespace polhode {
 namespace {
 
-// The corners of a face lie at (−, −), (+, −), (−, +), (+, +) along its two axes, and its sides go from corner 0 to 1, 0 to 2,
-// 1 to 3 and 2 to 3: both as the box numbers its vertices and edges.
+// The corners of a face lie at (−, −), (+, −), (−, +), (+, +) along its two axes, and its sides go from corner 0 to 1,
+// 0 to 2, 1 to 3 and 2 to 3: both as the box numbers its vertices and edges.
 constexpr Four sign_x{-1, 1, -1, 1}, sign_y{-1, -1, 1, 1};
 inline Four starts(Four corners) { return __builtin_shufflevector(corners, corners, 0, 0, 1, 2); }
 inline Four ends(Four corners) { return __builtin_shufflevector(corners, corners, 1, 2, 3, 3); }
@@ -24,16 +24,16 @@ struct Parts {
 constexpr Parts parts_of(std::uint32_t face) {
   const std::uint32_t axis = face / 2, p = axis == 0 ? 1 : 0, q = axis == 2 ? 1 : 2, high = face % 2 << axis;
   const std::uint32_t v[4] = {high, high | 1u << p, high | 1u << q, high | 1u << p | 1u << q};
-  const std::uint32_t all[9] = {v[0], v[1], v[2], v[3], edge_from[v[0]][p], edge_from[v[0]][q], edge_from[v[1]][q],
-                                edge_from[v[2]][p], face};
+  const std::uint32_t all[9] = {
+      v[0], v[1], v[2], v[3], edge_from[v[0]][p], edge_from[v[0]][q], edge_from[v[1]][q], edge_from[v[2]][p], face};
   Parts parts{};
   for (int k = 0; k < 9; ++k) parts.number[k] = std::uint8_t(all[k]);
   return parts;
 }
 constexpr Parts parts[6] = {parts_of(0), parts_of(1), parts_of(2), parts_of(3), parts_of(4), parts_of(5)};
 
-/// What a point of the patch may be, sorted by features: a corner of the reference face, a corner of the incident face, a
-/// side of each.
+/// What a point of the patch may be, sorted by features: a corner of the reference face, a corner of the incident face,
+/// a side of each.
 constexpr int kinds_of_point = 24;
 struct Meeting {
   Feature::Kind kind, mirrored;
@@ -84,7 +84,8 @@ bool faces_patch(const ReferenceFace& reference, const IncidentBox& incident, do
   const double sign = reference.face % 2 == 1 ? 1 : -1;
   const Vector3<double>& half = reference.half;
   const Matrix3<double>& turn = incident.turn;
-  const Vector3<double> towards = -sign * turn.row(k).transpose();  // into the reference box, in the incident box's axes
+  const Vector3<double> towards =
+      -sign * turn.row(k).transpose();  // into the reference box, in the incident box's axes
   const int axis = largest_component(towards), u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
   const std::uint32_t incident_face = face_along(towards, axis);
 
@@ -99,24 +100,29 @@ bool faces_patch(const ReferenceFace& reference, const IncidentBox& incident, do
   constexpr double relative_tolerance = 1e-6;
   const double tolerance = relative_tolerance * (half[p] + half[q]);
   const Four reach_x = all(half[p] + tolerance), reach_y = all(half[q] + tolerance);
-  const FourBits left = x < -reach_x, right = x > reach_x, below = y < -reach_y, above = y > reach_y;
+  const FourBits left = x<-reach_x, right = x> reach_x, below = y<-reach_y, above = y> reach_y;
   const Crossings at_left = crossings(x, -half[p], left, y, height), at_right = crossings(x, half[p], right, y, height);
-  const Crossings at_bottom = crossings(y, -half[q], below, x, height), at_top = crossings(y, half[q], above, x, height);
+  const Crossings at_bottom = crossings(y, -half[q], below, x, height),
+                  at_top = crossings(y, half[q], above, x, height);
 
-  // A corner of the reference face is in the patch where the left or the right side is crossed beyond it and before it. Then
-  // what crosses the other side lies beyond that corner, or within the side.
+  // A corner of the reference face is in the patch where the left or the right side is crossed beyond it and before it.
+  // Then what crosses the other side lies beyond that corner, or within the side.
   const Four none = all(-std::numeric_limits<double>::infinity());
   const Four beyond = largest_of_each(at_left.there ? -at_left.along : none, at_right.there ? -at_right.along : none,
                                       at_left.there ? at_left.along : none, at_right.there ? at_right.along : none);
   const FourBits covered = (beyond > reach_y) & (-__builtin_shufflevector(beyond, beyond, 2, 3, 0, 1) <= all(half[q]));
   const Four limit = covered ? all(half[p]) : reach_x;
-  const auto within = [](const Crossings& c, Four low, Four high) { return c.there & (c.along >= -low) & (c.along <= high); };
+  const auto within = [](const Crossings& c, Four low, Four high) {
+    return c.there & (c.along >= -low) & (c.along <= high);
+  };
 
   const Four corner_x = sign_x * all(half[p]), corner_y = sign_y * all(half[q]);
   const double steep = 1 / turn(k, axis);
   const Four in_plane = all(sign) * (all(centre[k]) - (corner_x - all(centre[p])) * all(turn(p, axis) * steep) -
-                                     (corner_y - all(centre[q])) * all(turn(q, axis) * steep)) - all(half[k]);
-  const Four corner_height = larger(in_plane, all(-highest(-height)));  // a corner may be off the incident face by the tolerance
+                                     (corner_y - all(centre[q])) * all(turn(q, axis) * steep)) -
+                        all(half[k]);
+  const Four corner_height =
+      larger(in_plane, all(-highest(-height)));  // a corner may be off the incident face by the tolerance
 
   Points points;
   std::uint32_t there = 0, near = 0;
@@ -130,17 +136,20 @@ bool faces_patch(const ReferenceFace& reference, const IncidentBox& incident, do
   offer(0, corner_x, corner_y, corner_height, covered);
   offer(4, x, y, height, ~(left | right | below | above));
   offer(8, at_bottom.along, all(-half[q]), at_bottom.height,
-        within(at_bottom, __builtin_shufflevector(limit, limit, 0, 0, 0, 0), __builtin_shufflevector(limit, limit, 1, 1, 1, 1)));
+        within(at_bottom, __builtin_shufflevector(limit, limit, 0, 0, 0, 0),
+               __builtin_shufflevector(limit, limit, 1, 1, 1, 1)));
   offer(12, all(-half[p]), at_left.along, at_left.height, within(at_left, reach_y, reach_y));
   offer(16, all(half[p]), at_right.along, at_right.height, within(at_right, reach_y, reach_y));
   offer(20, at_top.along, all(half[q]), at_top.height,
-        within(at_top, __builtin_shufflevector(limit, limit, 2, 2, 2, 2), __builtin_shufflevector(limit, limit, 3, 3, 3, 3)));
+        within(at_top, __builtin_shufflevector(limit, limit, 2, 2, 2, 2),
+               __builtin_shufflevector(limit, limit, 3, 3, 3, 3)));
   if (near == 0) return false;
 
   const bool rocking = std::abs(towards[axis]) >= cosine_of_rocking;
   std::array<std::uint32_t, kinds_of_point> taken;
   std::size_t count = 0;
-  for (std::uint32_t rest = rocking ? there : near; rest != 0; rest &= rest - 1) taken[count++] = std::uint32_t(std::countr_zero(rest));
+  for (std::uint32_t rest = rocking ? there : near; rest != 0; rest &= rest - 1)
+    taken[count++] = std::uint32_t(std::countr_zero(rest));
   std::array<std::uint32_t, Manifold::capacity> chosen{0, 1, 2, 3};
   if (count > 4) {
     Points packed;

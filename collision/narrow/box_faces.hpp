@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contact patch of a face of a box and the face of another box that looks at it: a parallelogram clipped by a rectangle.
-// What Sutherland & Hodgman (Reentrant polygon clipping, 1974) find side by side is here looked for all at once, four numbers
-// in a register: the corners of the one that lie within the other, and where their sides cross.
+// The contact patch of a face of a box and the face of another box that looks at it: a parallelogram clipped by a
+// rectangle. What Sutherland & Hodgman (Reentrant polygon clipping, 1974) find side by side is here looked for all at
+// once, four numbers in a register: the corners of the one that lie within the other, and where their sides cross.
 #pragma once
 
 #include <array>
@@ -13,7 +13,8 @@
 namespace polhode {
 
 /// Number of a box's edge that starts at a vertex along an axis upwards: edges are sorted by their two vertices.
-inline constexpr std::uint32_t edge_from[8][3] = {{0, 1, 2}, {0, 3, 4}, {5, 1, 6}, {5, 3, 7}, {8, 9, 2}, {8, 10, 4}, {11, 9, 6}, {11, 10, 7}};
+inline constexpr std::uint32_t edge_from[8][3] = {{0, 1, 2}, {0, 3, 4},  {5, 1, 6},  {5, 3, 7},
+                                                  {8, 9, 2}, {8, 10, 4}, {11, 9, 6}, {11, 10, 7}};
 
 /// The axis of the largest component.
 inline int largest_component(const Vector3<double>& n) {
@@ -22,7 +23,9 @@ inline int largest_component(const Vector3<double>& n) {
 }
 
 /// Number of the face that looks along an axis, as n does.
-inline std::uint32_t face_along(const Vector3<double>& n, int axis) { return std::uint32_t(2 * axis) + (n[axis] > 0 ? 1 : 0); }
+inline std::uint32_t face_along(const Vector3<double>& n, int axis) {
+  return std::uint32_t(2 * axis) + (n[axis] > 0 ? 1 : 0);
+}
 
 /// A box that shows a face to another one.
 struct ReferenceFace {

@@ -30,12 +30,13 @@ void edge_point(const RelativeBoxes& boxes, const Pose& pose, const BoxAxis& axi
   const Vector3<double> along = boxes.b_in_a.col(j), centre = boxes.offset + boxes.b_in_a * b;
   const Vector3<double> between = centre - a;
   const double across = along[y] * along[y] + along[z] * along[z];
-  const double s = std::clamp(-(between[y] * along[y] + between[z] * along[z]) / across, -boxes.half_b[j], boxes.half_b[j]);
+  const double s =
+      std::clamp(-(between[y] * along[y] + between[z] * along[z]) / across, -boxes.half_b[j], boxes.half_b[j]);
   const Vector3<double> middle = centre + s * along - 0.5 * axis.separation * axis.normal;
   manifold.count = 1;
   manifold.normal = -(pose.rotation * axis.normal);
-  manifold.points[0] = {pose.to_world(middle), -axis.separation,
-                        {Feature::Kind::edge_edge, edge_from[of_a][i], edge_from[of_b][j]}};
+  manifold.points[0] = {
+      pose.to_world(middle), -axis.separation, {Feature::Kind::edge_edge, edge_from[of_a][i], edge_from[of_b][j]}};
 }
 
 /// What of a box a point on its surface is part of.
@@ -68,7 +69,8 @@ struct Part {
   }
 };
 
-/// Where neither faces nor edges that cross meet: the nearest points. An edge beside an edge is nearest at an end of one.
+/// Where neither faces nor edges that cross meet: the nearest points. An edge beside an edge is nearest at an end of
+/// one.
 void nearest_point(const BoxAt& a, const BoxAt& b, const Distance& d, Manifold& manifold) {
   const Part of_a(a, d.on_a), of_b(b, d.on_b);
   Feature feature{Feature::Kind::other, 0, 0};
@@ -87,7 +89,8 @@ double separation_of_face_of_a(const RelativeBoxes& boxes, int k) {
   return std::abs(boxes.offset[k]) - boxes.half_a[k] - boxes.b_in_a.row(k).cwiseAbs().dot(boxes.half_b);
 }
 double separation_of_face_of_b(const RelativeBoxes& boxes, int k) {
-  return std::abs(boxes.b_in_a.col(k).dot(boxes.offset)) - boxes.half_b[k] - boxes.b_in_a.col(k).cwiseAbs().dot(boxes.half_a);
+  return std::abs(boxes.b_in_a.col(k).dot(boxes.offset)) - boxes.half_b[k] -
+         boxes.b_in_a.col(k).cwiseAbs().dot(boxes.half_a);
 }
 
 Manifold ordered_manifold(const BoxAt& a, const BoxAt& b, double margin) {
@@ -102,13 +105,15 @@ Manifold ordered_manifold(const BoxAt& a, const BoxAt& b, double margin) {
   constexpr double round_off = 2e-15;
   const double near = margin + round_off * boxes.scale;
   bool found = false;
-  if (axis.index < 3 || (axis.index >= 6 && faces && separation_of_face_of_a(boxes, of_a) >= separation_of_face_of_b(boxes, of_b))) {
-    found = faces_patch({boxes.half_a, a.pose, face_along(axis.normal, of_a), false}, {boxes.half_b, boxes.b_in_a, boxes.offset},
-                        near, manifold);
+  if (axis.index < 3 ||
+      (axis.index >= 6 && faces && separation_of_face_of_a(boxes, of_a) >= separation_of_face_of_b(boxes, of_b))) {
+    found = faces_patch({boxes.half_a, a.pose, face_along(axis.normal, of_a), false},
+                        {boxes.half_b, boxes.b_in_a, boxes.offset}, near, manifold);
   } else if (axis.index < 6 || faces) {
     const Matrix3<double> turn = boxes.b_in_a.transpose();
     const Vector3<double> offset = -(turn * boxes.offset);
-    found = faces_patch({boxes.half_b, b.pose, face_along(-in_b, of_b), true}, {boxes.half_a, turn, offset}, near, manifold);
+    found = faces_patch({boxes.half_b, b.pose, face_along(-in_b, of_b), true}, {boxes.half_a, turn, offset}, near,
+                        manifold);
   } else if (axis.separation <= 0) {
     edge_point(boxes, a.pose, axis, manifold);
     return manifold;

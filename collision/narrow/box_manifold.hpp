@@ -6,8 +6,8 @@
 
 namespace polhode {
 
-/// Empty where the boxes are further apart than `margin` (m). Two faces that are almost parallel (0.1 rad) meet as faces
-/// even where an edge axis has a little less depth. Throws std::invalid_argument if a pose is not finite.
+/// Empty where the boxes are further apart than `margin` (m). Two faces that are almost parallel (0.1 rad) meet as
+/// faces even where an edge axis has a little less depth. Throws std::invalid_argument if a pose is not finite.
 Manifold boxes_manifold(const BoxAt& a, const BoxAt& b, double margin);
 
 }  // namespace polhode

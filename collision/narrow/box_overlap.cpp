@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether two boxes overlap. First a witness: the point of A nearest to B's centre, if B has it too. That needs no relative
-// rotation, and tells for most boxes that overlap. Then the fifteen axes without normalising any, with a bound on the
-// round-off. Where that does not decide either, the axes are taken with care. Three axes stand side by side in a register
-// for one pair; for many pairs, one pair in each lane.
-// Source of the axes: Gottschalk, Lin & Manocha, OBBTree, 1996.
+// Whether two boxes overlap. First a witness: the point of A nearest to B's centre, if B has it too. That needs no
+// relative rotation, and tells for most boxes that overlap. Then the fifteen axes without normalising any, with a bound
+// on the round-off. Where that does not decide either, the axes are taken with care. Three axes stand side by side in a
+// register for one pair; for many pairs, one pair in each lane. Source of the axes: Gottschalk, Lin & Manocha, OBBTree,
+// 1996.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -23,9 +23,9 @@
 namespace polhode {
 namespace {
 
-// In units of half extents and offset; a sum over all entries of the poses, so that a NaN in one of them decides nothing.
-// An undivided edge product is off by as much at most, however short it is; and where it is shorter than `parallel`, the
-// axis tells nothing that a face normal does not.
+// In units of half extents and offset; a sum over all entries of the poses, so that a NaN in one of them decides
+// nothing. An undivided edge product is off by as much at most, however short it is; and where it is shorter than
+// `parallel`, the axis tells nothing that a face normal does not.
 constexpr double undecided = 6e-15;
 constexpr double parallel_squared = 1e-28;
 
@@ -124,13 +124,15 @@ inline Lanes larger(Lanes a, Lanes b) { return select(a > b, a, b); }
 /// Of both signs the number nearest to x that is no larger than `most`.
 inline Lanes clamped(Lanes x, Lanes most) {
 #ifdef __AVX512DQ__
-  return Lanes(Lanes::Pack(_mm512_range_pd(std::bit_cast<Lanes::Pack>(x), std::bit_cast<Lanes::Pack>(most), 0b0010)));  // the smaller magnitude, the sign of x
+  return Lanes(Lanes::Pack(_mm512_range_pd(std::bit_cast<Lanes::Pack>(x), std::bit_cast<Lanes::Pack>(most),
+                                           0b0010)));  // the smaller magnitude, the sign of x
 #else
   return larger(select(x < most, x, most), -most);
 #endif
 }
 
-/// a b + c, rounded once where the processor can. No answer depends on it: the bound on the round-off decides what is sure.
+/// a b + c, rounded once where the processor can. No answer depends on it: the bound on the round-off decides what is
+/// sure.
 inline Lanes sum(Lanes::Pack a, Lanes::Pack b, Lanes::Pack c) {
 #if defined(__AVX512F__)
   return Lanes(Lanes::Pack(_mm512_fmadd_pd(a, b, c)));
@@ -154,12 +156,13 @@ inline std::uint32_t bits(Lanes::Mask truth) {
 #endif
 }
 
-/// Writes `first`, `first` + 1 and so on for the lanes that are not in `left_out` to `numbers`, where there is room for all of
-/// them. Returns how many there are.
+/// Writes `first`, `first` + 1 and so on for the lanes that are not in `left_out` to `numbers`, where there is room for
+/// all of them. Returns how many there are.
 inline std::size_t pick(std::size_t first, std::uint32_t left_out, std::size_t* numbers) {
   const std::uint32_t picked = every_lane & ~left_out;
 #if defined(__AVX512F__)
-  const __m512i all = _mm512_add_epi64(_mm512_set1_epi64(std::int64_t(first)), _mm512_setr_epi64(0, 1, 2, 3, 4, 5, 6, 7));
+  const __m512i all =
+      _mm512_add_epi64(_mm512_set1_epi64(std::int64_t(first)), _mm512_setr_epi64(0, 1, 2, 3, 4, 5, 6, 7));
   _mm512_storeu_si512(numbers, _mm512_maskz_compress_epi64(__mmask8(picked), all));
 #else
   std::size_t count = 0;
@@ -188,19 +191,22 @@ inline Pack read(const PosedBox* box, int first) {
 }
 
 #ifdef __AVX512F__
-/// Four numbers of eight boxes. Two boxes share a register; pairs of numbers are exchanged within its quarters, then the
-/// quarters.
+/// Four numbers of eight boxes. Two boxes share a register; pairs of numbers are exchanged within its quarters, then
+/// the quarters.
 inline constexpr int numbers_at_once = 4;
 inline void transpose(const PosedBox* const* boxes, int first, Lanes* number) {
   using Pack = Lanes::Pack;
   const auto both = [&](int k, int l) {
-    return Pack(_mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(read<Four>(boxes[k], first)), read<Four>(boxes[l], first), 1));
+    return Pack(_mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(read<Four>(boxes[k], first)),
+                                         read<Four>(boxes[l], first), 1));
   };
   const Pack p02 = both(0, 2), p13 = both(1, 3), p46 = both(4, 6), p57 = both(5, 7);
   const auto even = [](Pack a, Pack b) { return Pack(__builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14)); };
   const auto odd = [](Pack a, Pack b) { return Pack(__builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15)); };
   const auto near = [](Pack a, Pack b) { return Lanes(Pack(__builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13))); };
-  const auto far = [](Pack a, Pack b) { return Lanes(Pack(__builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15))); };
+  const auto far = [](Pack a, Pack b) {
+    return Lanes(Pack(__builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15)));
+  };
   const Pack low_even = even(p02, p13), low_odd = odd(p02, p13), high_even = even(p46, p57), high_odd = odd(p46, p57);
   number[0] = near(low_even, high_even);
   number[1] = near(low_odd, high_odd);
@@ -258,7 +264,9 @@ struct LanedPairs {
   Lanes between[3], in_a[3], in_b[3];  // from the centre of A to that of B, in three frames
   Lanes halves{0.0};
 
-  [[gnu::always_inline]] LanedPairs(const PosedBox* const (&of_a)[lane_count], const PosedBox* const (&of_b)[lane_count]) : a(of_a), b(of_b) {
+  [[gnu::always_inline]] LanedPairs(const PosedBox* const (&of_a)[lane_count],
+                                    const PosedBox* const (&of_b)[lane_count])
+      : a(of_a), b(of_b) {
     for (int k = 0; k < 3; ++k) between[k] = b.position()[k] - a.position()[k];
     for (int k = 0; k < 3; ++k) {
       in_a[k] = dot(a.axis(k), between);
@@ -297,8 +305,10 @@ struct LanedPairs {
     }
     Lanes most(-std::numeric_limits<double>::infinity());
     for (int i = 0; i < 3; ++i) {
-      const Lanes of_a = sum(less_b[0], m[i][0], sum(less_b[1], m[i][1], sum(less_b[2], m[i][2], abs(in_a[i]) + less_a[i])));
-      const Lanes of_b = sum(less_a[0], m[0][i], sum(less_a[1], m[1][i], sum(less_a[2], m[2][i], abs(in_b[i]) + less_b[i])));
+      const Lanes of_a =
+          sum(less_b[0], m[i][0], sum(less_b[1], m[i][1], sum(less_b[2], m[i][2], abs(in_a[i]) + less_a[i])));
+      const Lanes of_b =
+          sum(less_a[0], m[0][i], sum(less_a[1], m[1][i], sum(less_a[2], m[2][i], abs(in_b[i]) + less_b[i])));
       most = larger(most, larger(of_a, of_b));
     }
     for (int i = 0; i < 3; ++i) {
@@ -328,7 +338,8 @@ bool boxes_overlap(const BoxAt& a, const BoxAt& b) {
 }
 
 void boxes_overlap(std::span<const PosedBox> boxes, std::span<const BodyPair> pairs, std::span<std::uint8_t> overlap) {
-  if (overlap.size() != pairs.size()) throw std::invalid_argument("boxes_overlap: there must be one answer for each pair");
+  if (overlap.size() != pairs.size())
+    throw std::invalid_argument("boxes_overlap: there must be one answer for each pair");
   const PosedBox* const all = boxes.data();
   const BodyPair* const pair = pairs.data();
   std::uint8_t* const answer = overlap.data();
@@ -366,7 +377,8 @@ void boxes_overlap(std::span<const PosedBox> boxes, std::span<const BodyPair> pa
     }
   }
   for (; k < pairs.size(); ++k) waiting[count++] = k;
-  for (const std::size_t left : std::span(waiting, count)) answer[left] = overlap_alone(all[pair[left].a], all[pair[left].b]);
+  for (const std::size_t left : std::span(waiting, count))
+    answer[left] = overlap_alone(all[pair[left].a], all[pair[left].b]);
 }
 
 }  // namespace polhode

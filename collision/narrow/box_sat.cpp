@@ -20,9 +20,9 @@ double shadow_gap(const RelativeBoxes& boxes, const Vector3<double>& offset, con
   return n.dot(offset) - n.cwiseAbs().dot(boxes.half_a) - (boxes.b_in_a.transpose() * n).cwiseAbs().dot(boxes.half_b);
 }
 
-/// The nearest points known so far, in A's axes. Of two pairs of points that are as near, but for round-off, the difference
-/// may point anywhere that is nearly upright; then that one counts on which the shadows are further apart, as a normal must
-/// have it.
+/// The nearest points known so far, in A's axes. Of two pairs of points that are as near, but for round-off, the
+/// difference may point anywhere that is nearly upright; then that one counts on which the shadows are further apart,
+/// as a normal must have it.
 struct Nearest {
   const RelativeBoxes& boxes;
   const Vector3<double>& offset;
@@ -50,8 +50,9 @@ Vector3<double> clamped(const Vector3<double>& x, const Vector3<double>& half) {
   return x.cwiseMax(-half).cwiseMin(half);
 }
 
-/// Each vertex of one against the whole of the other: right wherever one of the nearest points is a vertex. A coordinate
-/// that is not clamped leaves an exact zero, so the direction stands exactly upright on the face or edge that it meets.
+/// Each vertex of one against the whole of the other: right wherever one of the nearest points is a vertex. A
+/// coordinate that is not clamped leaves an exact zero, so the direction stands exactly upright on the face or edge
+/// that it meets.
 void offer_vertices(const RelativeBoxes& boxes, const Vector3<double>& offset, Nearest& nearest) {
   for (int k = 0; k < 8; ++k) {
     const Vector3<double> b = offset + boxes.b_in_a * corner(boxes.half_b, k);
@@ -66,8 +67,9 @@ void offer_vertices(const RelativeBoxes& boxes, const Vector3<double>& offset, N
   }
 }
 
-/// Two edges, of A along its axis i with centre `a` and of B along its axis j with centre `b`, where both nearest points lie
-/// within them. In the plane across A's edge that edge is a point and B's a short line, however nearly parallel they are.
+/// Two edges, of A along its axis i with centre `a` and of B along its axis j with centre `b`, where both nearest
+/// points lie within them. In the plane across A's edge that edge is a point and B's a short line, however nearly
+/// parallel they are.
 void offer_edges(const RelativeBoxes& boxes, int i, int j, const Vector3<double>& a, const Vector3<double>& b,
                  const Vector3<double>& normal, Nearest& nearest) {
   const int y = (i + 1) % 3, z = (i + 2) % 3;
@@ -91,8 +93,8 @@ void offer_edges(const RelativeBoxes& boxes, int i, int j, const Vector3<double>
 
 /// The edge pairs that may be nearest along the axis of edges i and j: on each box the edge that is furthest along the
 /// normal, and both where the normal stands upright on a face that has them.
-void offer_edge_pairs(const RelativeBoxes& boxes, const Vector3<double>& offset, int i, int j, const Vector3<double>& normal,
-                      Nearest& nearest) {
+void offer_edge_pairs(const RelativeBoxes& boxes, const Vector3<double>& offset, int i, int j,
+                      const Vector3<double>& normal, Nearest& nearest) {
   constexpr double upright = 1e-7;
   const Vector3<double> in_b = boxes.b_in_a.transpose() * normal;
   const auto possible = [](double component, double sign) { return component * sign > -upright; };
@@ -107,8 +109,8 @@ void offer_edge_pairs(const RelativeBoxes& boxes, const Vector3<double>& offset,
       const double third = m & 1 ? 1 : -1, fourth = m & 2 ? 1 : -1;
       const int v = (j + 1) % 3, w = (j + 2) % 3;
       if (!possible(in_b[v], -third) || !possible(in_b[w], -fourth)) continue;
-      const Vector3<double> b = offset + boxes.b_in_a.col(v) * (third * boxes.half_b[v]) +
-                                boxes.b_in_a.col(w) * (fourth * boxes.half_b[w]);
+      const Vector3<double> b =
+          offset + boxes.b_in_a.col(v) * (third * boxes.half_b[v]) + boxes.b_in_a.col(w) * (fourth * boxes.half_b[w]);
       offer_edges(boxes, i, j, a, b, normal, nearest);
     }
   }
@@ -126,9 +128,9 @@ struct Sides {
   }
 };
 
-/// The products of edges that are not parallel, and along which the separation may be `wanted` or more: bit 3i + j for edge i of
-/// A and edge j of B. The separation times the length of the product is compared, squared with its sign, three products at a
-/// time.
+/// The products of edges that are not parallel, and along which the separation may be `wanted` or more: bit 3i + j for
+/// edge i of A and edge j of B. The separation times the length of the product is compared, squared with its sign,
+/// three products at a time.
 std::uint32_t possible_edges(const RelativeBoxes& boxes, const Sides& sides, double wanted) {
   const Four half_b = three(boxes.half_b), half_next = next(half_b), half_after = after_next(half_b);
   std::uint32_t possible = 0;
@@ -154,8 +156,8 @@ BoxAxis edge_axis(const RelativeBoxes& boxes, int number) {
   const double ny = -c(z, j) / length, nz = c(y, j) / length;
   const double along = boxes.offset[y] * ny + boxes.offset[z] * nz;
   const double reach_a = boxes.half_a[y] * std::abs(ny) + boxes.half_a[z] * std::abs(nz);
-  const double reach_b = boxes.half_b[v] * std::abs(c(y, v) * ny + c(z, v) * nz) +
-                         boxes.half_b[w] * std::abs(c(y, w) * ny + c(z, w) * nz);
+  const double reach_b =
+      boxes.half_b[v] * std::abs(c(y, v) * ny + c(z, v) * nz) + boxes.half_b[w] * std::abs(c(y, w) * ny + c(z, w) * nz);
   const double sign = std::copysign(1.0, along);
   BoxAxis axis{6 + number, std::abs(along) - reach_a - reach_b, Vector3<double>::Zero()};
   axis.normal[y] = sign * ny;
@@ -192,7 +194,8 @@ Distance ordered_distance(const BoxAt& a, const BoxAt& b) {
     result.distance = std::max(axis.separation, nearest.distance);
     // Where they touch but for round-off, the axis knows the direction better.
     const bool touch = (nearest.apart - axis.separation * axis.normal).norm() <= 20 * round_off * boxes.scale;
-    const bool known = nearest.distance > 0 && (!touch || nearest.gap(nearest.apart) >= axis.separation - round_off * boxes.scale);
+    const bool known =
+        nearest.distance > 0 && (!touch || nearest.gap(nearest.apart) >= axis.separation - round_off * boxes.scale);
     if (known) normal = nearest.apart.normalized();
   }
   result.normal = -(a.pose.rotation * normal);
@@ -240,7 +243,8 @@ BoxAxis best_axis(const RelativeBoxes& boxes, double enough) {
   static constexpr double unit[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const Four of_a = absolute(three(t)) - reach_a, of_b = absolute(along_b) - reach_b;
   const double separation = std::max(largest(of_a), largest(of_b));
-  const std::uint32_t of_faces_a = bits(FourBits(of_a == all(separation))) & 7, of_faces_b = bits(FourBits(of_b == all(separation)));
+  const std::uint32_t of_faces_a = bits(FourBits(of_a == all(separation))) & 7,
+                      of_faces_b = bits(FourBits(of_b == all(separation)));
   const int k = std::countr_zero(of_faces_a | of_faces_b << 3);
   const bool a_face = k < 3;
   const Vector3<double> axis(a_face ? unit[k] : c.data() + 3 * (k - 3));

@@ -53,7 +53,8 @@ BoxAxis best_axis(const RelativeBoxes& boxes, double enough = std::numeric_limit
 /// std::invalid_argument if a pose is not finite.
 bool boxes_overlap(const BoxAt& a, const BoxAt& b);
 
-/// Signed distance. Boxes that are the same in all numbers have no order; else A against B mirrors B against A exactly. Throws std::invalid_argument if a pose is not finite.
+/// Signed distance. Boxes that are the same in all numbers have no order; else A against B mirrors B against A exactly.
+/// Throws std::invalid_argument if a pose is not finite.
 Distance boxes_distance(const BoxAt& a, const BoxAt& b);
 
 /// A box where it stands, for many pairs at once.

@@ -21,9 +21,9 @@ using Kind = SupportFeature::Kind;
 using Corner = SupportFeature::Corner;
 
 constexpr std::uint32_t end_of_edge = 1u << 31;
-constexpr double parallel = 1e-5;        // of edges side by side: how far they part, across the normal, over their length
-constexpr double as_deep = 1e-3;         // how much depth, of the least, a normal may have too much to be as good
-constexpr double round_off = 1e-9;       // of a face's size
+constexpr double parallel = 1e-5;   // of edges side by side: how far they part, across the normal, over their length
+constexpr double as_deep = 1e-3;    // how much depth, of the least, a normal may have too much to be as good
+constexpr double round_off = 1e-9;  // of a face's size
 
 /// What is taken up anew for each pair.
 struct Scratch {
@@ -99,9 +99,9 @@ std::size_t clip_segment(std::span<const PatchSide> sides, double tolerance, std
   return from == to ? 1 : 2;
 }
 
-/// What the incident shape turns towards the face, clipped. `turn` and `offset` place it in the reference shape's axes. The
-/// features of the manifold are the reference shape's first. False where nothing is left that is near enough, or less deep
-/// than `depth`.
+/// What the incident shape turns towards the face, clipped. `turn` and `offset` place it in the reference shape's axes.
+/// The features of the manifold are the reference shape's first. False where nothing is left that is near enough, or
+/// less deep than `depth`.
 bool against_face(const Reference& reference, const Pose& pose, const Shape& incident, const Matrix3<double>& turn,
                   const Vector3<double>& offset, double margin, double depth, Manifold& manifold) {
   Scratch& s = scratch();
@@ -110,8 +110,12 @@ bool against_face(const Reference& reference, const Pose& pose, const Shape& inc
   s.corners.clear();
   for (const Corner& c : s.incident.corners) {
     const Vector3<double> at = offset + turn * c.at - frame.origin;
-    s.corners.push_back({at.dot(frame.x), at.dot(frame.y), at.dot(frame.normal),
-                         {Feature::Kind::face_vertex, reference.face, c.vertex}, false, c.edge});
+    s.corners.push_back({at.dot(frame.x),
+                         at.dot(frame.y),
+                         at.dot(frame.normal),
+                         {Feature::Kind::face_vertex, reference.face, c.vertex},
+                         false,
+                         c.edge});
   }
   const double tolerance = 1e-6 * reference.size;
   std::span<PatchCorner> patch;
@@ -153,19 +157,23 @@ double separation(const SupportFeature& face, const Placed& of, const Placed& ot
   return n.dot(other.pose.position - of.pose.position) + n.dot(nearest) - highest;
 }
 
-bool on_face(const SupportFeature& face, const Placed& of, const Placed& other, double margin, double depth, Manifold& manifold) {
+bool on_face(const SupportFeature& face, const Placed& of, const Placed& other, double margin, double depth,
+             Manifold& manifold) {
   const Reference reference = reference_of(face, scratch().sides);
   const Matrix3<double> back = of.pose.rotation.transpose();
-  return against_face(reference, of.pose, other.shape, back * other.pose.rotation, back * (other.pose.position - of.pose.position),
-                      margin, depth, manifold);
+  return against_face(reference, of.pose, other.shape, back * other.pose.rotation,
+                      back * (other.pose.position - of.pose.position), margin, depth, manifold);
 }
 
 /// Edges side by side: the two ends of what they share, if it has any length.
-bool side_by_side(const SupportFeature& ea, const Placed& a, const SupportFeature& eb, const Placed& b, const Distance& d,
-                  Manifold& manifold) {
+bool side_by_side(const SupportFeature& ea, const Placed& a, const SupportFeature& eb, const Placed& b,
+                  const Distance& d, Manifold& manifold) {
   const Vector3<double> from_a = a.pose.rotation * ea.corners[0].at, from_b = b.pose.rotation * eb.corners[0].at;
-  const Vector3<double> u = a.pose.rotation * ea.corners[1].at - from_a, v = b.pose.rotation * eb.corners[1].at - from_b;
-  if (std::abs(d.normal.dot(u.cross(v))) > parallel * u.norm() * v.norm() || std::abs(u.dot(v)) < 0.5 * u.norm() * v.norm()) return false;
+  const Vector3<double> u = a.pose.rotation * ea.corners[1].at - from_a,
+                        v = b.pose.rotation * eb.corners[1].at - from_b;
+  if (std::abs(d.normal.dot(u.cross(v))) > parallel * u.norm() * v.norm() ||
+      std::abs(u.dot(v)) < 0.5 * u.norm() * v.norm())
+    return false;
   const Vector3<double> between = (b.pose.position - a.pose.position) + (from_b - from_a);
   // Ends as shares of A's edge.
   const double length = u.squaredNorm(), start = between.dot(u) / length, end = start + v.dot(u) / length;
@@ -175,8 +183,12 @@ bool side_by_side(const SupportFeature& ea, const Placed& a, const SupportFeatur
     double share;
     Feature feature;
   };
-  const auto of_a = [&](std::size_t k) { return Feature{Feature::Kind::other, ea.corners[k].vertex | end_of_edge, eb.corners[0].edge}; };
-  const auto of_b = [&](std::size_t k) { return Feature{Feature::Kind::other, ea.corners[0].edge, eb.corners[k].vertex | end_of_edge}; };
+  const auto of_a = [&](std::size_t k) {
+    return Feature{Feature::Kind::other, ea.corners[k].vertex | end_of_edge, eb.corners[0].edge};
+  };
+  const auto of_b = [&](std::size_t k) {
+    return Feature{Feature::Kind::other, ea.corners[0].edge, eb.corners[k].vertex | end_of_edge};
+  };
   const End first = low_b > 0 ? End{low_b, of_b(low)} : End{0, of_a(0)};
   const End last = high_b < 1 ? End{high_b, of_b(1 - low)} : End{1, of_a(1)};
   if (!((last.share - first.share) * std::sqrt(length) > 1e-6 * std::min(std::sqrt(length), v.norm()))) return false;
@@ -185,7 +197,8 @@ bool side_by_side(const SupportFeature& ea, const Placed& a, const SupportFeatur
   manifold.normal = d.normal;
   for (const End& e : {first, last}) {
     const Vector3<double> on_a = from_a + e.share * u;
-    const Vector3<double> on_b = from_b + (e.share - start) * length / v.dot(u) * v + (b.pose.position - a.pose.position);
+    const Vector3<double> on_b =
+        from_b + (e.share - start) * length / v.dot(u) * v + (b.pose.position - a.pose.position);
     const double depth = -d.normal.dot(on_a - on_b);
     deepest = std::max(deepest, depth);
     manifold.points[manifold.count++] = {a.pose.position + 0.5 * (on_a + on_b), depth, e.feature};
@@ -335,7 +348,8 @@ Manifold joined_patch(std::span<const PartPatch> patches) {
       point.feature.of_a += numbers * p.part_a;
       point.feature.of_b += numbers * p.part_b;
       const Vector3<double> at = point.point - frame.origin;
-      corners.push_back({at.dot(frame.x), at.dot(frame.y), -point.depth, point.feature, false, std::uint32_t(points.size())});
+      corners.push_back(
+          {at.dot(frame.x), at.dot(frame.y), -point.depth, point.feature, false, std::uint32_t(points.size())});
       points.push_back(point);
     }
   }
@@ -345,7 +359,8 @@ Manifold joined_patch(std::span<const PartPatch> patches) {
 
 }  // namespace
 
-Manifold contact_patch(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, const Distance& d, double margin) {
+Manifold contact_patch(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, const Distance& d,
+                       double margin) {
   if (!(d.distance <= margin)) return {};
   if (!exchanged(a, at_a, b, at_b)) return ordered_patch({a, at_a}, {b, at_b}, d, margin);
   Manifold manifold = ordered_patch({b, at_b}, {a, at_a}, {d.distance, -d.normal, d.on_b, d.on_a}, margin);
@@ -353,7 +368,8 @@ Manifold contact_patch(const Shape& a, const Pose& at_a, const Shape& b, const P
   return manifold;
 }
 
-Manifold compound_patch(const NarrowPhase& phase, const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, double margin) {
+Manifold compound_patch(const NarrowPhase& phase, const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b,
+                        double margin) {
   for (const Pose* at : {&at_a, &at_b}) {
     if (at->position.allFinite() && at->rotation.allFinite()) continue;
     throw std::invalid_argument("the manifold of a compound needs poses that are finite");

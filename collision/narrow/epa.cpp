@@ -43,12 +43,13 @@ class Expansion {
   }
 
  private:
-  /// A tetrahedron with room inside, from the simplex and, where it is not known to be one, from other corners. Where there
-  /// is none, false, and `flat_normal_` is perpendicular to the whole difference.
+  /// A tetrahedron with room inside, from the simplex and, where it is not known to be one, from other corners. Where
+  /// there is none, false, and `flat_normal_` is perpendicular to the whole difference.
   bool span_space(const Simplex& start, bool certain) {
     std::array<MinkowskiCorner, 4> given, found;
     std::size_t count = 0;
-    for (unsigned left = start.used; left != 0; left &= left - 1) given[count++] = start.corners[std::size_t(std::countr_zero(left))];
+    for (unsigned left = start.used; left != 0; left &= left - 1)
+      given[count++] = start.corners[std::size_t(std::countr_zero(left))];
     if (certain) {
       for (const MinkowskiCorner& c : given) polytope_.add_corner(c);
       return true;
@@ -75,7 +76,8 @@ class Expansion {
       return most;
     };
 
-    const std::array<Vector3<double>, 3> axes = {Vector3<double>::UnitX(), Vector3<double>::UnitY(), Vector3<double>::UnitZ()};
+    const std::array<Vector3<double>, 3> axes = {Vector3<double>::UnitX(), Vector3<double>::UnitY(),
+                                                 Vector3<double>::UnitZ()};
     const double length = choose(axes, found[1], [&](const MinkowskiCorner& c) { return edge(found[0], c).norm(); });
     if (length <= flat_share * polytope_.scale()) {
       // Two points: apart they tell the normal, together any will do.
@@ -85,7 +87,8 @@ class Expansion {
     const Vector3<double> along = edge(found[0], found[1]).stableNormalized();
     const Vector3<double> side = along.unitOrthogonal(), other = along.cross(side);
     const std::array<Vector3<double>, 4> sides = {side, other, side + other, side - other};
-    const double width = choose(sides, found[2], [&](const MinkowskiCorner& c) { return edge(found[0], c).cross(along).norm(); });
+    const double width =
+        choose(sides, found[2], [&](const MinkowskiCorner& c) { return edge(found[0], c).cross(along).norm(); });
     if (width <= flat_share * polytope_.scale()) {
       flat_normal_ = side;
       return false;

@@ -17,22 +17,22 @@ namespace polhode {
 double separation(const MinkowskiPair& pair, const Vector3<double>& n);
 
 struct Penetration {
-  double distance = 0;  ///< m, signed: minus the depth of the cores
+  double distance = 0;                                ///< m, signed: minus the depth of the cores
   Vector3<double> normal = Vector3<double>::UnitX();  ///< unit, from B to A, in A's axes
   Vector3<double> on_a = Vector3<double>::Zero();     ///< witness points, both in A's axes about A's origin
   Vector3<double> on_b = Vector3<double>::Zero();
 };
 
-/// What touches are features of the shapes, whose normal they know to the last digit: a face of either, or the product of two
-/// edges between the corners. Takes the normal and its separation where that is larger than p.distance.
+/// What touches are features of the shapes, whose normal they know to the last digit: a face of either, or the product
+/// of two edges between the corners. Takes the normal and its separation where that is larger than p.distance.
 void polish(const MinkowskiPair& pair, const std::array<MinkowskiCorner, 3>& corners, Penetration& p);
 
 /// `start` says `inside` or `near`. What is left in `shell`, unless that is null,
 /// serves `epa_again`.
 Penetration epa(const MinkowskiPair& pair, const GjkResult& start, PairMemory::Shell* shell);
 
-/// The same, from what the last answer left. Where that still holds the origin one corner proves the answer, as long as the
-/// features that touch are the same. Nothing where it does not.
+/// The same, from what the last answer left. Where that still holds the origin one corner proves the answer, as long as
+/// the features that touch are the same. Nothing where it does not.
 std::optional<Penetration> epa_again(const MinkowskiPair& pair, PairMemory::Shell& shell);
 
 }  // namespace polhode

@@ -39,7 +39,8 @@ void EpaPolytope::put_face(int i, Index a, Index b, Index c) {
 }
 
 void EpaPolytope::close_tetrahedron() {
-  const Vector3<double> u = edge(corners_[0], corners_[1]), v = edge(corners_[0], corners_[2]), x = edge(corners_[0], corners_[3]);
+  const Vector3<double> u = edge(corners_[0], corners_[1]), v = edge(corners_[0], corners_[2]),
+                        x = edge(corners_[0], corners_[3]);
   if (u.cross(v).dot(x) > 0) std::swap(corners_[0], corners_[1]);  // corner 3 must be behind the face 0 1 2
   put_face(0, 0, 1, 2);
   put_face(1, 0, 3, 1);
@@ -97,7 +98,8 @@ bool EpaPolytope::grow(Index seen, const MinkowskiCorner& next) {
   const auto from = [&](Index side) { return faces_[side / 4].corner[side % 4 == 2 ? 0 : side % 4 + 1]; };
   const auto to = [&](Index side) { return faces_[side / 4].corner[side % 4]; };
   bool loop = rim >= 3 && face_count_ + std::max(rim - gone - free_count_, 0) <= face_room;
-  for (int i = 0; i < rim && loop; ++i) loop = from(rim_[std::size_t(i + 1 == rim ? 0 : i + 1)]) == to(rim_[std::size_t(i)]);
+  for (int i = 0; i < rim && loop; ++i)
+    loop = from(rim_[std::size_t(i + 1 == rim ? 0 : i + 1)]) == to(rim_[std::size_t(i)]);
   if (!loop) {
     while (gone > 0) gone_[gone_list_[std::size_t(--gone)]] = false;
     return false;
@@ -107,7 +109,8 @@ bool EpaPolytope::grow(Index seen, const MinkowskiCorner& next) {
     retire(gone_list_[std::size_t(--gone)]);
     free_[std::size_t(free_count_++)] = gone_list_[std::size_t(gone)];
   }
-  while (gone < rim) gone_list_[std::size_t(gone++)] = free_count_ > 0 ? free_[std::size_t(--free_count_)] : Index(face_count_++);
+  while (gone < rim)
+    gone_list_[std::size_t(gone++)] = free_count_ > 0 ? free_[std::size_t(--free_count_)] : Index(face_count_++);
   const Index top = add_corner(next);
   for (int i = 0; i < rim; ++i) {
     const Index made = gone_list_[std::size_t(i)], outer = rim_[std::size_t(i)];
@@ -161,12 +164,14 @@ bool EpaPolytope::load(const MinkowskiPair& pair, const PairMemory::Shell& shell
   std::array<Index, room * room> side;
   for (int i = 0; i < face_count_; ++i) {
     const auto& c = shell.faces[std::size_t(i)];
-    for (int k = 0; k < 3; ++k) side[std::size_t(room * c[std::size_t(k)] + c[std::size_t((k + 1) % 3)])] = side_of(i, k);
+    for (int k = 0; k < 3; ++k)
+      side[std::size_t(room * c[std::size_t(k)] + c[std::size_t((k + 1) % 3)])] = side_of(i, k);
   }
   for (int i = 0; i < face_count_; ++i) {
     const auto& c = shell.faces[std::size_t(i)];
     for (int k = 0; k < 3; ++k) {
-      faces_[std::size_t(i)].across[std::size_t(k)] = side[std::size_t(room * c[std::size_t((k + 1) % 3)] + c[std::size_t(k)])];
+      faces_[std::size_t(i)].across[std::size_t(k)] =
+          side[std::size_t(room * c[std::size_t((k + 1) % 3)] + c[std::size_t(k)])];
     }
   }
   return true;

@@ -22,10 +22,10 @@ class EpaPolytope {
   static constexpr int corner_room = 512, face_room = 2 * corner_room;  // Euler: n corners have 2n − 4 triangles
 
   struct Face {
-    Vector3<double> normal;        ///< unit, outward; zero: the face has no area
-    double offset;                 ///< normal·x on the face
-    std::array<Index, 3> corner;   ///< counter-clockwise seen from outside
-    std::array<Index, 3> across;   ///< the side that is the one from corner i to corner i + 1, of the face beyond it
+    Vector3<double> normal;       ///< unit, outward; zero: the face has no area
+    double offset;                ///< normal·x on the face
+    std::array<Index, 3> corner;  ///< counter-clockwise seen from outside
+    std::array<Index, 3> across;  ///< the side that is the one from corner i to corner i + 1, of the face beyond it
   };
 
   int corner_count() const { return corner_count_; }
@@ -48,8 +48,8 @@ class EpaPolytope {
   std::optional<Index> nearest_face() const;
   void retire(Index face) { key_[face] = std::numeric_limits<double>::infinity(); }
 
-  /// Puts a cone from the new corner in the place of all faces that it sees. False where the rim is no simple loop or the
-  /// room is full.
+  /// Puts a cone from the new corner in the place of all faces that it sees. False where the rim is no simple loop or
+  /// the room is full.
   bool grow(Index seen, const MinkowskiCorner& next);
 
   /// False where it was not small enough.

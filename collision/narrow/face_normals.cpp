@@ -39,10 +39,11 @@ Vector3<double> nearest_face_normal(const ConvexCore& core, const Vector3<double
   return best->normal;
 }
 
-Vector3<double> nearest_edge_product(const MinkowskiCorner& c0, const MinkowskiCorner& c1,
-                                     const MinkowskiCorner& c2, const Vector3<double>& n) {
+Vector3<double> nearest_edge_product(const MinkowskiCorner& c0, const MinkowskiCorner& c1, const MinkowskiCorner& c2,
+                                     const Vector3<double>& n) {
   const std::array<Vector3<double>, 3> edges_a = {c1.a - c0.a, c2.a - c1.a, c0.a - c2.a};
-  const std::array<Vector3<double>, 3> edges_b = {c1.turned_b - c0.turned_b, c2.turned_b - c1.turned_b, c0.turned_b - c2.turned_b};
+  const std::array<Vector3<double>, 3> edges_b = {c1.turned_b - c0.turned_b, c2.turned_b - c1.turned_b,
+                                                  c0.turned_b - c2.turned_b};
   Vector3<double> best = Vector3<double>::Zero();
   double most = 0.995;
   for (const Vector3<double>& u : edges_a) {

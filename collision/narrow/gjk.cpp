@@ -88,7 +88,8 @@ void refine(const MinkowskiPair& pair, GjkResult& r) {
   const unsigned missing = ~s.used & 15;
   const auto at = [missing](unsigned k) { return std::size_t(k + (1u << k >= missing)); };
   const std::size_t i = at(0), j = at(1), k = at(2);
-  const Vector3<double> sum = s.weight[i] * s.corners[i].w + s.weight[j] * s.corners[j].w + s.weight[k] * s.corners[k].w;
+  const Vector3<double> sum =
+      s.weight[i] * s.corners[i].w + s.weight[j] * s.corners[j].w + s.weight[k] * s.corners[k].w;
   const double square = std::max(r.distance * r.distance, pair.offset.squaredNorm());
   if ((sum - r.v).squaredNorm() <= stop_share * stop_share * square) return;
   std::array<double, 4> share = {s.weight[i], s.weight[j], s.weight[k], 0};
@@ -98,9 +99,9 @@ void refine(const MinkowskiPair& pair, GjkResult& r) {
   s.weight[k] = share[2];
 }
 
-/// Where v is short beside the shapes, or they have faces that are nearly parallel, rounding turns it so far that it parts
-/// the shapes less than they are apart. Then the features know the normal: those at hand, or those that EPA finds where the
-/// shapes are moved until they touch.
+/// Where v is short beside the shapes, or they have faces that are nearly parallel, rounding turns it so far that it
+/// parts the shapes less than they are apart. Then the features know the normal: those at hand, or those that EPA finds
+/// where the shapes are moved until they touch.
 Penetration with_sure_normal(const MinkowskiPair& pair, const GjkResult& r, const Penetration& unsure) {
   std::array<MinkowskiCorner, 3> corners;
   unsigned left = r.simplex.used;
@@ -161,10 +162,12 @@ std::optional<Penetration> signed_distance(const MinkowskiPair& pair, PairMemory
 /// Where rounding hides from the simplices which features are nearest, all of them are looked at.
 Distance by_features(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b) {
   if (a.tag() != ShapeTag::box || b.tag() != ShapeTag::box) return hulls_distance(a, at_a, b, at_b);
-  return boxes_distance({static_cast<const Box&>(a).half_extents(), at_a}, {static_cast<const Box&>(b).half_extents(), at_b});
+  return boxes_distance({static_cast<const Box&>(a).half_extents(), at_a},
+                        {static_cast<const Box&>(b).half_extents(), at_b});
 }
 
-Distance convex_distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory, bool swapped) {
+Distance convex_distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory,
+                         bool swapped) {
   const MinkowskiPair pair(a, at_a, b, at_b);
   check(pair);
   const auto p = signed_distance(pair, memory, swapped);
@@ -177,7 +180,8 @@ Distance convex_distance(const Shape& a, const Pose& at_a, const Shape& b, const
   return d;
 }
 
-bool convex_overlap(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory, bool swapped) {
+bool convex_overlap(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory,
+                    bool swapped) {
   const MinkowskiPair pair(a, at_a, b, at_b);
   check(pair);
   GjkResult r;
@@ -195,7 +199,8 @@ std::span<const Compound::Part> parts_of(const Shape& shape) {
 }
 
 /// In the order of `exchanged`.
-Distance ordered_distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory, bool swapped) {
+Distance ordered_distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory,
+                          bool swapped) {
   if (a.tag() == ShapeTag::half_space && b.tag() == ShapeTag::half_space) {
     return between_half_spaces(static_cast<const HalfSpace&>(a), at_a, static_cast<const HalfSpace&>(b), at_b);
   }
@@ -226,7 +231,8 @@ bool special(const Shape& a, const Shape& b) {
 
 void check(const Pose& at_a, const Pose& at_b) {
   for (const Pose* at : {&at_a, &at_b}) {
-    if (!at->position.allFinite() || !at->rotation.allFinite()) throw std::invalid_argument("gjk: a pose is not finite");
+    if (!at->position.allFinite() || !at->rotation.allFinite())
+      throw std::invalid_argument("gjk: a pose is not finite");
   }
 }
 
@@ -235,10 +241,12 @@ class Gjk final : public NarrowPhase {
   bool overlap(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory) const override {
     if (special(a, b)) return distance(a, at_a, b, at_b, memory).distance <= 0;
     const bool swapped = exchanged(a, at_a, b, at_b);
-    return swapped ? convex_overlap(b, at_b, a, at_a, memory, swapped) : convex_overlap(a, at_a, b, at_b, memory, swapped);
+    return swapped ? convex_overlap(b, at_b, a, at_a, memory, swapped)
+                   : convex_overlap(a, at_a, b, at_b, memory, swapped);
   }
 
-  Distance distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory) const override {
+  Distance distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b,
+                    PairMemory* memory) const override {
     if (special(a, b)) check(at_a, at_b);
     const bool swapped = exchanged(a, at_a, b, at_b);
     if (swapped) return mirrored(ordered_distance(b, at_b, a, at_a, memory, swapped));
@@ -248,7 +256,8 @@ class Gjk final : public NarrowPhase {
   Manifold manifold(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, double margin,
                     PairMemory* memory) const override {
     if (special(a, b)) check(at_a, at_b);
-    if (a.tag() == ShapeTag::compound || b.tag() == ShapeTag::compound) return compound_patch(*this, a, at_a, b, at_b, margin);
+    if (a.tag() == ShapeTag::compound || b.tag() == ShapeTag::compound)
+      return compound_patch(*this, a, at_a, b, at_b, margin);
     return contact_patch(a, at_a, b, at_b, distance(a, at_a, b, at_b, memory), margin);
   }
 };

@@ -14,10 +14,10 @@ namespace polhode {
 
 struct GjkResult {
   enum class State {
-    apart,     ///< v is the nearest point
-    separated, ///< some direction separates; asked only whether they overlap
-    near,      ///< the origin is in the difference, or so near that rounding hides on which side
-    inside,    ///< the origin is within a tetrahedron of the difference, further than rounding reaches
+    apart,      ///< v is the nearest point
+    separated,  ///< some direction separates; asked only whether they overlap
+    near,       ///< the origin is in the difference, or so near that rounding hides on which side
+    inside,     ///< the origin is within a tetrahedron of the difference, further than rounding reaches
   };
   State state = State::near;
   Vector3<double> v = Vector3<double>::Zero();
@@ -34,8 +34,8 @@ inline constexpr double stop_share = 16 * std::numeric_limits<double>::epsilon()
 inline constexpr double sure_share = 4 * stop_share;  ///< a wider gap between the bounds is more than round-off
 inline constexpr int gjk_limit = 100, stall_limit = 10;
 
-/// From the simplex in `r`, which may be empty. With `early` it stops at the first direction along which the shapes, with
-/// the radii around their cores, are apart.
+/// From the simplex in `r`, which may be empty. With `early` it stops at the first direction along which the shapes,
+/// with the radii around their cores, are apart.
 template <bool early>
 void gjk_loop(const MinkowskiPair& pair, GjkResult& r) {
   NearestPoint nearest;
@@ -88,7 +88,8 @@ void gjk_loop(const MinkowskiPair& pair, GjkResult& r) {
       }
     }
     bool met = gap <= 0 || gap * gap <= rounding;
-    for (unsigned left = s.used; left != 0; left &= left - 1) met |= s.corners[std::size_t(std::countr_zero(left))] == next;
+    for (unsigned left = s.used; left != 0; left &= left - 1)
+      met |= s.corners[std::size_t(std::countr_zero(left))] == next;
     if (met) break;
     const unsigned before = s.used;
     s.used |= 1u << newest;

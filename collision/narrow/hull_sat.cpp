@@ -25,8 +25,8 @@ constexpr double round_off = 1e-15;  // of a separation, in units of Pair::scale
 constexpr double parallel = 1e-15;   // sine of an angle below which two edges span no axis that faces do not
 constexpr double generous = 1e-9;    // sine by which arcs may miss each other
 
-/// The polytope within a shape, in A's axes. Of a ball it is the centre, of a capsule its segment; these have one edge, which
-/// may be of no length, and no faces.
+/// The polytope within a shape, in A's axes. Of a ball it is the centre, of a capsule its segment; these have one edge,
+/// which may be of no length, and no faces.
 struct Core {
   double radius = 0;  // m, around it
   const Polytope* polytope = nullptr;
@@ -81,7 +81,7 @@ struct Core {
 };
 
 struct Axis {
-  double separation = -infinity;  // m, along the normal; negative: overlap
+  double separation = -infinity;   // m, along the normal; negative: overlap
   Vector normal = Vector::Zero();  // unit, in A's axes, from A to B; zero: none
 };
 
@@ -108,7 +108,8 @@ struct Near {
     if (core.flat()) return;
     for (std::uint32_t f = 0; f < core.normals.size(); ++f) {
       const auto corners = core.polytope->corners_of(f);
-      if (std::any_of(corners.begin(), corners.end(), [&](const auto& c) { return vertex[c.vertex] != 0; })) faces.push_back(f);
+      if (std::any_of(corners.begin(), corners.end(), [&](const auto& c) { return vertex[c.vertex] != 0; }))
+        faces.push_back(f);
     }
   }
 };
@@ -118,7 +119,7 @@ struct Pair {
   Core a, b;
   double scale = 0;  // m, what round-off is measured by
   Near near_a, near_b;
-  double nearest = infinity;  // m
+  double nearest = infinity;       // m
   Vector on_a{}, on_b{}, apart{};  // apart = on_b − on_a
 
   void set(const Shape& shape_a, const Pose& at_a, const Shape& shape_b, const Pose& at_b) {
@@ -159,14 +160,16 @@ struct Pair {
     return best;
   }
 
-  /// The points nearest to each other, found among all that n, along which the gap is `separation`, does not exclude: the
-  /// nearest points are no further inside, along n, than the distance is larger than the gap.
+  /// The points nearest to each other, found among all that n, along which the gap is `separation`, does not exclude:
+  /// the nearest points are no further inside, along n, than the distance is larger than the gap.
   void find_nearest(const Vector& n, double separation) {
     nearest = infinity;
     double least_a = -infinity, least_b = -infinity;
     if (std::isfinite(separation)) {
-      const Vector& low = *std::min_element(b.vertices.begin(), b.vertices.end(), [&](const auto& x, const auto& y) { return n.dot(x) < n.dot(y); });
-      const Vector& high = *std::max_element(a.vertices.begin(), a.vertices.end(), [&](const auto& x, const auto& y) { return n.dot(x) < n.dot(y); });
+      const Vector& low = *std::min_element(b.vertices.begin(), b.vertices.end(),
+                                            [&](const auto& x, const auto& y) { return n.dot(x) < n.dot(y); });
+      const Vector& high = *std::max_element(a.vertices.begin(), a.vertices.end(),
+                                             [&](const auto& x, const auto& y) { return n.dot(x) < n.dot(y); });
       const double inside = std::max((low - high).norm() - separation, 0.0) + 100 * round_off * scale;
       least_a = n.dot(high) - inside;
       least_b = -n.dot(low) - inside;
@@ -181,9 +184,9 @@ struct Pair {
   }
 
  private:
-  /// The product of edges e of A and f of B, if it may be further than the best. Left and right face of an edge are the ends
-  /// of its arc on the Gauss map; those of B are turned round. The arcs cross if the ends of each lie on both sides of the
-  /// other's circle, and on the same half of the ball. The arc of a segment is its whole circle.
+  /// The product of edges e of A and f of B, if it may be further than the best. Left and right face of an edge are the
+  /// ends of its arc on the Gauss map; those of B are turned round. The arcs cross if the ends of each lie on both
+  /// sides of the other's circle, and on the same half of the ball. The arc of a segment is its whole circle.
   void take_edges(const Polytope::Edge& e, const Vector& u, const Polytope::Edge& f, Axis& best) const {
     const Vector v = b.along(f);
     const auto both_sides = [](double x, double y, double length) {
@@ -221,20 +224,22 @@ struct Pair {
 
   double as_near() const { return 1e-13 * nearest + 0.5 * round_off * scale; }
 
-  /// Of two pairs of points that are as near, but for round-off, the difference may point anywhere that is nearly upright; then
-  /// that one counts on which the shadows are further apart, as a normal must have it.
+  /// Of two pairs of points that are as near, but for round-off, the difference may point anywhere that is nearly
+  /// upright; then that one counts on which the shadows are further apart, as a normal must have it.
   void offer(const Vector& x, const Vector& y, const Vector& difference) {
     const double d = difference.stableNorm(), slack = as_near();
     if (!(d <= nearest + slack)) return;
-    if (nearest < infinity && d >= nearest - slack && !(gap(difference.stableNormalized()) > gap(apart.stableNormalized()))) return;
+    if (nearest < infinity && d >= nearest - slack &&
+        !(gap(difference.stableNormalized()) > gap(apart.stableNormalized())))
+      return;
     nearest = d;
     on_a = x;
     on_b = y;
     apart = difference;
   }
 
-  /// Ends of each against the other, and the points where both lines are nearest: in the plane across the longer edge that
-  /// one is a point and the other a line, which may be short, however nearly parallel they are.
+  /// Ends of each against the other, and the points where both lines are nearest: in the plane across the longer edge
+  /// that one is a point and the other a line, which may be short, however nearly parallel they are.
   void offer_edges(const Polytope::Edge& e, const Polytope::Edge& f) {
     const Vector &p = a.vertices[e.from], &q = b.vertices[f.from];
     const Vector u = a.along(e), v = b.along(f);
@@ -270,7 +275,8 @@ struct Pair {
     const double s = along_u ? same : other, t = along_u ? other : same;
     if (!(s > 0 && s < 1 && t > 0 && t < 1)) return;
     const Vector x = p + s * u, y = q + t * v;
-    const Vector difference = upright(y - x, line, length, same), straight = product * (product.dot(difference) / square);
+    const Vector difference = upright(y - x, line, length, same),
+                 straight = product * (product.dot(difference) / square);
     // Of nearly parallel edges that are well apart the points tell the direction better than the product.
     offer(x, y, (difference - straight).norm() <= 2 * round_off * scale ? straight : difference);
   }

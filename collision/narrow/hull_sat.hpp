@@ -18,8 +18,8 @@ namespace polhode {
 /// True for spheres, capsules, boxes and hulls.
 bool has_separating_axes(const Shape& shape);
 
-/// Signed distance of two such shapes. A against B mirrors B against A exactly where `exchanged` (pair_order.hpp) tells them
-/// apart. Throws std::invalid_argument if a pose is not finite.
+/// Signed distance of two such shapes. A against B mirrors B against A exactly where `exchanged` (pair_order.hpp) tells
+/// them apart. Throws std::invalid_argument if a pose is not finite.
 Distance hulls_distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b);
 
 /// A half-space and a finite convex shape: the normal points out of the half-space.

@@ -22,11 +22,8 @@ ConvexCore::ConvexCore(const Shape& s) : shape(&s) {
       kind = Kind::box;
       half = static_cast<const Box&>(s).half_extents();
       break;
-    case ShapeTag::convex_hull:
-      kind = Kind::hull;
-      break;
-    default:
-      kind = Kind::smooth;
+    case ShapeTag::convex_hull: kind = Kind::hull; break;
+    default: kind = Kind::smooth;
   }
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The Minkowski difference A ⊖ B = {a − b} of two convex shapes, by its support function, in the axes of A with the
-// origin at A. A ball is the point at its centre with a radius around it, a capsule its segment: what is left, the core,
-// has corners only, and its distance is exact.
+// origin at A. A ball is the point at its centre with a radius around it, a capsule its segment: what is left, the
+// core, has corners only, and its distance is exact.
 #pragma once
 
 #include <cmath>
 
-#include "collision/shapes/convex_hull.hpp"
 #include "collision/shape.hpp"
+#include "collision/shapes/convex_hull.hpp"
 
 namespace polhode {
 
@@ -16,8 +16,8 @@ struct ConvexCore {
   static constexpr std::uint32_t no_vertex = 0xffffffff;  ///< the number of a point that is no vertex, of a smooth core
 
   Kind kind = Kind::point;
-  double radius = 0;                                ///< m, around the core
-  Vector3<double> half = Vector3<double>::Zero();   ///< m: of the box; of the segment the last counts
+  double radius = 0;                               ///< m, around the core
+  Vector3<double> half = Vector3<double>::Zero();  ///< m: of the box; of the segment the last counts
   const Shape* shape = nullptr;
 
   explicit ConvexCore(const Shape& s);  ///< of a convex, finite shape
@@ -26,8 +26,8 @@ struct ConvexCore {
   bool has_faces() const { return kind == Kind::box || kind == Kind::hull; }
   const ConvexHull& hull() const { return static_cast<const ConvexHull&>(*shape); }
 
-  /// x becomes the point furthest along d; the number of the vertex that it is. Numbers are written one by one: a copy of
-  /// three at once would have to wait for them.
+  /// x becomes the point furthest along d; the number of the vertex that it is. Numbers are written one by one: a copy
+  /// of three at once would have to wait for them.
   std::uint32_t support(const Vector3<double>& d, Vector3<double>& x) const {
     if (kind != Kind::box) return support_of_others(d, x);
     for (int i = 0; i < 3; ++i) x[i] = std::copysign(half[i], d[i]);
@@ -52,10 +52,12 @@ struct ConvexCore {
 /// them exact beside a far larger partner.
 struct MinkowskiCorner {
   Vector3<double> w;
-  Vector3<double> a, turned_b;            ///< in A's axes, each about its own origin
+  Vector3<double> a, turned_b;  ///< in A's axes, each about its own origin
   std::uint32_t vertex_a, vertex_b;
 
-  bool operator==(const MinkowskiCorner& o) const { return vertex_a == o.vertex_a && vertex_b == o.vertex_b && w == o.w; }
+  bool operator==(const MinkowskiCorner& o) const {
+    return vertex_a == o.vertex_a && vertex_b == o.vertex_b && w == o.w;
+  }
 };
 
 /// From corner i to corner j.

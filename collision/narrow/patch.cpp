@@ -15,12 +15,14 @@ namespace {
 
 constexpr double least_gain = 1.0 / 32;  // of the patch's area, for a point beside four others to matter
 
-/// Where the edge that leaves a corner meets a side: another side's edge (then it is a vertex of the reference face), or an
-/// edge of the incident face.
-Feature crossing(const PatchCorner& from, std::span<const PatchSide> sides, std::size_t side, std::uint32_t incident_face) {
+/// Where the edge that leaves a corner meets a side: another side's edge (then it is a vertex of the reference face),
+/// or an edge of the incident face.
+Feature crossing(const PatchCorner& from, std::span<const PatchSide> sides, std::size_t side,
+                 std::uint32_t incident_face) {
   if (!from.along_side) return {Feature::Kind::edge_edge, sides[side].edge, from.edge};
   if ((from.edge + 1) % sides.size() == side) return {Feature::Kind::vertex_face, sides[side].start, incident_face};
-  if ((side + 1) % sides.size() == from.edge) return {Feature::Kind::vertex_face, sides[from.edge].start, incident_face};
+  if ((side + 1) % sides.size() == from.edge)
+    return {Feature::Kind::vertex_face, sides[from.edge].start, incident_face};
   return {Feature::Kind::other, sides[side].edge, sides[from.edge].edge};
 }
 
@@ -86,7 +88,8 @@ std::size_t choose_corners(const CornersInLanes& corners, std::array<std::uint32
     const std::size_t sides = count;
     const double gain = take(size, [&](std::size_t k, Four& beyond) {
       beyond = -areas(corners, ring[0], ring[1], k);
-      for (std::size_t side = 1; side < sides; ++side) beyond = larger(beyond, -areas(corners, ring[side], ring[side + 1], k));
+      for (std::size_t side = 1; side < sides; ++side)
+        beyond = larger(beyond, -areas(corners, ring[side], ring[side + 1], k));
     });
     if (sides >= 4 && gain <= least_gain * whole) return sides;
     const std::uint32_t added = chosen[sides];
@@ -108,7 +111,8 @@ std::size_t choose_corners(const CornersInLanes& corners, std::array<std::uint32
 std::span<PatchCorner> those_that_matter(std::span<PatchCorner> corners) {
   if (corners.size() <= 4) return corners;
   const auto by_feature = [](const PatchCorner& a, const PatchCorner& b) {
-    return std::tie(a.feature.kind, a.feature.of_a, a.feature.of_b) < std::tie(b.feature.kind, b.feature.of_a, b.feature.of_b);
+    return std::tie(a.feature.kind, a.feature.of_a, a.feature.of_b) <
+           std::tie(b.feature.kind, b.feature.of_a, b.feature.of_b);
   };
   std::sort(corners.begin(), corners.end(), by_feature);
   thread_local std::vector<double> numbers;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contact patch of two faces: the incident face is clipped by the sides of the reference face (Sutherland & Hodgman,
-// Reentrant polygon clipping, 1974), in the plane of the reference face. What each corner of the patch is made of is kept:
-// a vertex of the one over the face of the other, or two edges that cross. That does not depend on which face is the
-// reference, so a contact keeps its name when they change places.
+// The contact patch of two faces: the incident face is clipped by the sides of the reference face (Sutherland &
+// Hodgman, Reentrant polygon clipping, 1974), in the plane of the reference face. What each corner of the patch is made
+// of is kept: a vertex of the one over the face of the other, or two edges that cross. That does not depend on which
+// face is the reference, so a contact keeps its name when they change places.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@
 
 namespace polhode {
 
-/// Faces at most this far from parallel meet as faces: 0.1 rad. Then the whole patch counts, also where it is apart, so that
-/// a body that rocks keeps its points.
+/// Faces at most this far from parallel meet as faces: 0.1 rad. Then the whole patch counts, also where it is apart, so
+/// that a body that rocks keeps its points.
 inline constexpr double cosine_of_rocking = 0.995;
 
 /// A side of the reference face, whose inside is x nx + y ny <= offset; one after the other, counter-clockwise.
@@ -55,8 +55,9 @@ struct CornersInLanes {
 /// Of more than four corners the numbers of those that matter, as below; returns how many they are.
 std::size_t choose_corners(const CornersInLanes& corners, std::array<std::uint32_t, Manifold::capacity>& chosen);
 
-/// Up to four corners all of them; of more the deepest, the one furthest from it and the two that span the largest area with
-/// them; and up to the capacity of a manifold others that add to it by more than 1/32. Moves them to the front, over the others.
+/// Up to four corners all of them; of more the deepest, the one furthest from it and the two that span the largest area
+/// with them; and up to the capacity of a manifold others that add to it by more than 1/32. Moves them to the front,
+/// over the others.
 std::span<PatchCorner> those_that_matter(std::span<PatchCorner> corners);
 
 /// The points of the patch that matter. Features are of the reference shape first.

@@ -22,8 +22,8 @@ bool both_boxes(const Shape& a, const Shape& b) { return a.tag() == ShapeTag::bo
 BoxAt box_at(const Shape& shape, const Pose& pose) { return {static_cast<const Box&>(shape).half_extents(), pose}; }
 
 [[noreturn]] void refuse(const Shape& a, const Shape& b) {
-  throw std::invalid_argument("sat: it has no separating axes for " + std::string(a.kind()) + " and " + std::string(b.kind()) +
-                              "; take gjk");
+  throw std::invalid_argument("sat: it has no separating axes for " + std::string(a.kind()) + " and " +
+                              std::string(b.kind()) + "; take gjk");
 }
 
 bool has_polytopes(const Shape& s) { return has_separating_axes(s) || s.tag() == ShapeTag::compound; }
@@ -68,7 +68,8 @@ class Sat final : public NarrowPhase {
                     PairMemory*) const override {
     if (both_boxes(a, b)) return boxes_manifold(box_at(a, at_a), box_at(b, at_b), margin);
     check(a, b);
-    if (a.tag() == ShapeTag::compound || b.tag() == ShapeTag::compound) return compound_patch(*this, a, at_a, b, at_b, margin);
+    if (a.tag() == ShapeTag::compound || b.tag() == ShapeTag::compound)
+      return compound_patch(*this, a, at_a, b, at_b, margin);
     return contact_patch(a, at_a, b, at_b, signed_distance(a, at_a, b, at_b), margin);
   }
 };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The narrow phase `sat_course_report`: the test as the course report writes it (section 2.2, algorithm 2), over the face
-// normals of A only. The vector to a vertex of B is taken from a point of the face, as it must be.
+// The narrow phase `sat_course_report`: the test as the course report writes it (section 2.2, algorithm 2), over the
+// face normals of A only. The vector to a vertex of B is taken from a point of the face, as it must be.
 //
-// It errs by design: three of the fifteen axes of two boxes leave pairs that are apart unnoticed. Its signed distance is
-// the largest separation over those normals, and A against B is not B against A.
+// It errs by design: three of the fifteen axes of two boxes leave pairs that are apart unnoticed. Its signed distance
+// is the largest separation over those normals, and A against B is not B against A.
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -71,7 +71,8 @@ class SatCourseReport final : public NarrowPhase {
 }  // namespace
 
 NarrowPhaseEntry sat_course_report() {
-  return {"sat_course_report", "the face normals of A only, as the course report writes it: it reports overlaps that are none",
+  return {"sat_course_report",
+          "the face normals of A only, as the course report writes it: it reports overlaps that are none",
           [] { return std::unique_ptr<NarrowPhase>(new SatCourseReport); }};
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The point of a simplex that is nearest to the origin, by signed volumes: which of its faces holds the point is told by
-// the signs of barycentric coordinates, not by differences of nearly equal numbers.
-// Source: Montanari, Petrinic & Barbieri, Improving the GJK algorithm for faster and more reliable distance queries
-// between convex objects, ACM Transactions on Graphics 36(3), 2017. Volumes and areas are taken about the newest corner,
-// whose edges are short beside the distance where the shapes are far apart.
+// The point of a simplex that is nearest to the origin, by signed volumes: which of its faces holds the point is told
+// by the signs of barycentric coordinates, not by differences of nearly equal numbers. Source: Montanari, Petrinic &
+// Barbieri, Improving the GJK algorithm for faster and more reliable distance queries between convex objects, ACM
+// Transactions on Graphics 36(3), 2017. Volumes and areas are taken about the newest corner, whose edges are short
+// beside the distance where the shapes are far apart.
 #pragma once
 
 #include <algorithm>
@@ -51,10 +51,10 @@ struct NearestPoint {
   bool sure = false;    ///< and further from its faces than rounding reaches
 };
 
-/// One step of iterative refinement of the shares of three corners, so that they give the point of their plane below x to the
-/// last digit also where the triangle is thin: what they miss of it is small, and split as the whole was.
-inline void refine(const MinkowskiCorner& s0, const MinkowskiCorner& s1, const MinkowskiCorner& p, const Vector3<double>& x,
-                   std::array<double, 4>& share) {
+/// One step of iterative refinement of the shares of three corners, so that they give the point of their plane below x
+/// to the last digit also where the triangle is thin: what they miss of it is small, and split as the whole was.
+inline void refine(const MinkowskiCorner& s0, const MinkowskiCorner& s1, const MinkowskiCorner& p,
+                   const Vector3<double>& x, std::array<double, 4>& share) {
   const Vector3<double> e0 = edge(p, s0), e1 = edge(p, s1), n = e0.cross(e1);
   const Vector3<double> missed = share[0] * (s0.w - x) + share[1] * (s1.w - x) + share[2] * (p.w - x);
   const double nn = n.squaredNorm();
@@ -103,8 +103,8 @@ class SignedVolumes {
   }
 
   /// Of the origin, the four shares are volumes over the whole one.
-  void tetrahedron(const Corner& s0, const Corner& s1, const Corner& s2, const Corner& p, unsigned i, unsigned j, unsigned k,
-                   unsigned l) {
+  void tetrahedron(const Corner& s0, const Corner& s1, const Corner& s2, const Corner& p, unsigned i, unsigned j,
+                   unsigned k, unsigned l) {
     const Vector3<double> e0 = s0 - p, e1 = s1 - p, e2 = s2 - p;
     const Vector3<double> n0 = e1.cross(e2), n1 = e2.cross(e0), n2 = e0.cross(e1);
     const double side = e0.dot(n0), sign = std::copysign(1.0, side), whole = std::abs(side);
@@ -132,10 +132,10 @@ class SignedVolumes {
   }
 
  private:
-  /// e0, e1: the edges from p, n their product. The shares are areas of what the projection of the origin on the plane makes
-  /// with the sides.
-  void triangle(const Corner& s0, const Corner& s1, const Corner& p, const Vector3<double>& e0, const Vector3<double>& e1,
-                const Vector3<double>& n, unsigned i, unsigned j, unsigned k) {
+  /// e0, e1: the edges from p, n their product. The shares are areas of what the projection of the origin on the plane
+  /// makes with the sides.
+  void triangle(const Corner& s0, const Corner& s1, const Corner& p, const Vector3<double>& e0,
+                const Vector3<double>& e1, const Vector3<double>& n, unsigned i, unsigned j, unsigned k) {
     const double nn = n.squaredNorm();
     const double c0 = p.dot(n.cross(e1)), c1 = p.dot(e0.cross(n)), c2 = nn - (c0 + c1);
     if ((c0 > 0) & (c1 > 0) & (c2 > 0)) {

@@ -39,7 +39,8 @@ void polytope_feature(const Polytope& p, std::uint32_t vertex, const Vector3<dou
   }
   if (f.kind == Kind::face) {
     f.normal = p.faces[f.face].normal;
-    for (const Polytope::Corner& c : p.corners_of(f.face)) f.corners.push_back({p.vertices[c.vertex], c.vertex, c.edge});
+    for (const Polytope::Corner& c : p.corners_of(f.face))
+      f.corners.push_back({p.vertices[c.vertex], c.vertex, c.edge});
     return;
   }
   double least = sine_of_rocking;
@@ -57,7 +58,8 @@ void polytope_feature(const Polytope& p, std::uint32_t vertex, const Vector3<dou
   }
   f.kind = Kind::edge;
   const std::uint32_t edge = edge_between(p, vertex, other);
-  for (const std::uint32_t v : {std::min(vertex, other), std::max(vertex, other)}) f.corners.push_back({p.vertices[v], v, edge});
+  for (const std::uint32_t v : {std::min(vertex, other), std::max(vertex, other)})
+    f.corners.push_back({p.vertices[v], v, edge});
 }
 
 std::uint32_t furthest_vertex(const Polytope& p, const Vector3<double>& d) {
@@ -69,13 +71,15 @@ std::uint32_t furthest_vertex(const Polytope& p, const Vector3<double>& d) {
 }
 
 /// A segment along axis 3, moved outwards to the surface.
-void side(double half, const Vector3<double>& outwards, std::uint32_t first_vertex, std::uint32_t edge, SupportFeature& f) {
+void side(double half, const Vector3<double>& outwards, std::uint32_t first_vertex, std::uint32_t edge,
+          SupportFeature& f) {
   f.kind = Kind::edge;
   f.corners.push_back({outwards + Vector3<double>(0, 0, -half), first_vertex, edge});
   f.corners.push_back({outwards + Vector3<double>(0, 0, half), first_vertex + 1, edge});
 }
 
-/// The rim's corners stand where they do in the cylinder's axes, so that they stay; between them, the one that is lowest.
+/// The rim's corners stand where they do in the cylinder's axes, so that they stay; between them, the one that is
+/// lowest.
 void end_of_cylinder(double radius, double half, const Vector3<double>& d, SupportFeature& f) {
   constexpr std::uint32_t corners = 16, numbers = 32;
   constexpr double step = 2 * std::numbers::pi / corners;
@@ -85,7 +89,8 @@ void end_of_cylinder(double radius, double half, const Vector3<double>& d, Suppo
   f.face = face;
   f.normal = {0, 0, up};
   const auto add = [&](double angle, std::uint32_t k) {
-    f.corners.push_back({{radius * std::cos(angle), up * radius * std::sin(angle), up * half}, numbers * face + k, numbers * face + k});
+    f.corners.push_back(
+        {{radius * std::cos(angle), up * radius * std::sin(angle), up * half}, numbers * face + k, numbers * face + k});
   };
   // Of a corner that is lower than its neighbours by round-off only, nothing would be gained.
   const double lowest = tilt > 1e-6 ? std::atan2(up * d[1], d[0]) : -1;
@@ -100,7 +105,8 @@ void end_of_cylinder(double radius, double half, const Vector3<double>& d, Suppo
 void cylinder_feature(const Cylinder& c, const Vector3<double>& d, SupportFeature& f) {
   const double half = c.length() / 2, across = std::hypot(d[0], d[1]);
   if (std::abs(d[2]) >= cosine_of_rocking) return end_of_cylinder(c.radius(), half, d, f);
-  if (std::abs(d[2]) <= sine_of_rocking) return side(half, {c.radius() * d[0] / across, c.radius() * d[1] / across, 0}, 64, 64, f);
+  if (std::abs(d[2]) <= sine_of_rocking)
+    return side(half, {c.radius() * d[0] / across, c.radius() * d[1] / across, 0}, 64, 64, f);
   f.corners.push_back({c.support(d), d[2] > 0 ? 97u : 96u, 0});
 }
 

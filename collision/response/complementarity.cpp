@@ -67,7 +67,8 @@ void Complementarity::solve_upper(std::size_t count) {
 }
 
 /// Makes w zero on the basis, as far as j stays positive; who becomes zero leaves.
-void Complementarity::settle(const Matrix& a, const Eigen::Ref<const Eigen::VectorXd>& b, Eigen::Ref<Eigen::VectorXd> j) {
+void Complementarity::settle(const Matrix& a, const Eigen::Ref<const Eigen::VectorXd>& b,
+                             Eigen::Ref<Eigen::VectorXd> j) {
   while (!basis_.empty()) {
     for (std::size_t k = 0; k < basis_.size(); ++k) {
       double others = -b[basis_[k]];
@@ -99,7 +100,8 @@ void Complementarity::settle(const Matrix& a, const Eigen::Ref<const Eigen::Vect
   }
 }
 
-bool Complementarity::solve(const Matrix& a, const Eigen::Ref<const Eigen::VectorXd>& b, Eigen::Ref<Eigen::VectorXd> j) {
+bool Complementarity::solve(const Matrix& a, const Eigen::Ref<const Eigen::VectorXd>& b,
+                            Eigen::Ref<Eigen::VectorXd> j) {
   const Eigen::Index size = b.size();
   if (lower_.rows() < size) {
     lower_.resize(size, size);

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The linear complementarity problem of a symmetric matrix that is positive semidefinite: j >= 0, w = A j + b >= 0, j·w = 0.
+// The linear complementarity problem of a symmetric matrix that is positive semidefinite: j >= 0, w = A j + b >= 0, j·w
+// = 0.
 #pragma once
 
-#include <vector>
-
 #include <Eigen/Core>
+#include <vector>
 
 namespace polhode {
 
-/// By principal pivoting (Dantzig & Cottle, 1968; Cottle, Pang & Stone, 1992, section 4.3), in the order of Lawson & Hanson
-/// (1974): each pivot lowers ½ j·A j + b·j, so no set of positive impulses comes twice, and it ends. Of columns that depend
-/// on each other, as those of the corners of a face, only independent ones carry; w is the same whichever.
+/// By principal pivoting (Dantzig & Cottle, 1968; Cottle, Pang & Stone, 1992, section 4.3), in the order of Lawson &
+/// Hanson (1974): each pivot lowers ½ j·A j + b·j, so no set of positive impulses comes twice, and it ends. Of columns
+/// that depend on each other, as those of the corners of a face, only independent ones carry; w is the same whichever.
 class Complementarity {
  public:
   /// From the j that is given, which is not negative, to the one sought. False: there is none, or rounding hides it.
-  bool solve(const Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>& a, const Eigen::Ref<const Eigen::VectorXd>& b,
-             Eigen::Ref<Eigen::VectorXd> j);
+  bool solve(const Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>& a,
+             const Eigen::Ref<const Eigen::VectorXd>& b, Eigen::Ref<Eigen::VectorXd> j);
 
  private:
   using Matrix = Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
@@ -29,7 +29,7 @@ class Complementarity {
 
   std::vector<Eigen::Index> basis_;  ///< those that carry
   std::vector<std::uint8_t> carries_, barred_;
-  Eigen::MatrixXd lower_;            ///< Cholesky's factor of A on the basis
+  Eigen::MatrixXd lower_;  ///< Cholesky's factor of A on the basis
   Eigen::VectorXd x_;
 };
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What makes sweeps of Gauss–Seidel converge in fewer: nonsmooth nonlinear conjugate gradients (Silcowitz-Hansen, Niebe & Erleben,
-// "A nonsmooth nonlinear conjugate gradient method for interactive contact force problems", 2010). What a sweep changes,
-// to the last point and back, stands for the negative gradient g (in one direction alone it would be none, of no quadratic form); after the sweep the impulses go on by β p, with β = |g|²/|g before|² (Fletcher & Reeves) and
-// p = g + β p the course; where the sweeps do not become smaller, or go against the course (O'Donoghue & Candès,
+// What makes sweeps of Gauss–Seidel converge in fewer: nonsmooth nonlinear conjugate gradients (Silcowitz-Hansen, Niebe
+// & Erleben, "A nonsmooth nonlinear conjugate gradient method for interactive contact force problems", 2010). What a
+// sweep changes, to the last point and back, stands for the negative gradient g (in one direction alone it would be
+// none, of no quadratic form); after the sweep the impulses go on by β p, with β = |g|²/|g before|² (Fletcher & Reeves)
+// and p = g + β p the course; where the sweeps do not become smaller, or go against the course (O'Donoghue & Candès,
 // "Adaptive restart for accelerated gradient schemes", 2015), it starts anew. A sweep comes last, so that
 // the impulses are ones that the contacts allow.
 #pragma once
@@ -25,8 +26,8 @@ class ConjugateCourse {
   /// Before a sweep.
   void mark(std::span<const ImpulseMotion> motions) { marked_.assign(motions.begin(), motions.end()); }
 
-  /// Of what a sweep changed, with itself and with the course; summed patch by patch, so that the digits do not depend on
-  /// the registers.
+  /// Of what a sweep changed, with itself and with the course; summed patch by patch, so that the digits do not depend
+  /// on the registers.
   struct Products {
     double size = 0, along = 0;
     void add(const Lanes& of_size, const Lanes& of_along) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contacts in lanes: patches that share no moving body stand side by side, one a lane, so that a sweep of Gauss–Seidel treats
-// as many at once as a register has numbers. Which patches may stand together, colours tell (Fratarcangeli, Tibaldi &
-// Pellacini, "Vivace", 2016); the order of the colours is the order of the sweep, and does not depend on the registers.
+// Contacts in lanes: patches that share no moving body stand side by side, one a lane, so that a sweep of Gauss–Seidel
+// treats as many at once as a register has numbers. Which patches may stand together, colours tell (Fratarcangeli,
+// Tibaldi & Pellacini, "Vivace", 2016); the order of the colours is the order of the sweep, and does not depend on the
+// registers.
 #pragma once
 
 #include <algorithm>
@@ -40,7 +41,9 @@ struct SymmetricLanes {
 [[gnu::always_inline]] inline Vector3<Lanes> cross(const Vector3<Lanes>& a, const Vector3<Lanes>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-[[gnu::always_inline]] inline Lanes dot(const Vector3<Lanes>& a, const Vector3<Lanes>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+[[gnu::always_inline]] inline Lanes dot(const Vector3<Lanes>& a, const Vector3<Lanes>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 /// Patches of different bodies, one a lane.
 struct PatchBatch {
@@ -82,11 +85,12 @@ class ContactBatches {
 
   void find_patches(std::span<const ImpulseBody> bodies, std::span<const ImpulseContact> contacts);
   void sort_patches();
-  void add_batch(std::span<const ImpulseBody> bodies, std::span<const ImpulseContact> contacts, std::span<const Patch> lanes);
+  void add_batch(std::span<const ImpulseBody> bodies, std::span<const ImpulseContact> contacts,
+                 std::span<const Patch> lanes);
 
   std::vector<Patch> found_, sorted_;
-  std::vector<std::uint32_t> starts_;       ///< of the groups that are sorted
-  std::vector<std::uint64_t> colours_of_;   ///< of each body: which it has
+  std::vector<std::uint32_t> starts_;      ///< of the groups that are sorted
+  std::vector<std::uint64_t> colours_of_;  ///< of each body: which it has
   std::vector<PatchBatch> patches_;
   std::vector<PointBatch> points_;
   std::vector<std::array<std::uint32_t, lane_count>> contacts_;
@@ -132,7 +136,8 @@ struct PairMotion {
     return lanes(bodies, motions, part, std::make_index_sequence<lane_count>());
   }
   template <std::size_t... I>
-  static Vector3<Lanes> lanes(const Numbers& bodies, const ImpulseMotion* motions, Part part, std::index_sequence<I...>) {
+  static Vector3<Lanes> lanes(const Numbers& bodies, const ImpulseMotion* motions, Part part,
+                              std::index_sequence<I...>) {
     return {Lanes(Lanes::Pack{(motions[bodies[I]].*part)[0]...}), Lanes(Lanes::Pack{(motions[bodies[I]].*part)[1]...}),
             Lanes(Lanes::Pack{(motions[bodies[I]].*part)[2]...})};
   }

@@ -52,7 +52,8 @@ void EnergyGuard::limit(std::span<const ImpulseBody> bodies, std::span<ImpulseCo
     double end = 0, start = 0, slope = 0, slope_from_rest = 0;
     for (const std::uint32_t i : islands_.contacts(k)) {
       const ImpulseContact& c = contacts[i];
-      const Vector3<double> before = relative(bodies, c), after = relative(after_, c), there = relative(after_reference_, c);
+      const Vector3<double> before = relative(bodies, c), after = relative(after_, c),
+                            there = relative(after_reference_, c);
       end += 0.5 * c.impulse.dot(before + after);
       start += 0.5 * reference[i].dot(before + there);
       slope += (c.impulse - reference[i]).dot(there);

@@ -33,9 +33,9 @@ class FrictionCone {
     tb_ = select(regular, -k_tb / determinant, S(0));
   }
 
-  /// A step from impulse j at slip s. Where the disc holds the impulse that stops the slip, that one. Elsewhere a step of
-  /// steepest descent, projected onto the disc: the same length in all directions, so that where it comes to rest the
-  /// impulse opposes the slip.
+  /// A step from impulse j at slip s. Where the disc holds the impulse that stops the slip, that one. Elsewhere a step
+  /// of steepest descent, projected onto the disc: the same length in all directions, so that where it comes to rest
+  /// the impulse opposes the slip.
   Tangential<S> step(const Tangential<S>& j, const Tangential<S>& s, S radius) const {
     using std::sqrt;
     const Tangential<S> stop{j.t - (tt_ * s.t + tb_ * s.b), j.b - (tb_ * s.t + bb_ * s.b)};

@@ -11,7 +11,8 @@ void Penetration::undo(std::span<ImpulseBody> bodies, std::span<const ImpulseCon
   solve(bodies, contacts, own_);
 }
 
-void Penetration::undo(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts, const ContactBatches& batches) {
+void Penetration::undo(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts,
+                       const ContactBatches& batches) {
   if (too_deep(bodies, contacts)) solve(bodies, contacts, batches);
 }
 
@@ -20,7 +21,8 @@ bool Penetration::too_deep(std::span<ImpulseBody> bodies, std::span<const Impuls
     b.shift.setZero();
     b.turn.setZero();
   }
-  return std::any_of(contacts.begin(), contacts.end(), [&](const ImpulseContact& c) { return c.depth > settings_.slop; });
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [&](const ImpulseContact& c) { return c.depth > settings_.slop; });
 }
 
 void Penetration::solve(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts,

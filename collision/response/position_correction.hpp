@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How bodies that overlap are moved apart: by displacements that know nothing of the velocities ("split impulses"; after the
-// pseudo-velocities of Guendelman, Bridson & Fedkiw, "Nonconvex rigid bodies with stacking", 2003). No velocity changes.
+// How bodies that overlap are moved apart: by displacements that know nothing of the velocities ("split impulses";
+// after the pseudo-velocities of Guendelman, Bridson & Fedkiw, "Nonconvex rigid bodies with stacking", 2003). No
+// velocity changes.
 #pragma once
 
 #include <span>
@@ -12,9 +13,9 @@
 namespace polhode {
 
 struct PenetrationSettings {
-  double slop = 1e-3;     ///< m of depth that stay, so that resting contacts last
-  double share = 0.5;     ///< of the depth beyond it that a step undoes
-  int iterations = 20;    ///< at most
+  double slop = 1e-3;       ///< m of depth that stay, so that resting contacts last
+  double share = 0.5;       ///< of the depth beyond it that a step undoes
+  int iterations = 20;      ///< at most
   double tolerance = 1e-2;  ///< of the largest displacement: when to stop
 };
 
@@ -35,8 +36,8 @@ class Penetration {
   void visit(const ContactBatches& batches, std::size_t number);
 
   struct Point {
-    Lanes wanted;   ///< m that the two are to move apart
-    Lanes impulse;  ///< kg m
+    Lanes wanted;          ///< m that the two are to move apart
+    Lanes impulse;         ///< kg m
     Lanes change, course;  ///< of a sweep, and conjugate
   };
 

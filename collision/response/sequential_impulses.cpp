@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The response `sequential_impulses`: projected Gauss–Seidel over the contacts (Catto, "Iterative dynamics with temporal
-// coherence", 2005), each a block of its normal and its two tangents, with the tangents in Coulomb's cone (as Jourdan,
-// Alart & Jean, 1998). The normals obey v'·n >= wanted ⟂ j·n >= 0, which is Newton's restitution. A sweep goes to the last point
-// and back; from sweep to sweep conjugate gradients carry the impulses on (conjugate_course.hpp). A step starts from the
-// forces of the step before.
+// The response `sequential_impulses`: projected Gauss–Seidel over the contacts (Catto, "Iterative dynamics with
+// temporal coherence", 2005), each a block of its normal and its two tangents, with the tangents in Coulomb's cone (as
+// Jourdan, Alart & Jean, 1998). The normals obey v'·n >= wanted ⟂ j·n >= 0, which is Newton's restitution. A sweep goes
+// to the last point and back; from sweep to sweep conjugate gradients carry the impulses on (conjugate_course.hpp). A
+// step starts from the forces of the step before.
 //
-// Newton's cradle: all impulses are found together, so one ball in sends all out: of three the velocities −1/3, 2/3, 2/3.
+// Newton's cradle: all impulses are found together, so one ball in sends all out: of three the velocities −1/3, 2/3,
+// 2/3.
 #include "collision/response/sequential_impulses.hpp"
 
 #include <algorithm>
@@ -77,9 +78,9 @@ class SequentialImpulses final : public Response {
     Lanes wanted, friction;
     Lanes mobility_tn, mobility_bn;  ///< how a normal impulse changes the slip
     FrictionCone<Lanes> cone;
-    Lanes normal;                    ///< the impulse so far
+    Lanes normal;  ///< the impulse so far
     Tangential<Lanes> tangential;
-    Vector3<Lanes> change, course;   ///< of normal and tangents: what this sweep changed, and the conjugate course
+    Vector3<Lanes> change, course;  ///< of normal and tangents: what this sweep changed, and the conjugate course
   };
 
   void prepare(std::span<const ImpulseContact> contacts) {
@@ -90,7 +91,8 @@ class SequentialImpulses final : public Response {
       for (std::uint32_t k = patch.first_point; k < patch.first_point + patch.point_count; ++k) {
         Point& p = points_[k];
         const PointBatch& at = batches_.points()[k];
-        const Vector3<Lanes> kn = mobility_along(patch, at, patch.normal), kt = mobility_along(patch, at, patch.tangent),
+        const Vector3<Lanes> kn = mobility_along(patch, at, patch.normal),
+                             kt = mobility_along(patch, at, patch.tangent),
                              kb = mobility_along(patch, at, patch.bitangent);
         p.cone = FrictionCone<Lanes>(dot(patch.tangent, kt), dot(patch.bitangent, kt), dot(patch.bitangent, kb));
         p.mobility_tn = dot(patch.tangent, kn);
@@ -147,7 +149,8 @@ class SequentialImpulses final : public Response {
     return p.normal * patch.normal + p.tangential.t * patch.tangent + p.tangential.b * patch.bitangent;
   }
 
-  /// J: what the impulses do to the kinetic energy. Summed patch by patch, so that the digits do not depend on the registers.
+  /// J: what the impulses do to the kinetic energy. Summed patch by patch, so that the digits do not depend on the
+  /// registers.
   double work_of_impulses() const {
     double work = 0;
     for (const PatchBatch& patch : batches_.patches()) {
@@ -220,7 +223,8 @@ class SequentialImpulses final : public Response {
     motion.store(patch, motions_.data());
   }
 
-  [[gnu::always_inline]] void visit(const PatchBatch& patch, std::uint32_t k, bool rough, PairMotion& motion, Extent& extent) {
+  [[gnu::always_inline]] void visit(const PatchBatch& patch, std::uint32_t k, bool rough, PairMotion& motion,
+                                    Extent& extent) {
     const PointBatch& at = batches_.points()[k];
     Point& p = points_[k];
     const Vector3<Lanes> v = motion.at(at);
@@ -232,7 +236,8 @@ class SequentialImpulses final : public Response {
     p.normal = normal;
     p.change[0] += more;
     if (rough) {
-      const Tangential<Lanes> slip{dot(patch.tangent, v) + p.mobility_tn * more, dot(patch.bitangent, v) + p.mobility_bn * more};
+      const Tangential<Lanes> slip{dot(patch.tangent, v) + p.mobility_tn * more,
+                                   dot(patch.bitangent, v) + p.mobility_bn * more};
       const Tangential<Lanes> next = p.cone.step(p.tangential, slip, p.friction * normal);
       const Lanes t = next.t - p.tangential.t, b = next.b - p.tangential.b;
       added += t * patch.tangent + b * patch.bitangent;
@@ -309,7 +314,9 @@ std::unique_ptr<Response> make_sequential_impulses(const SequentialSettings& set
 }
 
 ResponseEntry sequential_impulses() {
-  return {"sequential_impulses", "projected Gauss–Seidel there and back, with conjugate gradients: v'·n >= wanted, j·n >= 0 complementary, |j_t| <= μ j_n against the slip",
+  return {"sequential_impulses",
+          "projected Gauss–Seidel there and back, with conjugate gradients: v'·n >= wanted, j·n >= 0 complementary, "
+          "|j_t| <= μ j_n against the slip",
           [] { return make_sequential_impulses({}); }};
 }
 

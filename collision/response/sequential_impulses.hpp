@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "collision/response/position_correction.hpp"
 #include "collision/response.hpp"
+#include "collision/response/position_correction.hpp"
 
 namespace polhode {
 

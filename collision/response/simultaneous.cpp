@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The response `simultaneous`: all contacts of an island at once, by Poisson's hypothesis (Glocker & Pfeiffer, "Multiple
-// impacts with friction in rigid multibody systems", 1995; Anitescu & Potra, 1997).
+// The response `simultaneous`: all contacts of an island at once, by Poisson's hypothesis (Glocker & Pfeiffer,
+// "Multiple impacts with friction in rigid multibody systems", 1995; Anitescu & Potra, 1997).
 //
-// Compression: v'·n >= min(wanted, 0) ⟂ j·n >= 0, with friction. Expansion: each contact gives back ε of its compression,
-// and where anything still approaches, a second problem of the same kind adds to it. The normals are a linear
-// complementarity problem, solved to the end; friction alternates with it: given the normal impulses, the tangential ones by
-// Gauss–Seidel in Coulomb's cone, and again, until neither changes. Where 50 rounds do not settle, Gauss–Seidel goes on, normal
-// and tangents of each contact in turn; what it has not settled after 5000 sweeps is drawn towards the answer without friction
-// as far as energy demands. Without friction the two phases never give energy: the second ends no higher than the impulses
-// of the first taken twice, which give none. Where friction makes them, expansion is cut back to what gives none.
+// Compression: v'·n >= min(wanted, 0) ⟂ j·n >= 0, with friction. Expansion: each contact gives back ε of its
+// compression, and where anything still approaches, a second problem of the same kind adds to it. The normals are a
+// linear complementarity problem, solved to the end; friction alternates with it: given the normal impulses, the
+// tangential ones by Gauss–Seidel in Coulomb's cone, and again, until neither changes. Where 50 rounds do not settle,
+// Gauss–Seidel goes on, normal and tangents of each contact in turn; what it has not settled after 5000 sweeps is drawn
+// towards the answer without friction as far as energy demands. Without friction the two phases never give energy: the
+// second ends no higher than the impulses of the first taken twice, which give none. Where friction makes them,
+// expansion is cut back to what gives none.
 //
 // Newton's cradle: one ball in sends all out: of three the velocities −1/3, 2/3, 2/3; of five −3/5 and four times 2/5.
 // The matrix is dense: cost and memory grow with the square of an island's contacts and more; it is for hundreds.
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Core>
-
+#include "collision/response.hpp"
 #include "collision/response/complementarity.hpp"
 #include "collision/response/contact_frame.hpp"
 #include "collision/response/energy_guard.hpp"
 #include "collision/response/friction_cone.hpp"
 #include "collision/response/islands.hpp"
 #include "collision/response/position_correction.hpp"
-#include "collision/response.hpp"
 
 namespace polhode {
 namespace {
@@ -91,7 +91,9 @@ class Simultaneous final : public Response {
   void reserve(Index n) {
     if (matrix_.rows() >= n) return;
     matrix_.resize(n, n);
-    for (Eigen::VectorXd* v : {&velocity_, &phase_, &total_, &given_, &between_, &change_, &smooth_, &constant_, &last_}) v->resize(n);
+    for (Eigen::VectorXd* v :
+         {&velocity_, &phase_, &total_, &given_, &between_, &change_, &smooth_, &constant_, &last_})
+      v->resize(n);
   }
 
   /// How the velocities at the contacts are, and how they answer to impulses.
@@ -144,8 +146,8 @@ class Simultaneous final : public Response {
     }
   }
 
-  /// Finds the impulses `phase_` of a phase, in which `given_` normal impulses have been, and the velocities after it. Gives
-  /// the gain of kinetic energy.
+  /// Finds the impulses `phase_` of a phase, in which `given_` normal impulses have been, and the velocities after it.
+  /// Gives the gain of kinetic energy.
   double solve_phase(Index m) {
     const Index n = 3 * m;
     const auto a = matrix_.topLeftCorner(n, n);
@@ -240,8 +242,10 @@ class Simultaneous final : public Response {
 }  // namespace
 
 ResponseEntry simultaneous() {
-  return {"simultaneous", "Newton–Poisson: compression and expansion, each a complementarity problem of all contacts, with Coulomb's cone",
-          [] { return std::unique_ptr<Response>(new Simultaneous); }};
+  return {
+      "simultaneous",
+      "Newton–Poisson: compression and expansion, each a complementarity problem of all contacts, with Coulomb's cone",
+      [] { return std::unique_ptr<Response>(new Simultaneous); }};
 }
 
 }  // namespace polhode

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The response `single_impulse`: the course report's impulse, section 2.3, as classical mechanics has it (Routh, 1905), pair by
-// pair. No friction.
+// The response `single_impulse`: the course report's impulse, section 2.3, as classical mechanics has it (Routh, 1905),
+// pair by pair. No friction.
 //
 //   j = −(1 + ε) v_n / (1/Ma + 1/Mb + n·((Ia⁻¹(ra × n)) × ra) + n·((Ib⁻¹(rb × n)) × rb))
 //
-// Policies. A pair has one point, the mean of the points of its patch; what it finds is shared evenly among them. A pair is
-// pushed only while it approaches, and faster than wanted where less than nothing is wanted. Pairs are treated one after the
-// other in the order of their bodies, each with the velocities that those before it left, in passes until none approaches,
-// or after 100 passes. What others have changed of a pair's velocity is reflected by its own restitution. So a shock passes
-// from ball to ball: Newton's cradle has its true outcome, one ball in, one ball out.
+// Policies. A pair has one point, the mean of the points of its patch; what it finds is shared evenly among them. A
+// pair is pushed only while it approaches, and faster than wanted where less than nothing is wanted. Pairs are treated
+// one after the other in the order of their bodies, each with the velocities that those before it left, in passes until
+// none approaches, or after 100 passes. What others have changed of a pair's velocity is reflected by its own
+// restitution. So a shock passes from ball to ball: Newton's cradle has its true outcome, one ball in, one ball out.
 #include <algorithm>
 #include <cmath>
 
+#include "collision/response.hpp"
 #include "collision/response/contact_frame.hpp"
 #include "collision/response/position_correction.hpp"
-#include "collision/response.hpp"
 
 namespace polhode {
 namespace {
@@ -43,10 +43,10 @@ class SingleImpulse final : public Response {
     std::size_t first, count;
     std::uint32_t a, b;
     Vector3<double> normal, point;
-    double mass;           ///< 1/K
-    double met, wanted;    ///< m/s along the normal, before
+    double mass;         ///< 1/K
+    double met, wanted;  ///< m/s along the normal, before
     double restitution;
-    double scale;          ///< m/s, of what cancels in a velocity
+    double scale;  ///< m/s, of what cancels in a velocity
     double impulse = 0;
   };
 
@@ -59,7 +59,8 @@ class SingleImpulse final : public Response {
     for (std::size_t i = 0; i < contacts.size();) {
       const ImpulseContact& c = contacts[i];
       Patch p{i, 0, c.a, c.b, contact_frame(c.normal).normal, Vector3<double>::Zero(), 0, 0, 0, 0, 0};
-      for (; i < contacts.size() && contacts[i].a == c.a && contacts[i].b == c.b && contacts[i].normal == c.normal; ++i) {
+      for (; i < contacts.size() && contacts[i].a == c.a && contacts[i].b == c.b && contacts[i].normal == c.normal;
+           ++i) {
         p.point += contacts[i].point;
         p.wanted += contacts[i].wanted;
         p.restitution += contacts[i].restitution;

@@ -22,7 +22,8 @@ void WarmStart::recall(std::span<const ImpulseBody> bodies, std::span<ImpulseCon
     };
     for (; i < contacts.size() && same(contacts[i], pair); ++i) {
       contacts[i].impulse.setZero();
-      const auto k = std::find_if(first, last, [&](const Known& known) { return !known.taken && known.feature == contacts[i].feature; });
+      const auto k = std::find_if(
+          first, last, [&](const Known& known) { return !known.taken && known.feature == contacts[i].feature; });
       if (k != last) {
         take(contacts[i], *k);
       } else {
@@ -33,7 +34,8 @@ void WarmStart::recall(std::span<const ImpulseBody> bodies, std::span<ImpulseCon
       const Vector3<double> place = contacts[n].point - bodies[pair.a].position;
       auto nearest = last;
       for (auto k = first; k != last; ++k) {
-        if (k->taken || (nearest != last && (nearest->place - place).squaredNorm() <= (k->place - place).squaredNorm())) continue;
+        if (k->taken || (nearest != last && (nearest->place - place).squaredNorm() <= (k->place - place).squaredNorm()))
+          continue;
         nearest = k;
       }
       if (nearest != last) take(contacts[n], *nearest);

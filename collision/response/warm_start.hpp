@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The forces of the step before, found again: of the same two bodies by the feature; of corners that lie on each other, whose
-// features change with every rounding, by the place. A merge of two sorted lists.
+// The forces of the step before, found again: of the same two bodies by the feature; of corners that lie on each other,
+// whose features change with every rounding, by the place. A merge of two sorted lists.
 #pragma once
 
 #include <span>

@@ -2,8 +2,8 @@
 #include "collision/shapes/box.hpp"
 
 #include "collision/shapes/shape_catalogue.hpp"
-#include "collision/shapes/size_checks.hpp"
 #include "collision/shapes/shape_inertia.hpp"
+#include "collision/shapes/size_checks.hpp"
 
 namespace polhode {
 
@@ -11,7 +11,8 @@ namespace {
 
 Polytope box_polytope(const Vector3<double>& h) {
   std::vector<Vector3<double>> vertices;
-  for (unsigned k = 0; k < 8; ++k) vertices.push_back({k & 1 ? h[0] : -h[0], k & 2 ? h[1] : -h[1], k & 4 ? h[2] : -h[2]});
+  for (unsigned k = 0; k < 8; ++k)
+    vertices.push_back({k & 1 ? h[0] : -h[0], k & 2 ? h[1] : -h[1], k & 4 ? h[2] : -h[2]});
   return make_polytope(std::move(vertices),
                        {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}});
 }

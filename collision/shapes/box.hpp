@@ -4,14 +4,14 @@
 
 #include <cmath>
 
-#include "collision/shapes/polytope.hpp"
 #include "collision/shape.hpp"
+#include "collision/shapes/polytope.hpp"
 
 namespace polhode {
 
 class Box final : public Shape {
  public:
-  explicit Box(const Vector3<double>& half_extents);                         ///< m
+  explicit Box(const Vector3<double>& half_extents);  ///< m
 
   const Vector3<double>& half_extents() const { return half_; }
 

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/obj_mesh.hpp"
+#include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/size_checks.hpp"
 #include "core/problem/inertia.hpp"
 
@@ -112,7 +112,8 @@ Bounds Compound::bounds(const Pose& pose) const {
 }
 
 ShapeEntry compound() {
-  return {"compound", "convex pieces, the objects or groups of an OBJ mesh",
+  return {"compound",
+          "convex pieces, the objects or groups of an OBJ mesh",
           {{"file", std::string(), "", "path of the OBJ file, coordinates in m", Parameter::Need::required}},
           [](const ShapeParameters& p) -> ShapePointer {
             return std::make_shared<Compound>(Compound::parts_of_obj(p.text("file")));

@@ -15,8 +15,8 @@ class Compound final : public Shape {
 
   explicit Compound(std::vector<Part> parts);  ///< at least one, each in the axes of the compound
 
-  /// The pieces (lines `o` or `g`) of an OBJ mesh, coordinates in m. Refuses a piece that is not closed or not convex, with
-  /// file and line.
+  /// The pieces (lines `o` or `g`) of an OBJ mesh, coordinates in m. Refuses a piece that is not closed or not convex,
+  /// with file and line.
   static std::vector<Part> parts_of_obj(const std::string& path);
 
   const std::vector<Part>& parts() const { return parts_; }

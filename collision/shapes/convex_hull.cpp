@@ -5,17 +5,17 @@
 #include <limits>
 #include <stdexcept>
 
-#include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/obj_mesh.hpp"
 #include "collision/shapes/polyhedron_mass.hpp"
 #include "collision/shapes/qhull_faces.hpp"
+#include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/size_checks.hpp"
 
 namespace polhode {
 
 namespace {
 
-constexpr double flat = 1e-10;          // of the spread
+constexpr double flat = 1e-10;           // of the spread
 constexpr std::size_t scan_limit = 256;  // vertices; with more of them climbing is faster than looking at all
 
 /// f over all lanes, halves against halves.
@@ -52,7 +52,8 @@ std::vector<Vector3<double>> normalised(std::span<const Vector3<double>> points)
   }
   Bounds around;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].allFinite()) throw std::invalid_argument("point " + std::to_string(i) + " of a convex_hull is not finite");
+    if (!points[i].allFinite())
+      throw std::invalid_argument("point " + std::to_string(i) + " of a convex_hull is not finite");
     around.extend(points[i]);
   }
   const Vector3<double> middle = around.min() + 0.5 * around.sizes();
@@ -70,13 +71,14 @@ std::vector<Vector3<double>> normalised(std::span<const Vector3<double>> points)
   const auto off_line = [&](const Vector3<double>& p) { return (p - a).cross(along).norm(); };
   const Vector3<double> c = x[furthest(x, off_line)];
   const char* const remedy = "; give points that enclose a volume";
-  if (off_line(c) <= flat) throw std::invalid_argument(std::string("the points of a convex_hull lie on a line") + remedy);
+  if (off_line(c) <= flat)
+    throw std::invalid_argument(std::string("the points of a convex_hull lie on a line") + remedy);
   const Vector3<double> normal = along.cross(c - a).normalized();
   const auto off_plane = [&](const Vector3<double>& p) { return std::abs((p - a).dot(normal)); };
   const double height = off_plane(x[furthest(x, off_plane)]);
   if (height <= flat) {
-    throw std::invalid_argument("the points of a convex_hull are coplanar: none is more than " + in_words(height * unit) +
-                                " m off their plane" + remedy);
+    throw std::invalid_argument("the points of a convex_hull are coplanar: none is more than " +
+                                in_words(height * unit) + " m off their plane" + remedy);
   }
   return x;
 }
@@ -107,9 +109,7 @@ Polytope hull_of(std::span<const Vector3<double>> points) {
 }  // namespace
 
 ConvexHull::ConvexHull(std::span<const Vector3<double>> points)
-    : Shape(ShapeTag::convex_hull),
-      polytope_(hull_of(points)),
-      mass_(polyhedron_mass(polytope_)) {
+    : Shape(ShapeTag::convex_hull), polytope_(hull_of(points)), mass_(polyhedron_mass(polytope_)) {
   const auto& v = polytope_.vertices;
   for (std::size_t i = 0; i < v.size(); i += std::size_t(lane_count)) {
     Vector3<Lanes> pack;
@@ -169,7 +169,8 @@ Bounds ConvexHull::bounds(const Pose& pose) const {
 }
 
 ShapeEntry convex_hull() {
-  return {"convex_hull", "the convex hull of the vertices of an OBJ file",
+  return {"convex_hull",
+          "the convex hull of the vertices of an OBJ file",
           {{"file", std::string(), "", "path of the OBJ file, coordinates in m", Parameter::Need::required}},
           [](const ShapeParameters& p) -> ShapePointer {
             return std::make_shared<ConvexHull>(read_obj_mesh(p.text("file")).vertices);

@@ -5,8 +5,8 @@
 #include <array>
 #include <span>
 
-#include "collision/shapes/polytope.hpp"
 #include "collision/shape.hpp"
+#include "collision/shapes/polytope.hpp"
 #include "core/math/lanes.hpp"
 
 namespace polhode {
@@ -31,7 +31,7 @@ class ConvexHull final : public Shape {
 
   Polytope polytope_;
   MassProperties mass_;
-  std::vector<Vector3<Lanes>> packs_;      ///< the vertices, lane_count at a time; the last one repeats vertex 0
+  std::vector<Vector3<Lanes>> packs_;       ///< the vertices, lane_count at a time; the last one repeats vertex 0
   std::array<std::uint32_t, 6> extreme_{};  ///< the vertices furthest along ± each axis, where a climb starts
 };
 

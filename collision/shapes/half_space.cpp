@@ -21,8 +21,10 @@ HalfSpace::HalfSpace(const Vector3<double>& normal, double offset) : Shape(Shape
   normal_ = normal.stableNormalized();
   offset_ = offset / length;
   if (!std::isfinite(offset_)) {
-    throw std::invalid_argument("a half_space has its plane at offset/|normal|, which is beyond what a double can hold; "
-                                "give a longer normal, or an offset less than " + in_words(offset));
+    throw std::invalid_argument(
+        "a half_space has its plane at offset/|normal|, which is beyond what a double can hold; "
+        "give a longer normal, or an offset less than " +
+        in_words(offset));
   }
 }
 
@@ -52,7 +54,8 @@ ShapeEntry half_space() {
   using enum Parameter::Need;
   return {"half_space",
           "all points with n.x <= c, for static bodies only",
-          {{"normal", Vector3<double>(0, 0, 1), "", "n, out of the solid, taken as given: the plane is at c/|n| along it", optional},
+          {{"normal", Vector3<double>(0, 0, 1), "",
+            "n, out of the solid, taken as given: the plane is at c/|n| along it", optional},
            {"offset", 0.0, "m", "c, the distance of the plane from the origin where n has length 1", optional}},
           [](const ShapeParameters& p) -> ShapePointer {
             return std::make_shared<HalfSpace>(p.vector("normal"), p.number("offset"));

@@ -8,8 +8,8 @@ namespace polhode {
 
 class HalfSpace final : public Shape {
  public:
-  /// n, out of the solid and of any length but 0, and c, body axes; the plane is c/|n| m from the origin along n. Throws
-  /// std::invalid_argument where that is no place.
+  /// n, out of the solid and of any length but 0, and c, body axes; the plane is c/|n| m from the origin along n.
+  /// Throws std::invalid_argument where that is no place.
   explicit HalfSpace(const Vector3<double>& normal, double offset = 0);
 
   const Vector3<double>& normal() const { return normal_; }  ///< unit

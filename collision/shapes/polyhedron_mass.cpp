@@ -40,7 +40,7 @@ Projection projection_integrals(const std::vector<Vector3<double>>& x, std::span
     p.aab += db * (b1 * Caab + b0 * Kaab);
     p.abb += da * (a1 * Cabb + a0 * Kabb);
   }
-  return {p.one / 2, p.a / 6,   p.b / -6,   p.aa / 12,  p.ab / 24,
+  return {p.one / 2,  p.a / 6,    p.b / -6,   p.aa / 12,   p.ab / 24,
           p.bb / -12, p.aaa / 20, p.aab / 60, p.abb / -60, p.bbb / -20};
 }
 
@@ -65,14 +65,14 @@ FaceIntegrals face_integrals(const Projection& p, double na, double nb, double n
                  w * w * (3 * (na * p.a + nb * p.b) + w * p.one));
   f.aab = k1 * p.aab;
   f.bbc = -k2 * (na * p.abb + nb * p.bbb + w * p.bb);
-  f.cca = k3 * (na * na * p.aaa + 2 * na * nb * p.aab + nb * nb * p.abb +
-                w * (2 * (na * p.aa + nb * p.ab) + w * p.a));
+  f.cca = k3 * (na * na * p.aaa + 2 * na * nb * p.aab + nb * nb * p.abb + w * (2 * (na * p.aa + nb * p.ab) + w * p.a));
   return f;
 }
 
 }  // namespace
 
-// The integrals are taken about the middle of the vertices, in units of their spread, where nothing cancels or overflows.
+// The integrals are taken about the middle of the vertices, in units of their spread, where nothing cancels or
+// overflows.
 MassProperties polyhedron_mass(const Polytope& polytope) {
   Eigen::AlignedBox3d around;
   for (const Vector3<double>& v : polytope.vertices) around.extend(v);

@@ -3,8 +3,8 @@
 // Source: Mirtich, Fast and accurate computation of polyhedral mass properties, Journal of Graphics Tools 1(2), 1996.
 #pragma once
 
-#include "collision/shapes/polytope.hpp"
 #include "collision/shape.hpp"
+#include "collision/shapes/polytope.hpp"
 
 namespace polhode {
 

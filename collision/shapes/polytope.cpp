@@ -11,7 +11,8 @@ namespace polhode {
 namespace {
 
 /// Newell's normal of a polygon, which need not be quite plane, with the offset that leaves all its corners behind.
-void set_plane(Polytope::Face& face, const std::vector<Vector3<double>>& vertices, const std::vector<std::uint32_t>& loop) {
+void set_plane(Polytope::Face& face, const std::vector<Vector3<double>>& vertices,
+               const std::vector<std::uint32_t>& loop) {
   Vector3<double> sum = Vector3<double>::Zero();
   const Vector3<double>& origin = vertices[loop[0]];
   for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
@@ -51,7 +52,8 @@ Polytope make_polytope(std::vector<Vector3<double>> vertices, const std::vector<
     const auto number = std::uint32_t(p.faces.size());
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const std::uint32_t from = loop[i], to = loop[(i + 1) % loop.size()];
-      half_edges.push_back({std::min(from, to), std::max(from, to), from > to, number, std::uint32_t(p.corners.size())});
+      half_edges.push_back(
+          {std::min(from, to), std::max(from, to), from > to, number, std::uint32_t(p.corners.size())});
       p.corners.push_back({from, 0});
       joined.emplace_back(from, to);
       around.emplace_back(from, number);

@@ -30,7 +30,9 @@ struct Polytope {
   std::vector<Corner> corners;  ///< of all faces, one face after the other, counter-clockwise seen from outside
   std::vector<Edge> edges;      ///< sorted by from, to
 
-  std::span<const Corner> corners_of(std::uint32_t face) const { return {&corners[faces[face].first], faces[face].count}; }
+  std::span<const Corner> corners_of(std::uint32_t face) const {
+    return {&corners[faces[face].first], faces[face].count};
+  }
   /// Vertices joined to a vertex by an edge, and the faces around it, each sorted.
   std::span<const std::uint32_t> neighbours_of(std::uint32_t vertex) const { return row(neighbours_, vertex); }
   std::span<const std::uint32_t> faces_of(std::uint32_t vertex) const { return row(vertex_faces_, vertex); }
@@ -46,8 +48,8 @@ struct Polytope {
   Rows neighbours_, vertex_faces_;
 };
 
-/// From faces as loops of vertex numbers, counter-clockwise seen from outside. Throws std::invalid_argument unless every
-/// edge has exactly two faces, which pass it in opposite directions.
+/// From faces as loops of vertex numbers, counter-clockwise seen from outside. Throws std::invalid_argument unless
+/// every edge has exactly two faces, which pass it in opposite directions.
 Polytope make_polytope(std::vector<Vector3<double>> vertices, const std::vector<std::vector<std::uint32_t>>& loops);
 
 }  // namespace polhode

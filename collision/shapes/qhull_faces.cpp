@@ -47,7 +47,8 @@ std::vector<std::vector<std::uint32_t>> qhull_faces(std::span<const Vector3<doub
   std::string command = triangulated ? "qhull Qt" : "qhull";
   const int code = qh_new_qhull(qh, 3, int(points.size()), coordinates.data(), False, command.data(), nullptr,
                                 workspace.messages.get());
-  if (code != 0) throw std::invalid_argument("qhull finds no hull of these points (its code " + std::to_string(code) + ")");
+  if (code != 0)
+    throw std::invalid_argument("qhull finds no hull of these points (its code " + std::to_string(code) + ")");
 
   std::vector<std::vector<std::uint32_t>> loops;
   for (facetT* facet = qh->facet_list; facet && facet->next; facet = facet->next) {

@@ -32,7 +32,8 @@ struct ShapeEntry {
 const std::vector<ShapeEntry>& collision_shape_catalogue();
 const ShapeEntry* find_collision_shape(std::string_view name);
 
-/// The sizes of a shape whose moments are in collision/shapes/shape_inertia.hpp, so that its keys are written down once.
+/// The sizes of a shape whose moments are in collision/shapes/shape_inertia.hpp, so that its keys are written down
+/// once.
 std::vector<Parameter> sizes_of_core_shape(std::string_view name);
 
 }  // namespace polhode

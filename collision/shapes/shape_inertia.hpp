@@ -6,13 +6,13 @@
 #include <string_view>
 #include <vector>
 
-#include "core/problem/force_kind.hpp"
 #include "core/math/linear_algebra.hpp"
+#include "core/problem/force_kind.hpp"
 
 namespace polhode {
 
-// Principal moments about the mass centre; the axis of a cylinder or capsule is body axis 3, and the length of a capsule
-// that of its cylindrical part.
+// Principal moments about the mass centre; the axis of a cylinder or capsule is body axis 3, and the length of a
+// capsule that of its cylindrical part.
 Vector3<double> sphere_moments(double mass, double radius);
 Vector3<double> box_moments(double mass, const Vector3<double>& size);  ///< size: full edge lengths
 Vector3<double> cylinder_moments(double mass, double radius, double length);

@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "collision/shapes/shape_catalogue.hpp"
-#include "collision/shapes/size_checks.hpp"
 #include "collision/shapes/shape_inertia.hpp"
+#include "collision/shapes/size_checks.hpp"
 
 namespace polhode {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The exact motion of a problem, where there is one: of each body the rotation (core/exact/exact_rotation.hpp) and the path
-// of the mass centre (core/exact/exact_path.hpp), each on its own, since they decouple in all motions that are known here.
+// The exact motion of a problem, where there is one: of each body the rotation (core/exact/exact_rotation.hpp) and the
+// path of the mass centre (core/exact/exact_path.hpp), each on its own, since they decouple in all motions that are
+// known here.
 #pragma once
 
 #include <optional>

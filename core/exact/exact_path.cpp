@@ -22,12 +22,9 @@ struct Forces {
   Forces(const System<double>& system, std::size_t body) {
     for (std::size_t k = 0; k < system.forces().size(); ++k) {
       const auto f = system.forces()[k]->effect_on(body).constant_force;
-      if (f)
-        constant += *f;
-      else if (k < system.problem().forces.size())
-        varying.push_back(&system.problem().forces[k]);
-      else
-        all_known = false;
+      if (f) constant += *f;
+      else if (k < system.problem().forces.size()) varying.push_back(&system.problem().forces[k]);
+      else all_known = false;
     }
   }
 };

@@ -36,10 +36,8 @@ struct Torques {
                      : Vector3<double>(rotation_matrix(orientation).transpose() * start.angular_velocity);
     for (std::size_t k = 0; k < system.forces().size(); ++k) {
       if (!system.forces()[k]->effect_on(i).torque) continue;
-      if (k < problem.forces.size())
-        forces.push_back(&problem.forces[k]);
-      else
-        all_known = false;
+      if (k < problem.forces.size()) forces.push_back(&problem.forces[k]);
+      else all_known = false;
     }
   }
 
@@ -85,12 +83,9 @@ ExactRotation about_an_axis(const Torques& at) {
   Vector3<double> in_body = Vector3<double>::Zero(), torque_world = in_body;
   double drag = 0;
   for (const ForceParameters* f : at.forces) {
-    if (f->kind == "drag")
-      drag += f->number("angular");
-    else if (f->text("frame") == "body")
-      in_body += f->vector("torque");
-    else
-      torque_world += f->vector("torque");
+    if (f->kind == "drag") drag += f->number("angular");
+    else if (f->text("frame") == "body") in_body += f->vector("torque");
+    else torque_world += f->vector("torque");
   }
   const Vector3<double> torque = in_body + r.transpose() * torque_world;
   Vector3<double> axis = at.omega_body.isZero(0) ? torque : at.omega_body;

@@ -5,10 +5,10 @@
 // quotients of theta functions); Whittaker, Analytical Dynamics, 4th ed., sections 71 to 73; core/exact/theta_zero.hpp.
 #pragma once
 
+#include "core/exact/theta_zero.hpp"
 #include "core/math/elliptic.hpp"
 #include "core/math/linear_algebra.hpp"
 #include "core/math/quaternion.hpp"
-#include "core/exact/theta_zero.hpp"
 
 namespace polhode {
 

@@ -16,8 +16,14 @@ class Attachment {
     const Vector3<double> zero = Vector3<double>::Zero();
     return {{"anchor_body", zero, "m", "end on the first body, its axes, from its reference point"},
             {"anchor_world", zero, "m", "end in the world", Parameter::Need::optional, Parameter::Range::any, {}, 1},
-            {"anchor_body_2", zero, "m", "end on the second body, its axes", Parameter::Need::optional,
-             Parameter::Range::any, {}, 2}};
+            {"anchor_body_2",
+             zero,
+             "m",
+             "end on the second body, its axes",
+             Parameter::Need::optional,
+             Parameter::Range::any,
+             {},
+             2}};
   }
 
   Attachment(const ForceParameters& p, std::span<const Body> bodies)

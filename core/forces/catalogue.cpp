@@ -17,12 +17,8 @@ namespace polhode {
 
 const std::vector<ForceEntry>& force_catalogue() {
   static const std::vector<ForceEntry> entries = {
-      force_entry<UniformGravity, in_lanes>(),
-      force_entry<PointGravity>(),
-      force_entry<Spring, in_lanes>(),
-      force_entry<Damper, in_lanes>(),
-      force_entry<Drag, in_lanes>(),
-      force_entry<ConstantForce, in_lanes>(),
+      force_entry<UniformGravity, in_lanes>(), force_entry<PointGravity>(),   force_entry<Spring, in_lanes>(),
+      force_entry<Damper, in_lanes>(),         force_entry<Drag, in_lanes>(), force_entry<ConstantForce, in_lanes>(),
       force_entry<ConstantTorque, in_lanes>(),
   };
   return entries;

@@ -17,7 +17,12 @@ class ConstantForce final : public ForceModel<S> {
             1,
             0,
             {{"force", zero, "N", "f, in the axes that frame names", Parameter::Need::required},
-             {"frame", std::string("world"), "", "axes of f", Parameter::Need::optional, Parameter::Range::any,
+             {"frame",
+              std::string("world"),
+              "",
+              "axes of f",
+              Parameter::Need::optional,
+              Parameter::Range::any,
               {"world", "body"}},
              {"anchor_body", zero, "m", "where it acts, body axes, from the reference point"}}};
   }
@@ -68,7 +73,9 @@ class ConstantForce final : public ForceModel<S> {
   }
 
  private:
-  Vector3<S> force_world(const BodyMotion<S>& body) const { return world_ ? force_ : Vector3<S>(body.rotation * force_); }
+  Vector3<S> force_world(const BodyMotion<S>& body) const {
+    return world_ ? force_ : Vector3<S>(body.rotation * force_);
+  }
 
   std::vector<std::size_t> bodies_;
   Vector3<S> force_, anchor_;

@@ -16,8 +16,13 @@ class ConstantTorque final : public ForceModel<S> {
             0,
             {{"torque", Vector3<double>(Vector3<double>::Zero()), "N m", "in the axes that frame names",
               Parameter::Need::required},
-             {"frame", std::string("world"), "", "axes of the torque", Parameter::Need::optional,
-              Parameter::Range::any, {"world", "body"}}}};
+             {"frame",
+              std::string("world"),
+              "",
+              "axes of the torque",
+              Parameter::Need::optional,
+              Parameter::Range::any,
+              {"world", "body"}}}};
   }
 
   ConstantTorque(const ForceParameters& p, std::span<const Body>)

@@ -43,7 +43,8 @@ class Drag final : public ForceModel<S> {
   S power(S, std::span<const BodyMotion<S>> bodies) const override {
     S p(0);
     for (const std::size_t i : bodies_) {
-      p -= coefficient(bodies[i]) * bodies[i].velocity.squaredNorm() + angular_ * bodies[i].angular_velocity.squaredNorm();
+      p -= coefficient(bodies[i]) * bodies[i].velocity.squaredNorm() +
+           angular_ * bodies[i].angular_velocity.squaredNorm();
     }
     return p;
   }

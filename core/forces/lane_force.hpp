@@ -19,7 +19,8 @@ class LaneForce final : public ForceModel<Lanes> {
     rotation_ = forces_.front()->reads_rotation();
   }
 
-  void add_wrench(Lanes t, std::span<const BodyMotion<Lanes>> bodies, std::span<Wrench<Lanes>> wrenches) const override {
+  void add_wrench(Lanes t, std::span<const BodyMotion<Lanes>> bodies,
+                  std::span<Wrench<Lanes>> wrenches) const override {
     for (int i = 0; i < lane_count; ++i) {
       const BodyMotion<double> body = motion(bodies.front(), i);
       Wrench<double> w = {lane(wrenches.front().force, i), lane(wrenches.front().torque, i)};

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "core/math/flatten.hpp"
 #include "core/forces/attachment.hpp"
+#include "core/math/flatten.hpp"
 
 namespace polhode {
 
@@ -31,7 +31,7 @@ class Spring final : public ForceModel<S> {
         rests_at_zero_(p.number("rest_length") == 0) {}
 
   POLHODE_FLATTEN void add_wrench(S, std::span<const BodyMotion<S>> bodies,
-                                   std::span<Wrench<S>> wrenches) const override {
+                                  std::span<Wrench<S>> wrenches) const override {
     const bool linear = rests_at_zero_ && !damped_;  // f = k d needs no direction
     if (linear && ends_.one_center()) {
       ends_.apply_at_center(stiffness_ * ends_.from_center(bodies), wrenches);

@@ -38,8 +38,8 @@ class UniformGravity final : public ForceModel<S> {
   S potential_energy(std::span<const BodyMotion<S>> bodies) const override {
     S v(0);
     for (const Load& load : loads_) {
-      v -= load.mass * acceleration_.dot(load.pinned ? bodies[load.body].point(load.center)
-                                                     : bodies[load.body].position);
+      v -= load.mass *
+           acceleration_.dot(load.pinned ? bodies[load.body].point(load.center) : bodies[load.body].position);
     }
     return v;
   }

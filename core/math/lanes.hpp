@@ -5,12 +5,11 @@
 // for each lane. Where a scalar would branch, `select` chooses in each lane.
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <limits>
-
-#include <Eigen/Core>
 
 #if defined(__AVX__)
 #include <immintrin.h>
@@ -75,9 +74,7 @@ class Lanes {
   friend Mask operator>=(Lanes a, Lanes b) { return Mask(Bits(a.pack_ >= b.pack_)); }
 
   friend Lanes select(Mask where, Lanes a, Lanes b) { return Lanes(where.bits ? a.pack_ : b.pack_); }
-  friend Lanes abs(Lanes a) {
-    return Lanes(Pack(Bits(a.pack_) & (Bits{} + std::numeric_limits<std::int64_t>::max())));
-  }
+  friend Lanes abs(Lanes a) { return Lanes(Pack(Bits(a.pack_) & (Bits{} + std::numeric_limits<std::int64_t>::max()))); }
   friend Lanes sqrt(Lanes a) {
 #if defined(__AVX512F__)
     return Lanes(Pack(_mm512_maskz_sqrt_pd(0xff, a.pack_)));

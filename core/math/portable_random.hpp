@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random numbers, directions and turns, the same for a seed with every standard library, which the distributions of <random>
-// are not.
+// Random numbers, directions and turns, the same for a seed with every standard library, which the distributions of
+// <random> are not.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,9 @@ class Dice {
  public:
   explicit Dice(std::uint64_t seed) : engine_(seed) {}
 
-  double uniform(double low, double high) { return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53); }
+  double uniform(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+  }
   double power_of_ten(double low, double high) { return std::pow(10.0, uniform(low, high)); }
   bool chance(double p) { return uniform(0, 1) < p; }
   int below(int n) { return std::min(int(uniform(0, n)), n - 1); }

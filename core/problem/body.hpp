@@ -13,18 +13,18 @@ namespace polhode {
 /// are about that point.
 struct Body {
   std::string name;
-  double mass = 1;                                                     ///< kg, positive
-  Matrix3<double> inertia = Matrix3<double>::Identity();               ///< kg m², body axes, about the reference point
-  bool pinned = false;                                                 ///< turns about a point fixed in the world
-  bool fixed = false;                                                  ///< static: never moves, has no state
-  Vector3<double> center_of_mass = Vector3<double>::Zero();            ///< m, body axes, from the pivot; pinned only
+  double mass = 1;                                           ///< kg, positive
+  Matrix3<double> inertia = Matrix3<double>::Identity();     ///< kg m², body axes, about the reference point
+  bool pinned = false;                                       ///< turns about a point fixed in the world
+  bool fixed = false;                                        ///< static: never moves, has no state
+  Vector3<double> center_of_mass = Vector3<double>::Zero();  ///< m, body axes, from the pivot; pinned only
 };
 
 /// Where a body is and how it moves at one instant.
 struct BodyStart {
-  Vector3<double> position = Vector3<double>::Zero();          ///< m, world, of the reference point
+  Vector3<double> position = Vector3<double>::Zero();              ///< m, world, of the reference point
   Quaternion<double> orientation = identity_quaternion<double>();  ///< body to world
-  Vector3<double> velocity = Vector3<double>::Zero();          ///< m/s, world, of the reference point
+  Vector3<double> velocity = Vector3<double>::Zero();              ///< m/s, world, of the reference point
   Vector3<double> angular_velocity = Vector3<double>::Zero();  ///< rad/s, in world axes unless the next line says body
   bool angular_velocity_in_body = false;
 };

@@ -9,9 +9,9 @@
 #include <variant>
 #include <vector>
 
+#include "core/math/lanes.hpp"
 #include "core/problem/body.hpp"
 #include "core/problem/force.hpp"
-#include "core/math/lanes.hpp"
 
 namespace polhode {
 
@@ -22,8 +22,8 @@ struct Parameter {
   enum class Need { required, optional };
   enum class Range { any, non_negative, positive };
   std::string key;
-  ParameterValue value;                ///< the default; of a required key only the type counts
-  std::string unit;                    ///< as printed: "N/m"
+  ParameterValue value;  ///< the default; of a required key only the type counts
+  std::string unit;      ///< as printed: "N/m"
   std::string meaning;
   Need need = Need::optional;
   Range range = Range::any;            ///< of a number
@@ -45,9 +45,9 @@ struct ForceParameters {
 
 struct ForceKind {
   std::string name;
-  std::string summary;       ///< one line of physics, with its formula
+  std::string summary;  ///< one line of physics, with its formula
   int min_bodies = 1;
-  int max_bodies = 1;        ///< 0: any number
+  int max_bodies = 1;  ///< 0: any number
   std::vector<Parameter> parameters;
 };
 
@@ -71,15 +71,15 @@ inline constexpr bool in_lanes = true;
 template <template <class> class F, bool with_lanes = false>
 ForceEntry force_entry() {
   ForceEntry entry = {F<double>::kind(),
-          [](const ForceParameters& p, std::span<const Body> b) -> ForcePointer<float> {
-            return std::make_unique<F<float>>(p, b);
-          },
-          [](const ForceParameters& p, std::span<const Body> b) -> ForcePointer<double> {
-            return std::make_unique<F<double>>(p, b);
-          },
-          [](const ForceParameters& p, std::span<const Body> b) -> ForcePointer<long double> {
-            return std::make_unique<F<long double>>(p, b);
-          }};
+                      [](const ForceParameters& p, std::span<const Body> b) -> ForcePointer<float> {
+                        return std::make_unique<F<float>>(p, b);
+                      },
+                      [](const ForceParameters& p, std::span<const Body> b) -> ForcePointer<double> {
+                        return std::make_unique<F<double>>(p, b);
+                      },
+                      [](const ForceParameters& p, std::span<const Body> b) -> ForcePointer<long double> {
+                        return std::make_unique<F<long double>>(p, b);
+                      }};
   if constexpr (with_lanes) {
     entry.make_lanes = [](const ForceParameters& p, std::span<const Body> b) -> ForcePointer<Lanes> {
       return std::make_unique<F<Lanes>>(p, b);

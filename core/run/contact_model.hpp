@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The port of contact: what the loop asks of bodies that meet. It takes a step in the method's place, with the method, and
-// says where energy went. Methods know nothing of it.
+// The port of contact: what the loop asks of bodies that meet. It takes a step in the method's place, with the method,
+// and says where energy went. Methods know nothing of it.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +26,8 @@ struct Impact {
   Vector3<double> normal = Vector3<double>::Zero();   ///< unit, world, from B to A
   Vector3<double> impulse = Vector3<double>::Zero();  ///< N s, on A
   double energy_lost = 0;                             ///< J
-  /// s: where the bounces that follow are too low to be flown, when the last of them would end if nothing else happened; else
-  /// infinite.
+  /// s: where the bounces that follow are too low to be flown, when the last of them would end if nothing else
+  /// happened; else infinite.
   double rests_from = std::numeric_limits<double>::infinity();
 };
 
@@ -46,11 +46,12 @@ class ContactModel {
   ContactModel& operator=(const ContactModel&) = delete;
   virtual ~ContactModel() = default;
 
-  /// Prepares a run that starts at this state; called once, before the method's begin(), which may get events to look for.
+  /// Prepares a run that starts at this state; called once, before the method's begin(), which may get events to look
+  /// for.
   virtual void begin(Integrator<double>& method, const State<double>& state) = 0;
 
-  /// A step of the method in which bodies do not pass through each other: by h, or by at most h of a method that chooses
-  /// its steps. A failed step leaves the state as it was.
+  /// A step of the method in which bodies do not pass through each other: by h, or by at most h of a method that
+  /// chooses its steps. A failed step leaves the state as it was.
   virtual StepResult step(Integrator<double>& method, State<double>& state, double h) = 0;
 
   /// Where energy went since begin().

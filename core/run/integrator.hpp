@@ -21,13 +21,13 @@ struct StepResult {
 
 /// What a method says of itself; the conformance tests measure each line.
 struct Declaration {
-  std::string name;       ///< as in the catalogue
-  std::string family;     ///< textbook, SUNDIALS, Boost.Odeint, …
-  std::string summary;    ///< one line of mathematics
-  int order = 0;          ///< of the global error under forces; 0: variable
-  int free_order = 0;     ///< of bodies without forces where it is another one: exact_order means exact; 0: the same
+  std::string name;     ///< as in the catalogue
+  std::string family;   ///< textbook, SUNDIALS, Boost.Odeint, …
+  std::string summary;  ///< one line of mathematics
+  int order = 0;        ///< of the global error under forces; 0: variable
+  int free_order = 0;   ///< of bodies without forces where it is another one: exact_order means exact; 0: the same
   int lowest_order = 0, highest_order = 0;  ///< where IntegratorSettings::order chooses among several; 0: it does not
-  bool adaptive = false;  ///< takes a tolerance and chooses its steps; otherwise it takes a step h
+  bool adaptive = false;                    ///< takes a tolerance and chooses its steps; otherwise it takes a step h
   bool implicit = false;
   int evaluations_per_step = 0;  ///< right-hand sides; 0: not constant, the method counts them
   bool multi_step = false;       ///< has a history, which an impact or a projection makes worthless
@@ -62,10 +62,10 @@ using EventFunction = std::function<double(const State<S>&)>;
 
 /// What is seen of a state after a step: enough for every ledger, without the state itself.
 struct Sample {
-  double t = 0;                ///< s
+  double t = 0;  ///< s
   Measurement<double> seen;
-  double work = 0;             ///< J, done by non-conservative forces since the start
-  double projection = 0;       ///< J, that the projection after this step injected
+  double work = 0;        ///< J, done by non-conservative forces since the start
+  double projection = 0;  ///< J, that the projection after this step injected
 
   /// J, what a ledger without errors keeps: kinetic + potential − work + lost in contact − injected by projection.
   double ledger(double lost_in_contact) const { return seen.energy() - work - projection + lost_in_contact; }
@@ -73,13 +73,13 @@ struct Sample {
 
 /// A stretch of steps of one size, taken in one call: the k-th ends at t = t0 + (first + k) h, k from 1 to count.
 struct Stretch {
-  double h = 0;              ///< s
+  double h = 0;  ///< s
   std::int64_t count = 1;
-  double t0 = 0;             ///< s
+  double t0 = 0;  ///< s
   std::int64_t first = 0;
-  bool project = false;      ///< back to the manifold after each step, and forget the history
-  Sample* samples = nullptr; ///< one for each step to fill in, or null
-  int lanes = 0;             ///< of an ensemble: the first so many lanes have samples
+  bool project = false;          ///< back to the manifold after each step, and forget the history
+  Sample* samples = nullptr;     ///< one for each step to fill in, or null
+  int lanes = 0;                 ///< of an ensemble: the first so many lanes have samples
   std::int64_t lane_stride = 0;  ///< the samples of lane i start at samples + i · lane_stride
 
   double time(std::int64_t k) const { return t0 + static_cast<double>(first + k) * h; }
@@ -135,7 +135,8 @@ class Integrator {
   /// zero where a run or a step begins is looked at again when it has left zero.
   virtual bool has_native_roots() const { return false; }
   virtual void set_events(std::vector<EventFunction<S>>) {}
-  /// For each event: 1 where it rose through zero at the end of the last step, −1 where it fell, 0 where it did neither.
+  /// For each event: 1 where it rose through zero at the end of the last step, −1 where it fell, 0 where it did
+  /// neither.
   virtual std::span<const int> events() const { return {}; }
 
   /// Dense output: the state at t within the last step. False where t is outside it, or the method has none.

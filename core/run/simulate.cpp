@@ -86,7 +86,8 @@ class Loop {
     outcome_.t = state_.t;
     // A stretch may have gone on beyond the step at which the run was called off.
     const std::int64_t taken = outcome_.steps + surplus_steps_;
-    outcome_.evaluations = surplus_steps_ > 0 ? integrator_.evaluations() / taken * outcome_.steps : integrator_.evaluations();
+    outcome_.evaluations =
+        surplus_steps_ > 0 ? integrator_.evaluations() / taken * outcome_.steps : integrator_.evaluations();
     return outcome_;
   }
 
@@ -160,7 +161,8 @@ class Loop {
     if (contact_ && !contact_->impacts().empty()) observer_.meet(contact_->impacts());
     if (contact_ && !contact_->transitions().empty()) observer_.slides_end(contact_->transitions());
     ++outcome_.steps;
-    const bool progress = t_after || state_.t - before_step > least_progress * schedule_.t_end || state_.t >= schedule_.t_end;
+    const bool progress =
+        t_after || state_.t - before_step > least_progress * schedule_.t_end || state_.t >= schedule_.t_end;
     steps_without_progress_ = progress ? 0 : steps_without_progress_ + 1;
     if (steps_without_progress_ > patience) {
       fail("the step size fell to nothing");
@@ -212,7 +214,8 @@ class Loop {
     if (integrator_.takes_stretches() && stride == 1 && !contact_) {
       const std::int64_t until = plan.last > 0 ? plan.whole : plan.whole - 1;
       while (k < until) {
-        const std::int64_t n = std::min(longest_stretch, std::min(until, step_of_next_look(observer_, t0_, schedule_.dt, k)) - k);
+        const std::int64_t n =
+            std::min(longest_stretch, std::min(until, step_of_next_look(observer_, t0_, schedule_.dt, k)) - k);
         if (!take_stretch(k, n)) return;
         k += n;
       }
@@ -242,11 +245,13 @@ class Loop {
 
   /// Steps of the sizes that are given; t adds them up.
   void given() {
-    if (schedule_.samples) throw std::invalid_argument("steps that are given one by one are all observed; ask for no samples");
+    if (schedule_.samples)
+      throw std::invalid_argument("steps that are given one by one are all observed; ask for no samples");
     while (state_.t < schedule_.t_end) {
       double h = schedule_.next_step();
       if (h == 0) return;
-      if (!(h > 0) || !std::isfinite(h)) throw std::invalid_argument("a step must be a positive number of seconds, or 0 to end");
+      if (!(h > 0) || !std::isfinite(h))
+        throw std::invalid_argument("a step must be a positive number of seconds, or 0 to end");
       const double left = schedule_.t_end - state_.t;
       const bool last = h >= left * (1 - whole_tolerance);
       if (h > left * (1 + whole_tolerance)) h = left;
@@ -337,7 +342,8 @@ std::string sampling_problem(const Schedule& schedule) {
 
 template <class S>
 RunOutcome simulate(const System<S>& system, const System<double>& truth, Integrator<S>& integrator, State<S>& state,
-                    const Schedule& schedule, Observer& observer, const std::atomic<bool>* stop, ContactModel* contact) {
+                    const Schedule& schedule, Observer& observer, const std::atomic<bool>* stop,
+                    ContactModel* contact) {
   return Loop<S>(system, truth, integrator, state, schedule, observer, stop, contact).run();
 }
 

@@ -18,15 +18,17 @@ namespace polhode {
 
 /// When a run steps, looks and ends.
 struct Schedule {
-  double t_end = 1;                     ///< s
-  double dt = 1e-3;                     ///< s, of fixed-step methods; the last step is shortened if it does not divide
-  bool adaptive = false;                ///< the method chooses its steps; dt is not read
-  std::optional<std::int64_t> samples;  ///< observe at t0 + k (t_end − t0)/samples, hit exactly; absent: after every step
-  bool normalise = false;               ///< project every orientation after each step
-  /// An adaptive method that is not at t_end after so many steps has failed. Fixed steps are counted before they are taken.
+  double t_end = 1;       ///< s
+  double dt = 1e-3;       ///< s, of fixed-step methods; the last step is shortened if it does not divide
+  bool adaptive = false;  ///< the method chooses its steps; dt is not read
+  std::optional<std::int64_t>
+      samples;             ///< observe at t0 + k (t_end − t0)/samples, hit exactly; absent: after every step
+  bool normalise = false;  ///< project every orientation after each step
+  /// An adaptive method that is not at t_end after so many steps has failed. Fixed steps are counted before they are
+  /// taken.
   std::int64_t most_steps = 100'000'000;
-  /// The sizes (s) of fixed steps, asked for one at a time, in the place of dt: the run ends where it gives 0, or at t_end,
-  /// beyond which no step goes. Every step is observed. Absent: all are dt.
+  /// The sizes (s) of fixed steps, asked for one at a time, in the place of dt: the run ends where it gives 0, or at
+  /// t_end, beyond which no step goes. Every step is observed. Absent: all are dt.
   std::function<double()> next_step{};
 };
 
@@ -40,7 +42,7 @@ enum class RunStatus {
 struct RunOutcome {
   RunStatus status = RunStatus::ok;
   std::string message;
-  double t = 0;                  ///< s, reached
+  double t = 0;  ///< s, reached
   std::int64_t steps = 0;
   std::int64_t evaluations = 0;  ///< right-hand sides
 };
@@ -55,7 +57,8 @@ class Observer {
   /// The whole state at the sample seen last. Called for the start, before observe(), and for the first sample at or
   /// after next_look().
   virtual void look(const State<double>&, const Sample&) {}
-  /// The impacts of a step, its transitions, and what was lost in contacts up to a sample: before that sample, where there is contact.
+  /// The impacts of a step, its transitions, and what was lost in contacts up to a sample: before that sample, where
+  /// there is contact.
   virtual void meet(std::span<const Impact>) {}
   virtual void slides_end(std::span<const Transition>) {}
   virtual void account(const ContactLosses&) {}
@@ -75,11 +78,11 @@ StepPlan plan_steps(double t_end, double dt);
 std::string sampling_problem(const Schedule& schedule);
 
 /// Runs from `state`, at its time, to schedule.t_end. Energies are measured on `truth`, the same system in double.
-/// Memory does not depend on the number of steps. `stop`, when given, is looked at after every call of the method, of at most
-/// 64 steps, and after each look of the observer, which may set it. `contact`, when given, takes the steps in the method's
-/// place, and may end the run; in double only, else std::invalid_argument. That is thrown too where next_step gives what is no
-/// step. What a method or the contact throws in a step (but std::bad_alloc) is its failure, or a divergence where the state
-/// is no longer finite.
+/// Memory does not depend on the number of steps. `stop`, when given, is looked at after every call of the method, of
+/// at most 64 steps, and after each look of the observer, which may set it. `contact`, when given, takes the steps in
+/// the method's place, and may end the run; in double only, else std::invalid_argument. That is thrown too where
+/// next_step gives what is no step. What a method or the contact throws in a step (but std::bad_alloc) is its failure,
+/// or a divergence where the state is no longer finite.
 template <class S>
 RunOutcome simulate(const System<S>& system, const System<double>& truth, Integrator<S>& integrator, State<S>& state,
                     const Schedule& schedule, Observer& observer, const std::atomic<bool>* stop = nullptr,

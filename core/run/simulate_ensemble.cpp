@@ -84,7 +84,8 @@ class EnsembleLoop {
   /// The samples of lane i in the stretch that was taken last.
   void show(std::size_t i, std::int64_t count, bool last) {
     Lane& lane = lanes_[i];
-    const std::span<Sample> samples(samples_.data() + i * std::size_t(longest_stretch), static_cast<std::size_t>(count));
+    const std::span<Sample> samples(samples_.data() + i * std::size_t(longest_stretch),
+                                    static_cast<std::size_t>(count));
     for (Sample& s : samples) s.projection = lane.projection_energy += s.projection;
     if (last) samples.back().t = schedule_.t_end;
     if (!take(i, samples, count)) return;

@@ -18,7 +18,8 @@ struct InvariantKind {
   /// Empty if it makes sense for the problem; otherwise the reason (it wants one pinned body, say).
   std::string (*refusal)(const Problem&);
   double (*value)(const Problem&, const BodySnapshot<double>& first_body);
-  /// The size of the terms of the value in this state: what a drift is relative to is its largest along the true motion.
+  /// The size of the terms of the value in this state: what a drift is relative to is its largest along the true
+  /// motion.
   double (*scale)(const Problem&, const BodySnapshot<double>& first_body);
 };
 

@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "core/system/formulation.hpp"
 #include "core/math/lanes.hpp"
 #include "core/math/quaternion.hpp"
+#include "core/system/formulation.hpp"
 
 namespace polhode {
 

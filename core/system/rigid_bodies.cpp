@@ -76,7 +76,9 @@ BodyConstants<Lanes> constants_of<Lanes>(const std::vector<Problem>& problems, s
   std::vector<BodyConstants<double>> one;
   for (const Problem& p : problems) one.emplace_back(p.bodies[body]);
   BodyConstants<Lanes> all;
-  const auto number = [&](auto member) { return gather<Lanes>([&](int lane) { return one[std::size_t(lane)].*member; }); };
+  const auto number = [&](auto member) {
+    return gather<Lanes>([&](int lane) { return one[std::size_t(lane)].*member; });
+  };
   const auto vector = [&](auto& to, auto member) {
     for (int k = 0; k < to.size(); ++k) {
       to(k) = gather<Lanes>([&](int lane) { return (one[std::size_t(lane)].*member)(k); });
@@ -249,13 +251,15 @@ std::string lane_key(const System<double>& system) {
     if (k >= system.problem().forces.size()) return {};  // registered beyond the problem
     const auto& force = *system.forces()[k];
     key += ' ' + system.problem().forces[k].kind;
-    for (const bool fact : {force.does_work(), force.effect_on(0).torque, force.reads_rotation()}) key += fact ? '1' : '0';
+    for (const bool fact : {force.does_work(), force.effect_on(0).torque, force.reads_rotation()})
+      key += fact ? '1' : '0';
   }
   return key;
 }
 
 std::unique_ptr<System<Lanes>> make_ensemble(std::span<const Problem> problems, const Formulation& formulation) {
-  if (problems.size() != std::size_t(lane_count)) throw std::invalid_argument("an ensemble has one problem for each lane");
+  if (problems.size() != std::size_t(lane_count))
+    throw std::invalid_argument("an ensemble has one problem for each lane");
   return in_formulation(formulation, [&]<Orientation O, AngularState A>() -> std::unique_ptr<System<Lanes>> {
     return std::make_unique<RigidBodies<Lanes, O, A, BodyCount::one>>(
         std::vector<Problem>(problems.begin(), problems.end()), formulation);
@@ -263,12 +267,12 @@ std::unique_ptr<System<Lanes>> make_ensemble(std::span<const Problem> problems, 
 }
 
 // Every instantiation, so that the members above are compiled here and nowhere else.
-#define POLHODE_INSTANTIATE(S, N)                                                              \
-  template class RigidBodies<S, Orientation::quaternion, AngularState::velocity_world, N>;     \
-  template class RigidBodies<S, Orientation::quaternion, AngularState::velocity_body, N>;      \
-  template class RigidBodies<S, Orientation::quaternion, AngularState::momentum_world, N>;     \
-  template class RigidBodies<S, Orientation::matrix, AngularState::velocity_world, N>;         \
-  template class RigidBodies<S, Orientation::matrix, AngularState::velocity_body, N>;          \
+#define POLHODE_INSTANTIATE(S, N) \
+  template class RigidBodies<S, Orientation::quaternion, AngularState::velocity_world, N>; \
+  template class RigidBodies<S, Orientation::quaternion, AngularState::velocity_body, N>; \
+  template class RigidBodies<S, Orientation::quaternion, AngularState::momentum_world, N>; \
+  template class RigidBodies<S, Orientation::matrix, AngularState::velocity_world, N>; \
+  template class RigidBodies<S, Orientation::matrix, AngularState::velocity_body, N>; \
   template class RigidBodies<S, Orientation::matrix, AngularState::momentum_world, N>
 
 POLHODE_INSTANTIATE(Lanes, BodyCount::one);

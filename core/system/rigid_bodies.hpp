@@ -43,23 +43,23 @@ concept MechanicalSystem = requires(const System& system, typename System::Scala
   system.velocity_part(dy);
   system.work_part(dy);
 
-  system.twist(y, xi);                  ///< ξ with q̇ = d/ds (q ⊕ s ξ) at s = 0: (velocity, ω in the formulation's frame)
-  system.retract(dy, xi);               ///< q ← q ⊕ ξ: p + ξ; exp(ξ) R in the world's frame, R exp(ξ) in the body's
+  system.twist(y, xi);     ///< ξ with q̇ = d/ds (q ⊕ s ξ) at s = 0: (velocity, ω in the formulation's frame)
+  system.retract(dy, xi);  ///< q ← q ⊕ ξ: p + ξ; exp(ξ) R in the world's frame, R exp(ξ) in the body's
   system.dexp_inverse(theta, theta, xi);  ///< θ̇ where d/ds (q0 ⊕ θ) = η, from θ and η
 
-  system.wrench(t, y, xi);              ///< (f, τ about the reference point), world axes
-  system.momentum(y, xi);               ///< (m v, L about the reference point), world axes
-  system.set_momentum(theta, dy);       ///< the velocity that has this momentum at the configuration of y
+  system.wrench(t, y, xi);         ///< (f, τ about the reference point), world axes
+  system.momentum(y, xi);          ///< (m v, L about the reference point), world axes
+  system.set_momentum(theta, dy);  ///< the velocity that has this momentum at the configuration of y
 
-  system.body_twist(y, xi);             ///< the twist with ω in body axes, whatever the formulation: (velocity, Ω)
-  system.set_body_twist(theta, dy);     ///< the velocity that has this body twist at the configuration of y
+  system.body_twist(y, xi);                ///< the twist with ω in body axes, whatever the formulation: (velocity, Ω)
+  system.set_body_twist(theta, dy);        ///< the velocity that has this body twist at the configuration of y
   system.body_acceleration(y, theta, xi);  ///< its rate under a wrench θ: (f/m, I⁻¹(Rᵀτ − Ω × IΩ))
-  system.retract_in_body(dy, xi);       ///< q ← (p + ξ, R exp(ξ)), whatever the formulation
-  system.bracket(theta, theta, xi);     ///< (0, a × b)
-  system.carry_momentum(theta, xi, dy); ///< q ← (p + θ, R exp(θ)) and its momentum ← momentum + ξ, in the world
+  system.retract_in_body(dy, xi);          ///< q ← (p + ξ, R exp(ξ)), whatever the formulation
+  system.bracket(theta, theta, xi);        ///< (0, a × b)
+  system.carry_momentum(theta, xi, dy);  ///< q ← (p + θ, R exp(θ)) and its momentum ← momentum + ξ, in the world
 
-  system.kick(t, h, dy);                ///< flow of the wrench alone over h, at rest in q, where v does not matter to it
-  system.kick(t, h, y, dy);             ///< adds h times the wrench and its power, both as they are in y
+  system.kick(t, h, dy);     ///< flow of the wrench alone over h, at rest in q, where v does not matter to it
+  system.kick(t, h, y, dy);  ///< adds h times the wrench and its power, both as they are in y
 };
 
 /// The constants of one body in the scalar S.
@@ -72,17 +72,19 @@ struct BodyConstants {
   Vector3<S> moments, inverse_moments;  ///< principal
   S mass{};
   Matrix3<S> inertia, inverse_inertia;
-  Matrix3<S> axes;                      ///< principal axes as columns, a rotation
+  Matrix3<S> axes;  ///< principal axes as columns, a rotation
   Vector3<S> center_of_mass;
 
   BodyConstants() = default;
   explicit BodyConstants(const Body& b);
   Vector3<S> momentum(const Vector3<S>& w) const {
-    if (principal) [[likely]] return moments.cwiseProduct(w);
+    if (principal) [[likely]]
+      return moments.cwiseProduct(w);
     return inertia * w;
   }
   Vector3<S> velocity(const Vector3<S>& l) const {
-    if (principal) [[likely]] return inverse_moments.cwiseProduct(l);
+    if (principal) [[likely]]
+      return inverse_moments.cwiseProduct(l);
     return inverse_inertia * l;
   }
 };
@@ -91,8 +93,12 @@ struct BodyConstants {
 template <class S>
 S dexp_inverse_coefficient(S theta2) {
   using std::sqrt, std::tan;
-  const S series = S(1) / S(12) + theta2 * (S(1) / S(720) + theta2 * (S(1) / S(30240) + theta2 * (S(1) / S(1209600) +
-                   theta2 * (S(1) / S(47900160) + theta2 * (S(691) / S(1307674368000.0))))));
+  const S series =
+      S(1) / S(12) +
+      theta2 * (S(1) / S(720) +
+                theta2 * (S(1) / S(30240) +
+                          theta2 * (S(1) / S(1209600) +
+                                    theta2 * (S(1) / S(47900160) + theta2 * (S(691) / S(1307674368000.0))))));
   const S half = sqrt(theta2) / S(2);
   return select(theta2 < S(1e-2), series, S((S(1) - half / tan(half)) / theta2));
 }
@@ -114,7 +120,9 @@ class ManyBodies : public System<S> {
   Flat zero() const { return Flat::Zero(this->layout().size()); }
   Tangent zero_tangent() const { return Tangent::Zero(this->layout().velocity_size); }
   auto configuration_part(Flat& y) const { return y.head(this->layout().configuration_size); }
-  auto velocity_part(Flat& y) const { return y.segment(this->layout().configuration_size, this->layout().velocity_size); }
+  auto velocity_part(Flat& y) const {
+    return y.segment(this->layout().configuration_size, this->layout().velocity_size);
+  }
   S& work_part(Flat& y) const { return y[y.size() - 1]; }
 
   using System<S>::rate;
@@ -249,7 +257,8 @@ class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<
   BodySnapshot<S> snapshot(const VectorX<S>& y, std::size_t body) const;
   BodyMotion<S> motion_of(const VectorX<S>& y, std::size_t body) const;
   const Matrix3<S>& inverse_inertia(std::size_t i) const { return body(i).inverse_inertia; }
-  void apply_impulse(VectorX<S>& y, std::size_t body, const Vector3<S>& impulse, const Vector3<S>& angular_impulse) const;
+  void apply_impulse(VectorX<S>& y, std::size_t body, const Vector3<S>& impulse,
+                     const Vector3<S>& angular_impulse) const;
   void displace(VectorX<S>& y, std::size_t body, const Vector3<S>& shift, const Vector3<S>& turn) const;
   void project(VectorX<S>& y) const;
 
@@ -449,7 +458,8 @@ class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<
 
   /// IΩ × Ω in body axes, or nothing where the formulation leaves it out.
   Vector gyroscopic_torque(const Constants& b, const Vector& w) const {
-    if (this->formulation().gyroscopic) [[likely]] return b.momentum(w).cross(w);
+    if (this->formulation().gyroscopic) [[likely]]
+      return b.momentum(w).cross(w);
     return Vector::Zero();
   }
 
@@ -507,7 +517,8 @@ class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<
         if constexpr (WithVelocity) store(angular_rate_world(b, r, a, torque), dy + s.angular);
       }
       if constexpr (WithVelocity) {
-        if (!pinned(i)) store(forced ? Vector(wrenches_[i].force * b.inverse_mass) : Vector(Vector::Zero()), dy + s.velocity);
+        if (!pinned(i))
+          store(forced ? Vector(wrenches_[i].force * b.inverse_mass) : Vector(Vector::Zero()), dy + s.velocity);
       }
     }
     if constexpr (WithConfiguration) dy[this->flat_size() - 1] = working ? power(t) : S(0);

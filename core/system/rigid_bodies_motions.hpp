@@ -29,7 +29,8 @@ void RigidBodies<S, O, A, N>::retract(Flat& y, const Tangent& xi) const {
     S* c = y.data() + slot(i).orientation;
     const Quaternion<S> turn = quaternion_from_rotation_vector<S>(load(angular(xi, i)));
     ChartOf::store(in_body_axes ? ChartOf::turned_in_body(ChartOf::load(c), turn)
-                                : ChartOf::turned_in_world(ChartOf::load(c), turn), c);
+                                : ChartOf::turned_in_world(ChartOf::load(c), turn),
+                   c);
     if (!pinned(i)) store(load(y.data() + slot(i).position) + load(linear(xi, i)), y.data() + slot(i).position);
   }
 }

@@ -20,10 +20,10 @@ struct State {
 /// a linear (3) and an angular part (3) in v; a pinned body has its orientation and angular part only.
 struct Layout {
   struct Slot {
-    int position = -1;     ///< index in y of p, −1 when pinned
-    int orientation = 0;   ///< index in y of the chart
-    int velocity = -1;     ///< index in y of the linear velocity, −1 when pinned
-    int angular = 0;       ///< index in y of the angular state
+    int position = -1;    ///< index in y of p, −1 when pinned
+    int orientation = 0;  ///< index in y of the chart
+    int velocity = -1;    ///< index in y of the linear velocity, −1 when pinned
+    int angular = 0;      ///< index in y of the angular state
   };
   std::vector<Slot> slots;
   int configuration_size = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A mechanical system behind one type: what the driver, the library integrators and the measurements need of it.
-// Methods of our own are templates over the concrete RigidBodies (core/system/rigid_bodies.hpp), so that their loops inline.
+// Methods of our own are templates over the concrete RigidBodies (core/system/rigid_bodies.hpp), so that their loops
+// inline.
 #pragma once
 
 #include <memory>
@@ -9,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/system/formulation.hpp"
 #include "core/math/lanes.hpp"
 #include "core/problem/problem.hpp"
+#include "core/system/formulation.hpp"
 #include "core/system/state.hpp"
 
 namespace polhode {
@@ -19,8 +20,8 @@ namespace polhode {
 /// What can be said of a state without knowing its future or past.
 template <class S>
 struct Measurement {
-  S kinetic{};    ///< J: ½ m v² + ½ Ω·IΩ, Ω = Rᵀω with R as stored; with L as the state ½ L·(R I⁻¹ Rᵀ L)
-  S potential{};  ///< J
+  S kinetic{};  ///< J: ½ m v² + ½ Ω·IΩ, Ω = Rᵀω with R as stored; with L as the state ½ L·(R I⁻¹ Rᵀ L)
+  S potential{};                                    ///< J
   Vector3<S> linear_momentum = Vector3<S>::Zero();  ///< kg m/s; pinned bodies count nothing
   /// kg m²/s, world axes; of one body about its reference point, of several about the world's origin. L = R I Ω.
   Vector3<S> angular_momentum = Vector3<S>::Zero();
@@ -86,8 +87,8 @@ class System {
   virtual BodyMotion<S> motion_of(const VectorX<S>& y, std::size_t body) const = 0;
   /// 1/(kg m²), body axes, about the reference point; of a moving body.
   virtual const Matrix3<S>& inverse_inertia(std::size_t body) const = 0;
-  /// An impulse (N s) at the reference point and an angular one about it (N m s), both in world axes: what a contact does
-  /// at an instant. A pinned body takes the angular part alone.
+  /// An impulse (N s) at the reference point and an angular one about it (N m s), both in world axes: what a contact
+  /// does at an instant. A pinned body takes the angular part alone.
   virtual void apply_impulse(VectorX<S>& y, std::size_t body, const Vector3<S>& impulse,
                              const Vector3<S>& angular_impulse) const = 0;
   /// Moves a body by `shift` (m) and the rotation vector `turn` (rad, world axes), and leaves its velocity and angular

@@ -16,14 +16,14 @@
 #include <vector>
 
 #include "experiments/broad_phase/flying_boxes.hpp"
-#include "experiments/study/text/csv.hpp"
-#include "experiments/study/text/input_error.hpp"
 #include "experiments/study/plot/axis.hpp"
 #include "experiments/study/plot/figure_layout.hpp"
-#include "experiments/study/text/notation.hpp"
 #include "experiments/study/plot/table.hpp"
 #include "experiments/study/record/study_view.hpp"
 #include "experiments/study/report/tables/summary.hpp"
+#include "experiments/study/text/csv.hpp"
+#include "experiments/study/text/input_error.hpp"
+#include "experiments/study/text/notation.hpp"
 
 namespace polhode::study {
 namespace {
@@ -94,7 +94,8 @@ class Measurement {
     const auto count = static_cast<double>(n);
     for (const Runner& r : runners) {
       const double mean = std::accumulate(r.seconds.begin(), r.seconds.end(), 0.0) / static_cast<double>(steps);
-      costs_[r.entry][n] = {1e9 * mean / count, 1e9 * median(r.seconds) / count, pairs / static_cast<double>(steps) / count, steps};
+      costs_[r.entry][n] = {1e9 * mean / count, 1e9 * median(r.seconds) / count,
+                            pairs / static_cast<double>(steps) / count, steps};
     }
   }
 
@@ -151,8 +152,8 @@ class Measurement {
         const auto& [fewer, cost] = *std::prev(known->second.end());
         const double seconds = 1e-9 * cost.ns_per_box * double(n) * std::max(1.0, double(n) / double(fewer));
         if (seconds > options_.patience) {
-          notes_.push_back(fmt::format("{} is left out at {} bodies: a step may take {} s; see --patience.", entry->name, n,
-                                       number(seconds, 2)));
+          notes_.push_back(fmt::format("{} is left out at {} bodies: a step may take {} s; see --patience.",
+                                       entry->name, n, number(seconds, 2)));
           continue;
         }
       }
@@ -167,10 +168,12 @@ class Measurement {
     constexpr std::size_t shown_at_most = 20;
     if (differences_.size() == shown_at_most) return;
     const auto [a, b] = std::mismatch(expected.begin(), expected.end(), found.begin(), found.end());
-    const auto shown = [](bool there, const BodyPair* p) { return there ? fmt::format("({}, {})", p->a, p->b) : "no more"; };
-    differences_.push_back(fmt::format("{} bodies, step {}: {} reports {} pairs and {} {}; first {} where the other has {}",
-                                       n, step, one.name, expected.size(), other.name, found.size(),
-                                       shown(a != expected.end(), &*a), shown(b != found.end(), &*b)));
+    const auto shown = [](bool there, const BodyPair* p) {
+      return there ? fmt::format("({}, {})", p->a, p->b) : "no more";
+    };
+    differences_.push_back(fmt::format(
+        "{} bodies, step {}: {} reports {} pairs and {} {}; first {} where the other has {}", n, step, one.name,
+        expected.size(), other.name, found.size(), shown(a != expected.end(), &*a), shown(b != found.end(), &*b)));
   }
 
   /// The slope of log cost of a step against log n, by least squares over the upper half of the numbers of bodies.
@@ -178,7 +181,8 @@ class Measurement {
     std::vector<std::pair<double, double>> points;
     for (const auto& [n, cost] : costs) points.emplace_back(std::log(double(n)), std::log(double(n) * cost.ns_per_box));
     if (points.size() < 2) return "";
-    points.erase(points.begin(), points.end() - static_cast<std::ptrdiff_t>(std::max<std::size_t>(2, (points.size() + 1) / 2)));
+    points.erase(points.begin(),
+                 points.end() - static_cast<std::ptrdiff_t>(std::max<std::size_t>(2, (points.size() + 1) / 2)));
     double x = 0, y = 0, xx = 0, xy = 0;
     const auto m = static_cast<double>(points.size());
     for (const auto& [u, v] : points) x += u / m, y += v / m;
@@ -188,8 +192,10 @@ class Measurement {
 
   Table cost_table() const {
     Table table{"Cost of a step, ns per box (mean), and p of a step's cost ∝ nᵖ over the upper half of n.",
-                {{"broad phase", "", Column::Kind::name}}, {}};
-    for (const std::size_t n : options_.bodies) table.columns.push_back({fmt::format("n = {}", n), "", Column::Kind::number});
+                {{"broad phase", "", Column::Kind::name}},
+                {}};
+    for (const std::size_t n : options_.bodies)
+      table.columns.push_back({fmt::format("n = {}", n), "", Column::Kind::number});
     table.columns.push_back({"p", "", Column::Kind::number});
     for (const BroadPhaseEntry* entry : options_.phases) {
       const auto known = costs_.find(entry);
@@ -239,8 +245,9 @@ class Measurement {
       const auto known = costs_.find(entry);
       if (known == costs_.end()) continue;
       for (const auto& [n, cost] : known->second) {
-        csv += csv_row({entry->name, std::to_string(n), study::exact(cost.ns_per_box), study::exact(cost.median_ns_per_box),
-                        study::exact(cost.pairs_per_box), std::to_string(cost.steps)});
+        csv += csv_row({entry->name, std::to_string(n), study::exact(cost.ns_per_box),
+                        study::exact(cost.median_ns_per_box), study::exact(cost.pairs_per_box),
+                        std::to_string(cost.steps)});
       }
     }
     return csv;

@@ -6,8 +6,8 @@
 
 namespace polhode::study {
 
-/// Measures, writes cost.csv, tables/ and figures/, and prints the table. Returns the exit status: 1 where two broad phases
-/// do not report the same pairs.
+/// Measures, writes cost.csv, tables/ and figures/, and prints the table. Returns the exit status: 1 where two broad
+/// phases do not report the same pairs.
 int measure_costs(const BroadPhaseOptions& options);
 
 }  // namespace polhode::study

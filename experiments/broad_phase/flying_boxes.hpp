@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boxes of edges from 0.5 to 1 m that fly straight in a cube and bounce off its walls; the same ones for the same seed.
-// Their speeds are spread evenly from none to twice the mean: at one speed for all, boxes leave the margins that a broad
-// phase gives them together, and its work comes in bursts.
+// Their speeds are spread evenly from none to twice the mean: at one speed for all, boxes leave the margins that a
+// broad phase gives them together, and its work comes in bursts.
 #pragma once
 
 #include <cmath>

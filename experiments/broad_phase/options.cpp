@@ -4,10 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
-#include "experiments/study/text/value_lists.hpp"
 #include "experiments/study/text/command_line.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/suggestion.hpp"
+#include "experiments/study/text/value_lists.hpp"
 
 namespace polhode::study {
 namespace {
@@ -53,10 +53,11 @@ void require(bool good, const std::string& what) {
 
 BroadPhaseOptions parse_broad_phase_options(int argc, const char* const* argv) {
   BroadPhaseOptions options;
-  CLI::App app{std::string(broad_phase_question) +
-                   "\n\nWithout --boxes: measures boxes that move about at a fixed density. With --boxes: answers recorded "
-                   "motion.",
-               "broad_phase"};
+  CLI::App app{
+      std::string(broad_phase_question) +
+          "\n\nWithout --boxes: measures boxes that move about at a fixed density. With --boxes: answers recorded "
+          "motion.",
+      "broad_phase"};
   app.get_formatter()->column_width(32);
   std::string phases, bodies = "100:100000:7:log", list;
   app.add_option("--broad-phase", phases, "broad phases, or all (default; with --boxes one must be named)")
@@ -70,7 +71,8 @@ BroadPhaseOptions parse_broad_phase_options(int argc, const char* const* argv) {
       ->type_name("PATH");
   std::vector<CLI::Option*> measuring = {
       app.add_option("--bodies", bodies, "how many boxes (default: " + bodies + ")")->type_name("N,…"),
-      app.add_option("--filling", options.filling, "part of the space that is within boxes (default: 0.1)")->type_name("X"),
+      app.add_option("--filling", options.filling, "part of the space that is within boxes (default: 0.1)")
+          ->type_name("X"),
       app.add_option("--motion", options.motion, "mean path of a box in a step, over the mean edge (default: 0.02)")
           ->type_name("X"),
       app.add_option("--patience", options.patience,

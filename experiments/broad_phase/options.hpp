@@ -22,7 +22,7 @@ struct BroadPhaseOptions {
   std::vector<std::size_t> bodies;
   double filling = 0.1;   ///< of the volume, by boxes
   double motion = 0.02;   ///< mean path of a box in a step, over the mean edge
-  double patience = 0.5;   ///< s, the longest step that is worth waiting for
+  double patience = 0.5;  ///< s, the longest step that is worth waiting for
   std::uint64_t seed = 1;
   bool figures = true;
   std::string command;

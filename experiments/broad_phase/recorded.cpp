@@ -30,7 +30,8 @@ Bounds box_of(const CsvReader& csv, const std::array<std::size_t, 3>& half, cons
     h[axis] = csv.number(half[k]);
     p[axis] = csv.number(centre[k]);
     if (h[axis] < 0) csv.fail(half[k], "a negative half extent; give 0 or more");
-    if (!std::isfinite(p[axis])) csv.fail(centre[k], "an infinite centre; give a finite one, and an infinite half extent");
+    if (!std::isfinite(p[axis]))
+      csv.fail(centre[k], "an infinite centre; give a finite one, and an infinite half extent");
   }
   return {p - h, p + h};
 }
@@ -54,9 +55,10 @@ std::vector<RecordedStep> read_recorded_motion(const std::string& path) {
     if (k == 0 || row.step != rows[k - 1].step) {
       motion.emplace_back().step = row.step;
     } else if (row.id == rows[k - 1].id) {
-      throw InputError(fmt::format("{}:{}:1: id {} stands twice in step {}, on line {} too; give each body one row in each "
-                                   "step",
-                                   path, row.line, row.id, row.step, rows[k - 1].line));
+      throw InputError(
+          fmt::format("{}:{}:1: id {} stands twice in step {}, on line {} too; give each body one row in each "
+                      "step",
+                      path, row.line, row.id, row.step, rows[k - 1].line));
     }
     motion.back().ids.push_back(row.id);
     motion.back().boxes.push_back(row.box);
@@ -64,7 +66,8 @@ std::vector<RecordedStep> read_recorded_motion(const std::string& path) {
   return motion;
 }
 
-void answer_recorded_motion(const std::vector<RecordedStep>& motion, const BroadPhaseEntry& entry, const std::string& out) {
+void answer_recorded_motion(const std::vector<RecordedStep>& motion, const BroadPhaseEntry& entry,
+                            const std::string& out) {
   using Clock = std::chrono::steady_clock;
   const auto phase = entry.make();
   std::string text = "step,a,b\n", times = "step,boxes,pairs,time_s\n";

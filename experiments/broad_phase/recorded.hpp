@@ -16,12 +16,13 @@ struct RecordedStep {
   std::vector<Bounds> boxes;
 };
 
-/// Columns step, id (whole numbers), hx, hy, hz (m, half extents, 0 or more, may be infinite), px, py, pz (m, centre), by
-/// name; others are passed over. Rows may stand in any order; steps come out in increasing order. Throws InputError, with
-/// file, line and column.
+/// Columns step, id (whole numbers), hx, hy, hz (m, half extents, 0 or more, may be infinite), px, py, pz (m, centre),
+/// by name; others are passed over. Rows may stand in any order; steps come out in increasing order. Throws InputError,
+/// with file, line and column.
 std::vector<RecordedStep> read_recorded_motion(const std::string& path);
 
 /// Writes step,a,b with a < b, sorted, and prints what each step took. Throws std::runtime_error where it cannot write.
-void answer_recorded_motion(const std::vector<RecordedStep>& motion, const BroadPhaseEntry& phase, const std::string& out);
+void answer_recorded_motion(const std::vector<RecordedStep>& motion, const BroadPhaseEntry& phase,
+                            const std::string& out);
 
 }  // namespace polhode::study

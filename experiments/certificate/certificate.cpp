@@ -10,8 +10,8 @@
 #include <set>
 #include <utility>
 
-#include "experiments/study/curves/curves.hpp"
 #include "experiments/certificate/run_traits.hpp"
+#include "experiments/study/curves/curves.hpp"
 
 namespace polhode::study {
 namespace {

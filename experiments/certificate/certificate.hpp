@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "experiments/study/record/study_view.hpp"
 #include "experiments/certificate/finding.hpp"
 #include "experiments/certificate/stage.hpp"
 #include "experiments/certificate/step_traits.hpp"
+#include "experiments/study/record/study_view.hpp"
 
 namespace polhode::study {
 

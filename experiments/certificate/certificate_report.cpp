@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/study/text/csv.hpp"
-#include "experiments/study/plan/plan.hpp"
-#include "experiments/study/text/notation.hpp"
 #include "experiments/certificate/certificate.hpp"
+#include "experiments/study/plan/plan.hpp"
+#include "experiments/study/text/csv.hpp"
+#include "experiments/study/text/notation.hpp"
 
 namespace polhode::study {
 namespace {
@@ -38,18 +38,12 @@ std::string measured_text(const Finding& finding) {
 std::string mark(const Finding& finding) {
   const bool claims_nothing = finding.declared.empty() && finding.verdict == TraitVerdict::absent;
   switch (finding.verdict) {
-    case TraitVerdict::holds:
-      return is_order(finding.trait) || is_count(finding.trait) ? "" : "yes ";
-    case TraitVerdict::does_not_hold:
-      return "NOT ";
-    case TraitVerdict::undeclared:
-      return "(yes) ";
-    case TraitVerdict::absent:
-      return claims_nothing ? "" : "no ";
-    case TraitVerdict::undecided:
-      return "? ";
-    default:
-      return "";
+    case TraitVerdict::holds: return is_order(finding.trait) || is_count(finding.trait) ? "" : "yes ";
+    case TraitVerdict::does_not_hold: return "NOT ";
+    case TraitVerdict::undeclared: return "(yes) ";
+    case TraitVerdict::absent: return claims_nothing ? "" : "no ";
+    case TraitVerdict::undecided: return "? ";
+    default: return "";
   }
 }
 
@@ -189,7 +183,8 @@ class Report {
       findings.push_back(c->findings[k]);
       if (c->findings[k].verdict == TraitVerdict::not_applicable) continue;
       ++all;
-      held += c->findings[k].verdict == TraitVerdict::undeclared || c->findings[k].verdict == TraitVerdict::holds ? 1 : 0;
+      held +=
+          c->findings[k].verdict == TraitVerdict::undeclared || c->findings[k].verdict == TraitVerdict::holds ? 1 : 0;
     }
     const Finding found = worst(findings);
     if (found.verdict == TraitVerdict::absent && held > 0) more = fmt::format(" ({} of {})", held, all);

@@ -11,18 +11,12 @@ namespace {
 
 int gravity_of(TraitVerdict verdict) {
   switch (verdict) {
-    case TraitVerdict::does_not_hold:
-      return 5;
-    case TraitVerdict::absent:
-      return 4;
-    case TraitVerdict::undeclared:
-      return 3;
-    case TraitVerdict::holds:
-      return 2;
-    case TraitVerdict::undecided:
-      return 1;
-    default:
-      return 0;
+    case TraitVerdict::does_not_hold: return 5;
+    case TraitVerdict::absent: return 4;
+    case TraitVerdict::undeclared: return 3;
+    case TraitVerdict::holds: return 2;
+    case TraitVerdict::undecided: return 1;
+    default: return 0;
   }
 }
 
@@ -35,18 +29,12 @@ bool worse(const Finding& a, const Finding& b) {
 
 std::string text(TraitVerdict verdict) {
   switch (verdict) {
-    case TraitVerdict::holds:
-      return "holds";
-    case TraitVerdict::does_not_hold:
-      return "does not hold";
-    case TraitVerdict::undeclared:
-      return "holds, not declared";
-    case TraitVerdict::absent:
-      return "not declared";
-    case TraitVerdict::undecided:
-      return "undecided";
-    default:
-      return "not applicable";
+    case TraitVerdict::holds: return "holds";
+    case TraitVerdict::does_not_hold: return "does not hold";
+    case TraitVerdict::undeclared: return "holds, not declared";
+    case TraitVerdict::absent: return "not declared";
+    case TraitVerdict::undecided: return "undecided";
+    default: return "not applicable";
   }
 }
 
@@ -85,9 +73,8 @@ Finding kept(std::string trait, bool declared, double defect, double limit, std:
                   .on = std::move(on),
                   .note = {}};
   const bool holds = defect <= limit;  // false of what is no number
-  finding.verdict =
-      declared ? (holds ? TraitVerdict::holds : TraitVerdict::does_not_hold)
-               : (holds ? TraitVerdict::undeclared : TraitVerdict::absent);
+  finding.verdict = declared ? (holds ? TraitVerdict::holds : TraitVerdict::does_not_hold)
+                             : (holds ? TraitVerdict::undeclared : TraitVerdict::absent);
   return finding;
 }
 

@@ -21,13 +21,10 @@ constexpr double straightness = 0.03;     // of ln(error): methods of several st
 TraitVerdict verdict_of(OrderVerdict seen) {
   switch (seen) {
     case OrderVerdict::as_declared:
-    case OrderVerdict::exact_here:
-      return TraitVerdict::holds;
+    case OrderVerdict::exact_here: return TraitVerdict::holds;
     case OrderVerdict::higher:
-    case OrderVerdict::lower:
-      return TraitVerdict::does_not_hold;
-    default:
-      return TraitVerdict::undecided;
+    case OrderVerdict::lower: return TraitVerdict::does_not_hold;
+    default: return TraitVerdict::undecided;
   }
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/study/statistics/order_estimate.hpp"
 #include "experiments/certificate/finding.hpp"
+#include "experiments/study/statistics/order_estimate.hpp"
 
 namespace polhode::study {
 

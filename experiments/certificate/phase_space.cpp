@@ -73,14 +73,9 @@ VectorX<S> PhaseSpace<S>::state(const PhasePoint<S>& point) const {
     const Matrix3<S> r = rotation_matrix<S>(at.attitude);
     const Vector3<S> omega = body.inertia.cast<S>().inverse() * at.body_momentum;
     switch (f.angular_state) {
-      case AngularState::velocity_world:
-        y.template segment<3>(slot.angular) = r * omega;
-        break;
-      case AngularState::velocity_body:
-        y.template segment<3>(slot.angular) = omega;
-        break;
-      default:
-        y.template segment<3>(slot.angular) = r * at.body_momentum;
+      case AngularState::velocity_world: y.template segment<3>(slot.angular) = r * omega; break;
+      case AngularState::velocity_body: y.template segment<3>(slot.angular) = omega; break;
+      default: y.template segment<3>(slot.angular) = r * at.body_momentum;
     }
     if (body.pinned) continue;
     y.template segment<3>(slot.position) = at.position;

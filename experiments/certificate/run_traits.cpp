@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
-#include "experiments/study/curves/declared_order.hpp"
-#include "experiments/study/curves/error_ladder.hpp"
 #include "experiments/certificate/order_finding.hpp"
 #include "experiments/certificate/step_traits.hpp"
+#include "experiments/study/curves/declared_order.hpp"
+#include "experiments/study/curves/error_ladder.hpp"
 
 namespace polhode::study {
 namespace {

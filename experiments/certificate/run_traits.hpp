@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "experiments/study/curves/curves.hpp"
 #include "experiments/certificate/finding.hpp"
 #include "experiments/certificate/stage.hpp"
+#include "experiments/study/curves/curves.hpp"
 
 namespace polhode::study {
 

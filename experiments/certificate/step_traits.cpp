@@ -9,9 +9,9 @@
 #include <limits>
 #include <optional>
 
-#include "experiments/study/text/notation.hpp"
 #include "experiments/certificate/order_finding.hpp"
 #include "experiments/certificate/symplecticity.hpp"
+#include "experiments/study/text/notation.hpp"
 
 namespace polhode::study {
 namespace {

@@ -7,12 +7,12 @@
 #include <map>
 #include <set>
 
-#include "experiments/study/text/csv.hpp"
-#include "experiments/study/curves/declared_order.hpp"
-#include "experiments/study/statistics/order_estimate.hpp"
-#include "experiments/study/plan/plan.hpp"
 #include "experiments/study/curves/curves.hpp"
+#include "experiments/study/curves/declared_order.hpp"
 #include "experiments/study/curves/error_ladder.hpp"
+#include "experiments/study/plan/plan.hpp"
+#include "experiments/study/statistics/order_estimate.hpp"
+#include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
 #include "integrators/catalogue.hpp"
 
@@ -74,8 +74,7 @@ class Orders {
       const bool measured = std::any_of(curve.runs.begin(), curve.runs.end(),
                                         [&](const auto* run) { return quantity.of(run->result).has_value(); });
       if (!measured) continue;
-      const auto declared =
-          curve.adaptive ? 1 : declared_order(entry->declaration, *scenario, is_attitude(quantity));
+      const auto declared = curve.adaptive ? 1 : declared_order(entry->declaration, *scenario, is_attitude(quantity));
       orders_.push_back(order_of(curve, quantity, declared));
     }
   }
@@ -104,7 +103,8 @@ class Orders {
   static std::string observed(const Order& o) {
     if (o.estimate.exact) return "round-off";
     if (!o.estimate.line) {
-      return fmt::format("{} left: {}", count(o.estimate.points, "point"), why_not_told(*o.curve, o.quantity, o.estimate));
+      return fmt::format("{} left: {}", count(o.estimate.points, "point"),
+                         why_not_told(*o.curve, o.quantity, o.estimate));
     }
     return fmt::format("{:.2f} ± {:.2f} over {}", o.estimate.line->order, o.estimate.line->half_width_95,
                        count(o.estimate.points, "point"));

@@ -8,11 +8,11 @@
 #include <map>
 #include <tuple>
 
-#include "experiments/study/text/csv.hpp"
-#include "experiments/study/scenario/narrow_phase_choice.hpp"
 #include "experiments/study/curves/curves.hpp"
-#include "experiments/study/text/notation.hpp"
 #include "experiments/study/plot/plain_panel.hpp"
+#include "experiments/study/scenario/narrow_phase_choice.hpp"
+#include "experiments/study/text/csv.hpp"
+#include "experiments/study/text/notation.hpp"
 
 namespace polhode::study {
 namespace {
@@ -58,7 +58,7 @@ bool keeps_energy(const Scenario& scenario) {
 
 struct Errors {
   const RunRecord* run;
-  double step;                                ///< s, or the tolerance
+  double step;  ///< s, or the tolerance
   std::optional<double> time, energy, linear, angular;
 };
 
@@ -94,7 +94,8 @@ class Impacts {
     for (auto& [key, errors] : curves_) {
       std::stable_sort(errors.begin(), errors.end(), [](const Errors& a, const Errors& b) { return a.step < b.step; });
       const auto& [where, method, response, timing] = key;
-      for (auto [list, name] : {std::pair(&motions_, &where), {&methods_, &method}, {&responses_, &response}, {&timings_, &timing}}) {
+      for (auto [list, name] :
+           {std::pair(&motions_, &where), {&methods_, &method}, {&responses_, &response}, {&timings_, &timing}}) {
         if (std::find(list->begin(), list->end(), *name) == list->end()) list->push_back(*name);
       }
     }
@@ -104,20 +105,25 @@ class Impacts {
     Analysis found{.alone = true, .heading = "Errors of impacts"};
     found.sentences = sentences();
     found.method = {
-        fmt::format("The time of the first impact is compared with that of {} at a tolerance of {}, with located impacts. The order "
-                    "is the slope of the error against the step, by least squares through the logarithms, above {} s and {} of "
-                    "the energy.",
-                    exact_method, number(exact_tolerance), number(time_floor), number(energy_floor)),
-        "The error of the energy is the largest distance of kinetic and potential energy from that at the start, over it, where "
-        "every impact is elastic and without friction; elsewhere the drift of the ledger, in which what impacts took is accounted "
+        fmt::format(
+            "The time of the first impact is compared with that of {} at a tolerance of {}, with located impacts. The "
+            "order "
+            "is the slope of the error against the step, by least squares through the logarithms, above {} s and {} of "
+            "the energy.",
+            exact_method, number(exact_tolerance), number(time_floor), number(energy_floor)),
+        "The error of the energy is the largest distance of kinetic and potential energy from that at the start, over "
+        "it, where "
+        "every impact is elastic and without friction; elsewhere the drift of the ledger, in which what impacts took "
+        "is accounted "
         "for. Semi-implicit Euler’s energy of a falling body is off by ½ m g h v all along its flight."};
     if (curves_.empty()) return found;
     found.tables.push_back({"impacts", table()});
     found.files.push_back({"impacts.csv", csv()});
-    found.figures.push_back(figure("event_time", "The time of the first impact",
-                                   "The error of the time of the first impact against the step; at the step it is known to a step "
-                                   "at best.",
-                                   {"event_time_error_s", "error of the event's time (s)"}, &Errors::time));
+    found.figures.push_back(
+        figure("event_time", "The time of the first impact",
+               "The error of the time of the first impact against the step; at the step it is known to a step "
+               "at best.",
+               {"event_time_error_s", "error of the event's time (s)"}, &Errors::time));
     found.figures.push_back(figure("energy", "The energy", "The largest error of the energy against the step.",
                                    {"energy_error_rel", "energy error / energy"}, &Errors::energy));
     return found;
@@ -135,9 +141,11 @@ class Impacts {
   void add(const RunRecord& run) {
     const RunConfig& c = run.config;
     const RunResult& r = run.result;
-    Errors e{&run, c.dt ? *c.dt : *c.tolerance, {}, {}, r.linear_momentum_drift_max_rel, r.angular_momentum_drift_max_rel};
+    Errors e{&run, c.dt ? *c.dt : *c.tolerance,     {},
+             {},   r.linear_momentum_drift_max_rel, r.angular_momentum_drift_max_rel};
     const auto exact = exact_.find(motion(c));
-    if (exact != exact_.end() && exact->second && r.contact.first_impact) e.time = std::abs(*r.contact.first_impact - *exact->second);
+    if (exact != exact_.end() && exact->second && r.contact.first_impact)
+      e.time = std::abs(*r.contact.first_impact - *exact->second);
     const double scale = std::abs(r.energy_initial.value_or(0));
     if (!keeps_energy(*run.scenario)) e.energy = r.energy_drift_max_rel;
     else if (scale > 0 && r.contact.energy_change_max) e.energy = *r.contact.energy_change_max / scale;
@@ -145,7 +153,9 @@ class Impacts {
   }
 
   static std::string cell(const std::optional<double>& x) { return x ? number(*x) : std::string(); }
-  static std::string order_text(const std::optional<double>& p) { return p ? fmt::format("{:.2f}", *p) : std::string(); }
+  static std::string order_text(const std::optional<double>& p) {
+    return p ? fmt::format("{:.2f}", *p) : std::string();
+  }
 
   std::vector<std::string> sentences() const {
     std::vector<std::string> all;
@@ -154,8 +164,10 @@ class Impacts {
         std::vector<std::string> times, energies;
         for (const auto& curve : curves_) {
           const Key& key = curve.first;
-          if (std::get<0>(key) != where || std::get<3>(key) != timing || std::get<2>(key) != responses_.front()) continue;
-          const auto say = [&](std::vector<std::string>& said, std::optional<double> Errors::*error, double floor, const char* unit) {
+          if (std::get<0>(key) != where || std::get<3>(key) != timing || std::get<2>(key) != responses_.front())
+            continue;
+          const auto say = [&](std::vector<std::string>& said, std::optional<double> Errors::*error, double floor,
+                               const char* unit) {
             const auto& at_smallest_step = curve.second.front().*error;
             if (!at_smallest_step) return;
             const auto p = order(curve.second, error, floor);
@@ -168,7 +180,8 @@ class Impacts {
         if (times.empty() && energies.empty()) continue;
         std::string text = fmt::format("On {} with {}, at the smallest step", where, timing);
         if (!times.empty()) text += fmt::format(", the first impact is wrong by {}", words(times));
-        if (!energies.empty()) text += fmt::format("{} the energy by {} of it", times.empty() ? "," : "; and", words(energies));
+        if (!energies.empty())
+          text += fmt::format("{} the energy by {} of it", times.empty() ? "," : "; and", words(energies));
         all.push_back(text + ".");
       }
       if (auto text = of_responses(where); !text.empty()) all.push_back(std::move(text));
@@ -193,9 +206,10 @@ class Impacts {
         if (off > apart) apart = off, which = fmt::format("{} ({}, {})", response, method, timing);
       }
     }
-    if (apart <= energy_floor) return fmt::format("On {} all responses give the same energy, to {} of it.", where, number(energy_floor));
-    return fmt::format("On {} responses differ in the energy by {} of it at most: {} from {}.", where, number(apart), which,
-                       responses_.front());
+    if (apart <= energy_floor)
+      return fmt::format("On {} all responses give the same energy, to {} of it.", where, number(energy_floor));
+    return fmt::format("On {} responses differ in the energy by {} of it at most: {} from {}.", where, number(apart),
+                       which, responses_.front());
   }
 
   std::string of_momenta(const std::string& where) const {
@@ -209,8 +223,10 @@ class Impacts {
       }
     }
     if (!linear && !angular) return {};
-    return fmt::format("On {} the momentum is off by at most {}, and the angular momentum by {}, by whatever method, timing and response.", where,
-                       linear ? number(*linear) : "—", angular ? number(*angular) : "—");
+    return fmt::format(
+        "On {} the momentum is off by at most {}, and the angular momentum by {}, by whatever method, timing and "
+        "response.",
+        where, linear ? number(*linear) : "—", angular ? number(*angular) : "—");
   }
 
   Table table() const {
@@ -238,14 +254,15 @@ class Impacts {
   }
 
   std::string csv() const {
-    std::string text = csv_row({"run", "motion", "integrator", "response", "impact_timing", "dt_s", "tolerance", "event_time_error_s",
-                                "energy_error_rel", "linear_momentum_error_rel", "angular_momentum_error_rel"});
+    std::string text =
+        csv_row({"run", "motion", "integrator", "response", "impact_timing", "dt_s", "tolerance", "event_time_error_s",
+                 "energy_error_rel", "linear_momentum_error_rel", "angular_momentum_error_rel"});
     for (const auto& [key, errors] : curves_) {
       const auto& [where, method, response, timing] = key;
       for (const Errors& e : errors) {
         const RunConfig& c = e.run->config;
-        text += csv_row({e.run->id, where, method, response, timing, csv_cell(c.dt), csv_cell(c.tolerance), csv_cell(e.time),
-                         csv_cell(e.energy), csv_cell(e.linear), csv_cell(e.angular)});
+        text += csv_row({e.run->id, where, method, response, timing, csv_cell(c.dt), csv_cell(c.tolerance),
+                         csv_cell(e.time), csv_cell(e.energy), csv_cell(e.linear), csv_cell(e.angular)});
       }
     }
     return text;
@@ -269,22 +286,27 @@ class Impacts {
           curves.push_back(std::move(curve));
         }
         if (!before.empty() && same(before, curves)) continue;
-        panels.push_back(plain_panel(responses_.size() > 1 ? where + ", " + response : where, {"dt_s", "step h = dt (s)"}, axis, curves));
+        panels.push_back(plain_panel(responses_.size() > 1 ? where + ", " + response : where,
+                                     {"dt_s", "step h = dt (s)"}, axis, curves));
         before = std::move(curves);
       }
     }
-    return plain_figure(name, title,
-                        caption + " Colours are methods, dashes timings. A response that gives the same as the one before has no "
-                                  "panel of its own.",
-                        methods_, timings_, std::move(panels));
+    return plain_figure(
+        name, title,
+        caption +
+            " Colours are methods, dashes timings. A response that gives the same as the one before has no "
+            "panel of its own.",
+        methods_, timings_, std::move(panels));
   }
 
   /// To the eye.
   static bool same(const std::vector<PlainCurve>& a, const std::vector<PlainCurve>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const PlainCurve& p, const PlainCurve& q) {
-      return std::equal(p.points.begin(), p.points.end(), q.points.begin(), q.points.end(), [](const auto& u, const auto& v) {
-        return u.first == v.first && std::abs(u.second - v.second) <= 0.01 * std::max(u.second, v.second) + time_floor;
-      });
+      return std::equal(p.points.begin(), p.points.end(), q.points.begin(), q.points.end(),
+                        [](const auto& u, const auto& v) {
+                          return u.first == v.first &&
+                                 std::abs(u.second - v.second) <= 0.01 * std::max(u.second, v.second) + time_floor;
+                        });
     });
   }
   static std::size_t place(const std::vector<std::string>& all, const std::string& one) {

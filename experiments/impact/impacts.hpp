@@ -8,8 +8,8 @@
 
 namespace polhode::study {
 
-/// For each motion a run that stands for the exact one up to its first impact: located impacts, a method of order 8 and a
-/// tolerance at round-off.
+/// For each motion a run that stands for the exact one up to its first impact: located impacts, a method of order 8 and
+/// a tolerance at round-off.
 std::vector<RunConfig> exact_impacts(const StudyView& study);
 
 Analysis errors_of_impacts(const StudyView& study);

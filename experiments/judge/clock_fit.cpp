@@ -102,11 +102,11 @@ std::optional<Hypothesis> fitted_shift(const RowStates& rows, const Hypothesis& 
     return typical(std::move(misses));
   };
   const double shift = best_shift(miss, rows.rate);
-  Hypothesis h = with_cause(base, "clock_offset",
-                            fmt::format("its clock is {} by {} s: each row shows the motion of so much {} than its t_s",
-                                        shift < 0 ? "fast" : "late", number(std::abs(shift), 4),
-                                        shift < 0 ? "earlier" : "later"),
-                            Part::clock);
+  Hypothesis h =
+      with_cause(base, "clock_offset",
+                 fmt::format("its clock is {} by {} s: each row shows the motion of so much {} than its t_s",
+                             shift < 0 ? "fast" : "late", number(std::abs(shift), 4), shift < 0 ? "earlier" : "later"),
+                 Part::clock);
   h.shift = shift;
   h.miss = miss_of(rows, h);
   return h;

@@ -8,8 +8,8 @@
 
 namespace polhode::study {
 
-/// Adds the shift that fits best to a hypothesis: the row at t_s shows the motion of another time. Empty where fewer than
-/// three of the first rows are compared or the motion cannot be followed to the last of them.
+/// Adds the shift that fits best to a hypothesis: the row at t_s shows the motion of another time. Empty where fewer
+/// than three of the first rows are compared or the motion cannot be followed to the last of them.
 std::optional<Hypothesis> fitted_shift(const RowStates& rows, const Hypothesis& base);
 
 /// Adds the rate that fits best to a hypothesis: the motion runs faster or slower than t_s.

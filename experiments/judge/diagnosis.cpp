@@ -31,7 +31,8 @@ std::string obstacle(const RowStates& rows) {
     return "without angular velocity or momentum no reading can be tried";
   }
   if (!rows.scenario.colliders.empty()) {
-    return "what its contacts do is not in the file, so energy, momenta and errors are against a motion without them and "
+    return "what its contacts do is not in the file, so energy, momenta and errors are against a motion without them "
+           "and "
            "no reading can be tried";
   }
   if (rows.right.system().forces_exert_torques() && !rows.knows_paths()) {
@@ -46,12 +47,13 @@ bool astray(const RowStates& rows, double miss) {
   return miss > std::min(per_rad * rows.span, most);
 }
 
-/// Whether the errors of the whole run are large enough to ask for a cause in the size of the steps. `miss`: rad, of the
-/// plain reading.
+/// Whether the errors of the whole run are large enough to ask for a cause in the size of the steps. `miss`: rad, of
+/// the plain reading.
 bool large_errors(const RowStates& rows, const RunResult& r, double miss) {
   constexpr double small = 0.01;  // rad and relative
   const auto large = [](const std::optional<double>& x) { return x && !(*x < small); };
-  if (large(r.attitude_error_max) || large(r.energy_drift_max_rel) || large(r.angular_momentum_drift_max_rel)) return true;
+  if (large(r.attitude_error_max) || large(r.energy_drift_max_rel) || large(r.angular_momentum_drift_max_rel))
+    return true;
   const auto& t = rows.trajectory.times;
   return miss / rows.span * rows.rate * (t.back() - t.front()) > small;
 }
@@ -89,7 +91,9 @@ std::vector<Hypothesis> paired_hypotheses(const RowStates& rows, const Hypothesi
                                           const std::vector<Hypothesis>& single, double worst) {
   constexpr std::size_t few_spans = 4;
   std::vector<Hypothesis> list;
-  const auto fitted = [](const Hypothesis& h) { return h.touched.contains(Part::clock) || h.touched.contains(Part::steps); };
+  const auto fitted = [](const Hypothesis& h) {
+    return h.touched.contains(Part::clock) || h.touched.contains(Part::steps);
+  };
   for (std::size_t i = 0; i < single.size(); ++i) {
     if (fitted(single[i])) continue;
     for (std::size_t j = 0; j < i; ++j) {
@@ -178,16 +182,16 @@ Diagnosis verdict(const RowStates& rows, const Hypothesis& plain, const RunResul
   }
   if (explains && !best->excused) return named(rows, *best, other, plain, plain);
   if (explains && std::abs(best->clock - 1) > small_rate) {
-    result.remark = fmt::format("at t_s it is where it should be at {} t_s, by its steps or its clock",
-                                number(best->clock, 5));
+    result.remark =
+        fmt::format("at t_s it is where it should be at {} t_s, by its steps or its clock", number(best->clock, 5));
   }
   if (astray(rows, plain.miss)) result.name = "unexplained";
   return result;
 }
 
-/// The verdict on rows that start elsewhere: these miss every motion that starts as the scenario says, so the start does
-/// not count, and the first rows of `rows` are cleared. Empty where the rows do start there, or where nothing explains
-/// them from their own start either.
+/// The verdict on rows that start elsewhere: these miss every motion that starts as the scenario says, so the start
+/// does not count, and the first rows of `rows` are cleared. Empty where the rows do start there, or where nothing
+/// explains them from their own start either.
 std::optional<Diagnosis> verdict_without_start(RowStates& rows, Hypothesis& plain, const RunResult& errors) {
   constexpr double least = 1e-3;  // rad
   const double off = miss_of_start(rows, plain);

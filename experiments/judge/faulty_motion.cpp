@@ -19,7 +19,8 @@ Quaternion<double> turn_by(const Vector3<double>& phi, FirstOrderStep::Turn turn
   const double angle = phi.norm();
   switch (turn) {
     case FirstOrderStep::Turn::exponential: return quaternion_from_rotation_vector(phi);
-    case FirstOrderStep::Turn::quaternion: return Quaternion<double>(1, phi[0] / 2, phi[1] / 2, phi[2] / 2).normalized();
+    case FirstOrderStep::Turn::quaternion:
+      return Quaternion<double>(1, phi[0] / 2, phi[1] / 2, phi[2] / 2).normalized();
     default:  // the polar factor of 1 + [φ] turns by atan |φ|
       return angle > 0 ? quaternion_from_rotation_vector(Vector3<double>(phi * (std::atan(angle) / angle)))
                        : identity_quaternion<double>();
@@ -92,7 +93,8 @@ void FaultyMotion::change_slots(VectorX<double>& y, bool to_body) const {
 }
 
 /// One step from y by the midpoint rule in 2, 4, 6 and 8 substeps; the error is what the last column changed.
-bool FaultyMotion::extrapolate(double t, double h, const VectorX<double>& y, VectorX<double>& next, double& error) const {
+bool FaultyMotion::extrapolate(double t, double h, const VectorX<double>& y, VectorX<double>& next,
+                               double& error) const {
   constexpr int columns = 4;
   std::array<VectorX<double>, columns> row;
   VectorX<double> first, now, before, there, change;

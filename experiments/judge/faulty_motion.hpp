@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The motion of a problem as a program with a fault would compute it: with a wrong term, frame or factor in the equations
-// of rotation, exactly, or with the right or wrong ones by the steps of a first-order method.
+// The motion of a problem as a program with a fault would compute it: with a wrong term, frame or factor in the
+// equations of rotation, exactly, or with the right or wrong ones by the steps of a first-order method.
 //
 // States are flat, of the formulation (quaternion, velocity_world), with ω as the program would write it down.
 #pragma once
@@ -23,14 +23,14 @@ struct Equations {
   };
   double gyroscopic = 1;  ///< factor of Ω × I Ω: 0 leaves it out, −1 has the wrong sign
   Frame frame = Frame::right;
-  double turning = 1;     ///< factor of ω in q̇
+  double turning = 1;  ///< factor of ω in q̇
 };
 
 /// A step of a first-order method.
 struct FirstOrderStep {
   enum class State { velocity_world, velocity_body, momentum_world };
   enum class Order { together, velocity_first, attitude_first };  ///< which half sees the other's new value
-  enum class Turn { exponential, quaternion, matrix };            ///< exp(hω), q + ½hω q, R + h[ω]R, brought back to a rotation
+  enum class Turn { exponential, quaternion, matrix };  ///< exp(hω), q + ½hω q, R + h[ω]R, brought back to a rotation
   State state = State::velocity_world;
   Order order = Order::together;
   Turn turn = Turn::quaternion;

@@ -29,7 +29,8 @@ std::string invariants_words(const RunResult& r) {
   for (const auto& [name, drift] : drifts) {
     const std::string to = drift > 0 ? "to " + report::number(drift) : "exactly";
     if (drift <= held) holds.push_back(fmt::format("{}{} {}", name, holds.empty() ? " holds" : "", to));
-    else lost.push_back(fmt::format("{} {} {} %", name, lost.empty() ? "is lost by" : "by", report::number(100 * drift)));
+    else
+      lost.push_back(fmt::format("{} {} {} %", name, lost.empty() ? "is lost by" : "by", report::number(100 * drift)));
   }
   holds.insert(holds.end(), lost.begin(), lost.end());
   return fmt::format("{}", fmt::join(holds, ", "));
@@ -39,16 +40,20 @@ std::string invariants_words(const RunResult& r) {
 std::string errors_words(const RunResult& r) {
   std::vector<std::string> words;
   if (r.position_error_max == 0.0) words.emplace_back("position is exact");
-  else if (r.position_error_max) words.push_back(fmt::format("position is right to {} m", report::number(*r.position_error_max)));
+  else if (r.position_error_max)
+    words.push_back(fmt::format("position is right to {} m", report::number(*r.position_error_max)));
   if (r.attitude_error_max) {
     const bool right = *r.attitude_error_max <= held;
     if (*r.attitude_error_max == 0) words.emplace_back("attitude is exact");
-    else words.push_back(fmt::format("attitude is {} {} rad", right ? "right to" : "off by", report::number(*r.attitude_error_max)));
+    else
+      words.push_back(
+          fmt::format("attitude is {} {} rad", right ? "right to" : "off by", report::number(*r.attitude_error_max)));
   }
   if (const auto& e = r.angular_velocity_error_max_rel) {
     if (*e == 0) words.emplace_back("angular velocity is exact");
-    else words.push_back(*e <= held ? fmt::format("angular velocity is right to {}", report::number(*e))
-                               : fmt::format("angular velocity is off by {} %", report::number(100 * *e)));
+    else
+      words.push_back(*e <= held ? fmt::format("angular velocity is right to {}", report::number(*e))
+                                 : fmt::format("angular velocity is off by {} %", report::number(100 * *e)));
   }
   return fmt::format("{}", fmt::join(words, ", "));
 }
@@ -80,7 +85,8 @@ std::string pace_words(const TrajectoryScore& score) {
   if (name == "backwards") {
     return fmt::format("it goes backwards along its polhode, at {} of the right speed", report::number(-1 - pace.rate));
   }
-  if (name == "on_time") return fmt::format("it is on time along its polhode, to {} s", report::number(std::abs(pace.phase)));
+  if (name == "on_time")
+    return fmt::format("it is on time along its polhode, to {} s", report::number(std::abs(pace.phase)));
   return fmt::format("it is {} along its polhode by {} s at the end", name, report::number(std::abs(pace.phase)));
 }
 
@@ -113,10 +119,14 @@ std::string first_line(const Judged& judged) {
                    large(r.angular_velocity_error_max_rel);
   const std::string measured = invariants_words(r) + errors_words(r);
   if (d.name.empty()) {
-    text += measured.empty() ? "nothing can be measured" : off ? "off, and no cause can be sought" : "sound as far as can be seen";
+    text += measured.empty() ? "nothing can be measured"
+            : off            ? "off, and no cause can be sought"
+                             : "sound as far as can be seen";
   } else if (d.name == "unexplained") {
-    text += fmt::format("wrong, and no cause that was tried explains it (its rows miss the scenario's motion by {} rad in "
-                        "{} rad)", report::number(d.miss), report::number(d.span));
+    text += fmt::format(
+        "wrong, and no cause that was tried explains it (its rows miss the scenario's motion by {} rad in "
+        "{} rad)",
+        report::number(d.miss), report::number(d.span));
   } else if (d.name != "none") {
     text += d.words;
     if (d.factor) {
@@ -126,8 +136,9 @@ std::string first_line(const Judged& judged) {
       text += alone ? fmt::format(", {} times better than any other cause tried)", report::number(*d.margin, 2)) : ")";
     }
   } else if (off) {
-    text += fmt::format("no wrong convention or equation: {} rad of the motion are right to {} rad, and the errors add up",
-                        report::number(d.span, 2), report::number(d.miss));
+    text +=
+        fmt::format("no wrong convention or equation: {} rad of the motion are right to {} rad, and the errors add up",
+                    report::number(d.span, 2), report::number(d.miss));
   } else {
     text += "sound";
   }
@@ -140,13 +151,16 @@ std::string first_line(const Judged& judged) {
   append(text, d.remark);
   if (judged.meant) {
     const RunResult& m = judged.meant->record.result;
-    append(text, "read rightly, " + fmt::format("{}", fmt::join([&] {
-      std::vector<std::string> parts;
-      for (const std::string& part : {invariants_words(m), errors_words(m)}) {
-        if (!part.empty()) parts.push_back(part);
-      }
-      return parts;
-    }(), ", ")));
+    append(text, "read rightly, " +
+                     fmt::format("{}", fmt::join(
+                                           [&] {
+                                             std::vector<std::string> parts;
+                                             for (const std::string& part : {invariants_words(m), errors_words(m)}) {
+                                               if (!part.empty()) parts.push_back(part);
+                                             }
+                                             return parts;
+                                           }(),
+                                           ", ")));
   }
   if (!r.attitude_error_max && !score.record.config.reference) {
     append(text, "no exact motion is known, --reference measures the errors");

@@ -16,8 +16,8 @@ struct Judged {
   std::optional<TrajectoryScore> meant;  ///< the score of diagnosis.meant
 };
 
-/// How the motion goes along its polhode: "on_time", "early", "late", "standing", "backwards", or "off" where it has left
-/// it; empty where there is none.
+/// How the motion goes along its polhode: "on_time", "early", "late", "standing", "backwards", or "off" where it has
+/// left it; empty where there is none.
 std::string polhode_pace(const TrajectoryScore& score);
 
 /// "engine: ω × Iω has the wrong sign: …. Energy holds to 1e-11, …": one line without its end.

@@ -64,8 +64,8 @@ void add_wrong_starts(SingleChanges& changes, std::size_t moving) {
     return s.orientation.tail<3>().norm() > 1e-6 * std::abs(s.orientation[0]);
   });
   if (turned) {
-    changes.add("omega_frame", "it starts with the scenario's ω in the wrong axes (world and body exchanged)", Part::start,
-                [](Hypothesis& h) { h.start.rates_in_body = true; });
+    changes.add("omega_frame", "it starts with the scenario's ω in the wrong axes (world and body exchanged)",
+                Part::start, [](Hypothesis& h) { h.start.rates_in_body = true; });
     changes.add("transposed", "it starts with the scenario's orientation transposed", Part::start,
                 [](Hypothesis& h) { h.start.transposed = true; });
   }
@@ -99,8 +99,8 @@ void add_wrong_inertias(SingleChanges& changes, std::size_t moving, bool forces_
   for (std::size_t i = 0; i < moving; ++i) {
     const Body& body = changes.plain.problem.bodies[i];
     for (const OtherInertia& other : other_inertias(body, forces_exert_torques)) {
-      changes.add("inertia", moving > 1 ? fmt::format("{} (body {})", other.words, body.name) : other.words, Part::inertia,
-                  [&](Hypothesis& h) { h.problem.bodies[i].inertia = other.inertia; });
+      changes.add("inertia", moving > 1 ? fmt::format("{} (body {})", other.words, body.name) : other.words,
+                  Part::inertia, [&](Hypothesis& h) { h.problem.bodies[i].inertia = other.inertia; });
     }
   }
 }
@@ -129,8 +129,9 @@ Hypothesis both(const Hypothesis& a, const Hypothesis& b) {
 
 std::vector<Hypothesis> other_readings(const Hypothesis& plain, const Trajectory& trajectory) {
   SingleChanges changes{plain};
-  changes.add("transposed", trajectory.has_matrix ? "its rotation matrices are transposed (world to body)"
-                                                  : "its quaternions are conjugated (world to body)",
+  changes.add("transposed",
+              trajectory.has_matrix ? "its rotation matrices are transposed (world to body)"
+                                    : "its quaternions are conjugated (world to body)",
               Part::attitude_columns, [](Hypothesis& h) { h.reading.transposed = true; });
   if (!trajectory.has_matrix) {
     changes.add("quaternion_order", "its quaternions stand in the order x, y, z, w", Part::attitude_columns,
@@ -138,9 +139,10 @@ std::vector<Hypothesis> other_readings(const Hypothesis& plain, const Trajectory
     changes.add("quaternion_order", "its quaternions stand in the order z, w, x, y", Part::attitude_columns,
                 [](Hypothesis& h) { h.reading.order = Reading::Order::zwxy; });
   }
-  changes.add("omega_frame", trajectory.has_angular_velocity ? "its angular velocity is in body axes"
-                                                             : "its angular momentum is in body axes",
-              Part::rate_frame, [](Hypothesis& h) { h.reading.rates_in_body = true; });
+  changes.add(
+      "omega_frame",
+      trajectory.has_angular_velocity ? "its angular velocity is in body axes" : "its angular momentum is in body axes",
+      Part::rate_frame, [](Hypothesis& h) { h.reading.rates_in_body = true; });
   if (trajectory.has_angular_velocity) {
     for (const auto& [unit, cause, words] :
          {std::tuple{degree, "degrees", "its angular velocity is in degrees per second"},

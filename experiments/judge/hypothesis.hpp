@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What may be wrong with a trajectory: each hypothesis changes the reading of the columns, the start, the equations, the
-// inertia, the clock or the steps, and so implies a motion of its own.
+// What may be wrong with a trajectory: each hypothesis changes the reading of the columns, the start, the equations,
+// the inertia, the clock or the steps, and so implies a motion of its own.
 #pragma once
 
 #include <cstddef>

@@ -9,10 +9,10 @@
 #include <limits>
 #include <utility>
 
-#include "experiments/study/text/csv.hpp"
 #include "experiments/study/plot/axis.hpp"
-#include "experiments/study/report/findings/drift_words.hpp"
 #include "experiments/study/plot/figure_layout.hpp"
+#include "experiments/study/report/findings/drift_words.hpp"
+#include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
 
 namespace polhode::study {
@@ -49,25 +49,41 @@ Table table_of(const std::vector<Judged>& judged) {
   for (const Judged& one : judged) {
     const TrajectoryScore& s = one.score;
     const RunResult& r = s.record.result;
-    table.rows.push_back({s.record.config.integrator, std::to_string(s.instants), r.status, one.diagnosis.name,
-                          printed(r.energy_drift_max_rel), printed(r.energy_drift_rate), printed(r.energy_drift_rate_ci),
-                          r.drift_class, r.drift_exponent ? fmt::format("{:.3f}", *r.drift_exponent) : "", exponent_interval(r),
-                          printed(r.linear_momentum_drift_max_rel), printed(r.angular_momentum_drift_max_rel),
-                          printed(r.orientation_defect_max), printed(r.position_error_max),
-                          printed(r.attitude_error_max), printed(r.angular_velocity_error_max_rel),
-                          printed(r.polhode_phase_error_max), printed(r.polhode_off_error_max_rel),
-                          printed(s.energy_column_difference_max_rel)});
+    table.rows.push_back(
+        {s.record.config.integrator, std::to_string(s.instants), r.status, one.diagnosis.name,
+         printed(r.energy_drift_max_rel), printed(r.energy_drift_rate), printed(r.energy_drift_rate_ci), r.drift_class,
+         r.drift_exponent ? fmt::format("{:.3f}", *r.drift_exponent) : "", exponent_interval(r),
+         printed(r.linear_momentum_drift_max_rel), printed(r.angular_momentum_drift_max_rel),
+         printed(r.orientation_defect_max), printed(r.position_error_max), printed(r.attitude_error_max),
+         printed(r.angular_velocity_error_max_rel), printed(r.polhode_phase_error_max),
+         printed(r.polhode_off_error_max_rel), printed(s.energy_column_difference_max_rel)});
   }
   return without_empty_columns(std::move(table));
 }
 
 std::string csv_of(const StudyView& study, const std::vector<Judged>& judged) {
-  std::vector<std::string> header = {"trajectory", "scenario", "status", "message", "instants", "t_first_s", "t_last_s",
-                                     "spacing_max_s", "diagnosis", "diagnosis_factor", "diagnosis_margin",
-                                     "polhode_pace", "energy_initial_J", "energy_drift_max_rel",
-                                     "energy_drift_final_rel", "energy_drift_rate_W", "drift_class",
-                                     "energy_drift_rate_ci_W", "drift_exponent", "drift_exponent_low",
-                                     "drift_exponent_high", "linear_momentum_drift_max_rel",
+  std::vector<std::string> header = {"trajectory",
+                                     "scenario",
+                                     "status",
+                                     "message",
+                                     "instants",
+                                     "t_first_s",
+                                     "t_last_s",
+                                     "spacing_max_s",
+                                     "diagnosis",
+                                     "diagnosis_factor",
+                                     "diagnosis_margin",
+                                     "polhode_pace",
+                                     "energy_initial_J",
+                                     "energy_drift_max_rel",
+                                     "energy_drift_final_rel",
+                                     "energy_drift_rate_W",
+                                     "drift_class",
+                                     "energy_drift_rate_ci_W",
+                                     "drift_exponent",
+                                     "drift_exponent_low",
+                                     "drift_exponent_high",
+                                     "linear_momentum_drift_max_rel",
                                      "angular_momentum_drift_max_rel"};
   for (const std::string& invariant : study.invariants) header.push_back(invariant + "_drift_max_rel");
   for (const char* c : {"orientation_defect_max", "position_error_max_m", "attitude_error_max_rad",
@@ -80,15 +96,28 @@ std::string csv_of(const StudyView& study, const std::vector<Judged>& judged) {
   for (const Judged& one : judged) {
     const TrajectoryScore& s = one.score;
     const RunResult& r = s.record.result;
-    std::vector<std::string> row = {s.record.config.integrator, s.record.config.scenario, r.status, r.message,
-                                    std::to_string(s.instants), study::exact(s.t_first), study::exact(s.record.config.t_end),
-                                    csv_cell(s.record.config.dt), one.diagnosis.name,
-                                    csv_cell(one.diagnosis.factor), csv_cell(one.diagnosis.margin), polhode_pace(s),
+    std::vector<std::string> row = {s.record.config.integrator,
+                                    s.record.config.scenario,
+                                    r.status,
+                                    r.message,
+                                    std::to_string(s.instants),
+                                    study::exact(s.t_first),
+                                    study::exact(s.record.config.t_end),
+                                    csv_cell(s.record.config.dt),
+                                    one.diagnosis.name,
+                                    csv_cell(one.diagnosis.factor),
+                                    csv_cell(one.diagnosis.margin),
+                                    polhode_pace(s),
                                     csv_cell(r.energy_initial),
-                                    csv_cell(r.energy_drift_max_rel), csv_cell(r.energy_drift_final_rel),
-                                    csv_cell(r.energy_drift_rate), r.drift_class, csv_cell(r.energy_drift_rate_ci),
-                                    csv_cell(r.drift_exponent), csv_cell(r.drift_exponent_low),
-                                    csv_cell(r.drift_exponent_high), csv_cell(r.linear_momentum_drift_max_rel),
+                                    csv_cell(r.energy_drift_max_rel),
+                                    csv_cell(r.energy_drift_final_rel),
+                                    csv_cell(r.energy_drift_rate),
+                                    r.drift_class,
+                                    csv_cell(r.energy_drift_rate_ci),
+                                    csv_cell(r.drift_exponent),
+                                    csv_cell(r.drift_exponent_low),
+                                    csv_cell(r.drift_exponent_high),
+                                    csv_cell(r.linear_momentum_drift_max_rel),
                                     csv_cell(r.angular_momentum_drift_max_rel)};
     for (const std::string& invariant : study.invariants) {
       const auto found = r.invariant_drift_max_rel.find(invariant);
@@ -115,8 +144,9 @@ struct ErrorQuantity {
 Figure errors_against_time(const StudyView& study, const std::vector<Judged>& judged) {
   Figure figure{.name = "errors_against_time",
                 .title = "Errors against time",
-                .caption = "The distance of each trajectory from the exact motion, or the reference, at up to 257 of its "
-                           "instants. The axes are logarithmic on both sides of zero and linear about it."};
+                .caption =
+                    "The distance of each trajectory from the exact motion, or the reference, at up to 257 of its "
+                    "instants. The axes are logarithmic on both sides of zero and linear about it."};
   std::vector<Panel> panels;
   for (const ErrorQuantity& q :
        {ErrorQuantity{"attitude_error_rad", "attitude error (rad)", &ErrorPoint::attitude},
@@ -167,9 +197,10 @@ std::vector<std::string> sentences_of(const std::vector<Judged>& judged) {
     if (!r.message.empty()) sentences.push_back(fmt::format("{}: {}.", name, r.message));
     if (!r.drift_class.empty()) sentences.push_back(fmt::format("{}: the energy drift is {}.", name, growth_words(r)));
     if (s.energy_column_difference_max_rel > same) {
-      sentences.push_back(fmt::format("{}: its own energy differs from that of its states by up to {} of the energy; the "
-                                      "scores are those of its states.",
-                                      name, number(*s.energy_column_difference_max_rel)));
+      sentences.push_back(
+          fmt::format("{}: its own energy differs from that of its states by up to {} of the energy; the "
+                      "scores are those of its states.",
+                      name, number(*s.energy_column_difference_max_rel)));
     }
     for (const std::string& note : s.notes) sentences.push_back(fmt::format("{}: {}.", name, note));
   }

@@ -8,13 +8,13 @@
 
 #include "experiments/judge/judgement.hpp"
 #include "experiments/judge/options.hpp"
-#include "experiments/study/text/csv.hpp"
 #include "experiments/study/plan/plan.hpp"
-#include "experiments/study/text/program.hpp"
-#include "experiments/study/store/result_folder.hpp"
 #include "experiments/study/report/tables/results.hpp"
-#include "experiments/study/store/store.hpp"
 #include "experiments/study/report/tables/summary.hpp"
+#include "experiments/study/store/result_folder.hpp"
+#include "experiments/study/store/store.hpp"
+#include "experiments/study/text/csv.hpp"
+#include "experiments/study/text/program.hpp"
 
 namespace polhode::study {
 namespace {
@@ -77,9 +77,9 @@ int judge(const JudgeOptions& options) {
     plan.identity += view.runs.back().id;
   }
   plan.identity = identity_of(plan.identity);
-  view.folder = options.out.empty() ? std::filesystem::path("results") /
-                                          ("judge-" + scenario.name + "-" + plan.identity.substr(0, 8))
-                                    : std::filesystem::path(options.out);
+  view.folder = options.out.empty()
+                    ? std::filesystem::path("results") / ("judge-" + scenario.name + "-" + plan.identity.substr(0, 8))
+                    : std::filesystem::path(options.out);
   const ResultFolder held(view.folder, ids, options.force);
   Store(view.folder).keep(view.runs);
   view.analysis = judgement(view, judged);

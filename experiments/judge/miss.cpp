@@ -42,7 +42,8 @@ double typical(std::vector<double> misses) {
   return std::sqrt(sum / static_cast<double>(misses.size()));
 }
 
-std::vector<VectorX<double>> motion_at_first_rows(const RowStates& rows, const Hypothesis& h, const FaultyMotion& motion) {
+std::vector<VectorX<double>> motion_at_first_rows(const RowStates& rows, const Hypothesis& h,
+                                                  const FaultyMotion& motion) {
   std::vector<VectorX<double>> states;
   VectorX<double> y = rows.start(h.start);
   if (!carry_to_first(rows, h, motion, y)) return states;
@@ -66,13 +67,15 @@ double miss_of(const RowStates& rows, const Hypothesis& h, std::size_t stride) {
   for (std::size_t i = 0; i < rows.spans.size(); i += stride) {
     const auto [from, to] = rows.spans[i];
     VectorX<double> y = rows.state(from, h.reading);
-    misses.push_back(carry(rows, h, motion, from, to, y) ? rows.distance(y, rows.state(to, h.reading)) : std::numbers::pi);
+    misses.push_back(carry(rows, h, motion, from, to, y) ? rows.distance(y, rows.state(to, h.reading))
+                                                         : std::numbers::pi);
   }
   const double over_spans = typical(std::move(misses));
   if (rows.first.empty()) return over_spans;
   misses.assign(rows.first.size(), std::numbers::pi);
   const auto states = motion_at_first_rows(rows, h, motion);
-  for (std::size_t i = 0; i < states.size(); ++i) misses[i] = rows.distance(states[i], rows.state(rows.first[i], h.reading));
+  for (std::size_t i = 0; i < states.size(); ++i)
+    misses[i] = rows.distance(states[i], rows.state(rows.first[i], h.reading));
   return std::hypot(over_spans, typical(std::move(misses)));
 }
 

@@ -22,7 +22,8 @@ double miss_of_start(const RowStates& rows, const Hypothesis& h);
 
 /// The states at rows.first of the motion from the scenario's start; fewer where it cannot be followed to the last.
 /// `motion` is that of the hypothesis' problem and equations.
-std::vector<VectorX<double>> motion_at_first_rows(const RowStates& rows, const Hypothesis& h, const FaultyMotion& motion);
+std::vector<VectorX<double>> motion_at_first_rows(const RowStates& rows, const Hypothesis& h,
+                                                  const FaultyMotion& motion);
 
 /// The root mean square without the worst tenth.
 double typical(std::vector<double> misses);

@@ -4,26 +4,28 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "experiments/study/text/value_lists.hpp"
 #include "experiments/study/text/command_line.hpp"
 #include "experiments/study/text/input_error.hpp"
+#include "experiments/study/text/value_lists.hpp"
 
 namespace polhode::study {
 JudgeOptions parse_judge_options(int argc, const char* const* argv) {
   JudgeOptions options;
-  CLI::App app{std::string(judge_question) +
-                   "\n\nTrajectories are CSV files with the columns of trajectory.csv (experiments/judge/README.md), by "
-                   "name and in any order.",
-               "judge"};
+  CLI::App app{
+      std::string(judge_question) +
+          "\n\nTrajectories are CSV files with the columns of trajectory.csv (experiments/judge/README.md), by "
+          "name and in any order.",
+      "judge"};
   app.get_formatter()->column_width(40);
   std::vector<std::string> lists;
   app.add_option("--scenario", options.scenario, "what the trajectories are of: a built-in scenario or a TOML file")
       ->type_name("NAME|FILE");
   app.add_option("--trajectory-file", lists, "trajectories, with commas between them")->type_name("FILE,…");
   app.add_option("files", options.files, "the same, one by one")->type_name("FILE");
-  app.add_flag("--reference", options.reference,
-               "where no exact solution is known, measure errors against a motion in extended precision that proves its "
-               "digits by halving its step");
+  app.add_flag(
+      "--reference", options.reference,
+      "where no exact solution is known, measure errors against a motion in extended precision that proves its "
+      "digits by halving its step");
   std::string rotation = "normalised";
   app.add_option("--rotation-from", rotation, "what a quaternion off the unit sphere stands for (default: normalised)")
       ->type_name("normalised|stored")

@@ -15,7 +15,7 @@ struct JudgeOptions {
   std::vector<std::string> files;  ///< trajectories, none twice
   bool reference = false;
   RotationFrom rotation_from = RotationFrom::normalised;
-  std::string out;                 ///< empty: results/judge-<scenario>-<hash>
+  std::string out;  ///< empty: results/judge-<scenario>-<hash>
   bool force = false, figures = true;
   std::string command;             ///< the command line, quoted for a shell
   std::optional<int> exit_status;  ///< where the command line said it all

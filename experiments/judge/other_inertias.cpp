@@ -16,7 +16,8 @@ namespace {
 std::vector<OtherInertia> all_other_inertias(const Body& body) {
   std::vector<OtherInertia> found;
   const Matrix3<double>& right = body.inertia;
-  for (const auto& [factor, words] : {std::pair{0.5, "half"}, {2.0, "twice"}, {0.25, "a quarter of"}, {4.0, "four times"}}) {
+  for (const auto& [factor, words] :
+       {std::pair{0.5, "half"}, {2.0, "twice"}, {0.25, "a quarter of"}, {4.0, "four times"}}) {
     found.push_back({factor * right, fmt::format("the inertia is {} the scenario's", words)});
   }
   const Eigen::SelfAdjointEigenSolver<Matrix3<double>> principal(right);
@@ -35,10 +36,11 @@ std::vector<OtherInertia> all_other_inertias(const Body& body) {
     }
   }
   for (const auto& [a, b, c] : {std::tuple{0, 2, 1}, {1, 0, 2}, {2, 1, 0}, {1, 2, 0}, {2, 0, 1}}) {
-    add({moments[a], moments[b], moments[c]}, fmt::format("the moments of inertia stand in the order {}, {}, {}", a + 1,
-                                                          b + 1, c + 1));
+    add({moments[a], moments[b], moments[c]},
+        fmt::format("the moments of inertia stand in the order {}, {}, {}", a + 1, b + 1, c + 1));
   }
-  found.push_back({right.inverse() * (right.trace() / right.inverse().trace()), "the inverse of the inertia stands for it"});
+  found.push_back(
+      {right.inverse() * (right.trace() / right.inverse().trace()), "the inverse of the inertia stands for it"});
   if (body.pinned && !body.center_of_mass.isZero(0)) {
     const Vector3<double>& l = body.center_of_mass;
     const Matrix3<double> moved = body.mass * (l.squaredNorm() * Matrix3<double>::Identity() - l * l.transpose());

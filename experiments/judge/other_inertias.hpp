@@ -14,9 +14,9 @@ struct OtherInertia {
   std::string words;        ///< what it is, as a clause
 };
 
-/// Each inertia that is possible and makes a difference to the motion, once. A motion without torques depends neither on a
-/// common factor of the inertia, nor on an isotropic inertia otherwise than by the absence of ω × Iω, which is another
-/// fault; these are left out.
+/// Each inertia that is possible and makes a difference to the motion, once. A motion without torques depends neither
+/// on a common factor of the inertia, nor on an isotropic inertia otherwise than by the absence of ω × Iω, which is
+/// another fault; these are left out.
 std::vector<OtherInertia> other_inertias(const Body& body, bool forces_exert_torques);
 
 }  // namespace polhode::study

@@ -31,8 +31,8 @@ std::optional<ColumnFault> fault_of(const std::vector<ColumnReading>& readings, 
   const double factor = std::sqrt(plain / std::max(best->miss, 1e-24 * size));
   if (best->in_body) return ColumnFault{"momentum_frame", "its angular momentum is in body axes", factor};
   return ColumnFault{"inertia",
-                     fmt::format("its {} is that of {} times the scenario's inertia, though the motion is right", best->what,
-                                 report::number(best->factor)),
+                     fmt::format("its {} is that of {} times the scenario's inertia, though the motion is right",
+                                 best->what, report::number(best->factor)),
                      factor};
 }
 

@@ -9,10 +9,10 @@ namespace polhode::study {
 /// How a program may have written its orientations and rates; as it stands, the format's own.
 struct Reading {
   enum class Order { wxyz, xyzw, zwxy };  ///< what stands under qw, qx, qy, qz; the last is xyzw once too often
-  bool transposed = false;     ///< the orientation takes world to body
-  Order order = Order::wxyz;   ///< of a quaternion
-  bool rates_in_body = false;  ///< ω, or where there is none L, is in body axes
-  double rate_unit = 1;        ///< ω in the file times this is in rad/s
+  bool transposed = false;                ///< the orientation takes world to body
+  Order order = Order::wxyz;              ///< of a quaternion
+  bool rates_in_body = false;             ///< ω, or where there is none L, is in body axes
+  double rate_unit = 1;                   ///< ω in the file times this is in rad/s
 };
 
 /// The quaternion that was meant.

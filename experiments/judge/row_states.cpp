@@ -47,11 +47,16 @@ std::vector<std::size_t> first_rows_of(const std::vector<double>& t, double rate
 }  // namespace
 
 RowStates::RowStates(const Trajectory& of, const Scenario& meant)
-    : trajectory(of), scenario(meant), right(meant.problem, {}), exact(right.system()),
+    : trajectory(of),
+      scenario(meant),
+      right(meant.problem, {}),
+      exact(right.system()),
       rate(characteristic_rate(meant.problem).value_or(1 / of.times.back())),
       spacing((of.times.back() - of.times.front()) / static_cast<double>(of.times.size() - 1) * rate),
-      spans(spans_of(of.times, rate)), first(first_rows_of(of.times, rate)) {
-  for (const auto& [from, to] : spans) span += (of.times[to] - of.times[from]) * rate / static_cast<double>(spans.size());
+      spans(spans_of(of.times, rate)),
+      first(first_rows_of(of.times, rate)) {
+  for (const auto& [from, to] : spans)
+    span += (of.times[to] - of.times[from]) * rate / static_cast<double>(spans.size());
 }
 
 VectorX<double> RowStates::state(std::size_t row, const Reading& reading) const {
@@ -81,8 +86,12 @@ VectorX<double> RowStates::state(std::size_t row, const Reading& reading) const 
     if (s.position < 0) continue;
     const bool all_there = trajectory.has_position && trajectory.has_velocity;
     const auto path = all_there ? std::nullopt : exact.at(trajectory.times[row], i).path;
-    y.segment<3>(s.position) = trajectory.has_position ? body.position : path ? path->position : y.segment<3>(s.position);
-    y.segment<3>(s.velocity) = trajectory.has_velocity ? body.velocity : path ? path->velocity : y.segment<3>(s.velocity);
+    y.segment<3>(s.position) = trajectory.has_position ? body.position
+                               : path                  ? path->position
+                                                       : y.segment<3>(s.position);
+    y.segment<3>(s.velocity) = trajectory.has_velocity ? body.velocity
+                               : path                  ? path->velocity
+                                                       : y.segment<3>(s.velocity);
   }
   return y;
 }

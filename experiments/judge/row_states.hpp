@@ -43,7 +43,8 @@ struct RowStates {
   double spacing;   ///< rad, mean, from row to row
   double span = 0;  ///< rad, mean over the spans
   std::vector<std::pair<std::size_t, std::size_t>> spans;  ///< the row from which and the row to which
-  std::vector<std::size_t> first;  ///< rows for a motion from the scenario's start, beginning with row 0; may be cleared
+  std::vector<std::size_t>
+      first;  ///< rows for a motion from the scenario's start, beginning with row 0; may be cleared
 };
 
 }  // namespace polhode::study

@@ -47,7 +47,8 @@ std::vector<Hypothesis> coarsely_fitted(const RowStates& rows, const Hypothesis&
   return fits;
 }
 
-/// Finds the best number of steps near a coarse one. The miss falls to one side of the best number and rises on the other.
+/// Finds the best number of steps near a coarse one. The miss falls to one side of the best number and rises on the
+/// other.
 void refine(const RowStates& rows, Hypothesis& h) {
   const std::size_t stride = rows.stride_for(spans_for_steps);
   int low = std::max(1, h.steps.per_row / 2), high = std::min(most_steps_per_row(rows), 2 * h.steps.per_row);
@@ -60,7 +61,8 @@ void refine(const RowStates& rows, Hypothesis& h) {
   };
   while (high - low > 6) {
     const int third = (high - low) / 3;
-    if (at(low + third) < at(high - third)) high -= third; else low += third;
+    if (at(low + third) < at(high - third)) high -= third;
+    else low += third;
   }
   for (int n = low; n <= high; ++n) at(n);
 }
@@ -88,7 +90,8 @@ VectorX<double> state_as_stored(const RowStates& rows, const System<double>& sys
 }
 
 /// rad, over spans of rows whose matrices need not be rotations.
-double miss_as_stored(const RowStates& rows, const System<double>& system, Integrator<double>& integrator, int per_row) {
+double miss_as_stored(const RowStates& rows, const System<double>& system, Integrator<double>& integrator,
+                      int per_row) {
   const auto& t = rows.trajectory.times;
   const std::size_t moving = rows.trajectory.moving, stride = rows.stride_for(spans_for_steps);
   std::vector<double> misses;
@@ -154,13 +157,14 @@ std::optional<Hypothesis> fitted_steps_without_projection(const RowStates& rows,
         if (here >= best.miss) continue;
         best.miss = here;
         best.steps.per_row = n;
-        words = fmt::format("its steps are those of a first-order method, {} Euler on {} and a rotation matrix that is never "
-                            "brought back to a rotation, with {} s",
-                            method[0] == 'e' ? "explicit" : "semi-implicit",
-                            state == AngularState::velocity_world  ? "ω in world axes"
-                            : state == AngularState::velocity_body ? "ω in body axes"
-                                                                   : "L",
-                            report::number(rows.spacing / rows.rate / n));
+        words = fmt::format(
+            "its steps are those of a first-order method, {} Euler on {} and a rotation matrix that is never "
+            "brought back to a rotation, with {} s",
+            method[0] == 'e' ? "explicit" : "semi-implicit",
+            state == AngularState::velocity_world  ? "ω in world axes"
+            : state == AngularState::velocity_body ? "ω in body axes"
+                                                   : "L",
+            report::number(rows.spacing / rows.rate / n));
       }
     }
   }

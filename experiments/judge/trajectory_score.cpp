@@ -44,8 +44,9 @@ class States {
         Eigen::Map<Matrix3<double>>{y + slot.orientation} = body.rotation;
       } else {
         Eigen::Map<Quaternion<double>>{y + slot.orientation} = body.orientation;
-        rotation = system_.formulation().rotation_from == RotationFrom::stored ? rotation_matrix_stored(body.orientation)
-                                                                               : rotation_matrix(body.orientation);
+        rotation = system_.formulation().rotation_from == RotationFrom::stored
+                       ? rotation_matrix_stored(body.orientation)
+                       : rotation_matrix(body.orientation);
       }
       Vector3<double> omega = body.angular_velocity;
       if (!trajectory_.has_angular_velocity && trajectory_.has_angular_momentum) {
@@ -91,27 +92,30 @@ void blank(const States& states, const Trajectory& trajectory, const System<doub
     r.invariant_drift_max_rel.clear();
     drop(r.angular_velocity_error_max_rel, r.polhode_phase_error_max, r.polhode_phase_error_max_rad,
          r.polhode_off_error_max_rel);
-    notes.emplace_back("it has no angular velocity (wx_rad_per_s …) and no angular momentum (lx_kg_m2_per_s …): energy, "
-                       "angular momentum, invariants and polhode are left out");
+    notes.emplace_back(
+        "it has no angular velocity (wx_rad_per_s …) and no angular momentum (lx_kg_m2_per_s …): energy, "
+        "angular momentum, invariants and polhode are left out");
   } else if (!trajectory.has_angular_velocity) {
     notes.emplace_back("it has no angular velocity: R I⁻¹ Rᵀ L stands for it");
   }
   if (states.any_path() && !trajectory.has_position) drop(r.position_error_max);
   if (states.any_path() && !trajectory.has_velocity) drop(r.linear_momentum_drift_max_rel);
   if (states.path_from_exact()) {
-    notes.emplace_back(fmt::format("it has no {}: the exact motion of the mass centre stands for it, and its energy is "
-                                   "judged with that",
-                                   trajectory.has_position   ? "velocity"
-                                   : trajectory.has_velocity ? "position"
-                                                             : "position and velocity"));
+    notes.emplace_back(
+        fmt::format("it has no {}: the exact motion of the mass centre stands for it, and its energy is "
+                    "judged with that",
+                    trajectory.has_position   ? "velocity"
+                    : trajectory.has_velocity ? "position"
+                                              : "position and velocity"));
   } else if (!states.knows_position() || !states.knows_velocity()) {
     energy = false;
     angular = angular && all_bodies_alone;
     notes.emplace_back("it lacks position or velocity, and no exact path stands for them: energy is left out");
   }
   if (!energy) {
-    drop(r.energy_initial, r.energy_drift_max_rel, r.energy_drift_final_rel, r.energy_drift_rate, r.energy_drift_rate_ci,
-         r.drift_exponent, r.drift_exponent_low, r.drift_exponent_high, r.drift_decided_after, score.energy_column_difference_max_rel);
+    drop(r.energy_initial, r.energy_drift_max_rel, r.energy_drift_final_rel, r.energy_drift_rate,
+         r.energy_drift_rate_ci, r.drift_exponent, r.drift_exponent_low, r.drift_exponent_high, r.drift_decided_after,
+         score.energy_column_difference_max_rel);
     r.drift_class.clear();
     for (SeriesPoint& p : r.series) p.energy_drift_rel = 0;
   }
@@ -148,7 +152,8 @@ void compare_start(const System<double>& system, const State<double>& first, con
     }
     if (system.problem().bodies[i].pinned) continue;
     const double distance = (a.position - b.position).norm(), speed = (a.velocity - b.velocity).norm();
-    if (trajectory.has_position && distance > negligible * (1 + b.position.norm())) differ("a position", distance, " m");
+    if (trajectory.has_position && distance > negligible * (1 + b.position.norm()))
+      differ("a position", distance, " m");
     if (trajectory.has_velocity && speed > negligible * (1 + b.velocity.norm())) differ("a velocity", speed, " m/s");
   }
 }
@@ -230,7 +235,8 @@ TrajectoryScore score(const Trajectory& trajectory, const Scenario& scenario, Ru
   }
   meter.report(r);
   if (trajectory.has_energy) result.energy_column_difference_max_rel = worst_difference / meter.energy_scale();
-  if (working) result.notes.emplace_back("the work of forces without a potential is summed by the trapezoidal rule over its rows");
+  if (working)
+    result.notes.emplace_back("the work of forces without a potential is summed by the trapezoidal rule over its rows");
   result.record.config = std::move(config);
   blank(states, trajectory, *system, result);
   return result;

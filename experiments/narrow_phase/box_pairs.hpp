@@ -22,7 +22,7 @@ struct TurnedBox {
 };
 
 inline const std::vector<std::string>& box_pair_classes() {
-  static const std::vector<std::string> names = {"random",        "face to face",     "edge to edge", "parallel edges",
+  static const std::vector<std::string> names = {"random",           "face to face",   "edge to edge", "parallel edges",
                                                  "vertex to vertex", "vertex to face", "nested",       "far apart"};
   return names;
 }
@@ -132,8 +132,8 @@ class BoxPairs {
     return {std::copysign(half[0], n[0]), std::copysign(half[1], n[1]), std::copysign(half[2], n[2])};
   }
   /// The offset along n at which the shadows of the boxes on n are `gap` apart.
-  static Vector3<double> along_a_line(const Vector3<double>& half_a, const Vector3<double>& half_b, const Quaternion<double>& turn,
-                                      const Vector3<double>& n, double gap) {
+  static Vector3<double> along_a_line(const Vector3<double>& half_a, const Vector3<double>& half_b,
+                                      const Quaternion<double>& turn, const Vector3<double>& n, double gap) {
     const Vector3<double> in_b = rotation_matrix<double>(turn).transpose() * n;
     return n * (half_a.dot(n.cwiseAbs()) + half_b.dot(in_b.cwiseAbs()) + gap);
   }

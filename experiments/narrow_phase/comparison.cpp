@@ -13,8 +13,8 @@
 
 #include "collision/shapes/box.hpp"
 #include "experiments/narrow_phase/box_pairs.hpp"
-#include "experiments/study/text/csv.hpp"
 #include "experiments/study/plot/axis.hpp"
+#include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
 
 namespace polhode::study {
@@ -30,7 +30,11 @@ struct Placed {
   double smaller, larger;
 
   explicit Placed(const BoxPairCase& pair, const NarrowPhase& judge)
-      : a(pair.a.half), b(pair.b.half), at_a(pair.a.posed().pose), at_b(pair.b.posed().pose), sat(judge.distance(a, at_a, b, at_b)),
+      : a(pair.a.half),
+        b(pair.b.half),
+        at_a(pair.a.posed().pose),
+        at_b(pair.b.posed().pose),
+        sat(judge.distance(a, at_a, b, at_b)),
         smaller(std::min(pair.a.half.minCoeff(), pair.b.half.minCoeff())),
         larger(std::max(pair.a.half.maxCoeff(), pair.b.half.maxCoeff())) {}
 };
@@ -65,14 +69,22 @@ void compare_narrow_phases(const std::vector<const NarrowPhaseEntry*>& entries, 
   std::string csv = csv_row({"class", "narrow_phase", "pairs", "overlapping", "wrong_overlaps", "missed_overlaps",
                              "distance_difference_max_rel"});
   std::string costs = csv_row({"class", "narrow_phase", "overlap_ns", "distance_ns", "manifold_ns"});
-  report::Table table{"Agreement with sat: overlaps that are none, overlaps that are missed, and the largest difference of the "
-                      "signed distance, in units of the smaller box.",
-                      {{"class", "", Column::Kind::text}, {"narrow phase", "", Column::Kind::name}, {"pairs"}, {"wrong"},
-                       {"missed"}, {"difference"}},
-                      {}};
+  report::Table table{
+      "Agreement with sat: overlaps that are none, overlaps that are missed, and the largest difference of the "
+      "signed distance, in units of the smaller box.",
+      {{"class", "", Column::Kind::text},
+       {"narrow phase", "", Column::Kind::name},
+       {"pairs"},
+       {"wrong"},
+       {"missed"},
+       {"difference"}},
+      {}};
   report::Table cost_table{"Cost of one question, the best of five rounds over all pairs of the class.",
-                           {{"class", "", Column::Kind::text}, {"narrow phase", "", Column::Kind::name}, {"overlap", "ns"},
-                            {"distance", "ns"}, {"contacts", "ns"}},
+                           {{"class", "", Column::Kind::text},
+                            {"narrow phase", "", Column::Kind::name},
+                            {"overlap", "ns"},
+                            {"distance", "ns"},
+                            {"contacts", "ns"}},
                            {}};
   std::map<std::string, std::array<Range, 3>> ranges;
   BoxPairs make(seed);
@@ -98,24 +110,29 @@ void compare_narrow_phases(const std::vector<const NarrowPhaseEntry*>& entries, 
       }
       csv += csv_row({name, entry->name, std::to_string(count), std::to_string(overlapping), std::to_string(wrong),
                       std::to_string(missed), exact(most)});
-      table.rows.push_back({name, entry->name, std::to_string(count), std::to_string(wrong), std::to_string(missed), number(most, 2)});
+      table.rows.push_back(
+          {name, entry->name, std::to_string(count), std::to_string(wrong), std::to_string(missed), number(most, 2)});
       const double overlap_ns = cost_ns(pairs, [&](const Placed& p) { phase->overlap(p.a, p.at_a, p.b, p.at_b); });
       const double distance_ns = cost_ns(pairs, [&](const Placed& p) { phase->distance(p.a, p.at_a, p.b, p.at_b); });
       const double manifold_ns = cost_ns(pairs, [&](const Placed& p) { phase->manifold(p.a, p.at_a, p.b, p.at_b); });
       costs += csv_row({name, entry->name, number(overlap_ns, 4), number(distance_ns, 4), number(manifold_ns, 4)});
-      cost_table.rows.push_back({name, entry->name, number(overlap_ns, 3), number(distance_ns, 3), number(manifold_ns, 3)});
+      cost_table.rows.push_back(
+          {name, entry->name, number(overlap_ns, 3), number(distance_ns, 3), number(manifold_ns, 3)});
       auto& range = ranges[entry->name];
       range[0].take(overlap_ns), range[1].take(distance_ns), range[2].take(manifold_ns);
     }
   }
   for (const NarrowPhaseEntry* entry : entries) {
     const auto& [overlap, distance, manifold] = ranges[entry->name];
-    analysis.timed.sentences.push_back(fmt::format("{}: an overlap takes {}, a distance {}, contacts {}, by the class of the pair.",
-                                                   entry->name, overlap.said(), distance.said(), manifold.said()));
+    analysis.timed.sentences.push_back(
+        fmt::format("{}: an overlap takes {}, a distance {}, contacts {}, by the class of the pair.", entry->name,
+                    overlap.said(), distance.said(), manifold.said()));
   }
   analysis.method.push_back(fmt::format(
-      "{} pairs of boxes of each class, of scales from 1e-3 to 1e3 m and sizes up to 1e4 apart. An overlap is wrong or missed "
-      "where sat's distance or depth is more than {} of the larger box, which is beyond the round-off of the poses.", count, decided));
+      "{} pairs of boxes of each class, of scales from 1e-3 to 1e3 m and sizes up to 1e4 apart. An overlap is wrong or "
+      "missed "
+      "where sat's distance or depth is more than {} of the larger box, which is beyond the round-off of the poses.",
+      count, decided));
   analysis.tables.push_back({"agreement", table});
   analysis.files.push_back({"comparison.csv", csv});
   analysis.timed.files.push_back({"costs.csv", costs});
@@ -127,8 +144,10 @@ void measure_course_report(std::size_t count, std::uint64_t seed, Analysis& anal
   constexpr int angles = 46;  // 0 to 90 degrees in steps of 2
   const auto judge = find_narrow_phase("sat")->make(), course = find_narrow_phase("sat_course_report")->make();
   const Box cube(Vector3<double>::Constant(0.5));
-  std::string csv = csv_row({"angle_deg", "pairs_apart", "called_overlapping", "share_of_pairs_apart", "share_of_overlaps_reported"});
-  report::PlottedCurve of_apart{.label = "of the pairs that are apart"}, of_reported{.label = "of the overlaps that it reports", .variant = 1};
+  std::string csv =
+      csv_row({"angle_deg", "pairs_apart", "called_overlapping", "share_of_pairs_apart", "share_of_overlaps_reported"});
+  report::PlottedCurve of_apart{.label = "of the pairs that are apart"},
+      of_reported{.label = "of the overlaps that it reports", .variant = 1};
   double worst = 0, worst_angle = 0;
   for (int k = 0; k < angles; ++k) {
     const double angle_deg = 90.0 * k / (angles - 1), angle = angle_deg * std::numbers::pi / 180;
@@ -137,13 +156,15 @@ void measure_course_report(std::size_t count, std::uint64_t seed, Analysis& anal
     for (std::size_t i = 0; i < count; ++i) {
       // Centres in the ball within which the spheres around the cubes touch.
       const Vector3<double> centre = dice.direction() * (std::sqrt(3.0) * std::cbrt(dice.uniform(0, 1)));
-      const Pose at_a, at_b{centre, rotation_matrix<double>(quaternion_from_rotation_vector<double>(dice.direction() * angle))};
+      const Pose at_a,
+          at_b{centre, rotation_matrix<double>(quaternion_from_rotation_vector<double>(dice.direction() * angle))};
       const bool overlap = judge->overlap(cube, at_a, cube, at_b), said = course->overlap(cube, at_a, cube, at_b);
       apart += !overlap;
       wrong += said && !overlap;
       reported += said;
     }
-    const double share = apart > 0 ? double(wrong) / double(apart) : 0, in_reports = reported > 0 ? double(wrong) / double(reported) : 0;
+    const double share = apart > 0 ? double(wrong) / double(apart) : 0,
+                 in_reports = reported > 0 ? double(wrong) / double(reported) : 0;
     csv += csv_row({exact(angle_deg), std::to_string(apart), std::to_string(wrong), exact(share), exact(in_reports)});
     of_apart.points.push_back({angle_deg, 100 * share, 100 * share});
     of_reported.points.push_back({angle_deg, 100 * in_reports, 100 * in_reports});
@@ -152,19 +173,22 @@ void measure_course_report(std::size_t count, std::uint64_t seed, Analysis& anal
       worst_angle = angle_deg;
     }
   }
-  analysis.sentences.push_back(fmt::format("sat_course_report calls up to {} % of the pairs of cubes that are apart, and whose "
-                                           "surrounding spheres meet, overlapping: at a turn of {} degrees about a random axis.",
-                                           number(100 * worst, 2), number(worst_angle, 3)));
+  analysis.sentences.push_back(
+      fmt::format("sat_course_report calls up to {} % of the pairs of cubes that are apart, and whose "
+                  "surrounding spheres meet, overlapping: at a turn of {} degrees about a random axis.",
+                  number(100 * worst, 2), number(worst_angle, 3)));
   analysis.files.push_back({"course_report.csv", csv});
   report::Panel panel{.x = report::linear_axis("turn of one cube (degrees)", 0, 90),
                       .y = report::linear_axis("overlaps reported that are none (%)", 0, 1.1 * 100 * worst),
                       .x_column = "angle_deg",
                       .y_column = "share_percent",
                       .curves = {of_apart, of_reported}};
-  report::Figure figure{.name = "course_report_errors",
-                        .title = "How often the course report's test errs",
-                        .caption = fmt::format("{} pairs of equal cubes at each angle, one turned about a random axis, its centre "
-                                               "anywhere in the ball in which the spheres around the cubes meet.", count)};
+  report::Figure figure{
+      .name = "course_report_errors",
+      .title = "How often the course report's test errs",
+      .caption = fmt::format("{} pairs of equal cubes at each angle, one turned about a random axis, its centre "
+                             "anywhere in the ball in which the spheres around the cubes meet.",
+                             count)};
   figure.panels = {panel};
   figure.methods = {"sat_course_report"};
   figure.used_methods = {0};

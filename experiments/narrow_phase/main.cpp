@@ -7,13 +7,13 @@
 #include "experiments/narrow_phase/comparison.hpp"
 #include "experiments/narrow_phase/options.hpp"
 #include "experiments/narrow_phase/pairs.hpp"
+#include "experiments/study/plan/listing.hpp"
+#include "experiments/study/record/study_view.hpp"
+#include "experiments/study/report/tables/summary.hpp"
 #include "experiments/study/text/command_line.hpp"
 #include "experiments/study/text/input_error.hpp"
-#include "experiments/study/plan/listing.hpp"
 #include "experiments/study/text/program.hpp"
-#include "experiments/study/record/study_view.hpp"
 #include "experiments/study/text/suggestion.hpp"
-#include "experiments/study/report/tables/summary.hpp"
 #include "experiments/study/text/text_file.hpp"
 
 namespace polhode::study {
@@ -60,7 +60,8 @@ void compare(const NarrowPhaseOptions& options, const std::string& question, con
 }
 
 int run_narrow_phase(int argc, char** argv) {
-  const std::string question = "Do the narrow phases agree, what do they cost, and how often does the course report's test err?";
+  const std::string question =
+      "Do the narrow phases agree, what do they cost, and how often does the course report's test err?";
   const auto options = parse_narrow_phase_options(question, argc, argv);
   if (options.exit_status) return *options.exit_status;
   if (options.list) {

@@ -11,13 +11,16 @@ NarrowPhaseOptions parse_narrow_phase_options(const std::string& question, int a
   NarrowPhaseOptions options;
   CLI::App app{question, "narrow_phase"};
   app.get_formatter()->column_width(40);
-  app.add_option("--pairs", options.pairs, "answer the pairs of boxes of this file: id, class, then of A and of B half "
-                                           "extents (3), position (3) and quaternion w x y z")
+  app.add_option("--pairs", options.pairs,
+                 "answer the pairs of boxes of this file: id, class, then of A and of B half "
+                 "extents (3), position (3) and quaternion w x y z")
       ->type_name("FILE");
-  app.add_option("--narrow-phase", options.narrow_phase, "see --list narrow-phases (default: sat with --pairs, else all)")
+  app.add_option("--narrow-phase", options.narrow_phase,
+                 "see --list narrow-phases (default: sat with --pairs, else all)")
       ->type_name("NAME");
-  app.add_option("--out", options.out, "with --pairs the file of results (default: standard output); else the folder "
-                                       "(default: results/narrow_phase)")
+  app.add_option("--out", options.out,
+                 "with --pairs the file of results (default: standard output); else the folder "
+                 "(default: results/narrow_phase)")
       ->type_name("PATH");
   app.add_option("--count", options.count, "pairs of each class in the comparison (default: 2000)")
       ->type_name("N")
@@ -25,9 +28,10 @@ NarrowPhaseOptions parse_narrow_phase_options(const std::string& question, int a
   app.add_option("--seed", options.seed, "of the random pairs (default: 1)")->type_name("N");
   add_no_figures(app, options.figures);
   std::string list;
-  CLI::Option* list_option = app.add_option("--list", list, "print the catalogue, for example narrow-phases (default: all)")
-                                 ->type_name("[WHAT]")
-                                 ->expected(0, 1);
+  CLI::Option* list_option =
+      app.add_option("--list", list, "print the catalogue, for example narrow-phases (default: all)")
+          ->type_name("[WHAT]")
+          ->expected(0, 1);
   options.exit_status = parse_command_line(app, argc, argv);
   if (options.exit_status) return options;
   if (*list_option) options.list = list;

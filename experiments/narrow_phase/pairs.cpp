@@ -25,16 +25,20 @@ struct Columns {
 Columns columns_of(const CsvReader& file, const std::string& path) {
   Columns columns;
   const auto& names = file.names();
-  const auto name = [](std::size_t k) { return (k < numbers_of_a_box ? "a" : "b") + std::string(of_a_box[k % numbers_of_a_box]); };
+  const auto name = [](std::size_t k) {
+    return (k < numbers_of_a_box ? "a" : "b") + std::string(of_a_box[k % numbers_of_a_box]);
+  };
   bool named = false;
-  for (std::size_t k = 0; k < columns.numbers.size(); ++k) named |= std::find(names.begin(), names.end(), name(k)) != names.end();
+  for (std::size_t k = 0; k < columns.numbers.size(); ++k)
+    named |= std::find(names.begin(), names.end(), name(k)) != names.end();
   if (named) {
     columns.id = file.column("id");
     for (std::size_t k = 0; k < columns.numbers.size(); ++k) columns.numbers[k] = file.column(name(k));
     return columns;
   }
   if (names.size() < 2 + columns.numbers.size()) {
-    throw InputError(path + ": " + std::to_string(names.size()) + " columns, not 22: id, class, then of A ahx, ahy, ahz, apx, " +
+    throw InputError(path + ": " + std::to_string(names.size()) +
+                     " columns, not 22: id, class, then of A ahx, ahy, ahz, apx, " +
                      "apy, apz, aqw, aqx, aqy, aqz, and likewise of B");
   }
   for (std::size_t k = 0; k < columns.numbers.size(); ++k) columns.numbers[k] = 2 + k;
@@ -48,11 +52,13 @@ PosedBox read_box(const CsvReader& file, const std::size_t* columns) {
     if (!std::isfinite(x[k])) file.fail(columns[k], "an infinite number; give a finite one");
   }
   for (std::size_t k = 0; k < 3; ++k) {
-    if (!(x[k] > 0)) file.fail(columns[k], "a half extent that is not positive; give half of the edge length, more than 0");
+    if (!(x[k] > 0))
+      file.fail(columns[k], "a half extent that is not positive; give half of the edge length, more than 0");
   }
   const Quaternion<double> q(x[6], x[7], x[8], x[9]);
   const double length = q.stableNorm();
-  if (!(length > 0)) file.fail(columns[6], "a quaternion of length 0, which is no orientation; give w x y z, 1 0 0 0 for none");
+  if (!(length > 0))
+    file.fail(columns[6], "a quaternion of length 0, which is no orientation; give w x y z, 1 0 0 0 for none");
   return {{x[0], x[1], x[2]}, {{x[3], x[4], x[5]}, rotation_matrix<double>(q / length)}};
 }
 

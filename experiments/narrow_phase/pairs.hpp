@@ -15,13 +15,13 @@ struct BoxPair {
   PosedBox a, b;
 };
 
-/// Columns id, class, then of A and of B half extents (3, m), position (3, m) and quaternion w x y z, which is normalised:
-/// ahx … aqz, bhx … bqz by name, or in this order where the header has none of these names. Further columns are ignored.
-/// Throws InputError.
+/// Columns id, class, then of A and of B half extents (3, m), position (3, m) and quaternion w x y z, which is
+/// normalised: ahx … aqz, bhx … bqz by name, or in this order where the header has none of these names. Further columns
+/// are ignored. Throws InputError.
 std::vector<BoxPair> read_pairs(const std::string& path);
 
-/// results.csv: id, overlap (0 or 1), sdist (m, negative: depth), nx, ny, nz (unit, in which B leaves A). Throws InputError,
-/// naming the pair, where the narrow phase has no answer.
+/// results.csv: id, overlap (0 or 1), sdist (m, negative: depth), nx, ny, nz (unit, in which B leaves A). Throws
+/// InputError, naming the pair, where the narrow phase has no answer.
 std::string answers(const std::vector<BoxPair>& pairs, const NarrowPhase& narrow_phase);
 
 }  // namespace polhode::study

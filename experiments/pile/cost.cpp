@@ -8,9 +8,9 @@
 #include <cmath>
 #include <map>
 
+#include "experiments/study/plot/plain_panel.hpp"
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
-#include "experiments/study/plot/plain_panel.hpp"
 
 namespace polhode::study {
 namespace {
@@ -47,9 +47,12 @@ class Piles {
     }
     for (const RunRecord& run : study.runs) {
       if (!run.config.contact) continue;
-      const bool whole = run.result.status == "ok" && run.result.energy_initial.value_or(0) != 0 && run.result.contact.energy_rise_max;
+      const bool whole =
+          run.result.status == "ok" && run.result.energy_initial.value_or(0) != 0 && run.result.contact.energy_rise_max;
       if (whole) curves_[key_of(run.config)].push_back({&run, run.scenario->problem.moving()});
-      else failed_.push_back(fmt::format("{} ({}): {}", run.config.scenario, label(key_of(run.config)), run.result.message));
+      else
+        failed_.push_back(
+            fmt::format("{} ({}): {}", run.config.scenario, label(key_of(run.config)), run.result.message));
     }
     for (auto& [key, piles] : curves_) {
       std::stable_sort(piles.begin(), piles.end(), [](const Pile& a, const Pile& b) { return a.bodies < b.bodies; });
@@ -61,8 +64,10 @@ class Piles {
     Analysis found{.alone = true, .heading = "Piles"};
     found.sentences = sentences();
     found.method = {
-        "The rise is that of kinetic and potential energy above an earlier value, over the energy at the start. Depths are looked "
-        "at at 100 instants and at the end; the deepest is mostly that of an impact, for which a step of h lets bodies come "
+        "The rise is that of kinetic and potential energy above an earlier value, over the energy at the start. Depths "
+        "are looked "
+        "at at 100 instants and at the end; the deepest is mostly that of an impact, for which a step of h lets bodies "
+        "come "
         "closer by up to v h. Wall times include this measuring."};
     if (curves_.empty()) return found;
     found.tables.push_back({"piles", table()});
@@ -91,11 +96,12 @@ class Piles {
     std::vector<std::string> all;
     for (const auto& [key, piles] : curves_) {
       for (const Pile& p : piles) {
-        all.push_back(fmt::format(
-            "{} bodies ({}): the energy never rises by more than {} % of what it was at the start; bodies are at most {} m deep in "
-            "each other, and {} m at the end.",
-            p.bodies, label(key), number(100 * p.rise()), number(p.found().penetration_max.value_or(0)),
-            number(p.found().penetration_end.value_or(0))));
+        all.push_back(
+            fmt::format("{} bodies ({}): the energy never rises by more than {} % of what it was at the start; bodies "
+                        "are at most {} m deep in "
+                        "each other, and {} m at the end.",
+                        p.bodies, label(key), number(100 * p.rise()), number(p.found().penetration_max.value_or(0)),
+                        number(p.found().penetration_end.value_or(0))));
       }
     }
     for (const std::string& failed : failed_) all.push_back("Not carried out: " + failed + ".");
@@ -119,8 +125,8 @@ class Piles {
       for (const Pile& p : piles) {
         const ContactMeasures& c = p.found();
         table.rows.push_back({p.run->config.scenario, label(key), std::to_string(p.bodies), number(100 * p.rise()),
-                              cell(c.impact_loss), cell(c.friction_loss), cell(c.penetration_energy), cell(c.penetration_max),
-                              cell(c.penetration_end)});
+                              cell(c.impact_loss), cell(c.friction_loss), cell(c.penetration_energy),
+                              cell(c.penetration_max), cell(c.penetration_end)});
       }
     }
     return table;
@@ -134,8 +140,8 @@ class Piles {
     return row;
   }
   static std::vector<std::string> header(std::vector<std::string> numbers) {
-    std::vector<std::string> row = {"run", "scenario", "integrator", "broad_phase", "narrow_phase", "response", "impact_timing",
-                                    "dt_s", "bodies"};
+    std::vector<std::string> row = {"run",      "scenario",      "integrator", "broad_phase", "narrow_phase",
+                                    "response", "impact_timing", "dt_s",       "bodies"};
     row.insert(row.end(), numbers.begin(), numbers.end());
     return row;
   }
@@ -144,7 +150,9 @@ class Piles {
     std::string text = csv_row(header({"energy_rise_max_rel", "penetration_max_m", "penetration_end_m"}));
     for (const auto& [key, piles] : curves_) {
       for (const Pile& p : piles) {
-        text += csv_row(with_key(p, key, {study::exact(p.rise()), csv_cell(p.found().penetration_max), csv_cell(p.found().penetration_end)}));
+        text += csv_row(with_key(
+            p, key,
+            {study::exact(p.rise()), csv_cell(p.found().penetration_max), csv_cell(p.found().penetration_end)}));
       }
     }
     return text;
@@ -165,7 +173,8 @@ class Piles {
     std::vector<std::string> all;
     for (const auto& [key, piles] : curves_) {
       for (const Pile& p : piles) {
-        all.push_back(fmt::format("{} bodies ({}): {} steps per second.", p.bodies, label(key), number(p.steps_per_second())));
+        all.push_back(
+            fmt::format("{} bodies ({}): {} steps per second.", p.bodies, label(key), number(p.steps_per_second())));
       }
     }
     return all;
@@ -185,13 +194,14 @@ class Piles {
   }
 
   Figure figure() const {
-    return plain_figure(
-        "piles", "Piles against the number of bodies",
-        "Each pile once for each way in which contact is found and answered.", labels_, {""},
-        {panel("How far the energy rises", {"energy_rise_max_rel", "energy rise / energy"}, [](const Pile& p) { return std::optional(p.rise()); }),
-         panel("How deep bodies are in each other at most", {"penetration_max_m", "depth (m)"},
-               [](const Pile& p) { return p.found().penetration_max; }),
-         panel("How deep they are at the end", {"penetration_end_m", "depth (m)"}, [](const Pile& p) { return p.found().penetration_end; })});
+    return plain_figure("piles", "Piles against the number of bodies",
+                        "Each pile once for each way in which contact is found and answered.", labels_, {""},
+                        {panel("How far the energy rises", {"energy_rise_max_rel", "energy rise / energy"},
+                               [](const Pile& p) { return std::optional(p.rise()); }),
+                         panel("How deep bodies are in each other at most", {"penetration_max_m", "depth (m)"},
+                               [](const Pile& p) { return p.found().penetration_max; }),
+                         panel("How deep they are at the end", {"penetration_end_m", "depth (m)"},
+                               [](const Pile& p) { return p.found().penetration_end; })});
   }
 
   Figure timed_figure() const {

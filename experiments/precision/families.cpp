@@ -176,7 +176,7 @@ std::optional<Split> split(const Family& family, const Quantity& quantity) {
       truncated.push_back({rung.step, *error, motion_in_double});
     }
     if (exact && std::isfinite(*error) && *error > dominates * *exact) rounded.emplace_back(rung.step, *error);
-    const bool now = exact && *exact < lost && *error > 2 * *exact;  // as much rounding again as there is truncation
+    const bool now = exact && *exact<lost&& * error> 2 * *exact;  // as much rounding again as there is truncation
     if (now && !rounding_so_far) found.takes_over = rung.step;
     if (!now) found.takes_over.reset();
     rounding_so_far = now;
@@ -198,7 +198,7 @@ bool is_rounding(const Rung::Run& run) {
 bool is_rounding_in_attitude(const Rung::Run& run) {
   if (!is_rounding(run)) return false;
   const auto error = run.run->result.attitude_error_max, exact = run.exact->result.attitude_error_max;
-  return error && exact && *error < motion_lost && *error > clearly_dominates * *exact;
+  return error && exact && *error<motion_lost&& * error> clearly_dominates * *exact;
 }
 
 }  // namespace polhode::study::precision

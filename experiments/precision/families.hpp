@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/study/statistics/order_estimate.hpp"
 #include "experiments/study/curves/curves.hpp"
+#include "experiments/study/statistics/order_estimate.hpp"
 
 namespace polhode::study::precision {
 

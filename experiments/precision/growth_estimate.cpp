@@ -70,14 +70,10 @@ std::optional<GrowthEstimate> estimate_growth(const std::vector<double>& path_ex
 
 std::string text(Growth growth) {
   switch (growth) {
-    case Growth::bounded:
-      return "bounded";
-    case Growth::random_walk:
-      return "random walk";
-    case Growth::linear:
-      return "linear";
-    default:
-      return "not told";
+    case Growth::bounded: return "bounded";
+    case Growth::random_walk: return "random walk";
+    case Growth::linear: return "linear";
+    default: return "not told";
   }
 }
 

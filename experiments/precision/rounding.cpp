@@ -9,9 +9,9 @@
 #include <set>
 
 #include "experiments/precision/families.hpp"
+#include "experiments/precision/growth_estimate.hpp"
 #include "experiments/precision/rounding_figures.hpp"
 #include "experiments/study/text/csv.hpp"
-#include "experiments/precision/growth_estimate.hpp"
 #include "experiments/study/text/notation.hpp"
 
 namespace polhode::study {

@@ -10,19 +10,19 @@
 #include "experiments/replay/page.hpp"
 #include "experiments/replay/recorder.hpp"
 #include "experiments/replay/study_reader.hpp"
-#include "experiments/study/text/build_info.hpp"
-#include "experiments/study/text/input_error.hpp"
 #include "experiments/study/plan/listing.hpp"
 #include "experiments/study/plan/plan.hpp"
-#include "experiments/study/text/program.hpp"
 #include "experiments/study/report/page/replay_link.hpp"
+#include "experiments/study/text/build_info.hpp"
+#include "experiments/study/text/input_error.hpp"
+#include "experiments/study/text/program.hpp"
 #include "experiments/study/text/text_file.hpp"
 
 namespace polhode::study {
 namespace {
 
 constexpr std::size_t most_runs = 16;
-constexpr double most_turn = 1;           ///< rad between two instants, beyond which the way between them is a guess
+constexpr double most_turn = 1;             ///< rad between two instants, beyond which the way between them is a guess
 constexpr double share_of_impacts = 0.125;  ///< of the room for motion
 
 struct Motion {
@@ -33,14 +33,19 @@ struct Motion {
 std::string made_by() { return fmt::format("polhode {}, commit {}", build_info().version, build_info().commit); }
 
 PageWords words_of(const Scenario& scenario) {
-  return {.scenario = scenario.name, .title = scenario.title, .description = scenario.description, .paragraphs = {}, .made_by = made_by()};
+  return {.scenario = scenario.name,
+          .title = scenario.title,
+          .description = scenario.description,
+          .paragraphs = {},
+          .made_by = made_by()};
 }
 
 Motion carried_out(const ReplayOptions& options) {
   const Plan plan = make_plan(replay_experiment(), options.study);
   if (plan.scenarios.size() > 1) throw InputError("--scenario: a page shows one scenario; name one");
   if (plan.runs.size() > most_runs) {
-    throw InputError(fmt::format("a page shows at most {} runs, and these are {}; make the axes shorter", most_runs, plan.runs.size()));
+    throw InputError(fmt::format("a page shows at most {} runs, and these are {}; make the axes shorter", most_runs,
+                                 plan.runs.size()));
   }
   Motion motion{words_of(plan.scenarios.front()), {}};
   motion.words.paragraphs.push_back("Carried out for this page by: " + options.study.command);
@@ -108,7 +113,8 @@ void fit(Motion& motion, double limit, const ThreeJs& three) {
   }
   const std::size_t n = instants_that_fit(motion.recordings, room - impacts);
   if (n < 2) {
-    throw InputError(fmt::format("--limit: {:.3g} MB have no room for two instants of each run; give --limit {:.0f}", limit / 1e6,
+    throw InputError(fmt::format("--limit: {:.3g} MB have no room for two instants of each run; give --limit {:.0f}",
+                                 limit / 1e6,
                                  std::ceil((limit - room + impacts + 100 * size_of(motion.recordings, 1)) / 1e6)));
   }
   for (Recording& r : motion.recordings) keep_instants(r, n);
@@ -121,15 +127,18 @@ void say_of_each(Motion& motion, const std::function<std::string(const Recording
   const bool same = std::all_of(said.begin(), said.end(), [&](const std::string& s) { return s == said.front(); });
   for (std::size_t i = 0; i < (same ? 1 : said.size()); ++i) {
     if (said[i].empty()) continue;
-    say(motion, (said.size() == 1 ? "Here " : same ? "Of each run " : "Of " + label_of(motion.recordings[i]) + " ") + said[i]);
+    say(motion, (said.size() == 1 ? "Here "
+                 : same           ? "Of each run "
+                                  : "Of " + label_of(motion.recordings[i]) + " ") +
+                    said[i]);
   }
 }
 
 void say_what_is_left(Motion& motion, double limit) {
   say_of_each(motion, [&](const Recording& r) {
     if (std::int64_t(r.times.size()) == r.instants_seen) return std::string();
-    return fmt::format("{} of {} instants are kept, at most {:.3g} s apart: it is thinned to fit {:g} MB", r.times.size(), r.instants_seen,
-                       longest_spacing(r), limit / 1e6);
+    return fmt::format("{} of {} instants are kept, at most {:.3g} s apart: it is thinned to fit {:g} MB",
+                       r.times.size(), r.instants_seen, longest_spacing(r), limit / 1e6);
   });
   say_of_each(motion, [](const Recording& r) {
     if (std::int64_t(r.impacts.size()) == r.impacts_seen) return std::string();
@@ -138,23 +147,28 @@ void say_what_is_left(Motion& motion, double limit) {
   say_of_each(motion, [](const Recording& r) {
     const double turn = largest_turn(r);
     if (!(turn > most_turn)) return std::string();
-    return fmt::format("a body turns by up to {:.3g} rad between two instants that are kept: its way between them is a guess", turn);
+    return fmt::format(
+        "a body turns by up to {:.3g} rad between two instants that are kept: its way between them is a guess", turn);
   });
   const bool inferred = std::any_of(motion.recordings.begin(), motion.recordings.end(), [](const Recording& r) {
-    return std::any_of(r.scene.bodies.begin(), r.scene.bodies.end(), [](const SceneBody& b) { return b.from_inertia && !b.fixed; });
+    return std::any_of(r.scene.bodies.begin(), r.scene.bodies.end(),
+                       [](const SceneBody& b) { return b.from_inertia && !b.fixed; });
   });
   if (inferred) {
-    motion.words.paragraphs.emplace_back("A body for which the scenario names no shape is drawn as the box of the same mass and moments of inertia.");
+    motion.words.paragraphs.emplace_back(
+        "A body for which the scenario names no shape is drawn as the box of the same mass and moments of inertia.");
   }
   motion.words.paragraphs.emplace_back(
-      "Positions are kept to 6e-8 of their size and orientations to 5e-5 rad. Between two instants that are kept, positions go straight and "
+      "Positions are kept to 6e-8 of their size and orientations to 5e-5 rad. Between two instants that are kept, "
+      "positions go straight and "
       "orientations turn evenly. Drifts are those at the instants that are kept, relative, as runs.csv defines them.");
 }
 
 int replay(const ReplayOptions& options) {
   const ThreeJs three = read_three(options.three);
   if (std::filesystem::exists(options.out) && !options.force && !is_replay_page(options.out)) {
-    throw InputError("--out: " + options.out.string() + " is there already and is no replay page; name another file, or overwrite it with --force");
+    throw InputError("--out: " + options.out.string() +
+                     " is there already and is no replay page; name another file, or overwrite it with --force");
   }
   Motion motion = options.results.empty() ? carried_out(options) : kept(options);
   fit(motion, options.limit_bytes, three);
@@ -162,9 +176,12 @@ int replay(const ReplayOptions& options) {
   const std::string page = page_of(motion.words, motion.recordings, three);
   if (options.out.has_parent_path()) std::filesystem::create_directories(options.out.parent_path());
   write_text(options.out, page);
-  if (!options.results.empty() && options.out == options.results / report::replay_page) report::update_replay_line(options.results);
-  fmt::print("{}: {}, {:.2f} MB\n{}\n", motion.words.title, motion.recordings.size() == 1 ? "one view" : fmt::format("{} views side by side", motion.recordings.size()),
-             double(page.size()) / 1e6, options.out.string());
+  if (!options.results.empty() && options.out == options.results / report::replay_page)
+    report::update_replay_line(options.results);
+  fmt::print(
+      "{}: {}, {:.2f} MB\n{}\n", motion.words.title,
+      motion.recordings.size() == 1 ? "one view" : fmt::format("{} views side by side", motion.recordings.size()),
+      double(page.size()) / 1e6, options.out.string());
   return 0;
 }
 

@@ -9,10 +9,10 @@
 namespace polhode::study {
 
 struct ReplayOptions {
-  Options study;                   ///< what to run, where no results are named
-  std::filesystem::path results;   ///< a study's folder; empty: carry the runs out
-  std::vector<std::string> runs;   ///< ids; empty: all
-  std::string scenario;            ///< as given; empty: it was not
+  Options study;                  ///< what to run, where no results are named
+  std::filesystem::path results;  ///< a study's folder; empty: carry the runs out
+  std::vector<std::string> runs;  ///< ids; empty: all
+  std::string scenario;           ///< as given; empty: it was not
   std::filesystem::path out;
   bool force = false;
   double limit_bytes = 0;

@@ -37,7 +37,8 @@ std::string filled(std::string_view text, const std::map<std::string, std::strin
 
 /// A script as it may stand in a page: nothing in it ends its element.
 std::string inlined(std::string text) {
-  for (auto at = text.find("</script"); at != std::string::npos; at = text.find("</script", at)) text.insert(at + 1, "\\");
+  for (auto at = text.find("</script"); at != std::string::npos; at = text.find("</script", at))
+    text.insert(at + 1, "\\");
   return text;
 }
 
@@ -50,11 +51,13 @@ ThreeJs read_three(const std::filesystem::path& folder) {
   const auto controls = script("examples/js/controls/OrbitControls.js");
   if (!library || !controls) {
     throw InputError((folder / (library ? "examples/js/controls/OrbitControls.js" : "three.min.js")).string() +
-                     " is not there: `./run replay` installs three.js (Debian's libjs-three), or name a folder that has it with --three");
+                     " is not there: `./run replay` installs three.js (Debian's libjs-three), or name a folder that "
+                     "has it with --three");
   }
   // What the page calls comes and goes from one revision to the next.
   if (library->find("REVISION=\"111\"") == std::string::npos) {
-    throw InputError((folder / "three.min.js").string() + " is not revision 111 of three.js, for which the page is written: `./run replay` "
+    throw InputError((folder / "three.min.js").string() +
+                     " is not revision 111 of three.js, for which the page is written: `./run replay` "
                      "installs that, or name a folder that has it with --three");
   }
   return {inlined(*library), inlined(*controls)};

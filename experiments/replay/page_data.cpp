@@ -93,8 +93,8 @@ Json scene_json(const Scene& scene) {
 std::string impacts_packed(const Recording& r) {
   std::vector<float> numbers;
   for (const Impact& i : r.impacts) {
-    for (const double x : {i.t, double(i.a), double(i.b), i.point[0], i.point[1], i.point[2], i.normal[0], i.normal[1], i.normal[2],
-                           i.impulse.norm()}) {
+    for (const double x : {i.t, double(i.a), double(i.b), i.point[0], i.point[1], i.point[2], i.normal[0], i.normal[1],
+                           i.normal[2], i.impulse.norm()}) {
       numbers.push_back(float(x));
     }
   }
@@ -108,7 +108,8 @@ std::string detail_of(const Recording& r, const std::vector<Recording>& all) {
     const std::string &name = r.facts[k].first, &cell = r.facts[k].second;
     if (name == "integrator" || name == "dt_s" || name == "tolerance" || cell.empty()) continue;
     const auto other = [&](const Recording& o) { return k < o.facts.size() && o.facts[k].second != cell; };
-    if (std::any_of(all.begin(), all.end(), other)) detail += (detail.empty() ? "" : ", ") + name + " " + report::rounded(cell);
+    if (std::any_of(all.begin(), all.end(), other))
+      detail += (detail.empty() ? "" : ", ") + name + " " + report::rounded(cell);
   }
   return detail;
 }
@@ -130,7 +131,9 @@ Json run_json(const Recording& r, const std::vector<Recording>& all) {
   }
   facts.push_back({"status", r.status + (r.message.empty() ? "" : ": " + r.message)});
   if (!r.energy_drift_max.empty()) facts.push_back({"energy_drift_max_rel", r.energy_drift_max});
-  const char* const momentum = r.momentum == ShownMomentum::angular ? "angular" : r.momentum == ShownMomentum::linear ? "linear" : "";
+  const char* const momentum = r.momentum == ShownMomentum::angular  ? "angular"
+                               : r.momentum == ShownMomentum::linear ? "linear"
+                                                                     : "";
   return {{"id", r.id},
           {"label", label_of(r)},
           {"detail", detail_of(r, all)},
@@ -169,9 +172,14 @@ std::string page_data(const PageWords& words, const std::vector<Recording>& reco
     runs.back()["scene"] = known - scenes.begin();
     if (known == scenes.end()) scenes.push_back(std::move(scene));
   }
-  const Json data = {{"scenario", words.scenario},     {"title", words.title},     {"description", words.description},
-                     {"paragraphs", words.paragraphs}, {"madeBy", words.made_by}, {"colours", colours},
-                     {"scenes", scenes},               {"runs", runs}};
+  const Json data = {{"scenario", words.scenario},
+                     {"title", words.title},
+                     {"description", words.description},
+                     {"paragraphs", words.paragraphs},
+                     {"madeBy", words.made_by},
+                     {"colours", colours},
+                     {"scenes", scenes},
+                     {"runs", runs}};
   std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace), safe;
   for (const char c : text) {
     if (c == '<') safe += "\\u003c";

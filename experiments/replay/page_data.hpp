@@ -20,8 +20,8 @@ struct PageWords {
 double bytes_of_instant(const Recording& recording);
 inline constexpr double bytes_of_impact = 4.0 / 3 * 10 * 4;
 
-/// Positions are single precision; a component of an orientation is one of 32767 steps, and of an angular velocity one of
-/// 32767 of the largest of its run. Nothing in it ends a script element.
+/// Positions are single precision; a component of an orientation is one of 32767 steps, and of an angular velocity one
+/// of 32767 of the largest of its run. Nothing in it ends a script element.
 std::string page_data(const PageWords& words, const std::vector<Recording>& recordings);
 
 }  // namespace polhode::study

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "experiments/study/text/csv.hpp"
 #include "experiments/study/metrics/references.hpp"
 #include "experiments/study/run/run.hpp"
+#include "experiments/study/text/csv.hpp"
 
 namespace polhode::study {
 namespace {

@@ -7,8 +7,8 @@
 
 namespace polhode::study {
 
-/// The run with at most `most` instants of its motion and as many impacts: where there are more, every second one is left
-/// out, and so on. The scenario is the run's own.
+/// The run with at most `most` instants of its motion and as many impacts: where there are more, every second one is
+/// left out, and so on. The scenario is the run's own.
 Recording record(const PlannedRun& run, std::size_t most);
 
 }  // namespace polhode::study

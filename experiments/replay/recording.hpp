@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/run/contact_model.hpp"
-#include "experiments/study/metrics/drift_meter.hpp"
 #include "experiments/scene/scene.hpp"
+#include "experiments/study/metrics/drift_meter.hpp"
 
 namespace polhode::study {
 
@@ -28,14 +28,14 @@ struct Recording {
   std::string status = "ok", message;
   Scene scene;
   ShownMomentum momentum = ShownMomentum::none;
-  std::string energy_drift_max;                            ///< of the whole run, as runs.csv has it
+  std::string energy_drift_max;  ///< of the whole run, as runs.csv has it
 
   std::size_t moving = 0;
-  std::vector<double> times;            ///< s
-  std::vector<Placement> placements;    ///< of each instant `moving` of them
-  std::vector<double> energy_drift;     ///< of each instant: relative, signed
-  std::vector<double> momentum_drift;   ///< relative; zeros where none is shown
-  std::vector<Impact> impacts;          ///< sorted by time
+  std::vector<double> times;                         ///< s
+  std::vector<Placement> placements;                 ///< of each instant `moving` of them
+  std::vector<double> energy_drift;                  ///< of each instant: relative, signed
+  std::vector<double> momentum_drift;                ///< relative; zeros where none is shown
+  std::vector<Impact> impacts;                       ///< sorted by time
   std::int64_t instants_seen = 0, impacts_seen = 0;  ///< before anything was left out
 };
 

@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "experiments/study/text/value_lists.hpp"
+#include "experiments/study/metrics/references.hpp"
+#include "experiments/study/plan/plan.hpp"
+#include "experiments/study/scenario/scenario_keys.hpp"
 #include "experiments/study/text/csv_reader.hpp"
 #include "experiments/study/text/input_error.hpp"
-#include "experiments/study/plan/plan.hpp"
-#include "experiments/study/metrics/references.hpp"
-#include "experiments/study/scenario/scenario_keys.hpp"
 #include "experiments/study/text/text_file.hpp"
+#include "experiments/study/text/value_lists.hpp"
 #include "experiments/study/trajectory/trajectory_reader.hpp"
 
 namespace polhode::study {
@@ -40,7 +40,9 @@ const std::vector<std::string>& usual_columns() {
 }
 
 /// Whether a column of runs.csv holds a key of the scenario that the study varied.
-bool is_varied(const std::string& column) { return find_key(root_keys(), column.substr(0, column.find('.'))) != nullptr; }
+bool is_varied(const std::string& column) {
+  return find_key(root_keys(), column.substr(0, column.find('.'))) != nullptr;
+}
 
 /// The places of the columns that say what a run is, in whatever order they stand: the usual ones, then those varied.
 std::vector<std::size_t> columns_of_facts(const CsvReader& table) {
@@ -73,18 +75,24 @@ std::vector<Row> read_rows(const Path& folder) {
   return rows;
 }
 
-std::vector<Row> chosen(std::vector<Row> rows, const Path& folder, const std::vector<std::string>& ids, std::size_t most) {
+std::vector<Row> chosen(std::vector<Row> rows, const Path& folder, const std::vector<std::string>& ids,
+                        std::size_t most) {
   for (const std::string& id : ids) {
     if (std::none_of(rows.begin(), rows.end(), [&](const Row& r) { return r.id == id; })) {
-      throw InputError(fmt::format("--runs: {} has no run {}; the first column of runs.csv names them", folder.string(), id));
+      throw InputError(
+          fmt::format("--runs: {} has no run {}; the first column of runs.csv names them", folder.string(), id));
     }
   }
-  if (!ids.empty()) std::erase_if(rows, [&](const Row& r) { return std::find(ids.begin(), ids.end(), r.id) == ids.end(); });
-  const bool only_hdf5 = std::any_of(rows.begin(), rows.end(), [](const Row& r) { return exists(r.motion / "trajectory.h5"); });
+  if (!ids.empty())
+    std::erase_if(rows, [&](const Row& r) { return std::find(ids.begin(), ids.end(), r.id) == ids.end(); });
+  const bool only_hdf5 =
+      std::any_of(rows.begin(), rows.end(), [](const Row& r) { return exists(r.motion / "trajectory.h5"); });
   std::erase_if(rows, [](const Row& r) { return !exists(r.motion / "trajectory.csv"); });
   if (rows.empty()) {
-    throw InputError(folder.string() + (only_hdf5 ? " keeps its motion as HDF5 only, which replay does not read" : " keeps no trajectory") +
-                     "; make it again with --trajectory csv");
+    throw InputError(
+        folder.string() +
+        (only_hdf5 ? " keeps its motion as HDF5 only, which replay does not read" : " keeps no trajectory") +
+        "; make it again with --trajectory csv");
   }
   const auto other = [&](const Row& r) { return r.fact("scenario") != rows.front().fact("scenario"); };
   if (std::any_of(rows.begin(), rows.end(), other)) {
@@ -99,13 +107,15 @@ std::vector<Row> chosen(std::vector<Row> rows, const Path& folder, const std::ve
 
 Json read_manifest(const Path& folder) {
   const Path path = folder / "manifest.json";
-  if (!std::filesystem::exists(path)) throw InputError(path.string() + ": no such file; it says which scenario the study is of");
+  if (!std::filesystem::exists(path))
+    throw InputError(path.string() + ": no such file; it says which scenario the study is of");
   try {
     Json manifest = Json::parse(read_text(path.string()));
     if (!manifest.is_object()) throw InputError(path.string() + ": is no manifest of a study; make the study again");
     for (const char* name : {"/command", "/axes/scenario", "/polhode/version", "/polhode/commit"}) {
       const Json::json_pointer at(name);
-      if (manifest.contains(at) && !manifest[at].is_string()) throw InputError(path.string() + ": " + name + " is no text; make the study again");
+      if (manifest.contains(at) && !manifest[at].is_string())
+        throw InputError(path.string() + ": " + name + " is no text; make the study again");
     }
     return manifest;
   } catch (const Json::exception&) {
@@ -137,7 +147,9 @@ void check_same(const Json& manifest, const Scenario& scenario, const std::strin
   if (kept == manifest.end() || !kept->contains(name)) return;
   const Json& resolved = (*kept)[name].contains("resolved") ? (*kept)[name]["resolved"] : Json(scenario.canonical);
   if (resolved == scenario.canonical) return;
-  throw InputError("the scenario " + name + " has changed since the study was made; name the one it was with --scenario, or make the study again");
+  throw InputError(
+      "the scenario " + name +
+      " has changed since the study was made; name the one it was with --scenario, or make the study again");
 }
 
 std::vector<Override> overrides_of(const Row& row) {
@@ -166,8 +178,8 @@ void read_energy(const Path& path, double scale, Recording& recording) {
 void read_impacts(const Path& path, std::size_t bodies, Recording& recording) {
   if (!std::filesystem::exists(path)) return;
   CsvReader table(path.string());
-  const std::size_t t = table.column("t_s"), kind = table.column("kind"), a = table.column("body_a"), b = table.column("body_b"),
-                    impulse = table.column("impulse_N_s");
+  const std::size_t t = table.column("t_s"), kind = table.column("kind"), a = table.column("body_a"),
+                    b = table.column("body_b"), impulse = table.column("impulse_N_s");
   const auto point = table.columns({"px_m", "py_m", "pz_m"}), normal = table.columns({"nx", "ny", "nz"});
   while (table.next()) {
     if (table.text(kind) != "impact") continue;
@@ -197,7 +209,9 @@ Vector3<double> momentum_of(const Trajectory& trajectory, std::size_t k, const P
     const Vector3<double> p = problem.bodies[i].mass * body.velocity;
     whole += p;
     if (linear) sum += p;
-    else sum += trajectory.moving == 1 ? body.angular_momentum : Vector3<double>(body.angular_momentum + body.position.cross(p));
+    else
+      sum += trajectory.moving == 1 ? body.angular_momentum
+                                    : Vector3<double>(body.angular_momentum + body.position.cross(p));
   }
   if (!linear && trajectory.moving > 1) sum -= mass_center.cross(whole);
   return sum;
@@ -236,7 +250,8 @@ Recording read_recording(const KeptRun& run, References& truth) {
   r.times = trajectory.times;
   r.instants_seen = std::int64_t(r.times.size());
   for (const TrajectoryBody& b : trajectory.bodies) {
-    r.placements.push_back({b.position, trajectory.has_matrix ? quaternion_from_rotation_matrix(b.rotation) : b.orientation,
+    r.placements.push_back({b.position,
+                            trajectory.has_matrix ? quaternion_from_rotation_matrix(b.rotation) : b.orientation,
                             b.angular_velocity});
   }
   read_energy(row.motion / "energy.csv", scales.energy, r);
@@ -245,14 +260,16 @@ Recording read_recording(const KeptRun& run, References& truth) {
   const Vector3<double> first = momentum_of(trajectory, 0, scenario.problem, linear, scales.mass_center);
   for (std::size_t k = 0; k < r.times.size(); ++k) {
     const double change = (momentum_of(trajectory, k, scenario.problem, linear, scales.mass_center) - first).norm();
-    r.momentum_drift.push_back(r.momentum == ShownMomentum::none ? 0 : relative(change, linear ? scales.linear : scales.angular));
+    r.momentum_drift.push_back(
+        r.momentum == ShownMomentum::none ? 0 : relative(change, linear ? scales.linear : scales.angular));
   }
   return r;
 }
 
 }  // namespace
 
-KeptStudy read_study(const Path& folder, const std::vector<std::string>& ids, const std::string& scenario, std::size_t most_runs) {
+KeptStudy read_study(const Path& folder, const std::vector<std::string>& ids, const std::string& scenario,
+                     std::size_t most_runs) {
   if (!std::filesystem::is_directory(folder)) throw InputError("--results: " + folder.string() + " is not a folder");
   if (!std::filesystem::exists(folder / "runs.csv")) {
     throw InputError("--results: " + folder.string() + " holds no study: there is no runs.csv in it");
@@ -261,10 +278,12 @@ KeptStudy read_study(const Path& folder, const std::vector<std::string>& ids, co
   const Json manifest = read_manifest(folder);
   const std::string name = rows.front().fact("scenario");
   const ScenarioSource source = open_scenario(manifest, name, scenario);
-  KeptStudy study{.scenario = source.resolve(), .command = manifest.value("command", ""), .made_by = {}, .recordings = {}};
+  KeptStudy study{
+      .scenario = source.resolve(), .command = manifest.value("command", ""), .made_by = {}, .recordings = {}};
   check_same(manifest, study.scenario, name);
-  study.made_by = fmt::format("polhode {}, commit {}", manifest.value(Json::json_pointer("/polhode/version"), "unknown"),
-                              manifest.value(Json::json_pointer("/polhode/commit"), "unknown"));
+  study.made_by =
+      fmt::format("polhode {}, commit {}", manifest.value(Json::json_pointer("/polhode/version"), "unknown"),
+                  manifest.value(Json::json_pointer("/polhode/commit"), "unknown"));
   References truth;  // what runs of the same motion share is computed once
   std::vector<KeptRun> runs;
   for (const Row& row : rows) {

@@ -17,9 +17,9 @@ struct KeptStudy {
   std::vector<Recording> recordings;  ///< in the order of runs.csv
 };
 
-/// Of the runs with a trajectory, all or those of the ids. `scenario` (a name or a file) stands for the one that the study
-/// names, where it is not empty. Throws InputError.
-KeptStudy read_study(const std::filesystem::path& folder, const std::vector<std::string>& ids, const std::string& scenario,
-                     std::size_t most_runs);
+/// Of the runs with a trajectory, all or those of the ids. `scenario` (a name or a file) stands for the one that the
+/// study names, where it is not empty. Throws InputError.
+KeptStudy read_study(const std::filesystem::path& folder, const std::vector<std::string>& ids,
+                     const std::string& scenario, std::size_t most_runs);
 
 }  // namespace polhode::study

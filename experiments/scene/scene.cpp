@@ -14,7 +14,7 @@ namespace polhode::study {
 namespace {
 
 constexpr double least_thickness = 0.04;  // of the longest edge of a box that stands for an inertia
-constexpr double post = 0.25;             // of the smallest moving body: the cube that marks a static one without a shape
+constexpr double post = 0.25;  // of the smallest moving body: the cube that marks a static one without a shape
 
 Pose start_of(const Body& body, const BodyStart& start) {
   const Matrix3<double> rotation = rotation_matrix(start.orientation);
@@ -26,7 +26,8 @@ Pose start_of(const Body& body, const BodyStart& start) {
 Surface inertia_box(const Body& body) {
   const Matrix3<double> central = inertia_about_center(body.inertia, body.mass, body.center_of_mass);
   const PrincipalAxes principal = principal_axes(central);
-  const Vector3<double> squares = 6 / body.mass * (Vector3<double>::Constant(principal.moments.sum()) - 2 * principal.moments);
+  const Vector3<double> squares =
+      6 / body.mass * (Vector3<double>::Constant(principal.moments.sum()) - 2 * principal.moments);
   Vector3<double> edges = squares.cwiseMax(0).cwiseSqrt();
   edges = edges.cwiseMax(least_thickness * edges.maxCoeff());
   Surface surface = surface_of(Box(edges / 2));
@@ -48,7 +49,8 @@ class SceneMaker {
   explicit SceneMaker(const Scenario& scenario) {
     scene_.title = scenario.title;
     const Problem& problem = scenario.problem;
-    for (std::size_t i = 0; i < problem.bodies.size(); ++i) add_body(problem.bodies[i], problem.starts[i], scenario.shapes[i]);
+    for (std::size_t i = 0; i < problem.bodies.size(); ++i)
+      add_body(problem.bodies[i], problem.starts[i], scenario.shapes[i]);
     for (const ForceParameters& force : problem.forces) {
       if (force.kind == "spring" || force.kind == "damper") add_spring(force);
     }
@@ -67,7 +69,8 @@ class SceneMaker {
     b.inertia = body.inertia;
     if (!shape) {
       b.from_inertia = true;
-      b.surface = add(body.fixed ? surface_of(Box(Vector3<double>::Constant(post / 2 * smallest()))) : inertia_box(body));
+      b.surface =
+          add(body.fixed ? surface_of(Box(Vector3<double>::Constant(post / 2 * smallest()))) : inertia_box(body));
     } else if (const auto* floor = dynamic_cast<const HalfSpace*>(shape.get())) {
       b.floor_normal = b.start.rotation * floor->normal();
       b.floor_offset = floor->offset() + b.floor_normal.dot(b.start.position);

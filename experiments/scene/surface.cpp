@@ -28,9 +28,9 @@ double cosine(int part, int parts) {
 }
 double sine(int part, int parts) { return cosine(part - parts / 4, parts); }
 
-/// Rings about axis 3, which is the axis of shapes that have one, and the axes and diagonals of a cube. Of a long shape the
-/// rings are drawn together across it, halfway (in ratios) between what spreads the points of an ellipsoid evenly and
-/// what spreads normals evenly.
+/// Rings about axis 3, which is the axis of shapes that have one, and the axes and diagonals of a cube. Of a long shape
+/// the rings are drawn together across it, halfway (in ratios) between what spreads the points of an ellipsoid evenly
+/// and what spreads normals evenly.
 std::vector<Vector3<double>> spread_directions(const Vector3<double>& sizes) {
   const Vector3<double> scale = sizes.cwiseSqrt();
   std::vector<Vector3<double>> all;
@@ -44,7 +44,8 @@ std::vector<Vector3<double>> spread_directions(const Vector3<double>& sizes) {
   for (int ring = 1; ring < rings; ++ring) {
     const double across = sine(ring, 2 * rings), along = cosine(ring, 2 * rings);
     for (int k = 0; k < meridians; ++k) {
-      all.push_back(Vector3<double>(across * cosine(k, meridians), across * sine(k, meridians), along).cwiseQuotient(scale));
+      all.push_back(
+          Vector3<double>(across * cosine(k, meridians), across * sine(k, meridians), along).cwiseQuotient(scale));
     }
   }
   return all;
@@ -77,10 +78,11 @@ class SmoothGroups {
     for (std::uint32_t i = 0; i < faces_.size(); ++i) group_.push_back(i);
     for (const std::uint32_t other : p.neighbours_of(vertex)) {
       const auto key = std::pair(std::min(vertex, other), std::max(vertex, other));
-      const auto edge = std::lower_bound(p.edges.begin(), p.edges.end(), key, [](const Polytope::Edge& e, const auto& k) {
-        return std::pair(e.from, e.to) < k;
-      });
-      if (p.faces[edge->left].normal.dot(p.faces[edge->right].normal) >= sharp) join(place(edge->left), place(edge->right));
+      const auto edge =
+          std::lower_bound(p.edges.begin(), p.edges.end(), key,
+                           [](const Polytope::Edge& e, const auto& k) { return std::pair(e.from, e.to) < k; });
+      if (p.faces[edge->left].normal.dot(p.faces[edge->right].normal) >= sharp)
+        join(place(edge->left), place(edge->right));
     }
     part_tips(p);
   }
@@ -161,7 +163,8 @@ void add_convex(const Shape& shape, Surface& surface) {
 }  // namespace
 
 Surface surface_of(const Shape& shape) {
-  if (!shape.finite()) throw std::invalid_argument("a " + std::string(shape.kind()) + " has no end, and so no surface of triangles");
+  if (!shape.finite())
+    throw std::invalid_argument("a " + std::string(shape.kind()) + " has no end, and so no surface of triangles");
   Surface surface;
   if (const auto* hull = dynamic_cast<const ConvexHull*>(&shape)) {
     add_polytope(hull->polytope(), surface);

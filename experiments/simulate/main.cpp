@@ -3,12 +3,10 @@
 #include "experiments/study/study.hpp"
 
 int main(int argc, char** argv) {
-  return polhode::study::run_experiment({.name = "simulate",
-                                         .question = "How does one scenario move?",
-                                         .defaults = {{"scenario", "peters_hsu"},
-                                                      {"integrator", "rk4"},
-                                                      {"dt", "1e-3"},
-                                                      {"tolerance", "1e-8"}},
-                                         .one_run = true},
-                                        argc, argv);
+  return polhode::study::run_experiment(
+      {.name = "simulate",
+       .question = "How does one scenario move?",
+       .defaults = {{"scenario", "peters_hsu"}, {"integrator", "rk4"}, {"dt", "1e-3"}, {"tolerance", "1e-8"}},
+       .one_run = true},
+      argc, argv);
 }

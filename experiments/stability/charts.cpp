@@ -25,11 +25,11 @@ constexpr std::size_t most_map_figures = 4;
 constexpr double row_height = 17;        // pixels
 constexpr double logarithmic_from = 30;  // largest over smallest value of the varied key
 
-/// In the order of Verdict: blue holds, yellow gains slowly, orange to brown grows, and all differ in lightness as well as
-/// in hue. Then the mark of the motion's limit.
+/// In the order of Verdict: blue holds, yellow gains slowly, orange to brown grows, and all differ in lightness as well
+/// as in hue. Then the mark of the motion's limit.
 std::vector<Shade> shades() {
-  return {{"stable", "3B8FC4"},         {"damped", "BFE0F2"}, {"gaining slowly", "FBEFA5"}, {"gaining", "F5A431"},
-          {"blown up", "7B2D12"},       {"motion followed up to here", "000000"}};
+  return {{"stable", "3B8FC4"},  {"damped", "BFE0F2"},   {"gaining slowly", "FBEFA5"},
+          {"gaining", "F5A431"}, {"blown up", "7B2D12"}, {"motion followed up to here", "000000"}};
 }
 constexpr std::size_t limit_shade = 5;
 constexpr double limit_width = 0.006;  // of a mark, as a part of the axis
@@ -73,10 +73,8 @@ std::vector<Band> bands(const StabilityFinding& f) {
   std::vector<Band> all;
   for (std::size_t i = 0; i < about.size(); ++i) {
     const Verdict v = verdicts[i];
-    if (!all.empty() && all.back().verdict == v)
-      all.back().step.high = about[i].high;
-    else
-      all.push_back({about[i], v});
+    if (!all.empty() && all.back().verdict == v) all.back().step.high = about[i].high;
+    else all.push_back({about[i], v});
   }
   return all;
 }
@@ -202,10 +200,12 @@ std::vector<Figure> stability_charts(const Grouping& grouping, const std::vector
     std::vector<std::size_t> methods(used.begin(), used.end());
     if (methods.size() > most_chart_rows) methods.resize(most_chart_rows);
     const std::string which = panels.size() > 1 ? fmt::format("_{}", figures.size() + 1) : "";
-    Figure figure{.name = "stability_chart" + which,
-                  .title = fmt::format("Stability on {}", grouping.cases[place.first].scenario),
-                  .caption = "What becomes of the energy against the step; blown up: or the method failed. Right of its mark a "
-                             "method no longer follows the motion, whatever the energy does."};
+    Figure figure{
+        .name = "stability_chart" + which,
+        .title = fmt::format("Stability on {}", grouping.cases[place.first].scenario),
+        .caption =
+            "What becomes of the energy against the step; blown up: or the method failed. Right of its mark a "
+            "method no longer follows the motion, whatever the energy does."};
     if (methods.size() < used.size()) {
       figure.caption += fmt::format(" {} methods are left out.", used.size() - methods.size());
     }
@@ -242,12 +242,13 @@ std::vector<Figure> stability_maps(const Grouping& grouping, const std::vector<S
     for (std::size_t first = 0; first < drawn.size() && first / maps_in_figure < most_map_figures;
          first += maps_in_figure) {
       const std::size_t last = std::min(drawn.size(), first + maps_in_figure);
-      Figure figure{.name = fmt::format("stability_map_{}", figures.size() + 1),
-                    .title = fmt::format("Stability of {} over {}", scenario, key),
-                    .caption = fmt::format("What becomes of the energy over {} (SI units) and the step, one panel for each "
-                                           "method; blown up: or the method failed. Above its mark a method no longer "
-                                           "follows the motion, whatever the energy does.",
-                                           key)};
+      Figure figure{
+          .name = fmt::format("stability_map_{}", figures.size() + 1),
+          .title = fmt::format("Stability of {} over {}", scenario, key),
+          .caption = fmt::format("What becomes of the energy over {} (SI units) and the step, one panel for each "
+                                 "method; blown up: or the method failed. Above its mark a method no longer "
+                                 "follows the motion, whatever the energy does.",
+                                 key)};
       if (drawn.size() > maps_in_figure) {
         figure.caption += fmt::format(" Methods {} to {} of {}.", first + 1, last, drawn.size());
       }

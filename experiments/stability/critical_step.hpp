@@ -10,19 +10,19 @@ namespace polhode::study {
 
 /// One run of a scan.
 struct TriedStep {
-  double dt = 0;      ///< s
+  double dt = 0;  ///< s
   bool holds = true;
 };
 
 struct CriticalStep {
   enum class Kind {
     found,
-    none,      ///< every step tried holds
-    from_start ///< not even the smallest one does
+    none,       ///< every step tried holds
+    from_start  ///< not even the smallest one does
   };
   Kind kind = Kind::none;
-  double holds = 0;   ///< s, the largest step below the critical one that was tried; it and all below it hold
-  double fails = 0;   ///< s, the smallest step that does not hold
+  double holds = 0;          ///< s, the largest step below the critical one that was tried; it and all below it hold
+  double fails = 0;          ///< s, the smallest step that does not hold
   bool holds_again = false;  ///< a larger step that was tried does
 };
 

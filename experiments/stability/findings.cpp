@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "experiments/study/statistics/order_estimate.hpp"
 #include "experiments/stability/step_map.hpp"
+#include "experiments/study/statistics/order_estimate.hpp"
 
 namespace polhode::study {
 namespace {

@@ -18,19 +18,19 @@ struct LinearTheory {
 
 /// How fast the energy changes where it does not grow and the motion is followed.
 struct EnergyGain {
-  double dt = 0;          ///< s, the largest such step, or the smallest step of all
-  double per_second = 0;  ///< over the energy scale, signed
+  double dt = 0;                                    ///< s, the largest such step, or the smallest step of all
+  double per_second = 0;                            ///< over the energy scale, signed
   double smallest_dt = 0, smallest_per_second = 0;  ///< the same of the smallest step at which it was seen
-  std::optional<double> exponent{};  ///< p of gain ∝ step^p, where the steps tell it to ±0.25
+  std::optional<double> exponent{};                 ///< p of gain ∝ step^p, where the steps tell it to ±0.25
 };
 
 struct StabilityFinding {
   Ladder ladder;
   std::optional<double> rate;  ///< rad/s
   CriticalStep growth, blow_up, motion;
-  Lost lost = Lost::nothing;         ///< at motion.fails
-  Verdict below = Verdict::none;     ///< of the steps below growth.fails at which the motion is followed; where there is
-                                     ///< none, of the smallest
+  Lost lost = Lost::nothing;      ///< at motion.fails
+  Verdict below = Verdict::none;  ///< of the steps below growth.fails at which the motion is followed; where there is
+                                  ///< none, of the smallest
   std::optional<EnergyGain> gain{};  ///< absent where `below` is neither damped nor a gain
   std::optional<LinearTheory> linear;
 };

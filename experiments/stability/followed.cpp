@@ -29,7 +29,8 @@ Lost what_is_lost(const RunRecord& run, double displacement) {
   const RunResult& r = run.result;
   if (r.status != "ok") return Lost::end;
   if (r.attitude_error_max.value_or(0) > followed::attitude) return Lost::attitude;
-  const double position_bound = std::max(followed::position * displacement, report::quantity::position_error().round_off);
+  const double position_bound =
+      std::max(followed::position * displacement, report::quantity::position_error().round_off);
   if (displacement > 0 && r.position_error_max.value_or(0) > position_bound) return Lost::position;
   const double momentum =
       std::max(r.linear_momentum_drift_max_rel.value_or(0), r.angular_momentum_drift_max_rel.value_or(0));

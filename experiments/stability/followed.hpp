@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is the motion of a run followed? An energy that stays bounded does not say so: a top may be turned by π and still have
-// the right energy.
+// Is the motion of a run followed? An energy that stays bounded does not say so: a top may be turned by π and still
+// have the right energy.
 #pragma once
 
 #include <string_view>
@@ -11,17 +11,17 @@ namespace polhode::study {
 
 /// The bounds of a motion that is followed: rough ones, within which the run still resembles the motion.
 namespace followed {
-inline constexpr double attitude = 1;    ///< rad, error against the exact motion or a reference
+inline constexpr double attitude = 1;     ///< rad, error against the exact motion or a reference
 inline constexpr double position = 0.25;  ///< error over the largest displacement of the exact path: half an amplitude
-inline constexpr double momentum = 0.1;  ///< relative drift of momenta and of the scenario's further invariants; of the energy too, where
-                                         ///< the motion is not known
-inline constexpr double defect = 0.1;    ///< of the orientation
+inline constexpr double momentum = 0.1;  ///< relative drift of momenta and of the scenario's further invariants; of the
+                                         ///< energy too, where the motion is not known
+inline constexpr double defect = 0.1;  ///< of the orientation
 }  // namespace followed
 
 /// What was lost: the first of these that is beyond its bound.
 enum class Lost {
   nothing,
-  end,          ///< the run diverged or failed
+  end,  ///< the run diverged or failed
   attitude,
   position,
   momentum,

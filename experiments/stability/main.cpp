@@ -2,8 +2,8 @@
 // Up to which step is each method stable on a motion and follows it, and what becomes of the energy beyond it?
 #include <fmt/format.h>
 
-#include "experiments/stability/step_ladder.hpp"
 #include "experiments/stability/stability.hpp"
+#include "experiments/stability/step_ladder.hpp"
 #include "experiments/study/study.hpp"
 
 namespace {
@@ -18,13 +18,14 @@ const polhode::study::FurtherAxes map_over_inertia = {
 
 std::string meaning() {
   using namespace polhode::study;
-  return fmt::format("Two limits, each the largest step below which it holds: the energy does not grow (a gain of less than "
-                     "{:g} % of its scale in a turn 2π/|ω| is slow and no growth, but where the system is linear), and the "
-                     "motion is followed for the duration asked for: attitude error below {:g} rad, position error below "
-                     "{:g} of the largest displacement, relative drift of momenta and further invariants below {:g}, "
-                     "orientation defect below {:g}. Errors are against the exact motion or, with --reference, against a "
-                     "reference.",
-                     100 * verdict::slow, followed::attitude, followed::position, followed::momentum, followed::defect);
+  return fmt::format(
+      "Two limits, each the largest step below which it holds: the energy does not grow (a gain of less than "
+      "{:g} % of its scale in a turn 2π/|ω| is slow and no growth, but where the system is linear), and the "
+      "motion is followed for the duration asked for: attitude error below {:g} rad, position error below "
+      "{:g} of the largest displacement, relative drift of momenta and further invariants below {:g}, "
+      "orientation defect below {:g}. Errors are against the exact motion or, with --reference, against a "
+      "reference.",
+      100 * verdict::slow, followed::attitude, followed::position, followed::momentum, followed::defect);
 }
 
 }  // namespace

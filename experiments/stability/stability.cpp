@@ -12,10 +12,10 @@
 
 #include "experiments/stability/charts.hpp"
 #include "experiments/stability/findings.hpp"
-#include "experiments/study/text/value_lists.hpp"
-#include "experiments/study/text/csv.hpp"
 #include "experiments/study/plan/plan.hpp"
+#include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
+#include "experiments/study/text/value_lists.hpp"
 #include "integrators/catalogue.hpp"
 
 namespace polhode::study {
@@ -74,19 +74,21 @@ class Stability {
                     "takes whole steps, and 500 at least. Where the energy is gained at the critical step but not at "
                     "the next larger one, a run {} times as long decides.",
                     number(100 * bracket_width), number(confirmed_by)),
-        fmt::format("Verdicts, from the signed energy drift in the four quarters of a run: blown up: diverged, failed, a "
-                    "relative drift or an orientation defect above {}; gaining or damped: the middle of the range moves "
-                    "the same way from quarter to quarter, by more than {} of the widest range, or that of the last "
-                    "quarter is more than {} of its ranges away from the start; gaining slowly: by less than {} % of "
-                    "the energy scale in a turn 2π/|ω|, which in a system that is not linear is an error of "
-                    "truncation, not an instability; stable: neither, or a change below {} (or 64 ε √steps, or what "
-                    "rounding may add up to).",
-                    number(verdict::lost), number(verdict::trend), number(verdict::settled),
-                    number(100 * verdict::slow), number(verdict::counted)),
+        fmt::format(
+            "Verdicts, from the signed energy drift in the four quarters of a run: blown up: diverged, failed, a "
+            "relative drift or an orientation defect above {}; gaining or damped: the middle of the range moves "
+            "the same way from quarter to quarter, by more than {} of the widest range, or that of the last "
+            "quarter is more than {} of its ranges away from the start; gaining slowly: by less than {} % of "
+            "the energy scale in a turn 2π/|ω|, which in a system that is not linear is an error of "
+            "truncation, not an instability; stable: neither, or a change below {} (or 64 ε √steps, or what "
+            "rounding may add up to).",
+            number(verdict::lost), number(verdict::trend), number(verdict::settled), number(100 * verdict::slow),
+            number(verdict::counted)),
         fmt::format("The motion is followed by a run as long as asked for in which the attitude error stays below {} "
                     "rad and the position error below {} of the largest displacement, both against the exact motion or "
                     "a reference, the relative drift of momenta and further invariants below {} (of the energy too, "
-                    "where the motion is not known), and the orientation defect below {}. The largest step at which it is followed is looked for from below, like the "
+                    "where the motion is not known), and the orientation defect below {}. The largest step at which it "
+                    "is followed is looked for from below, like the "
                     "critical step.",
                     number(followed::attitude), number(followed::position), number(followed::momentum),
                     number(followed::defect)),
@@ -97,7 +99,9 @@ class Stability {
   }
 
   std::string label(const StabilityFinding& f) const { return grouping_.label(*f.ladder.curve); }
-  const std::string& motion(const StabilityFinding& f) const { return f.ladder.steps.front().longest().config.scenario; }
+  const std::string& motion(const StabilityFinding& f) const {
+    return f.ladder.steps.front().longest().config.scenario;
+  }
 
   /// A step as h|ω| where there is a rate, in s otherwise.
   static std::string in_units(const StabilityFinding& f, double dt, int digits = 4) {
@@ -112,12 +116,9 @@ class Stability {
     const auto& steps = f.ladder.steps;
     const auto as = [&](double dt) { return seconds ? four(dt) : in_units(f, dt); };
     switch (c.kind) {
-      case Kind::found:
-        return as(c.fails);
-      case Kind::none:
-        return fmt::format("none to {}", as(steps.back().dt));
-      default:
-        return c.holds_again ? fmt::format("below {}", as(c.fails)) : "every step";
+      case Kind::found: return as(c.fails);
+      case Kind::none: return fmt::format("none to {}", as(steps.back().dt));
+      default: return c.holds_again ? fmt::format("below {}", as(c.fails)) : "every step";
     }
   }
 
@@ -180,8 +181,7 @@ class Stability {
                             f.rate ? step_text(f, f.growth, true) : "", step_text(f, f.blow_up, false),
                             std::string(name(f.below)), gain_text(f), followed_text(f, false),
                             f.rate ? followed_text(f, true) : "", std::string(name(f.lost)),
-                            f.linear ? step_text(f, f.linear->critical, false) : "",
-                            radius_range(f)});
+                            f.linear ? step_text(f, f.linear->critical, false) : "", radius_range(f)});
     }
     return without_empty_columns(std::move(table));
   }
@@ -317,12 +317,14 @@ class Stability {
       all.push_back(fmt::format("{}, the motion is followed for {} s: {}.", where, number(at->ladder.duration),
                                 fmt::join(parts, "; ")));
     }
-    const auto unknown = all_passed(where, [](const auto& f) { return !f.ladder.measured; }, limit);
+    const auto unknown = all_passed(
+        where, [](const auto& f) { return !f.ladder.measured; }, limit);
     if (!unknown.empty()) {
       const bool contact = at->ladder.steps.front().longest().config.contact.has_value();
-      all.push_back(fmt::format("{}: no exact motion is known, so that invariants and the orientation alone say up to where it "
-                                "is followed at most{}.",
-                                where, contact ? "" : "; --reference measures the motion"));
+      all.push_back(
+          fmt::format("{}: no exact motion is known, so that invariants and the orientation alone say up to where it "
+                      "is followed at most{}.",
+                      where, contact ? "" : "; --reference measures the motion"));
     }
     return all;
   }
@@ -333,7 +335,8 @@ class Stability {
     for (const auto& f : found_) {
       if (motion(f) != where || is_varied(f) || f.below != verdict || !f.gain) continue;
       const auto at = [&](double dt, double per_second) {
-        return fmt::format("{} at {} {}", number(std::abs(in_a_turn(f, per_second)), 2), symbol(), in_units(f, dt, rough));
+        return fmt::format("{} at {} {}", number(std::abs(in_a_turn(f, per_second)), 2), symbol(),
+                           in_units(f, dt, rough));
       };
       std::string text = at(f.gain->smallest_dt, f.gain->smallest_per_second);
       if (f.gain->dt != f.gain->smallest_dt) text += " to " + at(f.gain->dt, f.gain->per_second);
@@ -401,14 +404,35 @@ class Stability {
 
   std::string critical_csv() const {
     auto header = without_step(config_columns(study_.varied_keys, study_.named));
-    for (const char* c :
-         {"characteristic_rate_rad_per_s", "smallest_step_s", "largest_step_s", "growth", "largest_holding_step_s",
-          "critical_step_s", "critical_h_omega", "holds_again", "blow_up", "largest_step_before_blow_up_s",
-          "blow_up_step_s", "blow_up_h_omega", "linear_theory", "linear_largest_holding_step_s",
-          "linear_critical_step_s", "linear_critical_h_omega", "spectral_radius_min", "spectral_radius_max",
-          "energy_below", "energy_gain_per_s", "energy_gain_step_s", "energy_gain_exponent", "motion_duration_s",
-          "motion_measured", "motion", "largest_following_step_s", "motion_lost_step_s", "motion_lost_h_omega",
-          "motion_lost_by"}) {
+    for (const char* c : {"characteristic_rate_rad_per_s",
+                          "smallest_step_s",
+                          "largest_step_s",
+                          "growth",
+                          "largest_holding_step_s",
+                          "critical_step_s",
+                          "critical_h_omega",
+                          "holds_again",
+                          "blow_up",
+                          "largest_step_before_blow_up_s",
+                          "blow_up_step_s",
+                          "blow_up_h_omega",
+                          "linear_theory",
+                          "linear_largest_holding_step_s",
+                          "linear_critical_step_s",
+                          "linear_critical_h_omega",
+                          "spectral_radius_min",
+                          "spectral_radius_max",
+                          "energy_below",
+                          "energy_gain_per_s",
+                          "energy_gain_step_s",
+                          "energy_gain_exponent",
+                          "motion_duration_s",
+                          "motion_measured",
+                          "motion",
+                          "largest_following_step_s",
+                          "motion_lost_step_s",
+                          "motion_lost_h_omega",
+                          "motion_lost_by"}) {
       header.emplace_back(c);
     }
     std::string text = csv_row(header);

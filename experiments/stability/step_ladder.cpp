@@ -5,15 +5,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "experiments/study/scenario/characteristic_rate.hpp"
 #include "experiments/stability/step_map.hpp"
+#include "experiments/study/scenario/characteristic_rate.hpp"
 
 namespace polhode::study {
 namespace {
 
 constexpr double least_steps = 500;
 constexpr double motion_bracket_width = 0.01;  // its bounds are rough
-constexpr double turns_without_rate = 10;  // that a run is taken for where nothing turns or swings
+constexpr double turns_without_rate = 10;      // that a run is taken for where nothing turns or swings
 
 /// Of the energy, over the steps that have a verdict.
 CriticalStep first_growth(const Ladder& ladder, Verdict from) {
@@ -70,7 +70,9 @@ Verdict ladder_verdict(const Ladder::Step& step, std::optional<double> turn) {
 /// The step that decides where the energy first grows, if it stands alone: at the next larger one none is gained.
 const Ladder::Step* lone_growth(const Ladder& ladder) {
   const auto& steps = ladder.steps;
-  const auto first = std::find_if(steps.begin(), steps.end(), [](const auto& s) { return s.verdict == Verdict::gaining || s.verdict == Verdict::blown_up; });
+  const auto first = std::find_if(steps.begin(), steps.end(), [](const auto& s) {
+    return s.verdict == Verdict::gaining || s.verdict == Verdict::blown_up;
+  });
   if (first == steps.end() || first->verdict == Verdict::blown_up) return nullptr;
   const auto next = std::find_if(first + 1, steps.end(), [](const auto& s) { return s.verdict != Verdict::none; });
   return next != steps.end() && gains_nothing(next->verdict) ? &*first : nullptr;
@@ -141,15 +143,12 @@ std::vector<RunConfig> bisection(const StudyView& study) {
     const CriticalStep motion = ladder.motion();
     const Ladder::Step* const lone = lone_growth(ladder);
     const double confirmed = lone ? confirmed_by * whole_steps(ladder.duration, lone->dt) : 0;
-    if (lone && !is_longer(lone->longest(), 0.99 * confirmed))
-      wanted.add(ladder, lone->dt, confirmed);
-    else
-      halve(ladder.growth());
+    if (lone && !is_longer(lone->longest(), 0.99 * confirmed)) wanted.add(ladder, lone->dt, confirmed);
+    else halve(ladder.growth());
     halve(ladder.blow_up());
     const Ladder::Step* const lost = first_lost(ladder);
     const double enough = lost ? whole_steps_only(ladder.duration, lost->dt) : 0;
-    if (lost && is_longer(lost->shortest(), enough))
-      wanted.add(ladder, lost->dt, enough);
+    if (lost && is_longer(lost->shortest(), enough)) wanted.add(ladder, lost->dt, enough);
     else if (const auto dt = next_step(motion, motion_bracket_width))
       wanted.add(ladder, *dt, whole_steps_only(ladder.duration, *dt));
   }

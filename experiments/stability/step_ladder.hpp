@@ -7,8 +7,8 @@
 
 #include "experiments/stability/critical_step.hpp"
 #include "experiments/stability/followed.hpp"
-#include "experiments/study/curves/curves.hpp"
 #include "experiments/stability/verdict.hpp"
+#include "experiments/study/curves/curves.hpp"
 
 namespace polhode::study {
 
@@ -24,20 +24,20 @@ inline constexpr double confirmed_by = 4;
 
 struct Ladder {
   struct Step {
-    double dt = 0;                        ///< s
-    std::vector<const RunRecord*> runs{}; ///< the shortest first
-    Verdict verdict = Verdict::none;      ///< of the energy; none where all runs have less than 500 steps
-    Lost lost = Lost::nothing;            ///< of the shortest
+    double dt = 0;                         ///< s
+    std::vector<const RunRecord*> runs{};  ///< the shortest first
+    Verdict verdict = Verdict::none;       ///< of the energy; none where all runs have less than 500 steps
+    Lost lost = Lost::nothing;             ///< of the shortest
     const RunRecord& longest() const { return *runs.back(); }
     const RunRecord& shortest() const { return *runs.front(); }
   };
   const report::Curve* curve = nullptr;
-  std::vector<Step> steps{};          ///< rising; without those that were refused
-  std::optional<double> rate{};       ///< rad/s, the characteristic rate of the motion
-  std::optional<double> turn{};       ///< s, what a slow gain is measured by; absent: no gain counts as slow
-  double duration = 0;                ///< s, over which the motion is to be followed
-  double displacement = 0;            ///< m, the largest of the exact motion in that time
-  bool measured = false;              ///< against a motion that is known
+  std::vector<Step> steps{};     ///< rising; without those that were refused
+  std::optional<double> rate{};  ///< rad/s, the characteristic rate of the motion
+  std::optional<double> turn{};  ///< s, what a slow gain is measured by; absent: no gain counts as slow
+  double duration = 0;           ///< s, over which the motion is to be followed
+  double displacement = 0;       ///< m, the largest of the exact motion in that time
+  bool measured = false;         ///< against a motion that is known
 
   CriticalStep growth() const;   ///< where the energy first grows: gaining or blown up
   CriticalStep blow_up() const;  ///< where it first blows up

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "core/system/formulation.hpp"
 #include "core/problem/problem.hpp"
+#include "core/system/formulation.hpp"
 #include "integrators/catalogue.hpp"
 
 namespace polhode::study {
@@ -18,8 +18,8 @@ namespace polhode::study {
 std::optional<double> spectral_radius(const IntegratorEntry& method, const Problem& problem,
                                       const Formulation& formulation, double dt);
 
-/// True when nothing turns and the accelerations of the mass centres are linear in positions and velocities (and perhaps
-/// constant parts) at all times: tried on displaced states.
+/// True when nothing turns and the accelerations of the mass centres are linear in positions and velocities (and
+/// perhaps constant parts) at all times: tried on displaced states.
 bool is_linear(const System<double>& system);
 
 }  // namespace polhode::study

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What became of the energy of a run: is a step stable?
 //
-// The signed energy drift over time (RunResult::series) is cut into four quarters of the run; of each the range from its
-// lowest to its highest value is taken, and the middle of that range.
+// The signed energy drift over time (RunResult::series) is cut into four quarters of the run; of each the range from
+// its lowest to its highest value is taken, and the middle of that range.
 #pragma once
 
 #include <optional>
@@ -36,15 +36,15 @@ constexpr bool holds(Verdict v) { return v < Verdict::gaining; }
 namespace verdict {
 /// A relative drift or an orientation defect above this says no more than that the motion is lost.
 inline constexpr double lost = 1000;
-/// A relative change of the energy below this is not counted, nor one below 64 ε √steps of the run's arithmetic, nor one
-/// that rounding alone explains (RunResult::energy_round_off).
+/// A relative change of the energy below this is not counted, nor one below 64 ε √steps of the run's arithmetic, nor
+/// one that rounding alone explains (RunResult::energy_round_off).
 inline constexpr double counted = 1e-9;
 /// A trend: the middles of the quarters all move the same way, by this part of the widest range or more.
 inline constexpr double trend = 0.5;
 /// At rest elsewhere: the middle of the last quarter is this many of its own ranges away from the start.
 inline constexpr double settled = 2;
-/// A gain is slow: a relative change of less than this for each turn of the run, by the middle of the last quarter and by
-/// the least-squares line.
+/// A gain is slow: a relative change of less than this for each turn of the run, by the middle of the last quarter and
+/// by the least-squares line.
 inline constexpr double slow = 0.01;
 }  // namespace verdict
 
@@ -52,8 +52,8 @@ inline constexpr double slow = 0.01;
 /// no gain counts as slow, since errors of a linear system grow exponentially, however slowly.
 Verdict judge(const RunRecord& run, std::optional<double> turn = std::nullopt);
 
-/// 1/s, the gain of energy over its scale: slope of the least-squares line through the drift of all samples. Absent for a
-/// run that has blown up.
+/// 1/s, the gain of energy over its scale: slope of the least-squares line through the drift of all samples. Absent for
+/// a run that has blown up.
 std::optional<double> energy_gain_rate(const RunRecord& run);
 
 }  // namespace polhode::study

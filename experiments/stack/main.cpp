@@ -6,7 +6,8 @@
 int main(int argc, char** argv) {
   return polhode::study::run_experiment(
       {.name = "stack",
-       .question = "How long does a stack of boxes stand, how deep do they sink into each other, and what becomes of the energy?",
+       .question = "How long does a stack of boxes stand, how deep do they sink into each other, and what becomes of "
+                   "the energy?",
        .defaults = {{"scenario", "stack"},
                     {"integrator", "semi_implicit_euler"},
                     {"dt", "0.00833333333333333,0.0166666666666667,0.0333333333333333"},

@@ -7,9 +7,9 @@
 #include <map>
 #include <tuple>
 
+#include "experiments/study/plot/plain_panel.hpp"
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
-#include "experiments/study/plot/plain_panel.hpp"
 
 namespace polhode::study {
 namespace {
@@ -29,7 +29,8 @@ struct Stack {
 };
 
 /// The runs of one curve: what was not varied in height.
-using Key = std::tuple<std::string, std::string, std::string, std::string, double>;  // scenario, method, response, timing, size
+using Key =
+    std::tuple<std::string, std::string, std::string, std::string, double>;  // scenario, method, response, timing, size
 Key key_of(const RunConfig& c) {
   return {c.scenario, c.integrator, c.contact->response, c.contact->impact_timing, c.dt ? *c.dt : *c.tolerance};
 }
@@ -60,8 +61,10 @@ class Standing {
     Analysis found{.alone = true, .heading = "How stacks stand"};
     found.sentences = sentences();
     found.method = {fmt::format(
-        "A stack stands until the centre of a box is further than a tenth of the box’s radius (half its diagonal) from where it "
-        "started. A stack is called still where no centre moves by more than {} mm after 2 s. Depths are looked at at 100 "
+        "A stack stands until the centre of a box is further than a tenth of the box’s radius (half its diagonal) from "
+        "where it "
+        "started. A stack is called still where no centre moves by more than {} mm after 2 s. Depths are looked at at "
+        "100 "
         "instants and at the end; the energy’s rise is that of kinetic and potential energy above an earlier value.",
         number(1000 * still))};
     if (curves_.empty()) return found;
@@ -110,12 +113,14 @@ class Standing {
       if (stands == 0) {
         text += "no stack stands to the end";
       } else {
-        text += fmt::format("stacks of up to {} stand to the end, {} still, with boxes at most {} mm in each other there{}", stands,
-                            still_ones == count ? "all" : fmt::format("{} of {}", still_ones, count),
-                            number(1000 * deepest), deepest > shallow ? fmt::format(", more than {} mm", number(1000 * shallow)) : "");
+        text += fmt::format(
+            "stacks of up to {} stand to the end, {} still, with boxes at most {} mm in each other there{}", stands,
+            still_ones == count ? "all" : fmt::format("{} of {}", still_ones, count), number(1000 * deepest),
+            deepest > shallow ? fmt::format(", more than {} mm", number(1000 * shallow)) : "");
       }
       if (first_fallen) {
-        text += fmt::format("; that of {} leaves its place after {} s", first_fallen->boxes, number(first_fallen->stood()));
+        text +=
+            fmt::format("; that of {} leaves its place after {} s", first_fallen->boxes, number(first_fallen->stood()));
       }
       all.push_back(text + ".");
     }
@@ -147,9 +152,9 @@ class Standing {
   }
 
   std::string csv() const {
-    std::string text = csv_row({"run", "scenario", "integrator", "response", "impact_timing", "step_s_or_tolerance", "boxes",
-                                "left_place_s", "displacement_after_2s_max_m", "penetration_max_m", "penetration_end_m",
-                                "energy_rise_max_J"});
+    std::string text = csv_row({"run", "scenario", "integrator", "response", "impact_timing", "step_s_or_tolerance",
+                                "boxes", "left_place_s", "displacement_after_2s_max_m", "penetration_max_m",
+                                "penetration_end_m", "energy_rise_max_J"});
     for (const auto& [key, stacks] : curves_) {
       const auto& [scenario, method, response, timing, size] = key;
       for (const Stack& s : stacks) {
@@ -168,13 +173,18 @@ class Standing {
       PlainAxis axis;
       std::optional<double> (*of)(const Stack&);
     };
-    const Shown all[] = {
-        {"How long it stands", {"stands_s", "stands until (s)", Scale::linear}, [](const Stack& s) { return std::optional(s.stood()); }},
-        {"How far a centre moves after 2 s", {"displacement_after_2s_max_m", "displacement (m)"},
-         [](const Stack& s) { return s.found().displacement_max; }},
-        {"How deep boxes are in each other at the end", {"penetration_end_m", "depth (m)"},
-         [](const Stack& s) { return s.found().penetration_end; }},
-        {"How far the energy rises", {"energy_rise_max_J", "energy rise (J)"}, [](const Stack& s) { return s.found().energy_rise_max; }}};
+    const Shown all[] = {{"How long it stands",
+                          {"stands_s", "stands until (s)", Scale::linear},
+                          [](const Stack& s) { return std::optional(s.stood()); }},
+                         {"How far a centre moves after 2 s",
+                          {"displacement_after_2s_max_m", "displacement (m)"},
+                          [](const Stack& s) { return s.found().displacement_max; }},
+                         {"How deep boxes are in each other at the end",
+                          {"penetration_end_m", "depth (m)"},
+                          [](const Stack& s) { return s.found().penetration_end; }},
+                         {"How far the energy rises", {"energy_rise_max_J", "energy rise (J)"}, [](const Stack& s) {
+                            return s.found().energy_rise_max;
+                          }}};
     std::vector<Panel> panels;
     for (const Shown& shown : all) {
       std::vector<PlainCurve> curves;
@@ -187,10 +197,11 @@ class Standing {
       }
       panels.push_back(plain_panel(shown.title, {"boxes", "boxes"}, shown.axis, curves));
     }
-    return plain_figure("stacks", "Stacks against their height",
-                        "Each stack once for each response (colour) and step (dashes). A stack that stands at the end of the run "
-                        "is drawn there.",
-                        responses_, steps_, std::move(panels));
+    return plain_figure(
+        "stacks", "Stacks against their height",
+        "Each stack once for each response (colour) and step (dashes). A stack that stands at the end of the run "
+        "is drawn there.",
+        responses_, steps_, std::move(panels));
   }
 
   std::map<Key, std::vector<Stack>> curves_;

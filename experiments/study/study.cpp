@@ -11,20 +11,20 @@
 #include <stdexcept>
 #include <thread>
 
-#include "experiments/study/text/value_lists.hpp"
-#include "experiments/study/text/input_error.hpp"
+#include "experiments/study/metrics/references.hpp"
 #include "experiments/study/plan/listing.hpp"
 #include "experiments/study/plan/options.hpp"
 #include "experiments/study/plan/plan.hpp"
-#include "experiments/study/text/program.hpp"
 #include "experiments/study/progress.hpp"
-#include "experiments/study/metrics/references.hpp"
-#include "experiments/study/text/notation.hpp"
-#include "experiments/study/store/result_folder.hpp"
 #include "experiments/study/report/tables/results.hpp"
-#include "experiments/study/run/run.hpp"
-#include "experiments/study/store/store.hpp"
 #include "experiments/study/report/tables/summary.hpp"
+#include "experiments/study/run/run.hpp"
+#include "experiments/study/store/result_folder.hpp"
+#include "experiments/study/store/store.hpp"
+#include "experiments/study/text/input_error.hpp"
+#include "experiments/study/text/notation.hpp"
+#include "experiments/study/text/program.hpp"
+#include "experiments/study/text/value_lists.hpp"
 #include "experiments/study/workers.hpp"
 
 namespace polhode::study {
@@ -46,8 +46,8 @@ void stop_on_signals() {
 
 std::filesystem::path folder_of(const Experiment& experiment, const Options& options, const Plan& plan) {
   if (!options.out.empty()) return options.out;
-  const std::string what = plan.scenarios.size() == 1 ? plan.scenarios[0].name
-                                                      : std::to_string(plan.scenarios.size()) + "_scenarios";
+  const std::string what =
+      plan.scenarios.size() == 1 ? plan.scenarios[0].name : std::to_string(plan.scenarios.size()) + "_scenarios";
   return std::filesystem::path("results") / (experiment.name + "-" + what + "-" + plan.identity.substr(0, 8));
 }
 
@@ -78,8 +78,8 @@ std::string plan_text(const Experiment& experiment, const Plan& plan, const std:
   return text;
 }
 
-TrajectoryRequest trajectory_of(const Experiment& experiment, const Options& options, const std::filesystem::path& folder,
-                                const PlannedRun& run) {
+TrajectoryRequest trajectory_of(const Experiment& experiment, const Options& options,
+                                const std::filesystem::path& folder, const PlannedRun& run) {
   return {options.trajectory, experiment.one_run ? folder : folder / "trajectories" / run.id};
 }
 
@@ -109,8 +109,8 @@ std::vector<Batch> batches_of(const std::vector<const PlannedRun*>& runs, const 
   return batches;
 }
 
-/// Where times matter, a run of less than some time slices of the machine is repeated: what disturbs it only ever makes it
-/// slower.
+/// Where times matter, a run of less than some time slices of the machine is repeated: what disturbs it only ever makes
+/// it slower.
 RunResult carry_out_alone(const Experiment& experiment, const PlannedRun& run, const TrajectoryRequest& trajectory,
                           References& references) {
   constexpr double long_enough = 0.04;  // s
@@ -151,7 +151,8 @@ bool carry_out_missing(const Experiment& experiment, const Options& options, con
   const auto key = [&](const PlannedRun& run) { return ensemble_key(run.config, *run.scenario, trajectory(run)); };
   run_all(experiment.name, batches_of(missing, key), work, options.jobs, store, stop_requested, results);
   if (!stop_requested) return true;
-  const auto here = std::count_if(plan.runs.begin(), plan.runs.end(), [&](const auto& r) { return results.contains(r.id); });
+  const auto here =
+      std::count_if(plan.runs.begin(), plan.runs.end(), [&](const auto& r) { return results.contains(r.id); });
   fmt::print(stderr, "{}: interrupted; {} of {} runs are kept in {}; the same command goes on from there\n",
              experiment.name, here, plan.runs.size(), folder.string());
   return false;
@@ -223,14 +224,15 @@ void write_everything(const StudyView& view, const Options& options, const Plan&
   write_report(view);
 }
 
-/// What the store holds of the study, without what is to be carried out again: damaged rows, and with --force what failed.
+/// What the store holds of the study, without what is to be carried out again: damaged rows, and with --force what
+/// failed.
 std::map<std::string, RunResult> stored(const Experiment& experiment, const Options& options,
                                         const std::filesystem::path& folder, Store& store) {
   auto [runs, damaged] = store.load();
   if (!damaged.empty()) {
-    fmt::print(stderr, "{}: {}: {} of {} runs are damaged and carried out again (the first: run {}, {})\n", experiment.name,
-               (folder / Store::file_name).string(), damaged.size(), damaged.size() + runs.size(), damaged.begin()->first,
-               damaged.begin()->second);
+    fmt::print(stderr, "{}: {}: {} of {} runs are damaged and carried out again (the first: run {}, {})\n",
+               experiment.name, (folder / Store::file_name).string(), damaged.size(), damaged.size() + runs.size(),
+               damaged.begin()->first, damaged.begin()->second);
   }
   for (const auto& [id, why] : damaged) store.forget(id);
   if (options.force) std::erase_if(runs, [](const auto& run) { return run.second.status == "failed"; });

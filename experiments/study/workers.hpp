@@ -17,8 +17,8 @@ namespace polhode::study {
 using Batch = std::vector<const PlannedRun*>;
 
 /// Runs `work` on each of the batches, `jobs` at a time (0: one for each core), and puts the results, one for each run
-/// of the batch, into the store and into `results`. Returns early, with what is finished kept, when `stop` is set; rethrows what a worker or the store
-/// threw.
+/// of the batch, into the store and into `results`. Returns early, with what is finished kept, when `stop` is set;
+/// rethrows what a worker or the store threw.
 void run_all(const std::string& name, std::vector<Batch> batches,
              const std::function<std::vector<RunResult>(const Batch&)>& work, int jobs, Store& store,
              std::atomic<bool>& stop, std::map<std::string, RunResult>& results);

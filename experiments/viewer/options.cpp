@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/viewer/options.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <map>
 
 #include "collision/response.hpp"
-#include "experiments/study/text/value_lists.hpp"
 #include "experiments/study/text/command_line.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/suggestion.hpp"
+#include "experiments/study/text/value_lists.hpp"
 
 namespace polhode::viewer {
 namespace {
@@ -36,7 +36,9 @@ T one_of(const std::string& option, const std::string& word, const std::map<std:
   throw study::InputError(option + ": no '" + word + "'" + study::suggestion(word, "There are", names));
 }
 
-bool on(const std::string& option, const std::string& word) { return one_of<bool>(option, word, {{"on", true}, {"off", false}}); }
+bool on(const std::string& option, const std::string& word) {
+  return one_of<bool>(option, word, {{"on", true}, {"off", false}});
+}
 
 void read_size(const std::string& text, int& width, int& height) {
   const auto times = text.find('x');
@@ -79,7 +81,8 @@ std::vector<Configuration> configurations(const Said& said, const study::Scenari
                                                         {"momentum_world", AngularState::momentum_world}});
   run.formulation.gyroscopic = on("--gyroscopic", said.gyroscopic);
   run.normalise = one_of<bool>("--normalize", said.normalise, {{"never", false}, {"step", true}});
-  base.drive = one_of<Drive>("--drive", said.drive, {{"accumulator", Drive::accumulator}, {"frame_clock", Drive::frame_clock}});
+  base.drive =
+      one_of<Drive>("--drive", said.drive, {{"accumulator", Drive::accumulator}, {"frame_clock", Drive::frame_clock}});
   if (run.contact) {
     study::ContactConfig& c = *run.contact;
     if (!said.broad_phase.empty()) c.broad_phase = said.broad_phase;
@@ -99,7 +102,8 @@ std::vector<Configuration> configurations(const Said& said, const study::Scenari
     }
   }
   constexpr std::size_t most = 6;
-  if (all.size() > most) throw study::InputError(fmt::format("{} runs side by side; at most {} are legible", all.size(), most));
+  if (all.size() > most)
+    throw study::InputError(fmt::format("{} runs side by side; at most {} are legible", all.size(), most));
   return all;
 }
 
@@ -126,12 +130,17 @@ Options parse(const std::string& question, int argc, const char* const* argv) {
     return app.add_option(name, to, help)->type_name(type)->group(group);
   };
   const char* const scene = "What moves";
-  add("--scenario", said.scenario, "scenario, built in or a TOML file, see --list scenarios (default: dzhanibekov)", "NAME|FILE", scene);
-  add("--integrator", said.integrator, "method, or several side by side, see --list integrators (default: rk4)", "NAMES", scene);
+  add("--scenario", said.scenario, "scenario, built in or a TOML file, see --list scenarios (default: dzhanibekov)",
+      "NAME|FILE", scene);
+  add("--integrator", said.integrator, "method, or several side by side, see --list integrators (default: rk4)",
+      "NAMES", scene);
   add("--dt", said.dt, "step in s of fixed-step methods, or several (default: 1e-3)", "S", scene);
-  add("--tolerance", said.tolerance, "relative and absolute, of adaptive methods, or several (default: 1e-8)", "X", scene);
-  add("--orientation", said.orientation, "chart of the orientation: quaternion, matrix (default: quaternion)", "CHART", scene);
-  add("--angular-state", said.angular_state, "velocity_world, velocity_body, momentum_world (default: velocity_world)", "STATE", scene);
+  add("--tolerance", said.tolerance, "relative and absolute, of adaptive methods, or several (default: 1e-8)", "X",
+      scene);
+  add("--orientation", said.orientation, "chart of the orientation: quaternion, matrix (default: quaternion)", "CHART",
+      scene);
+  add("--angular-state", said.angular_state, "velocity_world, velocity_body, momentum_world (default: velocity_world)",
+      "STATE", scene);
   add("--gyroscopic", said.gyroscopic, "the gyroscopic term: on, off (default: on)", "ON|OFF", scene);
   add("--normalize", said.normalise, "orientations: never, step (default: never)", "WHEN", scene);
   add("--broad-phase", said.broad_phase, "see --list broad-phases (default: sweep_and_prune)", "NAME", scene);
@@ -141,37 +150,46 @@ Options parse(const std::string& question, int argc, const char* const* argv) {
   add("--t-end", said.t_end, "duration in s (default: the scenario's)", "S", scene);
   add("--vary", said.vary, "a key of the scenario: body.0.mass=2", "KEY=VALUE", scene);
   add("--drive", said.drive,
-      "accumulator: steps of dt as time passes; frame_clock: one step a frame, of the time between two (default: accumulator)",
+      "accumulator: steps of dt as time passes; frame_clock: one step a frame, of the time between two (default: "
+      "accumulator)",
       "NAME", scene);
-  add("--trajectory", trajectories, "play recorded trajectories of the scenario instead: trajectory.csv of a study", "FILE", scene);
-  add("--rerun", options.rerun, "carry a recorded session out again, without window and pace, and compare its end", "FILE", scene);
+  add("--trajectory", trajectories, "play recorded trajectories of the scenario instead: trajectory.csv of a study",
+      "FILE", scene);
+  add("--rerun", options.rerun, "carry a recorded session out again, without window and pace, and compare its end",
+      "FILE", scene);
   const char* const look = "What is seen";
   add("--size", said.size, "in pixels (default: 1280x720)", "WxH", look);
   add("--show", said.show,
-      "axes, omega, momentum, trails, polhode, poinsot (rolling on its plane), contacts, cells, or none (default: trails,contacts)",
+      "axes, omega, momentum, trails, polhode, poinsot (rolling on its plane), contacts, cells, or none (default: "
+      "trails,contacts)",
       "LIST", look);
   add("--azimuth", said.azimuth, "of the camera about z in rad (default: as the scene asks for)", "RAD", look);
   add("--elevation", said.elevation, "of the camera in rad", "RAD", look);
-  add("--zoom", options.window.shown.zoom, "so many times as near (default: 1)", "X", look)->check(CLI::Range(1e-3, 1e3).description(""));
+  add("--zoom", options.window.shown.zoom, "so many times as near (default: 1)", "X", look)
+      ->check(CLI::Range(1e-3, 1e3).description(""));
   add("--speed", options.window.speed, "simulated seconds to one of the wall, or of the film (default: 1)", "X", look)
       ->check(CLI::Range(1e-6, 1e6).description(""));
-  add("--samples", options.window.samples, "a pixel: 1, 2, 4 or 8 (default: 4; 1 in a window that the processor draws)", "N", look)
+  add("--samples", options.window.samples, "a pixel: 1, 2, 4 or 8 (default: 4; 1 in a window that the processor draws)",
+      "N", look)
       ->check(CLI::IsMember({1, 2, 4, 8}).description(""));
   app.add_flag("--play", options.window.play, "begin at once")->group(look);
   add("--script", options.window.script, "clicks and looks as this file says, then ends", "FILE", look);
   const char* const pictures = "Pictures and films, without a display";
   app.add_flag("--offscreen", options.offscreen, "pictures instead of a window")->group(pictures);
   add("--from", options.pictures.from, "the first picture, in s (default: 0)", "S", pictures);
-  add("--duration", options.pictures.duration, "simulated, in s; 0 for one picture (default: to the end)", "S", pictures);
+  add("--duration", options.pictures.duration, "simulated, in s; 0 for one picture (default: to the end)", "S",
+      pictures);
   add("--frames-per-second", options.pictures.frames_per_second, "of the film (default: 30)", "N", pictures)
       ->check(CLI::Range(1, 240).description(""));
   add("--film", film, "also make a film of the pictures, by ffmpeg", "FILE", pictures);
-  app.add_flag("--pause-on-collision", options.pictures.pause_on_collision, "end with the first collision")->group(pictures);
+  app.add_flag("--pause-on-collision", options.pictures.pause_on_collision, "end with the first collision")
+      ->group(pictures);
   app.add_flag("--plots", options.pictures.plots, "energy, momentum and defect below")->group(pictures);
   add("--captions", captions, "method and time in the picture: on, off (default: on)", "ON|OFF", pictures);
   add("--out", out, "folder of sessions and pictures (default: results/viewer-<scenario>)", "FOLDER", "Output");
   add("--record", record, "session.toml of each live session: on, off (default: on)", "ON|OFF", "Output");
-  add("--write-trajectory", options.stage.trajectory, "the motion of each session, as a study writes it, into this folder", "FOLDER", "Output");
+  add("--write-trajectory", options.stage.trajectory,
+      "the motion of each session, as a study writes it, into this folder", "FOLDER", "Output");
   CLI::Option* list_option = app.add_option("--list", list, "print the catalogue, for example scenarios (default: all)")
                                  ->type_name("[WHAT]")
                                  ->expected(0, 1);
@@ -203,7 +221,8 @@ Options parse(const std::string& question, int argc, const char* const* argv) {
   options.pictures.captions = on("--captions", captions);
   options.pictures.frames = film.empty() || options.pictures.duration == 0;
   if (options.pictures.from && !(*options.pictures.from >= 0)) throw study::InputError("--from: must not be negative");
-  if (options.pictures.duration && !(*options.pictures.duration >= 0)) throw study::InputError("--duration: must not be negative");
+  if (options.pictures.duration && !(*options.pictures.duration >= 0))
+    throw study::InputError("--duration: must not be negative");
   return options;
 }
 

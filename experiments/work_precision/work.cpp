@@ -10,15 +10,15 @@
 #include <set>
 #include <utility>
 
-#include "experiments/study/text/csv.hpp"
-#include "experiments/study/curves/declared_order.hpp"
-#include "experiments/work_precision/envelope.hpp"
-#include "experiments/study/plot/axis.hpp"
 #include "experiments/study/curves/curves.hpp"
+#include "experiments/study/curves/declared_order.hpp"
 #include "experiments/study/curves/error_ladder.hpp"
+#include "experiments/study/plot/axis.hpp"
 #include "experiments/study/plot/figure_layout.hpp"
 #include "experiments/study/plot/figure_style.hpp"
+#include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
+#include "experiments/work_precision/envelope.hpp"
 #include "integrators/catalogue.hpp"
 
 namespace polhode::study {
@@ -73,7 +73,8 @@ std::vector<WorkPoint> work_points(const Curve& curve, const Quantity& quantity,
     const std::string& status = (*run)->result.status;
     if (status == "refused" || status == "failed" || (completed(**run) && !value(**run, quantity))) continue;
     if (!follows(**run, curve, quantity)) break;
-    points.push_back({std::max({*value(**run, quantity), round_off_level(**run, quantity), floor}), cost.of((*run)->result)});
+    points.push_back(
+        {std::max({*value(**run, quantity), round_off_level(**run, quantity), floor}), cost.of((*run)->result)});
   }
   return points;
 }
@@ -89,14 +90,11 @@ std::vector<Motion> motions_of(const StudyView& study, const Grouping& grouping,
         const bool same_equation = curve.runs.front()->config.formulation.gyroscopic;
         if (curve.case_index != c || !same_equation || !is_measured(curve, quantity)) continue;
         auto work = work_points(curve, quantity, cost);
-        const bool costs =
-            std::any_of(curve.runs.begin(), curve.runs.end(), [&](const auto* run) { return cost.of(run->result) > 0; });
-        if (!costs)
-          motion.without.push_back(&curve);
-        else if (is_exact(study, curve, quantity))
-          motion.exact.push_back(&curve);
-        else
-          motion.curves.push_back(&curve), points.push_back(std::move(work));
+        const bool costs = std::any_of(curve.runs.begin(), curve.runs.end(),
+                                       [&](const auto* run) { return cost.of(run->result) > 0; });
+        if (!costs) motion.without.push_back(&curve);
+        else if (is_exact(study, curve, quantity)) motion.exact.push_back(&curve);
+        else motion.curves.push_back(&curve), points.push_back(std::move(work));
       }
       if (motion.curves.empty()) continue;
       motion.envelope = lower_envelope(points, lost_level(*motion.curves.front(), quantity));
@@ -117,10 +115,8 @@ struct Reign {
 std::vector<Reign> reigns(const std::vector<EnvelopePoint>& envelope) {
   std::vector<Reign> all;
   for (const auto& point : envelope) {
-    if (!all.empty() && all.back().curve == point.curve)
-      all.back().to = point.decade;
-    else
-      all.push_back({point.curve, point.decade, point.decade});
+    if (!all.empty() && all.back().curve == point.curve) all.back().to = point.decade;
+    else all.push_back({point.curve, point.decade, point.decade});
   }
   return all;
 }
@@ -345,8 +341,10 @@ Analysis work_against_error(const StudyView& study) {
       "for an error is read off the straight line of the logarithms; nothing is extrapolated: a cost marked “at most” "
       "is that "
       "of "
-      "the method’s cheapest run, which is better than asked for. A run whose attitude is off by a radian (whose position by "
-      "more than the motion goes), and those of larger steps, count for nothing; and no run is better than its rounding, "
+      "the method’s cheapest run, which is better than asked for. A run whose attitude is off by a radian (whose "
+      "position by "
+      "more than the motion goes), and those of larger steps, count for nothing; and no run is better than its "
+      "rounding, "
       "16 ε √steps or the floor at which its method’s errors no longer fall."};
   if (!by_evaluations.empty()) {
     found.tables.push_back({"envelope", by_evaluations.table()});

@@ -2,12 +2,12 @@
 // The Gauss methods on the flat ODE ẏ = f(t, y): implicit Runge–Kutta methods of s stages and order 2s,
 //   Z_i = h Σ_j a_ij f(t + c_j h, y + Z_j),  y' = y + Σ_i d_i Z_i with d = bᵀ A⁻¹,
 // additive in the orientation. They are symmetric and keep every quadratic first integral of the flat ODE: |q|² or RᵀR,
-// with the body velocity also energy and |IΩ|. Source: Hairer & Wanner, Solving Ordinary Differential Equations II, IV.5
-// and IV.8 (their implementation); Hairer, Lubich & Wanner, Geometric Numerical Integration, 2nd ed., IV.2.
+// with the body velocity also energy and |IΩ|. Source: Hairer & Wanner, Solving Ordinary Differential Equations II,
+// IV.5 and IV.8 (their implementation); Hairer, Lubich & Wanner, Geometric Numerical Integration, 2nd ed., IV.2.
 //
-// The stages are solved by simplified Newton iteration, (1 − h A ⊗ J) ΔZ = residual, to the round-off of the scalar. J is
-// a difference quotient, kept from step to step while the iteration contracts by 20 or more, and renewed at the stages
-// where it does not contract by 2. There is no limit on h|J|: a linear problem takes one iteration.
+// The stages are solved by simplified Newton iteration, (1 − h A ⊗ J) ΔZ = residual, to the round-off of the scalar. J
+// is a difference quotient, kept from step to step while the iteration contracts by 20 or more, and renewed at the
+// stages where it does not contract by 2. There is no limit on h|J|: a linear problem takes one iteration.
 #pragma once
 
 #include <Eigen/LU>

@@ -80,7 +80,8 @@ struct MoserVeselov {
       if constexpr (order == 6) {
         const S e3 = j[0] * j[1] * j[2], h4 = h2 * h2 * (per_e3 * per_e3 / S(60));
         const S hh = energy * energy, hc = energy * casimir, cc = casimir * casimir;
-        s += h4 * ((S(2) * e2 * e2 - e1 * e3) * hh + (S(8) * e3 - S(2) * e1 * e2) * hc + (S(2) * e1 * e1 - S(6) * e2) * cc);
+        s += h4 *
+             ((S(2) * e2 * e2 - e1 * e3) * hh + (S(8) * e3 - S(2) * e1 * e2) * hc + (S(2) * e1 * e1 - S(6) * e2) * cc);
         d += h4 * ((S(8) * e2 - e1 * e1) * hc - (e1 * e2 + S(6) * e3) * hh - e1 * cc);
       }
       const Vector3<S> prepared = inverse + (s * inverse + Vector3<S>::Constant(d));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discrete Moser–Veselov algorithm with moments of inertia prepared to h⁴: of order 6 for free bodies, in the Strang
-// splitting with kicks of order 2. Source: Hairer & Vilmart, J. Phys. A 39 (2006) 13225.
+// The discrete Moser–Veselov algorithm with moments of inertia prepared to h⁴: of order 6 for free bodies, in the
+// Strang splitting with kicks of order 2. Source: Hairer & Vilmart, J. Phys. A 39 (2006) 13225.
 #include "integrators/conserving/discrete_moser_veselov.hpp"
 
 namespace polhode {
@@ -16,7 +16,7 @@ IntegratorEntry dmv6() {
                              .free_order = 6,
                              .implicit = true,
                              .lie_group = true,
-                              .symmetric = true,
+                             .symmetric = true,
                              .conserves_energy = true,
                              .conserves_momentum = true,
                              .conserves_casimir = true});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The exact free rotor: each step is the exact torque-free motion by elliptic functions, from the momentum at its start.
-// In float it is the motion in double, rounded; there is none in long double, where the elliptic functions have no
-// digits to offer. Source: Celledoni, Fassò, Säfström & Zanna, SIAM J. Sci. Comput. 30 (2008) 2084.
+// The exact free rotor: each step is the exact torque-free motion by elliptic functions, from the momentum at its
+// start. In float it is the motion in double, rounded; there is none in long double, where the elliptic functions have
+// no digits to offer. Source: Celledoni, Fassò, Säfström & Zanna, SIAM J. Sci. Comput. 30 (2008) 2084.
 #pragma once
 
 #include "core/exact/free_top.hpp"

@@ -2,8 +2,8 @@
 // NO_SQUISH: the free rigid body in quaternion coordinates, T = Σ_k (p·P_k q)²/(8 I_k) with the momentum p = 2 q (0, m)
 // conjugate to q and P_k q = q e_k. Each term turns q and p alike,
 //   q' = cos(ζ) q + sin(ζ) P_k q,  p' = cos(ζ) p + sin(ζ) P_k p,  ζ = h (p·P_k q)/(4 I_k),
-// in the order k = 3, 2, 1, 2, 3 with h/2, h/2, h, h/2, h/2, between two kicks. q starts from 1 in every step, since the
-// turn alone is wanted. On |q| = 1 this is the three-rotation splitting with the axes in the opposite order.
+// in the order k = 3, 2, 1, 2, 3 with h/2, h/2, h, h/2, h/2, between two kicks. q starts from 1 in every step, since
+// the turn alone is wanted. On |q| = 1 this is the three-rotation splitting with the axes in the opposite order.
 // Source: Miller, Eleftheriou, Pattnaik, Ndirango, Newns & Martyna, J. Chem. Phys. 116 (2002) 8649.
 #include <cmath>
 

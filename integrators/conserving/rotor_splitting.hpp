@@ -3,10 +3,11 @@
 //   kick(t, h/2), free flow(h), kick(t + h, h/2),
 // in which mass centres go straight, time goes on with the free flow, and the rotor turns each body. It is symmetric
 // if the rotor is, of order 2 under forces whatever the order of the rotor, and the rotor itself without forces.
-// Sources: Touma & Wisdom, Astron. J. 107 (1994) 1189; Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997) 5840.
+// Sources: Touma & Wisdom, Astron. J. 107 (1994) 1189; Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997)
+// 5840.
 //
-// A Rotor has a static function template turn<S>, a RotorTurn<S>. It is not inlined, so that it is compiled once for each
-// scalar, and the splitting around it once for each formulation (rotor_splitting.cpp), whatever the rotor.
+// A Rotor has a static function template turn<S>, a RotorTurn<S>. It is not inlined, so that it is compiled once for
+// each scalar, and the splitting around it once for each formulation (rotor_splitting.cpp), whatever the rotor.
 #pragma once
 
 #include "integrators/conserving/kick.hpp"

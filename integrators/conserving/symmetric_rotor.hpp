@@ -2,10 +2,10 @@
 // The free rigid body as a symmetric top and a rotation. With moments I_a ≤ I_b ≤ I_c,
 //   T = R + S,  R = ½ (1/I_a − 1/I_b) m_a²,  S = ½ |m|²/I_b + ½ (1/I_c − 1/I_b) m_c²,
 // and both parts are solved exactly: R turns about the axis a; S is a symmetric top with the axis c, a turn by h m/I_b
-// and one about c. Since |m|² is a Casimir, the turn by h m/I_b commutes with all others: it is taken once for the whole
-// step, with the m of its start, and what remains are rotations about a and c in turn.
-// Sources: Touma & Wisdom, Astron. J. 107 (1994) 1189; Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997)
-// 5840; Fassò, J. Comput. Phys. 189 (2003) 527, on the choice of the axes.
+// and one about c. Since |m|² is a Casimir, the turn by h m/I_b commutes with all others: it is taken once for the
+// whole step, with the m of its start, and what remains are rotations about a and c in turn. Sources: Touma & Wisdom,
+// Astron. J. 107 (1994) 1189; Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997) 5840; Fassò, J. Comput.
+// Phys. 189 (2003) 527, on the choice of the axes.
 #pragma once
 
 #include <utility>
@@ -15,8 +15,8 @@
 
 namespace polhode {
 
-/// Scheme::compose(rotation, symmetric_top) calls its two arguments, each with its fraction of the step, in the order of
-/// the composition.
+/// Scheme::compose(rotation, symmetric_top) calls its two arguments, each with its fraction of the step, in the order
+/// of the composition.
 template <class Scheme>
 struct SymmetricRotor {
   template <class S>

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "core/system/formulation.hpp"
 #include "core/problem/problem.hpp"
+#include "core/system/formulation.hpp"
 
 namespace polhode {
 

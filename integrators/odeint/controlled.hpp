@@ -2,9 +2,9 @@
 // What Odeint's controlled steppers share here: the first step, steps cut short, rejected trials, dense output.
 //
 // Method has a constructor Method(double tolerance, size) and try_step(rate, x, dx, t, next, next_dx, h), which takes a
-// step of h, is true where its error estimate lets the step pass, and leaves its next proposal in h. dx is f(t, x); a method
-// that is `first_same_as_last` fills next_dx, and one that has calc_state(t, y, x0, dx0, t0, x1, dx1, t1) has dense
-// output. Method::order sets the first step.
+// step of h, is true where its error estimate lets the step pass, and leaves its next proposal in h. dx is f(t, x); a
+// method that is `first_same_as_last` fills next_dx, and one that has calc_state(t, y, x0, dx0, t0, x1, dx1, t1) has
+// dense output. Method::order sets the first step.
 //
 // Odeint takes an error estimate that is no number for a small one: `error > 1` is false of it, and its maximum norm
 // drops it. A step passes here only if all its numbers are finite.
@@ -87,9 +87,7 @@ class OdeintControlled final : public Integrator<S> {
   }
 
  private:
-  static constexpr bool dense = requires(const Method& m, Vector& v, S t) {
-    m.calc_state(t, v, v, v, t, v, v, t);
-  };
+  static constexpr bool dense = requires(const Method& m, Vector& v, S t) { m.calc_state(t, v, v, v, t, v, v, t); };
   static constexpr double retreat = 0.2;
 
   static bool is_finite(const Vector& x) {

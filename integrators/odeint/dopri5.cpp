@@ -26,13 +26,12 @@ class Dopri5 {
             S(tolerance), S(tolerance))) {}
 
   template <class Rate>
-  bool try_step(const Rate& rate, const Vector& x, const Vector& dx, S& t, Vector& next, Vector& next_dx,
-                S& h) {
+  bool try_step(const Rate& rate, const Vector& x, const Vector& dx, S& t, Vector& next, Vector& next_dx, S& h) {
     return stepper_.try_step(rate, x, dx, t, next, next_dx, h) == odeint::success;
   }
 
-  void calc_state(S t, Vector& y, const Vector& x0, const Vector& dx0, S t0, const Vector& x1,
-                  const Vector& dx1, S t1) const {
+  void calc_state(S t, Vector& y, const Vector& x0, const Vector& dx0, S t0, const Vector& x1, const Vector& dx1,
+                  S t1) const {
     stepper_.stepper().calc_state(t, y, x0, dx0, t0, x1, dx1, t1);
   }
 

@@ -24,12 +24,13 @@ class ExplicitEuler {
 };
 
 IntegratorEntry explicit_euler() {
-  return fixed_step<ExplicitEuler, in_lanes>({.name = "explicit_euler",
-                                    .family = "textbook",
-                                    .summary = "y' = y + h f(t, y), all from the old state, as the slides write it",
-                                    .order = 1,
-                                    .evaluations_per_step = 1,
-                                    .additive = true});
+  return fixed_step<ExplicitEuler, in_lanes>(
+      {.name = "explicit_euler",
+       .family = "textbook",
+       .summary = "y' = y + h f(t, y), all from the old state, as the slides write it",
+       .order = 1,
+       .evaluations_per_step = 1,
+       .additive = true});
 }
 
 }  // namespace polhode

@@ -28,11 +28,11 @@ class ExplicitMidpoint {
 
 IntegratorEntry explicit_midpoint() {
   return fixed_step<ExplicitMidpoint, in_lanes>({.name = "explicit_midpoint",
-                                       .family = "textbook",
-                                       .summary = "y' = y + h f(t + h/2, y + h/2 f(t, y))",
-                                       .order = 2,
-                                       .evaluations_per_step = 2,
-                                       .additive = true});
+                                                 .family = "textbook",
+                                                 .summary = "y' = y + h f(t + h/2, y + h/2 f(t, y))",
+                                                 .order = 2,
+                                                 .evaluations_per_step = 2,
+                                                 .additive = true});
 }
 
 }  // namespace polhode

@@ -27,11 +27,11 @@ class Heun {
 
 IntegratorEntry heun() {
   return fixed_step<Heun, in_lanes>({.name = "heun",
-                           .family = "textbook",
-                           .summary = "y' = y + h/2 (f(t, y) + f(t + h, y + h f(t, y)))",
-                           .order = 2,
-                           .evaluations_per_step = 2,
-                           .additive = true});
+                                     .family = "textbook",
+                                     .summary = "y' = y + h/2 (f(t, y) + f(t + h, y + h f(t, y)))",
+                                     .order = 2,
+                                     .evaluations_per_step = 2,
+                                     .additive = true});
 }
 
 }  // namespace polhode

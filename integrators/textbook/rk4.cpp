@@ -33,11 +33,11 @@ class Rk4 {
 
 IntegratorEntry rk4() {
   return fixed_step<Rk4, in_lanes>({.name = "rk4",
-                          .family = "textbook",
-                          .summary = "the classical Runge-Kutta method, y' = y + h/6 (k1 + 2 k2 + 2 k3 + k4)",
-                          .order = 4,
-                          .evaluations_per_step = 4,
-                          .additive = true});
+                                    .family = "textbook",
+                                    .summary = "the classical Runge-Kutta method, y' = y + h/6 (k1 + 2 k2 + 2 k3 + k4)",
+                                    .order = 4,
+                                    .evaluations_per_step = 4,
+                                    .additive = true});
 }
 
 }  // namespace polhode

@@ -28,12 +28,13 @@ class SemiImplicitEuler {
 };
 
 IntegratorEntry semi_implicit_euler() {
-  return fixed_step<SemiImplicitEuler, in_lanes>({.name = "semi_implicit_euler",
-                                        .family = "textbook",
-                                        .summary = "v' = v + h a(t, q, v), then q' = q + h N(q) v', as the report updates",
-                                        .order = 1,
-                                        .evaluations_per_step = 1,
-                                        .additive = true});
+  return fixed_step<SemiImplicitEuler, in_lanes>(
+      {.name = "semi_implicit_euler",
+       .family = "textbook",
+       .summary = "v' = v + h a(t, q, v), then q' = q + h N(q) v', as the report updates",
+       .order = 1,
+       .evaluations_per_step = 1,
+       .additive = true});
 }
 
 }  // namespace polhode

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `sat` costs on two boxes, per pair, beside ODE's dBoxTouchesBox (overlap) and Bullet's btBoxBoxDetector (contacts), on
-// the same mixed set of pairs. The lines: overlap at most 0.7 times ODE, in lanes 0.3 times with AVX-512, contacts
-// at most 0.7 times Bullet.
+// What `sat` costs on two boxes, per pair, beside ODE's dBoxTouchesBox (overlap) and Bullet's btBoxBoxDetector
+// (contacts), on the same mixed set of pairs. The lines: overlap at most 0.7 times ODE, in lanes 0.3 times with
+// AVX-512, contacts at most 0.7 times Bullet.
+#include "collision/narrow/box_sat.hpp"
+
 #include <benchmark/benchmark.h>
 
 #include <memory>
 #include <vector>
 
-#include "collision/narrow/box_sat.hpp"
 #include "collision/narrow_phase.hpp"
 #include "collision/shapes/box.hpp"
 #include "core/math/portable_random.hpp"
@@ -89,7 +90,8 @@ void sat_distance(benchmark::State& state) {
   for (auto _ : state) {
     found = 0;
     for (const BodyPair p : all.pairs) {
-      found += narrow->distance(*all.shapes[p.a], all.boxes[p.a].pose, *all.shapes[p.b], all.boxes[p.b].pose).distance <= 0;
+      found +=
+          narrow->distance(*all.shapes[p.a], all.boxes[p.a].pose, *all.shapes[p.b], all.boxes[p.b].pose).distance <= 0;
     }
     benchmark::DoNotOptimize(found);
   }
@@ -181,7 +183,9 @@ void bullet_contacts(benchmark::State& state) {
 }
 BENCHMARK(bullet_contacts);
 #else
-void bullet_contacts(benchmark::State& state) { state.SkipWithError("skipped, because libbullet-dev is not installed"); }
+void bullet_contacts(benchmark::State& state) {
+  state.SkipWithError("skipped, because libbullet-dev is not installed");
+}
 BENCHMARK(bullet_contacts);
 #endif
 

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Broad phases side by side in one run: ns per box per step at a fixed density, for every one of the catalogue and, where
-// Debian's libraries are installed, Bullet's dynamic tree, FCL's two trees and ODE's sweep. The same boxes on the same
-// paths, at speeds from none to twice the mean, so that the load of each step is much the same; the steps of all take turns,
-// with what it takes to tell the library where the boxes are. The motion is run twice, and the faster counts for each step.
-// Beside the median step stands the mean, which is what a run pays: work that is put off must be done some time.
+// Broad phases side by side in one run: ns per box per step at a fixed density, for every one of the catalogue and,
+// where Debian's libraries are installed, Bullet's dynamic tree, FCL's two trees and ODE's sweep. The same boxes on the
+// same paths, at speeds from none to twice the mean, so that the load of each step is much the same; the steps of all
+// take turns, with what it takes to tell the library where the boxes are. The motion is run twice, and the faster
+// counts for each step. Beside the median step stands the mean, which is what a run pays: work that is put off must be
+// done some time.
 //
-// All do the same job: the pairs of each step are counted and compared with ours. Bullet hands over pairs of its fat boxes;
-// those whose own boxes overlap are counted after the clock has stopped, which it is not charged for. The libraries that
-// work in single precision may differ in a few.
+// All do the same job: the pairs of each step are counted and compared with ours. Bullet hands over pairs of its fat
+// boxes; those whose own boxes overlap are counted after the clock has stopped, which it is not charged for. The
+// libraries that work in single precision may differ in a few.
 //
 //   broad_phase_benchmark [motion [n ...]]   motion: mean path of a step over the mean edge (default: 0.02)
+#include "collision/broad_phase.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +28,6 @@
 #include <vector>
 
 #include "collision/broad/fat_boxes.hpp"
-#include "collision/broad_phase.hpp"
 #include "experiments/broad_phase/flying_boxes.hpp"
 
 #ifdef POLHODE_HAS_BULLET
@@ -230,7 +232,8 @@ Measurement measure(std::size_t n, double motion) {
 }
 
 /// Ours over the best of theirs, by the median step and by the mean.
-void print_ratio(const std::vector<Result>& results, const std::string& ours, const std::vector<std::string>& theirs, double goal) {
+void print_ratio(const std::vector<Result>& results, const std::string& ours, const std::vector<std::string>& theirs,
+                 double goal) {
   const auto best = [&](const std::vector<std::string>& names, double Result::*ns) {
     double least = 0;
     for (const Result& r : results) {
@@ -267,13 +270,16 @@ int main(int argc, char** argv) {
   std::map<std::string, std::vector<double>> growth;
   for (const std::size_t n : counts) {
     const auto [results, left] = measure(n, motion);
-    fmt::print("n = {}, a step is {} of an edge in the mean; {:.1f} % of our fat boxes are left in a step\n", n, motion, 100 * left);
-    fmt::print("  {:<30} {:>10} {:>10} {:>10} {:>16}\n", "ns per box per step", "median", "mean", "pairs/box", "true ones differ");
+    fmt::print("n = {}, a step is {} of an edge in the mean; {:.1f} % of our fat boxes are left in a step\n", n, motion,
+               100 * left);
+    fmt::print("  {:<30} {:>10} {:>10} {:>10} {:>16}\n", "ns per box per step", "median", "mean", "pairs/box",
+               "true ones differ");
     for (const Result& r : results) {
       fmt::print("  {:<30} {:10.1f} {:10.1f} {:10.4f} {:16}\n", r.name, r.median, r.mean, r.pairs, r.most_wrong);
     }
     for (const Result& r : results) growth[r.name].push_back(r.mean);
-    print_ratio(results, "uniform_grid", {"Bullet btDbvtBroadphase", "FCL DynamicAABBTree", "FCL DynamicAABBTree_Array"}, 0.45);
+    print_ratio(results, "uniform_grid",
+                {"Bullet btDbvtBroadphase", "FCL DynamicAABBTree", "FCL DynamicAABBTree_Array"}, 0.45);
     print_ratio(results, "bvh", {"FCL DynamicAABBTree_Array"}, 0.7);
     print_ratio(results, "sweep_and_prune", {"ODE dSweepAndPruneSpace"}, 0.6);
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What `gjk` costs beside FCL's signed distance and libccd, on the same pairs in one run: the median of rounds in which
 // all take turns. A library that the build did not find is skipped.
-// Like for like: FCL's signed distance with witness points is libccd's GJK, and its EPA where the shapes overlap (GST_LIBCCD,
-// FCL's default, with its default tolerances); ours gives distance, normal and witness points to round-off. libccd's boolean
-// (ccdGJKIntersect) gives yes or no, as does ours; its ccdGJKPenetration depth, direction and position. Cold and warm are the
-// same pairs; warm ones have moved a hundredth of a metre and of a radian since the last question, and are asked with what
-// they remember. The peers have no memory of a pair.
+// Like for like: FCL's signed distance with witness points is libccd's GJK, and its EPA where the shapes overlap
+// (GST_LIBCCD, FCL's default, with its default tolerances); ours gives distance, normal and witness points to
+// round-off. libccd's boolean (ccdGJKIntersect) gives yes or no, as does ours; its ccdGJKPenetration depth, direction
+// and position. Cold and warm are the same pairs; warm ones have moved a hundredth of a metre and of a radian since the
+// last question, and are asked with what they remember. The peers have no memory of a pair.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -215,7 +215,8 @@ void questions(const std::string& what, ShapePointer (*make)(Dice&)) {
 #ifdef POLHODE_HAS_CCD
     if (what != "boxes") continue;
     race("overlap, " + set, {{"gjk", [&] { overlaps(p); }}, {"libccd", ccd_questions(p, false)}});
-    if (overlapping == 1) race("depth, " + set, {{"gjk", [&] { distances(p); }}, {"libccd GJK+EPA", ccd_questions(p, true)}});
+    if (overlapping == 1)
+      race("depth, " + set, {{"gjk", [&] { distances(p); }}, {"libccd GJK+EPA", ccd_questions(p, true)}});
 #endif
   }
 }
@@ -229,8 +230,10 @@ int main() {
 #ifndef POLHODE_HAS_CCD
   std::puts("libccd skipped, because the build found no libccd-dev");
 #endif
-  std::puts("median per pair, and its ratio to the last of each group; distances are signed, with normal and witness points;\n"
-            "FCL's is by libccd, its default; libccd's overlap is ccdGJKIntersect, its depth ccdGJKPenetration");
+  std::puts(
+      "median per pair, and its ratio to the last of each group; distances are signed, with normal and witness "
+      "points;\n"
+      "FCL's is by libccd, its default; libccd's overlap is ccdGJKIntersect, its depth ccdGJKPenetration");
   questions("boxes", random_box);
   questions("hulls of 32 points", random_hull);
 }

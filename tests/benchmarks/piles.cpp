@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps per second of piles of cubes that drop into a box, 10 s at 1/60 s, beside Bullet (btDiscreteDynamicsWorld as it is by
-// default, sleeping off) and ODE (its own box collider, quick step), one core. Ours with the energy of every step. Each says how
-// deep the cubes are in each other and in the walls at the end, and how far the energy rose.
+// Steps per second of piles of cubes that drop into a box, 10 s at 1/60 s, beside Bullet (btDiscreteDynamicsWorld as it
+// is by default, sleeping off) and ODE (its own box collider, quick step), one core. Ours with the energy of every
+// step. Each says how deep the cubes are in each other and in the walls at the end, and how far the energy rose.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -27,7 +27,9 @@ using namespace polhode;
 constexpr int steps = 600;
 constexpr double dt = 1 / 60.0;
 
-void piles(benchmark::internal::Benchmark* b) { b->ArgName("cubes")->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond); }
+void piles(benchmark::internal::Benchmark* b) {
+  b->ArgName("cubes")->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond);
+}
 
 /// m: the deepest of all points where two shapes touch.
 double deepest(const Pile& pile, const std::vector<Pose>& poses) {
@@ -39,7 +41,8 @@ double deepest(const Pile& pile, const std::vector<Pose>& poses) {
 }
 
 void report(benchmark::State& state, double deep) {
-  state.counters["steps/s"] = benchmark::Counter(double(steps) * double(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["steps/s"] =
+      benchmark::Counter(double(steps) * double(state.iterations()), benchmark::Counter::kIsRate);
   state.counters["depth_m"] = deep;
 }
 
@@ -67,8 +70,9 @@ void polhode_pile(benchmark::State& state) {
     const auto method = find_integrator("semi_implicit_euler")->make(*system, {.dt = dt, .t_end = steps * dt});
     State<double> end = system->start();
     energy = {};
-    const auto outcome = simulate<double>(*system, *system, *method, end,
-                                          {.t_end = steps * dt, .dt = dt, .samples = {}, .normalise = true}, energy, nullptr, &contact);
+    const auto outcome =
+        simulate<double>(*system, *system, *method, end,
+                         {.t_end = steps * dt, .dt = dt, .samples = {}, .normalise = true}, energy, nullptr, &contact);
     if (outcome.status != RunStatus::ok) state.SkipWithError(outcome.message.c_str());
     shape_poses(*system, end.y, poses);
   }
@@ -94,7 +98,8 @@ void bullet_pile(benchmark::State& state) {
     std::vector<std::unique_ptr<btCollisionShape>> planes;
     std::vector<std::unique_ptr<btRigidBody>> bodies;
     const auto add = [&](double mass, btCollisionShape& shape, const BodyStart& start) {
-      btRigidBody::btRigidBodyConstructionInfo info(btScalar(mass), nullptr, &shape, btVector3(1, 1, 1) * btScalar(mass / 6));
+      btRigidBody::btRigidBodyConstructionInfo info(btScalar(mass), nullptr, &shape,
+                                                    btVector3(1, 1, 1) * btScalar(mass / 6));
       info.m_startWorldTransform.setOrigin(bullet(start.position));
       const auto& q = start.orientation;
       info.m_startWorldTransform.setRotation({btScalar(q[1]), btScalar(q[2]), btScalar(q[3]), btScalar(q[0])});
@@ -117,7 +122,8 @@ void bullet_pile(benchmark::State& state) {
         for (int c = 0; c < 3; ++c) poses[i].rotation(r, c) = at.getBasis()[r][c];
       }
     }
-    while (world.getNumCollisionObjects() > 0) world.removeCollisionObject(world.getCollisionObjectArray()[world.getNumCollisionObjects() - 1]);
+    while (world.getNumCollisionObjects() > 0)
+      world.removeCollisionObject(world.getCollisionObjectArray()[world.getNumCollisionObjects() - 1]);
   }
   report(state, deepest(pile, poses));
 }

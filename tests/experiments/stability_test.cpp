@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Verdicts on made-up histories, the search for a critical step on made-up scans, what becomes of a lone verdict, when a
-// motion is lost, and linear theory on the oscillator.
+// Verdicts on made-up histories, the search for a critical step on made-up scans, what becomes of a lone verdict, when
+// a motion is lost, and linear theory on the oscillator.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 #include <numbers>
 
-#include "experiments/study/scenario/characteristic_rate.hpp"
 #include "experiments/stability/critical_step.hpp"
 #include "experiments/stability/followed.hpp"
-#include "experiments/study/scenario/scenario.hpp"
 #include "experiments/stability/step_ladder.hpp"
 #include "experiments/stability/step_map.hpp"
 #include "experiments/stability/verdict.hpp"
+#include "experiments/study/scenario/characteristic_rate.hpp"
+#include "experiments/study/scenario/scenario.hpp"
 
 namespace polhode::study {
 namespace {
@@ -95,7 +95,7 @@ TEST(Verdict, AGainOfLessThanAPercentInATurnIsSlow) {
 
 TEST(Verdict, AGainThatRoundingExplainsIsNone) {
   auto run = run_of([](double t) { return 1e-6 * t; });
-  run.result.energy_scale = 2;        // J
+  run.result.energy_scale = 2;  // J
   run.result.energy_round_off = 1e-6;
   EXPECT_EQ(judge(run), Verdict::gaining);
   run.result.energy_round_off = 3e-6;
@@ -213,7 +213,8 @@ MadeUpScan scan_of(const std::vector<double>& steps, const std::function<double(
 
 TEST(StepLadder, ALoneGainIsRunAgainForLongerBeforeItDecides) {
   // Of the step 0.04 a swing of the energy that lasts longer than 40 s looks like a gain.
-  auto scan = scan_of({0.01, 0.02, 0.04, 0.08}, [](double dt, double t_end) { return dt == 0.04 && t_end < 100 ? 0.5 : 0.0; });
+  auto scan =
+      scan_of({0.01, 0.02, 0.04, 0.08}, [](double dt, double t_end) { return dt == 0.04 && t_end < 100 ? 0.5 : 0.0; });
   EXPECT_EQ(scan.ladder().growth().kind, CriticalStep::Kind::found);
   const auto wanted = bisection(scan.study);
   ASSERT_EQ(wanted.size(), 1U);

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/run/simulate.hpp"
 #include "core/system/invariants.hpp"
 #include "core/system/orientation_chart.hpp"
-#include "core/run/simulate.hpp"
 #include "integrators/catalogue.hpp"
 #include "tests/laws/formulations.hpp"
 #include "tests/laws/problems.hpp"
@@ -409,9 +409,10 @@ TEST(AxialTorque, SpinIsLinearInTime) {
   }
 }
 
-// Peters & Hsu, complex case, exact state at t = 10: RK4 at h = 2e-4 reaches it to 1e-8 (rad, and relative in ω) in every
-// formulation, normalised after each step. Left alone it does so too, but with the matrix and the world angular velocity,
-// where the equations read R RᵀR: there the method itself is off by 2e-8, and by a sixteenth of that at half the step.
+// Peters & Hsu, complex case, exact state at t = 10: RK4 at h = 2e-4 reaches it to 1e-8 (rad, and relative in ω) in
+// every formulation, normalised after each step. Left alone it does so too, but with the matrix and the world angular
+// velocity, where the equations read R RᵀR: there the method itself is off by 2e-8, and by a sixteenth of that at half
+// the step.
 TEST(PetersHsu, EndStateInEveryFormulation) {
   const Quaternion<double> attitude(0.2251644204565, -0.6199276265891, -0.2770289703668, 0.6987457843377);
   const V3 spin(2.7558388762, -3.7359651567, -3.1618072245);

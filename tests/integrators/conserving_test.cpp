@@ -166,7 +166,8 @@ TEST(Conserving, SymmetricMethodsReturn) {
         m.steps(0.02, 25);
         EXPECT_GT((m.state().y - start).norm(), 0.1);
         m.steps(-0.02, 25);
-        EXPECT_LT((m.state().y - start).cwiseAbs().maxCoeff() / start.cwiseAbs().maxCoeff(), 1e-12) << d.name << ", " << name << ", " << label(f);
+        EXPECT_LT((m.state().y - start).cwiseAbs().maxCoeff() / start.cwiseAbs().maxCoeff(), 1e-12)
+            << d.name << ", " << name << ", " << label(f);
       }
     }
   }
@@ -187,8 +188,7 @@ S symplecticity_defect(const std::string& method, const Problem& problem, double
     Vector3<S> d = Vector3<S>::Zero();
     d[k % 3] = by;
     VectorX<S>& y = m.state().y;
-    if (k < 3) y.template segment<4>(slot.orientation) =
-        product<S>(quaternion_from_rotation_vector<S>(d), at(start.y));
+    if (k < 3) y.template segment<4>(slot.orientation) = product<S>(quaternion_from_rotation_vector<S>(d), at(start.y));
     else y.template segment<3>(slot.angular) += d;
     m.steps(h, 1);
     return y;

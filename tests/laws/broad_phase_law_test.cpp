@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every broad phase of the catalogue must do: report the pairs that brute force finds, sorted, none twice, whatever
-// the boxes are and however they move; refuse what is no box; and allocate nothing once a scene goes on as it began.
+// What every broad phase of the catalogue must do: report the pairs that brute force finds, sorted, none twice,
+// whatever the boxes are and however they move; refuse what is no box; and allocate nothing once a scene goes on as it
+// began.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -192,7 +193,8 @@ bool held(const Bounds& box, const std::vector<Bounds>& cells) {
   const double slack = 1e-9 * (1 + box.min().cwiseAbs().maxCoeff() + box.max().cwiseAbs().maxCoeff());
   double shared = 0;
   for (const Bounds& cell : cells) {
-    if (((cell.min() - box.min()).array() <= slack).all() && ((box.max() - cell.max()).array() <= slack).all()) return true;
+    if (((cell.min() - box.min()).array() <= slack).all() && ((box.max() - cell.max()).array() <= slack).all())
+      return true;
     const Bounds common = cell.intersection(box);
     if (!common.isEmpty()) shared += common.volume();
   }
@@ -210,7 +212,8 @@ TEST_P(BroadPhaseLaw, ItsCellsHoldWhatIsFinite) {
   for (int k = 0; k < 20; ++k) {
     std::vector<Bounds> boxes;
     for (std::size_t i = 0; i < start.size(); ++i) {
-      boxes.push_back(box(start[i].center() * (1 + 0.1 * k * double(i % 3)), 0.5 * start[i].sizes() * (i == 7 ? 20 : 1)));
+      boxes.push_back(
+          box(start[i].center() * (1 + 0.1 * k * double(i % 3)), 0.5 * start[i].sizes() * (i == 7 ? 20 : 1)));
     }
     boxes.emplace_back(Vector(-infinity, -infinity, -infinity), Vector(infinity, infinity, 0));
     answer(*phase, boxes);
@@ -223,7 +226,8 @@ TEST_P(BroadPhaseLaw, ItsCellsHoldWhatIsFinite) {
     for (const Bounds& cell : cells) {
       ASSERT_TRUE(cell.min().allFinite() && cell.max().allFinite() && (cell.sizes().array() >= 0).all());
     }
-    for (std::size_t i = 0; i + 1 < boxes.size(); ++i) ASSERT_TRUE(held(boxes[i], cells)) << "box " << i << ", step " << k;
+    for (std::size_t i = 0; i + 1 < boxes.size(); ++i)
+      ASSERT_TRUE(held(boxes[i], cells)) << "box " << i << ", step " << k;
   }
   const std::string& name = GetParam().name;
   EXPECT_EQ(some, name != "all_pairs" && name != "sweep_and_prune");
@@ -263,7 +267,8 @@ TEST_P(BroadPhaseLaw, BoundsMayBeInfinite) {
   auto boxes = random_boxes(random, 200, 10, 0.1, 0.8);
   boxes.emplace_back(Vector(-infinity, -infinity, -infinity), Vector(infinity, infinity, 1));
   boxes.insert(boxes.begin() + 50, Bounds(Vector(3, 3, -infinity), Vector(4, 4, infinity)));
-  boxes.insert(boxes.begin() + 90, Bounds(Vector(-infinity, -infinity, -infinity), Vector(infinity, infinity, infinity)));
+  boxes.insert(boxes.begin() + 90,
+               Bounds(Vector(-infinity, -infinity, -infinity), Vector(infinity, infinity, infinity)));
   boxes.insert(boxes.begin() + 95, Bounds(Vector(infinity, 0, 0), Vector(infinity, 1, 1)));
   boxes.insert(boxes.begin() + 99, Bounds(Vector(5, 5, 5), Vector(infinity, infinity, infinity)));
   boxes.emplace_back(Vector(-infinity, -infinity, -infinity), Vector(-infinity, -infinity, -infinity));
@@ -294,9 +299,10 @@ TEST_P(BroadPhaseLaw, CoordinatesMayBeHuge) {
     }
   }
   constexpr double most = std::numeric_limits<double>::max();
-  expect_right({Bounds(Vector::Constant(-most), Vector::Constant(most)), Bounds(Vector::Constant(most), Vector::Constant(most)),
-                Bounds(Vector::Constant(-1), Vector::Constant(1)), Bounds(Vector::Constant(-most), Vector::Constant(-most))},
-               "the largest numbers");
+  expect_right(
+      {Bounds(Vector::Constant(-most), Vector::Constant(most)), Bounds(Vector::Constant(most), Vector::Constant(most)),
+       Bounds(Vector::Constant(-1), Vector::Constant(1)), Bounds(Vector::Constant(-most), Vector::Constant(-most))},
+      "the largest numbers");
 }
 
 TEST_P(BroadPhaseLaw, SizesMaySpanSixOrders) {
@@ -330,7 +336,8 @@ TEST_P(BroadPhaseLaw, SizesMayChange) {
   for (int k = 0; k < 30; ++k) {
     expect_right(boxes, "step " + std::to_string(k));
     for (Bounds& b : boxes) b = box(b.center(), b.sizes() * (k % 10 < 5 ? 1.1 : 0.9));
-    boxes[3] = k % 3 == 0 ? Bounds(Vector::Constant(-infinity), Vector(infinity, infinity, 2)) : box({5, 5, 5}, {0, 0, 0});
+    boxes[3] =
+        k % 3 == 0 ? Bounds(Vector::Constant(-infinity), Vector(infinity, infinity, 2)) : box({5, 5, 5}, {0, 0, 0});
   }
 }
 

@@ -5,15 +5,15 @@
 #include <cmath>
 #include <limits>
 
-#include "collision/contact/contact_scene.hpp"
 #include "collision/contact/compliant.hpp"
+#include "collision/contact/contact_scene.hpp"
 #include "collision/shapes/box.hpp"
 #include "collision/shapes/capsule.hpp"
 #include "collision/shapes/ellipsoid.hpp"
 #include "collision/shapes/half_space.hpp"
 #include "collision/shapes/sphere.hpp"
-#include "core/problem/inertia.hpp"
 #include "core/math/portable_random.hpp"
+#include "core/problem/inertia.hpp"
 #include "tests/laws/allocations.hpp"
 
 namespace polhode::laws {
@@ -35,10 +35,14 @@ ShapePointer ellipsoid() { return std::make_shared<Ellipsoid>(Vector(0.2, 0.3, 0
 ShapePointer floor() { return std::make_shared<HalfSpace>(Vector(0.1, -0.2, 1)); }
 
 std::vector<Pair> pairs() {
-  return {{"sphere_sphere", sphere(), sphere(), true},   {"sphere_box", sphere(), box(), true},
-          {"ellipsoid_capsule", ellipsoid(), capsule(), true}, {"box_half_space", box(), floor(), true},
-          {"capsule_half_space", capsule(), floor(), true},    {"sphere_half_space", sphere(), floor(), true},
-          {"box_box", box(), box(), false},              {"capsule_box", capsule(), box(), false}};
+  return {{"sphere_sphere", sphere(), sphere(), true},
+          {"sphere_box", sphere(), box(), true},
+          {"ellipsoid_capsule", ellipsoid(), capsule(), true},
+          {"box_half_space", box(), floor(), true},
+          {"capsule_half_space", capsule(), floor(), true},
+          {"sphere_half_space", sphere(), floor(), true},
+          {"box_box", box(), box(), false},
+          {"capsule_box", capsule(), box(), false}};
 }
 
 class CompliantLaw : public testing::TestWithParam<Pair> {
@@ -50,7 +54,8 @@ class CompliantLaw : public testing::TestWithParam<Pair> {
       for (const ShapePointer& shape : {pair.a, pair.b}) {
         Body body;
         body.mass = 1.5 + double(colliders.size());
-        if (shape->finite()) body.inertia = body.mass / shape->mass_properties().volume * shape->mass_properties().inertia;
+        if (shape->finite())
+          body.inertia = body.mass / shape->mass_properties().volume * shape->mass_properties().inertia;
         body.fixed = !shape->finite();
         problem.bodies.push_back(body);
         problem.starts.emplace_back();

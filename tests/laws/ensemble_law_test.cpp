@@ -47,12 +47,10 @@ std::vector<Trial> trials() {
                                  {"anchor_body", Vector3<double>(0.2, 0.1, -0.3)}}));
   pushed.forces.push_back(force("damper", {0}, {{"damping", 0.4}, {"anchor_body", Vector3<double>(0.1, -0.3, 0.2)}}));
   pushed.forces.push_back(force("drag", {0}, {{"angular", 0.2}}));
-  return {{"free", free_top()},
-          {"projectile", projectile(false)},
-          {"in_air", projectile(true)},
-          {"pushed", pushed},
-          {"spring", box_on_spring()},
-          {"turned", box_on_spring(turned_inertia({0.5, 0.8, 1.1}, {0.7, -0.4, 0.2, 0.5}))}};
+  return {
+      {"free", free_top()},         {"projectile", projectile(false)},
+      {"in_air", projectile(true)}, {"pushed", pushed},
+      {"spring", box_on_spring()},  {"turned", box_on_spring(turned_inertia({0.5, 0.8, 1.1}, {0.7, -0.4, 0.2, 0.5}))}};
 }
 
 /// Everything that a run shows; it looks at some states and calls a run off at `bound` energy.
@@ -82,8 +80,7 @@ void expect_same(const Seen& a, const Seen& b) {
     const Sample &x = a.samples[i], &y = b.samples[i];
     ASSERT_TRUE(x.t == y.t && x.work == y.work && x.projection == y.projection && x.seen.kinetic == y.seen.kinetic &&
                 x.seen.potential == y.seen.potential && x.seen.orientation_defect == y.seen.orientation_defect &&
-                x.seen.linear_momentum == y.seen.linear_momentum &&
-                x.seen.angular_momentum == y.seen.angular_momentum)
+                x.seen.linear_momentum == y.seen.linear_momentum && x.seen.angular_momentum == y.seen.angular_momentum)
         << "sample " << i;
   }
   ASSERT_EQ(a.states.size(), b.states.size());
@@ -147,11 +144,14 @@ TEST_P(EnsembleLaw, ShowsWhatARunAloneShows) {
     for (const Formulation& f : all_formulations()) {
       for (const bool other_forces : {false, true}) {
         for (const bool normalise : {false, true}) {
-          SCOPED_TRACE(trial.name + ", " + label(f) + (other_forces ? ", other forces" : "") + (normalise ? ", step" : ""));
+          SCOPED_TRACE(trial.name + ", " + label(f) + (other_forces ? ", other forces" : "") +
+                       (normalise ? ", step" : ""));
           std::vector<Problem> problems;
-          for (int i = 0; i < std::min(lane_count, 3); ++i) problems.push_back(relative(trial.problem, i, other_forces));
+          for (int i = 0; i < std::min(lane_count, 3); ++i)
+            problems.push_back(relative(trial.problem, i, other_forces));
           // A last step that is shortened, and one that is not.
-          expect_same_digits(problems, f, {.t_end = 0.5, .dt = normalise ? 0.007 : 0.005, .samples = {}, .normalise = normalise});
+          expect_same_digits(problems, f,
+                             {.t_end = 0.5, .dt = normalise ? 0.007 : 0.005, .samples = {}, .normalise = normalise});
         }
       }
     }
@@ -161,7 +161,7 @@ TEST_P(EnsembleLaw, ShowsWhatARunAloneShows) {
 TEST_P(EnsembleLaw, ALaneMayEndBeforeItsNeighbours) {
   std::vector<Problem> problems;
   for (int i = 0; i < lane_count; ++i) problems.push_back(relative(box_on_spring(), i % 2, false));
-  problems[0].starts[0].velocity = {1e3, 0, 0};        // beyond the bound at once
+  problems[0].starts[0].velocity = {1e3, 0, 0};                // beyond the bound at once
   problems[1].starts[0].angular_velocity = {1e200, 1e200, 1};  // overflows
   expect_same_digits(problems, {}, {.t_end = 1, .dt = 0.01, .samples = {}, .normalise = true}, 1e5);
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What every timing of impacts must do, whatever the scene.
-#include "collision/contact/impact_timing.hpp"
-
 #include <gtest/gtest.h>
 
 #include <ostream>
 
+#include "collision/contact/impact_timing.hpp"
 #include "collision/shapes/box.hpp"
 #include "collision/shapes/half_space.hpp"
 #include "collision/shapes/sphere.hpp"
@@ -43,7 +42,8 @@ TEST_P(ImpactTimingLaw, ASteadySceneTakesNoMemory) {
     colliders.push_back({std::move(shape), restitution, 0.3});
   };
   add(std::make_shared<Box>(Vector(0.5, 0.5, 0.5)), {.position = {0, 0, 0.5}, .velocity = {3, 0, 0}}, 0);
-  add(std::make_shared<Sphere>(0.5), {.position = {0, 5, 0.5}, .velocity = {3, 0, 0}, .angular_velocity = {0, 6, 0}}, 0);
+  add(std::make_shared<Sphere>(0.5), {.position = {0, 5, 0.5}, .velocity = {3, 0, 0}, .angular_velocity = {0, 6, 0}},
+      0);
   add(std::make_shared<Sphere>(0.5), {.position = {0, 9, 0.51}, .angular_velocity = {1, 2, 3}}, 0.9);
   add(std::make_shared<HalfSpace>(Vector(0, 0, 1)), {}, 0);
   problem.forces.push_back({"uniform_gravity", {0, 1, 2}, {{"acceleration", Vector(0, 0, -9.81)}}});

@@ -48,7 +48,8 @@ inline double kinetic_energy(std::span<const ImpulseBody> bodies) {
   double sum = 0;
   for (const ImpulseBody& b : bodies) {
     if (b.inverse_mass > 0) sum += 0.5 * b.velocity.squaredNorm() / b.inverse_mass;
-    if (!b.inverse_inertia.isZero(0)) sum += 0.5 * b.angular_velocity.dot(b.inverse_inertia.inverse() * b.angular_velocity);
+    if (!b.inverse_inertia.isZero(0))
+      sum += 0.5 * b.angular_velocity.dot(b.inverse_inertia.inverse() * b.angular_velocity);
   }
   return sum;
 }
@@ -68,10 +69,10 @@ inline Vector3<double> angular_momentum(std::span<const ImpulseBody> bodies) {
 
 struct SceneKind {
   int bodies = 4;
-  double statics = 0;       ///< share of the bodies that cannot move
-  double friction = 0;      ///< up to this
-  double restitution = 0;   ///< up to this
-  double spread = 0.5;      ///< powers of ten by which masses differ
+  double statics = 0;      ///< share of the bodies that cannot move
+  double friction = 0;     ///< up to this
+  double restitution = 0;  ///< up to this
+  double spread = 0.5;     ///< powers of ten by which masses differ
 };
 
 /// Bodies at random, each two with a chance of a patch of one to four points.
@@ -85,7 +86,11 @@ inline ImpulseScene random_scene(study::Dice& dice, const SceneKind& kind) {
       const Matrix3<double> r = dice.rotation();
       // Of a box of sides from 1 to 2.
       const Vector3<double> h = dice.uniform_vector(1, 2).array().square();
-      b.inverse_inertia = r * (12 * b.inverse_mass * Vector3<double>(1 / (h[1] + h[2]), 1 / (h[2] + h[0]), 1 / (h[0] + h[1]))).asDiagonal() * r.transpose();
+      b.inverse_inertia =
+          r *
+          (12 * b.inverse_mass * Vector3<double>(1 / (h[1] + h[2]), 1 / (h[2] + h[0]), 1 / (h[0] + h[1])))
+              .asDiagonal() *
+          r.transpose();
       b.velocity = dice.uniform_vector(-2, 2);
       b.angular_velocity = dice.uniform_vector(-2, 2);
     }
@@ -95,7 +100,8 @@ inline ImpulseScene random_scene(study::Dice& dice, const SceneKind& kind) {
     for (std::uint32_t b = a + 1; b < s.bodies.size(); ++b) {
       if (!dice.chance(0.6)) continue;
       const Vector3<double> n = dice.direction(), t = n.unitOrthogonal(), u = n.cross(t);
-      const Vector3<double> middle = 0.5 * (s.bodies[a].position + s.bodies[b].position) + dice.uniform_vector(-0.3, 0.3);
+      const Vector3<double> middle =
+          0.5 * (s.bodies[a].position + s.bodies[b].position) + dice.uniform_vector(-0.3, 0.3);
       const double friction = dice.uniform(0, kind.friction), restitution = dice.uniform(0, kind.restitution);
       const int points = 1 + dice.below(4);
       for (int k = 0; k < points; ++k) {

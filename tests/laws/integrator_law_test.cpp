@@ -41,8 +41,8 @@ TEST_P(IntegratorLaw, DeclaresWhatItIs) {
   }
 }
 
-// The declared order of a fixed-step method, from both sides: halving h divides the error by 2^p; free bodies may have an
-// order of their own, or be exact.
+// The declared order of a fixed-step method, from both sides: halving h divides the error by 2^p; free bodies may have
+// an order of their own, or be exact.
 TEST_P(IntegratorLaw, HasTheDeclaredOrder) {
   if (adaptive()) GTEST_SKIP() << "it takes a tolerance, not a step";
   const double floor = 4e-12;  // above the round-off of a run in double; multi-step methods reach their order late
@@ -60,7 +60,8 @@ TEST_P(IntegratorLaw, HasTheDeclaredOrder) {
     std::int64_t first = 15;
     double coarse = difference(run(*system, 0, first).y, end);
     const bool extended = entry().make_long_double && (expected > 4 || coarse < 1000 * floor);
-    for (; !extended && coarse < 1000 * floor && first > 3; coarse = difference(run(*system, 0, first).y, end)) first /= 2;
+    for (; !extended && coarse < 1000 * floor && first > 3; coarse = difference(run(*system, 0, first).y, end))
+      first /= 2;
     double order = 0, error = 1;
     for (std::int64_t n = first; n <= 3840; n *= 2) {
       const double next = extended ? difference(run(*exact, 0, n).y, end) : difference(run(*system, 0, n).y, end);

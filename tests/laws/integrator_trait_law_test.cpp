@@ -97,7 +97,8 @@ TEST_P(IntegratorTrait, SymmetricMethodsReturn) {
   }
 }
 
-// A step with compensated sums is the step itself to round-off, whatever the forces; a method whose step is no sum has none.
+// A step with compensated sums is the step itself to round-off, whatever the forces; a method whose step is no sum has
+// none.
 TEST_P(IntegratorTrait, AdditiveMethodsTakeCompensatedSteps) {
   if (!declared().additive) {
     const auto system = make_system<double>(free_top(), {});
@@ -121,7 +122,8 @@ TEST_P(IntegratorTrait, AdditiveMethodsTakeCompensatedSteps) {
   });
 }
 
-// Over many small steps in float the sums round far more than the increments do: in the same steps in long double neither.
+// Over many small steps in float the sums round far more than the increments do: in the same steps in long double
+// neither.
 TEST_P(IntegratorTrait, CompensatedSumsLoseLess) {
   if (!declared().additive) GTEST_SKIP() << "its step is not a sum";
   constexpr std::int64_t steps = 8192;

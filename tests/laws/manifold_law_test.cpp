@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every manifold must be, of every two kinds of shapes that a narrow phase answers: near enough points on both surfaces,
-// as deep as the pair, each with a name of its own, and a touch once the pair is moved out.
+// What every manifold must be, of every two kinds of shapes that a narrow phase answers: near enough points on both
+// surfaces, as deep as the pair, each with a name of its own, and a touch once the pair is moved out.
 #include <gtest/gtest.h>
 
 #include <algorithm>

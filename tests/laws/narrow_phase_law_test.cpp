@@ -57,8 +57,12 @@ struct Asked {
   const NarrowPhase& narrow;
   const ShapePair& pair;
 
-  Distance distance(PairMemory* memory = nullptr) const { return narrow.distance(*pair.a, pair.at_a, *pair.b, pair.at_b, memory); }
-  bool overlap(PairMemory* memory = nullptr) const { return narrow.overlap(*pair.a, pair.at_a, *pair.b, pair.at_b, memory); }
+  Distance distance(PairMemory* memory = nullptr) const {
+    return narrow.distance(*pair.a, pair.at_a, *pair.b, pair.at_b, memory);
+  }
+  bool overlap(PairMemory* memory = nullptr) const {
+    return narrow.overlap(*pair.a, pair.at_a, *pair.b, pair.at_b, memory);
+  }
   Manifold manifold(double margin = 0, PairMemory* memory = nullptr) const {
     return narrow.manifold(*pair.a, pair.at_a, *pair.b, pair.at_b, margin, memory);
   }

@@ -168,8 +168,7 @@ VectorX<S> plain_rate(const System<S>& system, S t, const VectorX<S>& y) {
         angular = inverse * m;
         break;
       }
-      default:
-        angular = torque;
+      default: angular = torque;
     }
     dy.template segment<3>(slot.angular) = angular;
     if (slot.position >= 0) {

@@ -62,7 +62,8 @@ ImpulseScene cube_on_floor(double friction) {
 ImpulseScene cradle(int balls, bool from_the_left) {
   ImpulseScene s;
   for (int i = 0; i < balls; ++i) s.bodies.push_back(ball(0.3, 0.5, {double(i), 0, 0}));
-  for (std::uint32_t i = 0; i + 1 < std::uint32_t(balls); ++i) s.contacts.push_back(touch(i, i + 1, {-1, 0, 0}, {i + 0.5, 0, 0}, 1));
+  for (std::uint32_t i = 0; i + 1 < std::uint32_t(balls); ++i)
+    s.contacts.push_back(touch(i, i + 1, {-1, 0, 0}, {i + 0.5, 0, 0}, 1));
   if (from_the_left) {
     s.bodies.front().velocity = {1, 0, 0};
   } else {
@@ -108,7 +109,8 @@ TEST_P(ResponseCase, NewtonsCradleHasItsStatedOutcome) {
         // One out, or all at once: the first rebounds with 1 − 2 (n − 1)/n, the others go with 2/n.
         const double together = first ? 1 - 2 * (balls - 1) / double(balls) : 2 / double(balls);
         const double speed = GetParam().name == "single_impulse" ? (last ? 1 : 0) : together;
-        EXPECT_NEAR(s.bodies[std::size_t(i)].velocity[0], left ? speed : -speed, 1e-10) << "ball " << i << " of " << balls;
+        EXPECT_NEAR(s.bodies[std::size_t(i)].velocity[0], left ? speed : -speed, 1e-10)
+            << "ball " << i << " of " << balls;
       }
     }
   }
@@ -151,8 +153,10 @@ TEST_P(ResponseCase, ABlockOnAnInclineSticksOrSlides) {
     for (int k = 1; k <= 100; ++k) {
       s.bodies[1].velocity += g * h * Vector(std::sin(angle), 0, -std::cos(angle));
       s = after(s, h);
-      const double expected = angle < std::atan(friction) ? 0 : g * (std::sin(angle) - friction * std::cos(angle)) * k * h;
-      ASSERT_LE((s.bodies[1].velocity - Vector(expected, 0, 0)).norm(), in_a_step()) << "step " << k << " at " << angle << " rad";
+      const double expected =
+          angle < std::atan(friction) ? 0 : g * (std::sin(angle) - friction * std::cos(angle)) * k * h;
+      ASSERT_LE((s.bodies[1].velocity - Vector(expected, 0, 0)).norm(), in_a_step())
+          << "step " << k << " at " << angle << " rad";
       ASSERT_LE(s.bodies[1].angular_velocity.norm(), in_a_step());
     }
   }
@@ -160,8 +164,8 @@ TEST_P(ResponseCase, ABlockOnAnInclineSticksOrSlides) {
 
 TEST_P(ResponseCase, BallsRollOnABoxThatIsPushed) {
   if (!has_friction()) GTEST_SKIP() << "it has none";
-  // SimBenchmark's "rolling" (ETH Zürich): a box of 10 kg on the ground carries 25 balls of 1 kg and is pushed by 150 N,
-  // neither along x nor along y.
+  // SimBenchmark's "rolling" (ETH Zürich): a box of 10 kg on the ground carries 25 balls of 1 kg and is pushed by 150
+  // N, neither along x nor along y.
   const double mass = 10, radius = 0.1, g = 9.81, h = 0.001;
   ImpulseScene s;
   s.bodies = {ImpulseBody{}, cube(mass, 1, {0, 0, 0.5}, Matrix::Identity())};
@@ -203,7 +207,8 @@ TEST_P(ResponseCase, ABouncingBallSlipsOrRolls) {
     // The slip loses μ (1 + e) v_n (1 + m r²/I), and no more than there is.
     const double lost = std::min(1.0, friction * (1 + e) * 3 * 3.5 / 2.5);
     EXPECT_NEAR(s.bodies[1].velocity[2], e * 3, 1e-11);
-    EXPECT_LE((s.bodies[1].velocity_at(Vector::Zero()) - Vector(1.5, -2, 1.8) * 1 - lost * Vector(-1.5, 2, 0)).norm(), 1e-10);
+    EXPECT_LE((s.bodies[1].velocity_at(Vector::Zero()) - Vector(1.5, -2, 1.8) * 1 - lost * Vector(-1.5, 2, 0)).norm(),
+              1e-10);
   }
 }
 

@@ -46,7 +46,8 @@ TEST_P(ResponseLaw, KineticEnergyNeverRises) {
   for (const double friction : {0.0, 1.0}) {
     for (const double restitution : {0.0, 1.0}) {
       for (const double statics : {0.0, 0.3}) {
-        const SceneKind kind{.bodies = 6, .statics = statics, .friction = friction, .restitution = restitution, .spread = 1};
+        const SceneKind kind{
+            .bodies = 6, .statics = statics, .friction = friction, .restitution = restitution, .spread = 1};
         for_scenes(60, kind, [&](const ImpulseScene& s) {
           const double before = kinetic_energy(s.bodies);
           ASSERT_LE(kinetic_energy(after(s).bodies), before * (1 + 1e-10));
@@ -96,17 +97,18 @@ TEST_P(ResponseLaw, OneElasticContactKeepsEnergy) {
 
 TEST_P(ResponseLaw, NoContactPullsAndFrictionStaysInTheCone) {
   for (const double restitution : {0.0, 1.0}) {
-    for_scenes(100, {.bodies = 6, .statics = 0.2, .friction = 1, .restitution = restitution}, [&](const ImpulseScene& s) {
-      const ImpulseScene t = after(s);
-      for (const ImpulseContact& c : t.contacts) {
-        const Seen seen(t, c);
-        ASSERT_GE(seen.normal_impulse, -1e-15 * c.impulse.norm());
-        ASSERT_LE(seen.friction.norm(), c.friction * seen.normal_impulse + 1e-13 * c.impulse.norm());
-        if (!has_friction()) {
-          ASSERT_LE(seen.friction.norm(), 1e-15 * c.impulse.norm());
-        }
-      }
-    });
+    for_scenes(100, {.bodies = 6, .statics = 0.2, .friction = 1, .restitution = restitution},
+               [&](const ImpulseScene& s) {
+                 const ImpulseScene t = after(s);
+                 for (const ImpulseContact& c : t.contacts) {
+                   const Seen seen(t, c);
+                   ASSERT_GE(seen.normal_impulse, -1e-15 * c.impulse.norm());
+                   ASSERT_LE(seen.friction.norm(), c.friction * seen.normal_impulse + 1e-13 * c.impulse.norm());
+                   if (!has_friction()) {
+                     ASSERT_LE(seen.friction.norm(), 1e-15 * c.impulse.norm());
+                   }
+                 }
+               });
   }
 }
 

@@ -23,8 +23,10 @@ struct Seen {
   Vector3<double> friction, slip;
 
   Seen(const ImpulseScene& s, const ImpulseContact& c)
-      : normal_impulse(c.impulse.dot(c.normal)), normal_velocity(c.normal.dot(s.relative(c))),
-        friction(c.impulse - normal_impulse * c.normal), slip(s.relative(c) - normal_velocity * c.normal) {}
+      : normal_impulse(c.impulse.dot(c.normal)),
+        normal_velocity(c.normal.dot(s.relative(c))),
+        friction(c.impulse - normal_impulse * c.normal),
+        slip(s.relative(c) - normal_velocity * c.normal) {}
 };
 
 /// The largest difference of two scenes' velocities.
@@ -38,9 +40,13 @@ inline double difference(const ImpulseScene& s, const ImpulseScene& t) {
 }
 
 inline bool finite(const ImpulseScene& s) {
-  return std::all_of(s.bodies.begin(), s.bodies.end(), [](const ImpulseBody& b) {
-    return b.velocity.allFinite() && b.angular_velocity.allFinite() && b.shift.allFinite() && b.turn.allFinite();
-  }) && std::all_of(s.contacts.begin(), s.contacts.end(), [](const ImpulseContact& c) { return c.impulse.allFinite(); });
+  return std::all_of(s.bodies.begin(), s.bodies.end(),
+                     [](const ImpulseBody& b) {
+                       return b.velocity.allFinite() && b.angular_velocity.allFinite() && b.shift.allFinite() &&
+                              b.turn.allFinite();
+                     }) &&
+         std::all_of(s.contacts.begin(), s.contacts.end(),
+                     [](const ImpulseContact& c) { return c.impulse.allFinite(); });
 }
 
 /// A response of the catalogue, and scenes at random for it.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The laws of a schedule, for every method that takes steps of a given size: sizes given one by one make the motion that
-// the fixed loop makes; a run starts at the time of its state; and an observer that asks to stop is obeyed at once.
+// The laws of a schedule, for every method that takes steps of a given size: sizes given one by one make the motion
+// that the fixed loop makes; a run starts at the time of its state; and an observer that asks to stop is obeyed at
+// once.
 #include <gtest/gtest.h>
 
 #include <stdexcept>

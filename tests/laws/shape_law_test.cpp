@@ -7,9 +7,9 @@
 #include <fstream>
 #include <random>
 
-#include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/compound.hpp"
 #include "collision/shapes/half_space.hpp"
+#include "collision/shapes/shape_catalogue.hpp"
 #include "core/problem/inertia.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -41,7 +41,8 @@ std::string obj_file(bool pyramid) {
       for (int i = 0; i < 3; ++i) file << (i ? " " : "v ") << (k >> i & 1 ? high[i] : low[i]);
       file << "\n";
     }
-    for (const auto& f : {std::array{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
+    for (const auto& f :
+         {std::array{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
       file << "f " << base + f[0] << " " << base + f[1] << " " << base + f[2] << " " << base + f[3] << "\n";
     }
   };
@@ -57,27 +58,34 @@ bool within(const Vector& x, const Vector& low, const Vector& high, double slack
 std::vector<Sample> samples() {
   return {
       {"sphere", {{"radius", 0.7}}, [](const Vector& x, double slack) { return x.norm() <= 0.7 + slack; }},
-      {"box", {{"size", Vector(0.4, 1.2, 2.0)}},
+      {"box",
+       {{"size", Vector(0.4, 1.2, 2.0)}},
        [](const Vector& x, double slack) { return within(x, Vector(-0.2, -0.6, -1), Vector(0.2, 0.6, 1), slack); }},
-      {"capsule", {{"radius", 0.4}, {"length", 1.5}},
+      {"capsule",
+       {{"radius", 0.4}, {"length", 1.5}},
        [](const Vector& x, double slack) {
          return (x - Vector(0, 0, std::clamp(x[2], -0.75, 0.75))).norm() <= 0.4 + slack;
        }},
-      {"cylinder", {{"radius", 0.5}, {"length", 1.4}},
+      {"cylinder",
+       {{"radius", 0.5}, {"length", 1.4}},
        [](const Vector& x, double slack) {
          return std::hypot(x[0], x[1]) <= 0.5 + slack && std::abs(x[2]) <= 0.7 + slack;
        }},
-      {"ellipsoid", {{"semi_axes", Vector(0.3, 0.9, 1.4)}},
+      {"ellipsoid",
+       {{"semi_axes", Vector(0.3, 0.9, 1.4)}},
        [](const Vector& x, double slack) { return x.cwiseQuotient(Vector(0.3, 0.9, 1.4)).norm() <= 1 + 4 * slack; }},
-      {"convex_hull", {{"file", obj_file(true)}},
+      {"convex_hull",
+       {{"file", obj_file(true)}},
        [](const Vector& x, double slack) {
          return x[2] >= -slack && x.head<2>().cwiseAbs().maxCoeff() <= 1 - x[2] / 3 + slack;
        }},
-      {"compound", {{"file", obj_file(false)}},
+      {"compound",
+       {{"file", obj_file(false)}},
        [](const Vector& x, double slack) {
          return within(x, {0, 0, 0}, {3, 1, 1}, slack) || within(x, {2, 0, 1}, {3, 1, 3}, slack);
        }},
-      {"half_space", {{"normal", Vector(1, 2, -2)}, {"offset", 0.5}},
+      {"half_space",
+       {{"normal", Vector(1, 2, -2)}, {"offset", 0.5}},
        [](const Vector& x, double slack) { return x.dot(Vector(1, 2, -2)) <= 0.5 + 3 * slack; }},
   };
 }
@@ -107,7 +115,8 @@ class ShapeLaw : public testing::TestWithParam<std::string> {
   }
   Pose pose() {
     std::normal_distribution<double> bell;
-    return {3 * direction(), rotation_matrix(Quaternion<double>(bell(random), bell(random), bell(random), bell(random)))};
+    return {3 * direction(),
+            rotation_matrix(Quaternion<double>(bell(random), bell(random), bell(random), bell(random)))};
   }
 
   std::mt19937_64 random{11};
@@ -137,7 +146,8 @@ TEST_P(ShapeLaw, SupportIsFurthest) {
   const Bounds around = s->bounds({});
   std::uniform_real_distribution<double> uniform;
   while (inside.size() < 2000) {
-    const Vector x = around.min() + around.sizes().cwiseProduct(Vector(uniform(random), uniform(random), uniform(random)));
+    const Vector x =
+        around.min() + around.sizes().cwiseProduct(Vector(uniform(random), uniform(random), uniform(random)));
     if (given().holds(x, 0)) inside.push_back(x);
   }
   for (int k = 0; k < 300; ++k) {

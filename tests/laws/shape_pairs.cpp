@@ -8,13 +8,13 @@
 #include <map>
 #include <stdexcept>
 
-#include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/box.hpp"
 #include "collision/shapes/capsule.hpp"
 #include "collision/shapes/compound.hpp"
 #include "collision/shapes/cylinder.hpp"
 #include "collision/shapes/ellipsoid.hpp"
 #include "collision/shapes/half_space.hpp"
+#include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/sphere.hpp"
 #include "core/math/portable_random.hpp"
 
@@ -66,7 +66,9 @@ ShapePointer shape(Dice& dice, const std::string& kind, double size) {
   if (kind == "ellipsoid") return std::make_shared<Ellipsoid>(s);
   if (kind == "cone") return std::make_shared<Cone>(s[0], s[1]);
   if (kind == "convex_hull") return hull(dice, size);
-  if (kind == "half_space") return std::make_shared<HalfSpace>(dice.chance(0.5) ? dice.direction() : Vector::UnitZ(), size * dice.uniform(-1, 1));
+  if (kind == "half_space")
+    return std::make_shared<HalfSpace>(dice.chance(0.5) ? dice.direction() : Vector::UnitZ(),
+                                       size * dice.uniform(-1, 1));
   if (kind == "compound") {
     std::vector<Compound::Part> parts;
     for (int i = dice.below(3); i >= 0; --i) parts.push_back(hull(dice, 0.6 * size, 0.4 * size * dice.direction()));
@@ -76,10 +78,13 @@ ShapePointer shape(Dice& dice, const std::string& kind, double size) {
 }
 
 double off_convex_surface(const Shape& shape, const Pose& at, const Vector& x, const Vector& out) {
-  const auto height = [&](const Vector& d) { return d.dot(at.to_world(shape.support(at.rotation.transpose() * d)) - x); };
+  const auto height = [&](const Vector& d) {
+    return d.dot(at.to_world(shape.support(at.rotation.transpose() * d)) - x);
+  };
   double off = std::abs(height(out));
   Dice dice(1);
-  for (int k = 0; k < 60; ++k) off = std::max(off, -height(k < 6 ? Vector((k % 2 ? -1 : 1) * Vector::Unit(k / 2)) : dice.direction()));
+  for (int k = 0; k < 60; ++k)
+    off = std::max(off, -height(k < 6 ? Vector((k % 2 ? -1 : 1) * Vector::Unit(k / 2)) : dice.direction()));
   return off;
 }
 
@@ -100,7 +105,8 @@ ShapePair shape_pair(const std::string& kind_a, const std::string& kind_b, std::
   const double ratio = dice.chance(0.5) ? 1 : dice.power_of_ten(-2, 0), size = dice.power_of_ten(-2, 2);
   const bool first = dice.chance(0.5);
   const double size_a = size * (first ? 1 : ratio), size_b = size * (first ? ratio : 1);
-  ShapePair pair{kind_a, kind_b, seed, shape(dice, kind_a, size_a), shape(dice, kind_b, size_b), {}, {}, 0, size * ratio};
+  ShapePair pair{kind_a, kind_b, seed,        shape(dice, kind_a, size_a), shape(dice, kind_b, size_b), {},
+                 {},     0,      size * ratio};
   const auto either = [&](const char* kind) { return kind_a == kind || kind_b == kind; };
   pair.round = either("cylinder") || either("ellipsoid") || either("cone");
   pair.convex = !either("compound");
@@ -132,7 +138,8 @@ double off_surface(const Shape& shape, const Pose& at, const Vector& x, const Ve
   }
   if (shape.tag() != ShapeTag::compound) return off_convex_surface(shape, at, x, out);
   double off = std::numeric_limits<double>::infinity();
-  for (const auto& part : static_cast<const Compound&>(shape).parts()) off = std::min(off, off_convex_surface(*part, at, x, out));
+  for (const auto& part : static_cast<const Compound&>(shape).parts())
+    off = std::min(off, off_convex_surface(*part, at, x, out));
   return off;
 }
 

@@ -15,11 +15,11 @@ struct ShapePair {
   std::uint64_t seed = 0;
   ShapePointer a, b;
   Pose at_a, at_b;
-  double scale = 0;        ///< m: of sizes and positions
-  double smaller = 0;      ///< m: the smaller of the two shapes
-  bool round = false;      ///< one of them bends in two ways: a search for its depth ends near it
-  bool convex = true;      ///< none is a compound
-  bool finite = true;      ///< none is a half-space
+  double scale = 0;    ///< m: of sizes and positions
+  double smaller = 0;  ///< m: the smaller of the two shapes
+  bool round = false;  ///< one of them bends in two ways: a search for its depth ends near it
+  bool convex = true;  ///< none is a compound
+  bool finite = true;  ///< none is a half-space
 };
 
 /// Those of the catalogue, and a cone that narrow phases know by its support function alone.
@@ -27,7 +27,8 @@ const std::vector<std::string>& shape_kinds();
 
 ShapePair shape_pair(const std::string& kind_a, const std::string& kind_b, std::uint64_t seed);
 
-/// How far x is from the surface of the solid where it reaches furthest along `out`: inside it or beyond the plane there.
+/// How far x is from the surface of the solid where it reaches furthest along `out`: inside it or beyond the plane
+/// there.
 double off_surface(const Shape& shape, const Pose& at, const Vector3<double>& x, const Vector3<double>& out);
 
 }  // namespace polhode::laws

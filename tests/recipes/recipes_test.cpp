@@ -31,7 +31,8 @@ TEST(Recipes, StandInTheCatalogues) {
 }
 
 TEST(Recipes, AConeHasTheInertiaOfItsFormula) {
-  const Scenario s = scenario_of("t_end = 1\n[[body]]\nmass = 2\nshape = { kind = \"cone\", radius = 0.3, length = 0.8 }\n");
+  const Scenario s =
+      scenario_of("t_end = 1\n[[body]]\nmass = 2\nshape = { kind = \"cone\", radius = 0.3, length = 0.8 }\n");
   const double across = 3 * 2 * (4 * 0.09 + 0.64) / 80, along = 3 * 2 * 0.09 / 10;
   EXPECT_LT((s.problem.bodies[0].inertia.diagonal() - Vector3<double>(across, across, along)).norm(), 1e-15);
 }
@@ -48,7 +49,8 @@ TEST(Recipes, AConeCanBePinnedByItsTip) {
 TEST(Recipes, AConeFallsOnItsBase) {
   const Scenario s = scenario_of(
       "t_end = 1\ngravity = [0, 0, -9.81]\ncontact = true\n"
-      "[[body]]\nmass = 2\nposition = [0, 0, 1]\nrestitution = 0.5\nshape = { kind = \"cone\", radius = 0.3, length = 0.8 }\n"
+      "[[body]]\nmass = 2\nposition = [0, 0, 1]\nrestitution = 0.5\nshape = { kind = \"cone\", radius = 0.3, length = "
+      "0.8 }\n"
       "[[body]]\nstatic = true\nshape = { kind = \"half_space\", normal = [0, 0, 1], offset = 0 }\n");
   const RunResult r = run_of(s, 1e-3, ContactConfig{"sweep_and_prune", "gjk", "sequential_impulses", "time_stepping"});
   EXPECT_EQ(r.status, "ok") << r.message;
@@ -61,7 +63,8 @@ TEST(Recipes, AConeFallsOnItsBase) {
 // A circle about the charge: v² = k/(m r), and the energy is −k/(2r).
 TEST(Recipes, CoulombsForceKeepsABodyOnItsCircle) {
   const Scenario s = scenario_of(
-      "t_end = 6.283185307179586\n[[body]]\nmass = 2\ninertia = [1, 2, 2.5]\nposition = [2, 1, 0]\nvelocity = [0, 1, 0]\n"
+      "t_end = 6.283185307179586\n[[body]]\nmass = 2\ninertia = [1, 2, 2.5]\nposition = [2, 1, 0]\nvelocity = [0, 1, "
+      "0]\n"
       "[[force]]\nkind = \"coulomb\"\nbodies = [\"body0\"]\nstrength = -2\ncenter = [1, 1, 0]\n");
   const RunResult r = run_of(s, 1e-3);
   EXPECT_EQ(r.status, "ok") << r.message;

@@ -88,19 +88,20 @@ class Durations {
 };
 
 Options variant_options(const std::vector<RunRecord>& runs) {
-  return {runs,
-          {[](const RunConfig& c) { return std::string(name(c.formulation.orientation)); },
-           [](const RunConfig& c) { return std::string(name(c.formulation.angular_state)); },
-           [](const RunConfig& c) { return fmt::format("gyroscopic {}", c.formulation.gyroscopic ? "on" : "off"); },
-           [](const RunConfig& c) { return fmt::format("normalize {}", c.normalise ? "step" : "never"); },
-           [](const RunConfig& c) { return fmt::format("rotation {}", name(c.formulation.rotation_from)); },
-           [](const RunConfig& c) { return std::string(name(c.precision)); },
-           [](const RunConfig& c) { return c.contact ? c.contact->broad_phase : std::string(); },
-           [](const RunConfig& c) { return c.contact ? c.contact->narrow_phase : std::string(); },
-           [](const RunConfig& c) { return c.contact ? c.contact->response : std::string(); },
-           [](const RunConfig& c) { return c.contact ? c.contact->impact_timing : std::string(); },
-           [](const RunConfig& c) { return c.order.value_or(0) > 0 ? fmt::format("order {}", *c.order) : std::string(); },
-           [](const RunConfig& c) { return c.summation ? std::string(name(*c.summation)) : std::string(); }}};
+  return {
+      runs,
+      {[](const RunConfig& c) { return std::string(name(c.formulation.orientation)); },
+       [](const RunConfig& c) { return std::string(name(c.formulation.angular_state)); },
+       [](const RunConfig& c) { return fmt::format("gyroscopic {}", c.formulation.gyroscopic ? "on" : "off"); },
+       [](const RunConfig& c) { return fmt::format("normalize {}", c.normalise ? "step" : "never"); },
+       [](const RunConfig& c) { return fmt::format("rotation {}", name(c.formulation.rotation_from)); },
+       [](const RunConfig& c) { return std::string(name(c.precision)); },
+       [](const RunConfig& c) { return c.contact ? c.contact->broad_phase : std::string(); },
+       [](const RunConfig& c) { return c.contact ? c.contact->narrow_phase : std::string(); },
+       [](const RunConfig& c) { return c.contact ? c.contact->response : std::string(); },
+       [](const RunConfig& c) { return c.contact ? c.contact->impact_timing : std::string(); },
+       [](const RunConfig& c) { return c.order.value_or(0) > 0 ? fmt::format("order {}", *c.order) : std::string(); },
+       [](const RunConfig& c) { return c.summation ? std::string(name(*c.summation)) : std::string(); }}};
 }
 
 Case case_of(const RunConfig& config, const Durations& durations) {
@@ -160,7 +161,8 @@ Grouping group(const StudyView& study) {
     const auto [case_index, new_case] = index_of(cases, identity(motion, run.config));
     if (new_case) {
       grouping.cases.push_back(std::move(motion));
-      sizes.push_back(run.scenario ? motion_size(*run.scenario, run.config.t_end) : std::numeric_limits<double>::infinity());
+      sizes.push_back(run.scenario ? motion_size(*run.scenario, run.config.t_end)
+                                   : std::numeric_limits<double>::infinity());
     }
 
     const auto variant = joined(formulations.describe(run.config));
@@ -180,14 +182,17 @@ Grouping group(const StudyView& study) {
 namespace quantity {
 
 Quantity energy_drift() {
-  return {
-      "energy_drift_max_rel", "energy drift", "largest energy drift (relative)", "", 0, true, [](const RunResult& r) {
-        return r.energy_drift_max_rel;
-      },
-      [](const RunResult& r) -> std::optional<double> {
-        if (!r.energy_round_off || !r.energy_scale) return std::nullopt;
-        return *r.energy_round_off / *r.energy_scale;
-      }};
+  return {"energy_drift_max_rel",
+          "energy drift",
+          "largest energy drift (relative)",
+          "",
+          0,
+          true,
+          [](const RunResult& r) { return r.energy_drift_max_rel; },
+          [](const RunResult& r) -> std::optional<double> {
+            if (!r.energy_round_off || !r.energy_scale) return std::nullopt;
+            return *r.energy_round_off / *r.energy_scale;
+          }};
 }
 Quantity linear_momentum_drift() {
   return {"linear_momentum_drift_max_rel",
@@ -287,7 +292,9 @@ double round_off_level(const RunRecord& run, const Quantity& quantity) {
   return std::max({round_off_level(run), quantity.round_off, own.value_or(0)});
 }
 
-double lost_level(const Curve& curve, const Quantity& quantity) { return quantity.bounded ? motion_lost : curve.motion_size; }
+double lost_level(const Curve& curve, const Quantity& quantity) {
+  return quantity.bounded ? motion_lost : curve.motion_size;
+}
 
 bool follows(const RunRecord& run, const Curve& curve, const Quantity& quantity) {
   const auto found = value(run, quantity);

@@ -26,9 +26,9 @@ struct Curve {
   std::size_t case_index = 0;
   std::size_t variant_index = 0;
   std::size_t method_index = 0;
-  bool adaptive = false;               ///< its runs differ in the tolerance, otherwise in the step
+  bool adaptive = false;  ///< its runs differ in the tolerance, otherwise in the step
   double motion_size = std::numeric_limits<double>::infinity();  ///< m; infinite where it is not known
-  std::vector<const RunRecord*> runs;  ///< largest step or loosest tolerance first
+  std::vector<const RunRecord*> runs;                            ///< largest step or loosest tolerance first
 };
 
 /// Points into the records of the study, which must outlive it.
@@ -83,13 +83,13 @@ bool is_measured(const Curve& curve, const Quantity& quantity);
 /// That number as tables and sentences print it; empty where there is none.
 std::string printed(const RunRecord& run, const Quantity& quantity);
 
-/// The relative drift below which rounding alone may stand: 16 ε √steps, a random walk of rounding errors. Of the energy
-/// what the run says itself (energy_round_off), where it does.
+/// The relative drift below which rounding alone may stand: 16 ε √steps, a random walk of rounding errors. Of the
+/// energy what the run says itself (energy_round_off), where it does.
 double round_off_level(const RunRecord& run);
 double round_off_level(const RunRecord& run, const Quantity& quantity);
 
-/// From this value on the motion is lost, and which of two values is the larger is chance: angles are wrapped. 1 rad of an
-/// attitude, the size of the motion of a position, 1 of what is relative.
+/// From this value on the motion is lost, and which of two values is the larger is chance: angles are wrapped. 1 rad of
+/// an attitude, the size of the motion of a position, 1 of what is relative.
 double lost_level(const Curve& curve, const Quantity& quantity);
 /// The run ended and its value is below that.
 bool follows(const RunRecord& run, const Curve& curve, const Quantity& quantity);

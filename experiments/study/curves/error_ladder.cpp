@@ -43,7 +43,8 @@ std::vector<LadderPoint> error_ladder(const Curve& curve, const Quantity& quanti
     if (!completed(*run) && !ended_early(*run)) continue;  // refused
     LadderPoint point{abscissa(*run).value_or(0), infinite, round_off_level(*run, quantity)};
     if (const auto found = value(*run, quantity); found && !is_too_large(*run, curve, quantity)) point.error = *found;
-    if (completed(*run) && !quantity.of(run->result) && used_reference(*run)) point.error = 0, point.round_off = infinite;
+    if (completed(*run) && !quantity.of(run->result) && used_reference(*run))
+      point.error = 0, point.round_off = infinite;
     points.push_back(point);
   }
   return points;

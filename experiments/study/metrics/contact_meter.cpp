@@ -17,8 +17,8 @@ void raise(std::optional<double>& worst, double now) {
 
 }  // namespace
 
-ContactMeter::ContactMeter(const System<double>& system, const Scenario& scenario, const ContactConfig& config, double t_end,
-                           Observer& next)
+ContactMeter::ContactMeter(const System<double>& system, const Scenario& scenario, const ContactConfig& config,
+                           double t_end, Observer& next)
     : system_(system),
       next_(next),
       scene_(scenario.problem, scenario.colliders, config.broad_phase, config.narrow_phase),

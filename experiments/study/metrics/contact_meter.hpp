@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Watches what contact does in a run: where energy goes, how deep bodies are in each other, whether they stay where they are.
+// Watches what contact does in a run: where energy goes, how deep bodies are in each other, whether they stay where
+// they are.
 #pragma once
 
 #include <vector>
@@ -10,11 +11,13 @@
 
 namespace polhode::study {
 
-/// An observer that hands everything on to the next one. Places are looked at at 1000 instants spread evenly over the run (the
-/// first sample at or after each) and at its end, depths at every tenth of them, since they cost as much as finding contacts.
+/// An observer that hands everything on to the next one. Places are looked at at 1000 instants spread evenly over the
+/// run (the first sample at or after each) and at its end, depths at every tenth of them, since they cost as much as
+/// finding contacts.
 class ContactMeter final : public Observer {
  public:
-  ContactMeter(const System<double>& system, const Scenario& scenario, const ContactConfig& config, double t_end, Observer& next);
+  ContactMeter(const System<double>& system, const Scenario& scenario, const ContactConfig& config, double t_end,
+               Observer& next);
 
   std::size_t observe(std::span<const Sample> samples) override;
   void look(const State<double>& state, const Sample& sample) override;

@@ -8,16 +8,16 @@
 //   random walk  p = ½ of a drift as often up as down, spread evenly over the run
 //   sublinear, linear, quadratic, faster: p of a drift that goes one way
 //   undecided    everything else
-// A class by its exponent needs the whole 95 % interval; growth needs to stand clearly above rounding, to be seen beside
-// the oscillations that were taken out, and no oscillation slow enough to look like it. Growth and its interval are those
-// of drift_growth.hpp.
+// A class by its exponent needs the whole 95 % interval; growth needs to stand clearly above rounding, to be seen
+// beside the oscillations that were taken out, and no oscillation slow enough to look like it. Growth and its interval
+// are those of drift_growth.hpp.
 //
 // An undecided drift has the duration that would decide, where one can be told:
 //   too few samples: the one that has 32 of them;
 //   a slow oscillation: six of its periods; a change over the whole run counts as one of 1.5 periods in it;
-//   too wide an interval of p: the one of half width 0.2, since it shrinks as t^−(p + ½), the growth over √t of its noise;
-//   a sudden rise, of p beyond 5, that may be a pulse: twice the run;
-//   growth that may hide in noise: the one at which its limit is small, since that shrinks as t^−½.
+//   too wide an interval of p: the one of half width 0.2, since it shrinks as t^−(p + ½), the growth over √t of its
+//   noise; a sudden rise, of p beyond 5, that may be a pulse: twice the run; growth that may hide in noise: the one at
+//   which its limit is small, since that shrinks as t^−½.
 // None is told beyond a thousand runs.
 #pragma once
 
@@ -37,15 +37,15 @@ struct DriftRecord {
   double round_off = 0;           ///< J, what rounding alone can have added up to by the end of the run
   double scale = 0;               ///< J, of the energy
   std::int64_t samples = 0;
-  double t_end = 0;               ///< s
-  std::vector<double> impacts;    ///< s, in order; may be thinned
+  double t_end = 0;             ///< s
+  std::vector<double> impacts;  ///< s, in order; may be thinned
 };
 
 struct DriftClass {
   std::string name;
-  std::optional<double> exponent, low, high;      ///< of bounded (0), random walk, sublinear … faster
-  std::optional<double> slope_half_width;         ///< W, 95 %
-  std::optional<double> decided_after;            ///< s, of undecided
+  std::optional<double> exponent, low, high;  ///< of bounded (0), random walk, sublinear … faster
+  std::optional<double> slope_half_width;     ///< W, 95 %
+  std::optional<double> decided_after;        ///< s, of undecided
 };
 
 DriftClass classify(const DriftRecord& record);

@@ -197,7 +197,8 @@ void DriftMeter::report(RunResult& result) {
     result.energy_drift_rate = finite((n * sums_.td - sums_.t * sums_.d) / spread / t_end_);
   }
   if (conserved_.linear) result.linear_momentum_drift_max_rel = finite(std::sqrt(sums_.worst_linear2) / scales_.linear);
-  if (conserved_.angular) result.angular_momentum_drift_max_rel = finite(std::sqrt(sums_.worst_angular2) / scales_.angular);
+  if (conserved_.angular)
+    result.angular_momentum_drift_max_rel = finite(std::sqrt(sums_.worst_angular2) / scales_.angular);
   for (std::size_t k = 0; k < invariants_.size(); ++k) {
     const auto drift = finite(invariants_[k].worst / scales_.invariants[k]);
     if (drift) result.invariant_drift_max_rel[invariants_[k].kind->name] = *drift;
@@ -256,7 +257,8 @@ void DriftMeter::classify(RunResult& result) const {
   record.largest = sums_.worst_energy;
   if (!(scales_.energy > 0)) record.largest_early = record.largest;  // then the series has no energies
   for (const SeriesPoint& p : result.series) {
-    if (p.t <= t_end_ / 2) record.largest_early = std::max(record.largest_early, std::abs(p.energy_drift_rel) * scales_.energy);
+    if (p.t <= t_end_ / 2)
+      record.largest_early = std::max(record.largest_early, std::abs(p.energy_drift_rel) * scales_.energy);
   }
   record.round_off = result.energy_round_off.value_or(0);
   record.scale = scales_.energy;

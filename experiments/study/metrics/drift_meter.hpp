@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Watches a run and measures how far its invariants drift and how far it is from the exact motion.
 //
-// Energy is a ledger: E = kinetic + potential − work of non-conservative forces + energy lost in contact − energy injected
-// by projection. Its drift is what the ledger cannot explain. Relative drifts are told against the scales of the motion.
+// Energy is a ledger: E = kinetic + potential − work of non-conservative forces + energy lost in contact − energy
+// injected by projection. Its drift is what the ledger cannot explain. Relative drifts are told against the scales of
+// the motion.
 #pragma once
 
 #include <memory>
@@ -10,13 +11,13 @@
 #include <vector>
 
 #include "core/exact/exact_motion.hpp"
-#include "core/system/invariants.hpp"
 #include "core/exact/reference_motion.hpp"
 #include "core/run/simulate.hpp"
-#include "experiments/study/statistics/drift_growth.hpp"
+#include "core/system/invariants.hpp"
 #include "experiments/study/metrics/polhode_error.hpp"
 #include "experiments/study/metrics/references.hpp"
 #include "experiments/study/record/run_record.hpp"
+#include "experiments/study/statistics/drift_growth.hpp"
 
 namespace polhode::study {
 
@@ -56,8 +57,8 @@ class DriftMeter final : public Observer {
   /// J, against which energy drifts are told; 0: against none.
   double energy_scale() const { return scales_.energy; }
 
-  /// Fills the measured part of the result, which has its status and its steps. Of a run that broke off there are errors
-  /// against the exact motion only where they were measured at its last state.
+  /// Fills the measured part of the result, which has its status and its steps. Of a run that broke off there are
+  /// errors against the exact motion only where they were measured at its last state.
   void report(RunResult& result);
 
  private:

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "core/exact/exact_motion.hpp"
-#include "core/system/invariants.hpp"
 #include "core/run/simulate.hpp"
+#include "core/system/invariants.hpp"
 #include "experiments/study/scenario/narrow_phase_choice.hpp"
 #include "experiments/study/setup/run_setup.hpp"
 
@@ -22,7 +22,8 @@ namespace {
 class LargestScales final : public Observer {
  public:
   /// `radii`: of the moving bodies that can touch, m; empty without contact.
-  LargestScales(const System<double>& system, const std::vector<std::string>& invariants, std::vector<double> radii = {})
+  LargestScales(const System<double>& system, const std::vector<std::string>& invariants,
+                std::vector<double> radii = {})
       : system_(system), radii_(std::move(radii)) {
     found_.mass_center = mass_center_of_start(system);
     for (const std::string& name : invariants) kinds_.push_back(find_invariant(name));
@@ -144,7 +145,8 @@ State<double> exact_state(const ExactMotion& exact, const System<double>& system
   return state;
 }
 
-MotionScales along_exact(const Scenario& scenario, const System<double>& system, const ExactMotion& exact, double t_end) {
+MotionScales along_exact(const Scenario& scenario, const System<double>& system, const ExactMotion& exact,
+                         double t_end) {
   constexpr int instants = 64, bits = 26;
   LargestScales largest(system, scenario.invariants);
   const auto take = [&](double t) {
@@ -175,7 +177,8 @@ MotionScales along_steps(const Scenario& scenario, const RunConfig& config, cons
   const auto integrator = integrator_of<double>(config, *system);
   State<double> state = system->start();
   try {
-    simulate(*system, *system, *integrator, state, schedule_of(config), largest, stop, contact ? contact->model.get() : nullptr);
+    simulate(*system, *system, *integrator, state, schedule_of(config), largest, stop,
+             contact ? contact->model.get() : nullptr);
   } catch (const std::exception&) {  // contact that cannot be followed: what came before it stands
   }
   return largest.found();
@@ -226,7 +229,8 @@ MotionScales along_true_motion(const Scenario& scenario, double t_end, const std
 
 double MotionScales::energy_round_off(Precision precision, std::int64_t steps) const {
   // Energies are measured in double, whatever the precision of the run.
-  const double unit = std::max(epsilon(precision), epsilon(Precision::dual)), n = static_cast<double>(std::max<std::int64_t>(steps, 1));
+  const double unit = std::max(epsilon(precision), epsilon(Precision::dual)),
+               n = static_cast<double>(std::max<std::int64_t>(steps, 1));
   return unit * (std::sqrt(n) * (16 * kinetic_terms + force_terms) + 4 * force_terms + n * steady_terms);
 }
 

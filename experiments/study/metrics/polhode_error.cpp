@@ -28,7 +28,8 @@ PolhodeError::PolhodeError(const Matrix3<double>& inertia, const Vector3<double>
   // Near the separatrix the period is many turns long, and the phase of an instant a small part of it.
   constexpr double points = 48, longest_step = 0.5 /* rad */, most_points = 4096;
   const double period = top_.period();
-  const double count = std::isfinite(period) ? std::ceil(std::clamp(period * speed_ / longest_step, points, most_points)) : points;
+  const double count =
+      std::isfinite(period) ? std::ceil(std::clamp(period * speed_ / longest_step, points, most_points)) : points;
   search_step_ = std::isfinite(period) ? period / count : longest_step / speed_;
   for (int i = 0; i < static_cast<int>(count); ++i) ring_.push_back(exact(i * search_step_).value);
 }
@@ -39,8 +40,8 @@ PolhodeError::Momentum PolhodeError::exact(double t) const {
   return {y, rate, rate.cross(omega) + y.cross(inverse_inertia_ * rate)};
 }
 
-/// Newton's way to the nearest point, in steps that do not leave its neighbourhood; Gauss and Newton's where the distance
-/// is not convex.
+/// Newton's way to the nearest point, in steps that do not leave its neighbourhood; Gauss and Newton's where the
+/// distance is not convex.
 double PolhodeError::refined(double t, const Vector3<double>& y, double phase) const {
   constexpr int most_steps = 30;
   constexpr double rounding = std::numeric_limits<double>::epsilon();
@@ -55,7 +56,8 @@ double PolhodeError::refined(double t, const Vector3<double>& y, double phase) c
     }
     if (!(rate2 > 0)) break;
     const double curvature = rate2 - off.dot(m.second);
-    const double step = std::clamp(off.dot(m.rate) / (4 * curvature > rate2 ? curvature : rate2), -search_step_, search_step_);
+    const double step =
+        std::clamp(off.dot(m.rate) / (4 * curvature > rate2 ? curvature : rate2), -search_step_, search_step_);
     phase += step;
     if (!(std::abs(step) > rounding * (std::abs(t) + std::abs(phase) + size_ / std::sqrt(rate2)))) break;
   }

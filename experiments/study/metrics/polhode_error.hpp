@@ -42,8 +42,8 @@ class PolhodeError {
 
   Matrix3<double> inertia_, inverse_inertia_;
   FreeTop top_;
-  double speed_, size_;         ///< |ω(0)|, |y(0)|
-  double search_step_;          ///< s, between the points of the ring
+  double speed_, size_;                ///< |ω(0)|, |y(0)|
+  double search_step_;                 ///< s, between the points of the ring
   std::vector<Vector3<double>> ring_;  ///< exact y over a period, for the search of the nearest point
   double t_ = 0, phase_ = 0, phase_rate_ = 0;
 };

@@ -24,10 +24,8 @@ TrueMotion References::of(const RunConfig& config, const Scenario& scenario, con
     auto& found = entries_[which];
     if (!found) found = std::make_shared<Entry>();
     entry = found;
-    if (entry->expected <= 1)
-      entries_.erase(which);
-    else
-      --entry->expected;
+    if (entry->expected <= 1) entries_.erase(which);
+    else --entry->expected;
   }
   const std::lock_guard lock(entry->making);
   if (!entry->scales) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the runs of a study share about the true motion: the scales of its drifts and, with --reference, a reference motion.
-// There is one of each for each variant of a scenario and each duration, made when the first run needs it and let go after
-// the last. Like the exact motion, both are of the full equations, whether a run leaves the gyroscopic term out or not.
+// What the runs of a study share about the true motion: the scales of its drifts and, with --reference, a reference
+// motion. There is one of each for each variant of a scenario and each duration, made when the first run needs it and
+// let go after the last. Like the exact motion, both are of the full equations, whether a run leaves the gyroscopic
+// term out or not.
 #pragma once
 
 #include <atomic>
@@ -20,7 +21,8 @@ namespace polhode::study {
 
 struct TrueMotion {
   MotionScales scales;
-  std::shared_ptr<const ReferenceMotion> reference;  ///< null unless the run asks for one and no exact motion stands for it
+  std::shared_ptr<const ReferenceMotion>
+      reference;  ///< null unless the run asks for one and no exact motion stands for it
 };
 
 class References {

@@ -17,13 +17,13 @@ namespace polhode::study {
 struct FurtherAxes {
   std::map<std::string, std::string> defaults{};
   std::vector<std::pair<std::string, std::string>> vary{};  ///< key of the scenario and its values
-  bool reference = false;        ///< as --reference
-  bool by_default_only = false;  ///< left out where the user names an axis
+  bool reference = false;                                   ///< as --reference
+  bool by_default_only = false;                             ///< left out where the user names an axis
 };
 
 struct Experiment {
   std::string name;
-  std::string question;  ///< one sentence
+  std::string question;   ///< one sentence
   std::string meaning{};  ///< of its answer, for --help: one paragraph; empty: the question says it all
   /// The values of options that are not given, as the command line writes them: {"dt", "1e-3,1e-2"}.
   std::map<std::string, std::string> defaults;
@@ -31,14 +31,14 @@ struct Experiment {
   std::vector<std::pair<std::string, std::string>> vary{};
   bool reference = false;  ///< as if --reference were given
   std::vector<FurtherAxes> more{};
-  bool one_run = false;  ///< exactly one run, whose trajectory goes into the folder itself
-  bool best_times = false;  ///< short runs are carried out several times, and the least wall time is kept
-  bool fixed_steps_only = false;  ///< methods that choose their own steps have no place in it
+  bool one_run = false;               ///< exactly one run, whose trajectory goes into the folder itself
+  bool best_times = false;            ///< short runs are carried out several times, and the least wall time is kept
+  bool fixed_steps_only = false;      ///< methods that choose their own steps have no place in it
   bool failures_are_results = false;  ///< a run that a method could not carry on is an answer, not a fault
   /// s, how long a run lasts: of the duration that was asked for and its step. Empty: what was asked for.
   std::function<double(double t_end, double dt)> duration{};
-  /// Given all finished runs, which further ones it wants. It is asked again with those, until it wants nothing new. The
-  /// same runs must always lead to the same wishes: then a study that is stopped finds again what it has.
+  /// Given all finished runs, which further ones it wants. It is asked again with those, until it wants nothing new.
+  /// The same runs must always lead to the same wishes: then a study that is stopped finds again what it has.
   std::function<std::vector<RunConfig>(const StudyView&)> refine{};
   /// What it makes of its finished runs beyond what every study shows; empty: nothing.
   std::function<Analysis(const StudyView&)> analysis{};

@@ -9,12 +9,12 @@
 #include "collision/contact/impact_timing.hpp"
 #include "collision/narrow_phase.hpp"
 #include "collision/shapes/shape_catalogue.hpp"
+#include "collision/shapes/shape_inertia.hpp"
 #include "core/forces/catalogue.hpp"
 #include "core/system/invariants.hpp"
-#include "collision/shapes/shape_inertia.hpp"
 #include "experiments/study/scenario/builtin_scenarios.hpp"
-#include "experiments/study/text/input_error.hpp"
 #include "experiments/study/scenario/scenario.hpp"
+#include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/suggestion.hpp"
 #include "integrators/catalogue.hpp"
 
@@ -57,7 +57,8 @@ std::string keys(const std::vector<Parameter>& parameters) {
 
 std::string forces() {
   std::string text;
-  for (const ForceEntry& e : force_catalogue()) text += line(e.kind.name, e.kind.summary + "; keys: " + keys(e.kind.parameters));
+  for (const ForceEntry& e : force_catalogue())
+    text += line(e.kind.name, e.kind.summary + "; keys: " + keys(e.kind.parameters));
   return text;
 }
 
@@ -101,26 +102,33 @@ std::string impact_timings() {
 }
 
 std::string metrics() {
-  return line("energy_drift_*", "ledger: kinetic + potential - work of non-conservative forces + energy lost in contact - energy injected by projection") +
+  return line("energy_drift_*",
+              "ledger: kinetic + potential - work of non-conservative forces + energy lost in contact - energy "
+              "injected by projection") +
          line("linear_momentum_*", "|P - P0| over |P0|, where the forces conserve it") +
-         line("angular_momentum_*", "|L - L0| over |L0|: one body about its mass centre or pivot, several about the origin") +
+         line("angular_momentum_*",
+              "|L - L0| over |L0|: one body about its mass centre or pivot, several about the origin") +
          line("<invariant>_*", "each further invariant that a scenario declares, over its scale") +
          line("orientation_defect_max", "| |q| - 1 |, or the Frobenius norm of R^T R - 1") +
-         line("position_error_max_m", "distance from the exact mass centre, or with --reference from a proven reference") +
+         line("position_error_max_m",
+              "distance from the exact mass centre, or with --reference from a proven reference") +
          line("attitude_error_max_rad", "angle between the attitude and the exact one") +
          line("angular_velocity_error_*", "|w - w exact| over |w0|") +
-         line("polhode_phase_error_*", "of one free body: how far its momentum is ahead along the exact polhode, s and rad") +
+         line("polhode_phase_error_*",
+              "of one free body: how far its momentum is ahead along the exact polhode, s and rad") +
          line("polhode_off_error_*", "and its distance from that polhode, over |L|") +
          line("energy_drift_rate_*", "least-squares slope of the drift, and half its 95 % confidence interval") +
          line("first_impact_s", "with contact: when the first impact was, and") +
-         line("impact_loss_J ...", "what the ledger has lost to impacts and friction, and what undoing penetration put in") +
+         line("impact_loss_J ...",
+              "what the ledger has lost to impacts and friction, and what undoing penetration put in") +
          line("energy_rise_max_J", "largest rise of kinetic + potential - work above an earlier value") +
          line("energy_change_max_J", "its largest distance from that at the start") +
          line("penetration_max_m, _end_m", "how deep two bodies were in each other at most, and at the end") +
          line("displacement_after_2s_max_m", "of a mass centre from where it was after 2 s") +
          line("left_place_s", "when one was a tenth of its body's radius away from where it started") +
          line("drift_exponent*", "p of |drift| ~ t^p, oscillations set aside, and its 95 % confidence interval") +
-         line("drift_class", "by that exponent: bounded, random walk or sublinear, linear, quadratic, faster; round-off,") +
+         line("drift_class",
+              "by that exponent: bounded, random walk or sublinear, linear, quadratic, faster; round-off,") +
          line("", "saturated, jumps (at impacts alone), undecided, with") +
          line("drift_decided_after_s", "the duration that would decide it, by estimate");
 }
@@ -129,11 +137,16 @@ struct Section {
   const char* name;
   std::string (*text)();
 };
-constexpr Section sections[] = {{"integrators", integrators},   {"scenarios", scenarios},
-                                {"forces", forces},             {"shapes", shapes},
-                                {"invariants", invariants},     {"metrics", metrics},
-                                {"broad-phases", broad_phases}, {"narrow-phases", narrow_phases},
-                                {"responses", responses},       {"impact-timings", impact_timings}};
+constexpr Section sections[] = {{"integrators", integrators},
+                                {"scenarios", scenarios},
+                                {"forces", forces},
+                                {"shapes", shapes},
+                                {"invariants", invariants},
+                                {"metrics", metrics},
+                                {"broad-phases", broad_phases},
+                                {"narrow-phases", narrow_phases},
+                                {"responses", responses},
+                                {"impact-timings", impact_timings}};
 
 }  // namespace
 

@@ -19,12 +19,16 @@ constexpr AxisHelp axis_help[] = {
     {"scenario", "NAME|FILE", "scenario, built in or a TOML file (see --list scenarios)"},
     {"integrator", "NAME", "method, or all (see --list integrators)"},
     {"orientation", "quaternion|matrix", "chart of the orientation (default: quaternion)"},
-    {"angular-state", "velocity_world|velocity_body|momentum_world", "what stands for the rotation in the state (default: velocity_world)"},
+    {"angular-state", "velocity_world|velocity_body|momentum_world",
+     "what stands for the rotation in the state (default: velocity_world)"},
     {"gyroscopic", "on|off", "the term w x Iw, which both source documents leave out (default: on)"},
     {"normalize", "never|step", "project the orientation after each step (default: never)"},
     {"rotation-from", "normalised|stored", "what a quaternion off the unit sphere stands for (default: normalised)"},
-    {"precision", "float|double|long_double", "arithmetic; other than double for our own methods and Odeint's (default: double)"},
-    {"summation", "plain|compensated", "how increments are added to the state; compensated: what rounding loses is kept and added to the next one (default: plain)"},
+    {"precision", "float|double|long_double",
+     "arithmetic; other than double for our own methods and Odeint's (default: double)"},
+    {"summation", "plain|compensated",
+     "how increments are added to the state; compensated: what rounding loses is kept and added to the next one "
+     "(default: plain)"},
     {"order", "N", "of methods that offer several, as --list integrators says"},
     {"dt", "S", "step of fixed-step methods, in s"},
     {"tolerance", "X", "relative and absolute tolerance of adaptive methods"},
@@ -52,8 +56,9 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   ParsedOptions parsed;
   Options& options = parsed.options;
   const std::string explained = experiment.meaning.empty() ? "" : "\n\n" + experiment.meaning;
-  CLI::App app{experiment.question + explained + "\n\nAxes take a list (a,b,c) or a range (1e-4:1e-1:10, or 1e-4:1e-1:10:log); the "
-                                     "study is their product. SI units throughout.",
+  CLI::App app{experiment.question + explained +
+                   "\n\nAxes take a list (a,b,c) or a range (1e-4:1e-1:10, or 1e-4:1e-1:10:log); the "
+                   "study is their product. SI units throughout.",
                experiment.name};
   app.get_formatter()->column_width(40);
   std::map<std::string, std::string> given;
@@ -72,8 +77,10 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   for (const auto& [key, values] : experiment.vary) {
     preset_vary += (preset_vary.empty() ? " (default, of the default scenario: " : " ") + key + "=" + values;
   }
-  app.add_option("--vary", vary, "any key of the scenario as an axis: body.0.inertia.1=0.5:3:20, or whole vectors: "
-                                 "'body.0.angular_velocity=[0,1,0];[1,0,0]'" + preset_vary + (preset_vary.empty() ? "" : ")"))
+  app.add_option("--vary", vary,
+                 "any key of the scenario as an axis: body.0.inertia.1=0.5:3:20, or whole vectors: "
+                 "'body.0.angular_velocity=[0,1,0];[1,0,0]'" +
+                     preset_vary + (preset_vary.empty() ? "" : ")"))
       ->type_name("KEY=VALUES")
       ->allow_extra_args(false)
       ->group("Axes");
@@ -84,24 +91,28 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   app.add_option("--out", options.out, "folder of the results (default: results/<experiment>-<scenario>-<hash>)")
       ->type_name("FOLDER")
       ->group("Results");
-  app.add_flag("--force", options.force, "overwrite the results of a different study in that folder; runs of the same one that failed are "
-                                         "carried out again")->group("Results");
+  app.add_flag("--force", options.force,
+               "overwrite the results of a different study in that folder; runs of the same one that failed are "
+               "carried out again")
+      ->group("Results");
   std::string trajectory = experiment.one_run ? "csv" : "none";
   app.add_option("--trajectory", trajectory, "write the motion of every run (default: " + trajectory + ")")
       ->type_name("none|csv|hdf5")
       ->check(CLI::IsMember({"none", "csv", "hdf5"}).description(""))
       ->group("Results");
-  app.add_flag("--reference", options.reference,
-               "where no exact solution is known, measure errors against a motion in extended precision that proves its "
-               "digits by halving its step")
+  app.add_flag(
+         "--reference", options.reference,
+         "where no exact solution is known, measure errors against a motion in extended precision that proves its "
+         "digits by halving its step")
       ->group("Results");
   add_no_figures(app, options.figures)->group("Results");
   app.add_option("--jobs", options.jobs, "runs at a time (default: one for each core)")
       ->type_name("N")
       ->check(CLI::Range(1, 4096).description(""))
       ->group("Running");
-  app.add_option("--max-steps", options.max_steps,
-                 "a run of an adaptive method that is not at its end after so many steps has failed (default: 100000000)")
+  app.add_option(
+         "--max-steps", options.max_steps,
+         "a run of an adaptive method that is not at its end after so many steps has failed (default: 100000000)")
       ->type_name("N")
       ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 52).description(""))
       ->group("Running");
@@ -109,8 +120,9 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   app.add_flag("--dry-run", options.dry_run, "print the plan and write nothing")->group("Running");
   std::string list;
   CLI::Option* list_option =
-      app.add_option("--list", list, "print the catalogue: integrators, scenarios, forces, shapes, invariants, "
-                                     "broad-phases, narrow-phases, responses, impact-timings or metrics (default: all)")
+      app.add_option("--list", list,
+                     "print the catalogue: integrators, scenarios, forces, shapes, invariants, "
+                     "broad-phases, narrow-phases, responses, impact-timings or metrics (default: all)")
           ->type_name("[WHAT]")
           ->expected(0, 1)
           ->group("Running");

@@ -23,7 +23,7 @@ namespace polhode::study {
 struct Options {
   /// By option name without dashes, as written: {"dt", "1e-3,1e-2"}; defaults filled in.
   std::map<std::string, std::string> axes;
-  std::set<std::string> said;  ///< the axes that the command line or a study file names
+  std::set<std::string> said;                             ///< the axes that the command line or a study file names
   std::vector<std::pair<std::string, std::string>> vary;  ///< key of the scenario and its values, as written
   /// Where a study file sets an axis, or "vary." and a key: "study.toml:3:8: dt".
   std::map<std::string, std::string> places;
@@ -32,18 +32,18 @@ struct Options {
     const auto found = places.find(axis);
     return found == places.end() ? "--" + axis : found->second;
   }
-  bool plain = false;    ///< no axis is said: everything is as the experiment has it
+  bool plain = false;  ///< no axis is said: everything is as the experiment has it
   std::uint64_t seed = 1;
-  std::string out;       ///< empty: results/<experiment>-<scenarios>-<hash>
+  std::string out;  ///< empty: results/<experiment>-<scenarios>-<hash>
   bool force = false;
-  int jobs = 0;          ///< 0: one for each core
+  int jobs = 0;                           ///< 0: one for each core
   std::optional<std::int64_t> max_steps;  ///< of adaptive methods; absent: as Schedule has it
   TrajectoryFormat trajectory = TrajectoryFormat::none;
   bool figures = true;
   bool dry_run = false;
   bool reference = false;
   std::optional<std::string> list;  ///< what to list, "" for everything
-  std::string command;   ///< the command line, quoted for a shell
+  std::string command;              ///< the command line, quoted for a shell
 };
 
 /// Either the options, or an exit status where the command line said it all (--help).

@@ -13,17 +13,18 @@
 #include "collision/broad_phase.hpp"
 #include "collision/contact/impact_timing.hpp"
 #include "collision/narrow_phase.hpp"
-#include "experiments/study/text/value_lists.hpp"
-#include "experiments/study/text/input_error.hpp"
-#include "experiments/study/scenario/narrow_phase_choice.hpp"
 #include "experiments/study/run/run.hpp"
+#include "experiments/study/scenario/narrow_phase_choice.hpp"
+#include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/suggestion.hpp"
+#include "experiments/study/text/value_lists.hpp"
 #include "integrators/catalogue.hpp"
 
 namespace polhode::study {
 namespace {
 
-/// Raised whenever a change of the code changes a digit of a result: stored runs of an older version are then made anew.
+/// Raised whenever a change of the code changes a digit of a result: stored runs of an older version are then made
+/// anew.
 constexpr int results_version = 4;
 constexpr std::size_t most_runs = 10'000'000;
 constexpr std::size_t most_listed = 20;  // names in an error
@@ -37,7 +38,8 @@ std::vector<std::string> names(const Options& options, const std::string& axis, 
   std::vector<std::string> items;
   for (const std::string& item : split_list(found->second, ',', options.label(axis))) {
     if (std::find(known.begin(), known.end(), item) == known.end()) {
-      if (known.empty()) throw InputError(options.label(axis) + ": there is none in this version; leave the option out");
+      if (known.empty())
+        throw InputError(options.label(axis) + ": there is none in this version; leave the option out");
       const std::vector<std::string_view> all(known.begin(), known.end());
       throw InputError(options.label(axis) + ": no '" + item + "'" +
                        (all.size() > most_listed ? suggestion_of_many(item, all, "--list " + axis + "s")
@@ -49,8 +51,8 @@ std::vector<std::string> names(const Options& options, const std::string& axis, 
 }
 
 template <class T>
-std::vector<T> choices(const Options& options, const std::string& axis, const std::vector<std::pair<std::string, T>>& all,
-                       T preset) {
+std::vector<T> choices(const Options& options, const std::string& axis,
+                       const std::vector<std::pair<std::string, T>>& all, T preset) {
   std::vector<std::string> known;
   for (const auto& [text, value] : all) known.push_back(text);
   std::vector<T> values;
@@ -69,7 +71,8 @@ std::vector<double> positive(const Options& options, const std::string& axis, co
   std::vector<double> values = numbers(found->second, options.label(axis));
   for (const double x : values) {
     if (x > 0) continue;
-    throw InputError(fmt::format("{}: {} is not positive; it must be a positive number{}", options.label(axis), x, unit));
+    throw InputError(
+        fmt::format("{}: {} is not positive; it must be a positive number{}", options.label(axis), x, unit));
   }
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
@@ -91,7 +94,8 @@ struct Axes {
   std::vector<std::string> broad_phases, narrow_phases, responses, impact_timings;
 };
 
-/// The names of an axis, among those of a catalogue; `otherwise` where the study does not speak of it (empty: by the scenario).
+/// The names of an axis, among those of a catalogue; `otherwise` where the study does not speak of it (empty: by the
+/// scenario).
 template <class Entry>
 std::vector<std::string> catalogue_names(const Options& options, const char* axis, const std::vector<Entry>& catalogue,
                                          const char* otherwise) {
@@ -121,9 +125,9 @@ std::vector<std::string> integrator_names(const Experiment& experiment, const Op
 Axes read_axes(const Experiment& experiment, const Options& options) {
   Axes axes;
   axes.integrators = integrator_names(experiment, options);
-  axes.orientations = choices<Orientation>(
-      options, "orientation", {{"quaternion", Orientation::quaternion}, {"matrix", Orientation::matrix}},
-      Orientation::quaternion);
+  axes.orientations = choices<Orientation>(options, "orientation",
+                                           {{"quaternion", Orientation::quaternion}, {"matrix", Orientation::matrix}},
+                                           Orientation::quaternion);
   axes.angular_states = choices<AngularState>(options, "angular-state",
                                               {{"velocity_world", AngularState::velocity_world},
                                                {"velocity_body", AngularState::velocity_body},
@@ -136,11 +140,13 @@ Axes read_axes(const Experiment& experiment, const Options& options) {
       RotationFrom::normalised);
   axes.precisions = choices<Precision>(
       options, "precision",
-      {{"float", Precision::single}, {"double", Precision::dual}, {"long_double", Precision::extended}}, Precision::dual);
+      {{"float", Precision::single}, {"double", Precision::dual}, {"long_double", Precision::extended}},
+      Precision::dual);
   axes.summations = choices<std::optional<Summation>>(
       options, "summation", {{"plain", Summation::plain}, {"compensated", Summation::compensated}}, std::nullopt);
   for (const double n : positive(options, "order", "")) {
-    if (n != std::floor(n) || n > 100) throw InputError(fmt::format("{}: {} is not an order", options.label("order"), n));
+    if (n != std::floor(n) || n > 100)
+      throw InputError(fmt::format("{}: {} is not an order", options.label("order"), n));
     axes.orders.push_back(static_cast<int>(n));
   }
   axes.steps = positive(options, "dt", " of seconds");
@@ -161,8 +167,8 @@ Axes read_axes(const Experiment& experiment, const Options& options) {
     axes.samples.emplace_back(static_cast<std::int64_t>(n));
   }
   if (experiment.duration && !axes.samples.empty()) {
-    throw InputError(fmt::format("{}: {} looks at every step; leave the option out", options.label("samples"),
-                                 experiment.name));
+    throw InputError(
+        fmt::format("{}: {} looks at every step; leave the option out", options.label("samples"), experiment.name));
   }
   if (axes.samples.empty()) axes.samples.emplace_back(std::nullopt);
   axes.broad_phases = catalogue_names(options, "broad-phase", broad_phase_catalogue(), "sweep_and_prune");
@@ -263,7 +269,8 @@ class Planner {
     std::set<std::string> seen;
     for (const std::string& name : split_list(options.axes.at("scenario"), ',', options.label("scenario"))) {
       const ScenarioSource source = ScenarioSource::open(name, options.label("scenario"));
-      if (!seen.insert(source.name()).second) throw InputError(options.label("scenario") + ": '" + source.name() + "' is named twice");
+      if (!seen.insert(source.name()).second)
+        throw InputError(options.label("scenario") + ": '" + source.name() + "' is named twice");
       add_scenario(source);
     }
   }
@@ -394,7 +401,8 @@ void add_plan(Plan& plan, Plan&& other) {
 void fill_varied(RunConfig& config, const std::vector<std::string>& keys) {
   std::vector<Override> varied;
   for (const std::string& key : keys) {
-    const auto own = std::find_if(config.varied.begin(), config.varied.end(), [&](const Override& o) { return o.key == key; });
+    const auto own =
+        std::find_if(config.varied.begin(), config.varied.end(), [&](const Override& o) { return o.key == key; });
     varied.push_back(own == config.varied.end() ? Override{key, ""} : *own);
   }
   config.varied = std::move(varied);
@@ -405,15 +413,16 @@ Options further(const Experiment& experiment, const Options& options, const Furt
   Options other = options;
   for (const auto& [axis, text] : more.defaults) {
     const auto before = experiment.defaults.find(axis), now = options.axes.find(axis);
-    const bool given = now != options.axes.end() && (before == experiment.defaults.end() || now->second != before->second);
+    const bool given =
+        now != options.axes.end() && (before == experiment.defaults.end() || now->second != before->second);
     if (!given) other.axes[axis] = text;
   }
   if (!more.vary.empty()) other.vary = more.vary;
   return other;
 }
 
-/// An axis that some runs leave aside, to which of them it means something, why it may mean nothing to any, and what then
-/// to do but leave it out.
+/// An axis that some runs leave aside, to which of them it means something, why it may mean nothing to any, and what
+/// then to do but leave it out.
 struct PartialAxis {
   const char* name;
   bool (*matters)(const RunConfig&);
@@ -422,7 +431,8 @@ struct PartialAxis {
 
 bool has_contact(const RunConfig& c) { return c.contact.has_value(); }
 
-constexpr const char *no_contact = "no scenario here has contact = true", *take_contact = "or take a scenario with contact";
+constexpr const char *no_contact = "no scenario here has contact = true",
+                     *take_contact = "or take a scenario with contact";
 constexpr PartialAxis partial_axes[] = {
     {"dt", [](const RunConfig& c) { return c.dt.has_value(); },
      "every method here chooses its own steps, by --tolerance", "or name a method of a fixed step"},
@@ -436,8 +446,7 @@ constexpr PartialAxis partial_axes[] = {
     {"narrow-phase", has_contact, no_contact, take_contact},
     {"response", has_contact, no_contact, take_contact},
     {"impact-timing", [](const RunConfig& c) { return c.contact && !c.contact->impact_timing.empty(); },
-     "no run here answers impacts one by one",
-     "or take a scenario with contact and a response other than compliant"}};
+     "no run here answers impacts one by one", "or take a scenario with contact and a response other than compliant"}};
 
 /// An axis that was asked for and changes no run is a misunderstanding.
 void refuse_axes_without_effect(const Options& options, const std::vector<PlannedRun>& runs) {
@@ -497,10 +506,9 @@ std::size_t widen(Plan& plan, const std::vector<RunConfig>& configs) {
 }
 
 std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys, const NamedOptions& named) {
-  std::vector<std::string> columns = {"scenario",      "integrator",    "orientation",  "angular_state",
-                                      "gyroscopic",    "normalize",     "rotation_from", "precision",
-                                      "dt_s",          "tolerance",     "t_end_s",      "broad_phase",
-                                      "narrow_phase",  "response",      "impact_timing"};
+  std::vector<std::string> columns = {"scenario",  "integrator",    "orientation",  "angular_state", "gyroscopic",
+                                      "normalize", "rotation_from", "precision",    "dt_s",          "tolerance",
+                                      "t_end_s",   "broad_phase",   "narrow_phase", "response",      "impact_timing"};
   if (named.order) columns.emplace_back("order");
   if (named.summation) columns.emplace_back("summation");
   columns.insert(columns.end(), varied_keys.begin(), varied_keys.end());

@@ -2,12 +2,12 @@
 // Reads a study file: the axes of a study as TOML instead of options.
 #include <algorithm>
 
-#include "experiments/study/text/value_lists.hpp"
-#include "experiments/study/text/input_error.hpp"
 #include "experiments/study/plan/options.hpp"
+#include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/suggestion.hpp"
 #include "experiments/study/text/text_file.hpp"
 #include "experiments/study/text/toml_value.hpp"
+#include "experiments/study/text/value_lists.hpp"
 
 namespace polhode::study {
 namespace {
@@ -35,12 +35,14 @@ std::string as_list(const TomlValue& value, char separator, const std::string& w
   if (value.type != Type::list) return as_text(value, where);
   if (value.items.empty()) throw InputError(where + "an empty list; give at least one value");
   std::string text;
-  for (const TomlValue& item : value.items) text += (text.empty() ? "" : std::string(1, separator)) + as_text(item, where);
+  for (const TomlValue& item : value.items)
+    text += (text.empty() ? "" : std::string(1, separator)) + as_text(item, where);
   return text;
 }
 
 void read_vary(const std::string& path, const TomlValue& table, Options& options) {
-  if (table.type != Type::table) throw InputError(place(path, table.place) + "vary: must be a table from scenario keys to lists");
+  if (table.type != Type::table)
+    throw InputError(place(path, table.place) + "vary: must be a table from scenario keys to lists");
   for (const auto& [key, key_place, value] : table.entries) {
     const std::string name = "vary." + key;
     options.places[name] = place(path, value.place) + name;
@@ -60,7 +62,8 @@ TomlValue read_tree(const std::string& path) {
     throw InputError(std::string("--study ") + error.what());
   }
   if (file.entries.empty()) {
-    throw InputError("--study " + path + ": there is nothing in it; it sets axes, such as integrator = [\"rk4\"] and dt = [1e-3, 1e-2]");
+    throw InputError("--study " + path +
+                     ": there is nothing in it; it sets axes, such as integrator = [\"rk4\"] and dt = [1e-3, 1e-2]");
   }
   return file;
 }

@@ -56,23 +56,17 @@ std::vector<Tick> decade_ticks(int low, int high) {
 
 double Axis::place(double value) const {
   switch (scale) {
-    case Scale::linear:
-      return value;
-    case Scale::logarithmic:
-      return std::log10(value);
-    default:
-      return std::copysign(std::asinh(std::abs(value) / threshold), value) / std::numbers::ln10;
+    case Scale::linear: return value;
+    case Scale::logarithmic: return std::log10(value);
+    default: return std::copysign(std::asinh(std::abs(value) / threshold), value) / std::numbers::ln10;
   }
 }
 
 double Axis::value_at(double place) const {
   switch (scale) {
-    case Scale::linear:
-      return place;
-    case Scale::logarithmic:
-      return std::pow(10.0, place);
-    default:
-      return std::copysign(threshold * std::sinh(std::abs(place) * std::numbers::ln10), place);
+    case Scale::linear: return place;
+    case Scale::logarithmic: return std::pow(10.0, place);
+    default: return std::copysign(threshold * std::sinh(std::abs(place) * std::numbers::ln10), place);
   }
 }
 

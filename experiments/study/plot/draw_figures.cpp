@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // figures/ of a study: for each figure a gnuplot script and its data, what gnuplot draws from them, and PGFPlots.
+#include "experiments/study/plot/draw_figures.hpp"
+
 #include <fmt/format.h>
 
 #include <deque>
@@ -8,14 +10,13 @@
 #include <string>
 #include <utility>
 
-#include "experiments/study/text/child_process.hpp"
-#include "experiments/study/plot/draw_figures.hpp"
 #include "experiments/study/plot/gnuplot_figure.hpp"
-#include "experiments/study/text/notation.hpp"
 #include "experiments/study/plot/pgfplots_figure.hpp"
-#include "experiments/study/text/read_file.hpp"
-#include "experiments/study/report/figures/study_figures.hpp"
 #include "experiments/study/record/study_view.hpp"
+#include "experiments/study/report/figures/study_figures.hpp"
+#include "experiments/study/text/child_process.hpp"
+#include "experiments/study/text/notation.hpp"
+#include "experiments/study/text/read_file.hpp"
 #include "experiments/study/text/text_file.hpp"
 
 namespace polhode::study {

@@ -9,8 +9,9 @@
 
 namespace polhode::study {
 
-/// Into a folder within that of a study, in which figures of an earlier study are removed. Returns what to tell the user
-/// where gnuplot is not installed. Throws std::runtime_error where gnuplot fails.
-std::string draw_figures(const report::FigureSet& set, const std::filesystem::path& study_folder, const std::string& where);
+/// Into a folder within that of a study, in which figures of an earlier study are removed. Returns what to tell the
+/// user where gnuplot is not installed. Throws std::runtime_error where gnuplot fails.
+std::string draw_figures(const report::FigureSet& set, const std::filesystem::path& study_folder,
+                         const std::string& where);
 
 }  // namespace polhode::study

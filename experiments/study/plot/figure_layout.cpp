@@ -26,10 +26,8 @@ void note_marks(Figure& figure) {
   for (const auto& panel : figure.panels) {
     figure.has_envelope = figure.has_envelope || !panel.envelope.empty();
     for (const auto& curve : panel.curves) {
-      if (curve.muted)
-        figure.has_muted = true;
-      else
-        used.insert(curve.method);
+      if (curve.muted) figure.has_muted = true;
+      else used.insert(curve.method);
       for (const auto& point : curve.points) {
         figure.has_zero_marks = figure.has_zero_marks || point.mark == Mark::zero;
         figure.has_edge_marks = figure.has_edge_marks || point.mark == Mark::edge;

@@ -124,10 +124,8 @@ void write_axis(std::string& out, char name, const Axis& axis) {
          name, axis.threshold);
   }
   line(out, "  set {}tics {}{}", name, ticks(axis, axis.labelled), axis.named ? " noenhanced" : "");
-  if (axis.labelled && !axis.label.empty())
-    line(out, "  set {}label {} noenhanced", name, gnuplot(axis.label));
-  else
-    line(out, "  unset {}label", name);
+  if (axis.labelled && !axis.label.empty()) line(out, "  set {}label {} noenhanced", name, gnuplot(axis.label));
+  else line(out, "  unset {}label", name);
 }
 
 void write_title(std::string& out, const Panel& panel, std::size_t characters) {

@@ -52,16 +52,16 @@ std::string shade_name(std::size_t shade) { return fmt::format("polhodeshade{}",
 void write_cells(std::string& out, const Panel& panel) {
   for (const auto& c : panel.cells) {
     tex_line(out, "\\fill[{}] (axis cs:{:.5g},{:.5g}) rectangle (axis cs:{:.5g},{:.5g});", shade_name(c.shade),
-         panel.x.place(c.x_low), panel.y.place(c.y_low), panel.x.place(c.x_high), panel.y.place(c.y_high));
+             panel.x.place(c.x_low), panel.y.place(c.y_low), panel.x.place(c.x_high), panel.y.place(c.y_high));
   }
 }
 
 void write_tex_guides(std::string& out, const Panel& panel) {
   for (const auto& guide : panel.guides) {
     tex_line(out, "\\addplot[gray, dashed, no marks, forget plot] coordinates {{({:.5g},{:.5g}) ({:.5g},{:.5g})}};",
-         panel.x.place(guide.x0), panel.y.place(guide.y0), panel.x.place(guide.x1), panel.y.place(guide.y1));
-    tex_line(out, "\\node[right, gray, font=\\scriptsize] at (axis cs:{:.5g},{:.5g}) {{${}$}};", panel.x.place(guide.x1),
-         panel.y.place(guide.label_y), guide.label);
+             panel.x.place(guide.x0), panel.y.place(guide.y0), panel.x.place(guide.x1), panel.y.place(guide.y1));
+    tex_line(out, "\\node[right, gray, font=\\scriptsize] at (axis cs:{:.5g},{:.5g}) {{${}$}};",
+             panel.x.place(guide.x1), panel.y.place(guide.label_y), guide.label);
   }
 }
 
@@ -75,7 +75,7 @@ void write_tex_envelope(std::string& out, const Panel& panel) {
   for (const auto& mark : panel.envelope) {
     if (mark.label.empty()) continue;
     tex_line(out, "\\node[below left, orange!50!black, font=\\scriptsize] at (axis cs:{:.5g},{:.5g}) {{{}}};",
-         panel.x.place(mark.x), panel.y.place(mark.y), tex(mark.label));
+             panel.x.place(mark.x), panel.y.place(mark.y), tex(mark.label));
   }
 }
 
@@ -152,10 +152,11 @@ void write_panel(std::string& out, const Figure& figure, const Panel& panel) {
   write_tex_axis(out, 'x', panel.x);
   write_tex_axis(out, 'y', panel.y);
   if (carries_legend(figure, panel)) {
-    tex_line(out,
-         "  legend style={{at={{(0,-0.28)}}, anchor=north west, draw=none, font=\\footnotesize, cells={{anchor=west}}, "
-         "/tikz/every even column/.append style={{column sep=8pt}}}},\n  legend columns={},",
-         legend_columns(figure));
+    tex_line(
+        out,
+        "  legend style={{at={{(0,-0.28)}}, anchor=north west, draw=none, font=\\footnotesize, cells={{anchor=west}}, "
+        "/tikz/every even column/.append style={{column sep=8pt}}}},\n  legend columns={},",
+        legend_columns(figure));
   }
   tex_line(out, "]");
   write_cells(out, panel);
@@ -192,8 +193,8 @@ std::string pgfplots(const Figure& figure) {
   tex_line(out, "%   \\usepackage[utf8]{{inputenc}}\\usepackage[T1]{{fontenc}}\\usepackage{{pgfplots}}");
   tex_line(out, "%   \\usepgfplotslibrary{{groupplots}}\\pgfplotsset{{compat=1.17}}");
   tex_line(out,
-       "% Coordinates are places on the axes: decades on logarithmic ones; on an axis that is logarithmic on both "
-       "sides of");
+           "% Coordinates are places on the axes: decades on logarithmic ones; on an axis that is logarithmic on both "
+           "sides of");
   tex_line(out, "% zero sgn(y) asinh(|y|/threshold)/ln 10. {}.dat has the numbers themselves.", figure.name);
   tex_line(out, "\\begin{{tikzpicture}}");
   for (std::size_t c = 0; c < style::colours.size(); ++c) {
@@ -210,22 +211,21 @@ std::string pgfplots(const Figure& figure) {
   for (const auto& panel : figure.panels) title_lines = std::max(title_lines, panel.title.size());
   tex_line(out, "\\begin{{groupplot}}[");
   tex_line(out, "  group style={{group size={} by {}, horizontal sep={}cm, vertical sep={}cm}},", figure.columns,
-       figure.rows, gap, 1.7 + 0.4 * static_cast<double>(title_lines));
+           figure.rows, gap, 1.7 + 0.4 * static_cast<double>(title_lines));
   const double height = figure.panel_height > 0 ? figure.panel_height * text_width_cm / style::figure_width
                                                 : panel_height_cm[std::min<std::size_t>(figure.columns, 3) - 1] - 1.5;
   tex_line(out, "  scale only axis, width={:.2f}cm, height={:.4g}cm,",
-       (text_width_cm - labels_width_cm(figure) - (columns - 1) * gap) / columns, height);
-  tex_line(out, "  axis lines=left, grid=major, grid style={{gray!25}}, clip marker paths=false, clip mode=individual,");
+           (text_width_cm - labels_width_cm(figure) - (columns - 1) * gap) / columns, height);
   tex_line(out,
-       "  title style={{align=center, font=\\footnotesize}}, label style={{font=\\footnotesize}}, tick label "
-       "style={{font=\\scriptsize}},");
+           "  axis lines=left, grid=major, grid style={{gray!25}}, clip marker paths=false, clip mode=individual,");
+  tex_line(out,
+           "  title style={{align=center, font=\\footnotesize}}, label style={{font=\\footnotesize}}, tick label "
+           "style={{font=\\scriptsize}},");
   tex_line(out, "]");
   for (std::size_t row = 0; row < figure.rows; ++row) {
     for (std::size_t column = 0; column < figure.columns; ++column) {
-      if (const auto* panel = panel_at(figure, row, column))
-        write_panel(out, figure, *panel);
-      else
-        tex_line(out, "\\nextgroupplot[group/empty plot]");
+      if (const auto* panel = panel_at(figure, row, column)) write_panel(out, figure, *panel);
+      else tex_line(out, "\\nextgroupplot[group/empty plot]");
     }
   }
   tex_line(out, "\\end{{groupplot}}\n\\end{{tikzpicture}}");

@@ -34,7 +34,10 @@ Panel plain_panel(std::string title, const PlainAxis& x, const PlainAxis& y, con
 
 Figure plain_figure(std::string name, std::string title, std::string caption, std::vector<std::string> methods,
                     std::vector<std::string> variants, std::vector<Panel> panels) {
-  Figure figure{.name = std::move(name), .title = std::move(title), .caption = std::move(caption), .methods = std::move(methods),
+  Figure figure{.name = std::move(name),
+                .title = std::move(title),
+                .caption = std::move(caption),
+                .methods = std::move(methods),
                 .variants = std::move(variants)};
   std::erase_if(panels, [](const Panel& panel) { return panel.curves.empty(); });
   add_rows(figure, std::move(panels), 1);

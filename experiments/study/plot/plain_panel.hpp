@@ -12,7 +12,7 @@ namespace polhode::study::report {
 
 struct PlainCurve {
   std::string label;
-  std::size_t method = 0, variant = 0;            ///< colour and dashes: indices of the figure's methods and variants
+  std::size_t method = 0, variant = 0;              ///< colour and dashes: indices of the figure's methods and variants
   std::vector<std::pair<double, double>> points{};  ///< x positive, sorted; y 0 or more
 };
 
@@ -25,7 +25,8 @@ struct PlainAxis {
 /// Values of exactly zero stand at a floor where y is logarithmic.
 Panel plain_panel(std::string title, const PlainAxis& x, const PlainAxis& y, const std::vector<PlainCurve>& curves);
 
-/// Panels below each other, each with its own y axis. All figures of a folder share their colours: give them the same methods.
+/// Panels below each other, each with its own y axis. All figures of a folder share their colours: give them the same
+/// methods.
 Figure plain_figure(std::string name, std::string title, std::string caption, std::vector<std::string> methods,
                     std::vector<std::string> variants, std::vector<Panel> panels);
 

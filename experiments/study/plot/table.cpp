@@ -32,12 +32,9 @@ std::string html_cell(const Column& column, const std::string& cell, bool heads_
 std::string latex_cell(const Column& column, const std::string& cell) {
   if (cell.empty()) return "--";
   switch (column.kind) {
-    case Column::Kind::number:
-      return tex_number(cell);
-    case Column::Kind::name:
-      return fmt::format("\\texttt{{{}}}", tex(cell));
-    default:
-      return tex(cell);
+    case Column::Kind::number: return tex_number(cell);
+    case Column::Kind::name: return fmt::format("\\texttt{{{}}}", tex(cell));
+    default: return tex(cell);
   }
 }
 

@@ -47,7 +47,8 @@ void keep_finite(RunResult& result) {
     drift = settle(drift->second) ? std::next(drift) : result.invariant_drift_max_rel.erase(drift);
   }
   keep_points(result.series, [](SeriesPoint& p) {
-    return settle_all({&p.t, &p.energy_drift_rel, &p.linear_momentum_drift_rel, &p.angular_momentum_drift_rel, &p.orientation_defect});
+    return settle_all({&p.t, &p.energy_drift_rel, &p.linear_momentum_drift_rel, &p.angular_momentum_drift_rel,
+                       &p.orientation_defect});
   });
   keep_points(result.attitude_errors, [](AttitudeError& e) { return settle_all({&e.t, &e.error_rad}); });
 }

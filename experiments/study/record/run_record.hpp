@@ -43,37 +43,38 @@ struct ContactConfig {
 };
 
 struct RunConfig {
-  std::string scenario;             ///< name
-  /// The varied keys of the scenario with this run's values, in the axes' order; an empty value leaves the key as it is.
+  std::string scenario;  ///< name
+  /// The varied keys of the scenario with this run's values, in the axes' order; an empty value leaves the key as it
+  /// is.
   std::vector<Override> varied;
   std::string integrator;
   Formulation formulation;
-  bool normalise = false;           ///< --normalize step
+  bool normalise = false;  ///< --normalize step
   Precision precision = Precision::dual;
-  std::optional<int> order;            ///< absent: the study does not speak of it; 0: means nothing to this method
-  std::optional<Summation> summation;  ///< absent: plain, and the study does not speak of it
-  std::optional<ContactConfig> contact;  ///< absent: the scenario has none
-  std::optional<double> dt;         ///< s; fixed-step methods only
-  std::optional<double> tolerance;  ///< adaptive methods only
+  std::optional<int> order;               ///< absent: the study does not speak of it; 0: means nothing to this method
+  std::optional<Summation> summation;     ///< absent: plain, and the study does not speak of it
+  std::optional<ContactConfig> contact;   ///< absent: the scenario has none
+  std::optional<double> dt;               ///< s; fixed-step methods only
+  std::optional<double> tolerance;        ///< adaptive methods only
   std::optional<std::int64_t> max_steps;  ///< adaptive methods only; absent: as Schedule has it
-  double t_end = 1;                 ///< s
-  std::optional<std::int64_t> samples;  ///< absent: observed after every step
-  bool reference = false;           ///< --reference: errors also where no exact solution is known
+  double t_end = 1;                       ///< s
+  std::optional<std::int64_t> samples;    ///< absent: observed after every step
+  bool reference = false;                 ///< --reference: errors also where no exact solution is known
 };
 
 /// How the run went over time, thinned: each point stands for a stretch of the run and holds the largest value in it.
 /// At most 256 points, however long the run.
 struct SeriesPoint {
-  double t = 0;                ///< s, where the energy drift of this stretch was largest
-  double energy_drift_rel = 0; ///< signed, the one of largest magnitude
-  double linear_momentum_drift_rel = 0;   ///< 0 where that momentum is not conserved
+  double t = 0;                          ///< s, where the energy drift of this stretch was largest
+  double energy_drift_rel = 0;           ///< signed, the one of largest magnitude
+  double linear_momentum_drift_rel = 0;  ///< 0 where that momentum is not conserved
   double angular_momentum_drift_rel = 0;
   double orientation_defect = 0;
 };
 
 /// The attitude error at one of at most 64 instants spread over the run.
 struct AttitudeError {
-  double t = 0;          ///< s
+  double t = 0;  ///< s
   double error_rad = 0;
 };
 
@@ -81,40 +82,42 @@ inline bool is_compensated(const RunConfig& config) { return config.summation ==
 
 /// What contact did in a run (contact_meter.hpp). Empty throughout for a run without contact.
 struct ContactMeasures {
-  std::optional<double> first_impact;        ///< s, as events.csv lists them
+  std::optional<double> first_impact;                                    ///< s, as events.csv lists them
   std::optional<double> impact_loss, friction_loss, penetration_energy;  ///< J, of the ledger, at the end
-  /// J, of kinetic + potential − work of non-conservative forces: its largest rise above an earlier value, and its largest
-  /// distance from that at the start. Exactly 0 of an elastic motion without friction.
+  /// J, of kinetic + potential − work of non-conservative forces: its largest rise above an earlier value, and its
+  /// largest distance from that at the start. Exactly 0 of an elastic motion without friction.
   std::optional<double> energy_rise_max, energy_change_max;
   std::optional<double> penetration_max, penetration_end;  ///< m, of any two bodies
-  std::optional<double> displacement_max;    ///< m, of any mass centre from where it was after 2 s
-  std::optional<double> left_place;          ///< s, when one was first a tenth of its body's radius away from where it started
+  std::optional<double> displacement_max;                  ///< m, of any mass centre from where it was after 2 s
+  std::optional<double> left_place;  ///< s, when one was first a tenth of its body's radius away from where it started
 };
 
 struct RunResult {
-  std::string status;   ///< "ok", "diverged", "failed", "refused"
-  std::string message;  ///< why, when not ok
-  double t_reached = 0; ///< s
+  std::string status;    ///< "ok", "diverged", "failed", "refused"
+  std::string message;   ///< why, when not ok
+  double t_reached = 0;  ///< s
   std::int64_t steps = 0;
   std::int64_t evaluations = 0;
-  std::optional<double> energy_initial;         ///< J
-  std::optional<double> energy_scale;           ///< J, of the motion (motion_scales.hpp); absent where nothing moves
-  std::optional<double> energy_drift_max;       ///< J, max |E − E0|, E from the ledger
-  std::optional<double> energy_round_off;       ///< J, up to which a drift can be rounding alone
-  std::optional<double> energy_drift_max_rel;   ///< energy_drift_max over energy_scale
-  std::optional<double> energy_drift_final_rel; ///< signed
-  std::optional<double> energy_drift_rate;      ///< W, least-squares slope of the drift
-  std::optional<double> energy_drift_rate_ci;   ///< W, half its 95 % confidence interval
-  std::string drift_class;                      ///< as drift_class.hpp has them; empty where the run is not ok
-  std::optional<double> drift_exponent;         ///< p of |drift| ~ t^p, and its 95 % confidence interval, of a class that has one
+  std::optional<double> energy_initial;          ///< J
+  std::optional<double> energy_scale;            ///< J, of the motion (motion_scales.hpp); absent where nothing moves
+  std::optional<double> energy_drift_max;        ///< J, max |E − E0|, E from the ledger
+  std::optional<double> energy_round_off;        ///< J, up to which a drift can be rounding alone
+  std::optional<double> energy_drift_max_rel;    ///< energy_drift_max over energy_scale
+  std::optional<double> energy_drift_final_rel;  ///< signed
+  std::optional<double> energy_drift_rate;       ///< W, least-squares slope of the drift
+  std::optional<double> energy_drift_rate_ci;    ///< W, half its 95 % confidence interval
+  std::string drift_class;                       ///< as drift_class.hpp has them; empty where the run is not ok
+  std::optional<double>
+      drift_exponent;  ///< p of |drift| ~ t^p, and its 95 % confidence interval, of a class that has one
   std::optional<double> drift_exponent_low, drift_exponent_high;
-  std::optional<double> drift_decided_after;    ///< s, of "undecided": the duration that would decide, by estimate
-  std::optional<double> linear_momentum_drift_max_rel;   ///< absent: the forces do not conserve it
+  std::optional<double> drift_decided_after;  ///< s, of "undecided": the duration that would decide, by estimate
+  std::optional<double> linear_momentum_drift_max_rel;  ///< absent: the forces do not conserve it
   std::optional<double> angular_momentum_drift_max_rel;
-  std::map<std::string, double> invariant_drift_max_rel; ///< by name, of the scenario's declared invariants
+  std::map<std::string, double> invariant_drift_max_rel;  ///< by name, of the scenario's declared invariants
   std::optional<double> orientation_defect_max;
-  std::optional<double> position_error_max;     ///< m, absent without an exact solution or a proven reference, and of a run that broke off
-  std::optional<double> attitude_error_max;     ///< rad
+  std::optional<double>
+      position_error_max;  ///< m, absent without an exact solution or a proven reference, and of a run that broke off
+  std::optional<double> attitude_error_max;  ///< rad
   std::optional<double> angular_velocity_error_max_rel;
   /// Of the momentum in the body of a single free one (polhode_error.hpp): along its polhode and off it.
   std::optional<double> polhode_phase_error_max;      ///< s
@@ -122,13 +125,13 @@ struct RunResult {
   std::optional<double> polhode_off_error_max_rel;
   /// How uncertain the reference is that stood for an unknown exact solution; absent where none was used. An error
   /// that is not a hundred times larger is left out.
-  std::optional<double> position_reference;     ///< m
-  std::optional<double> attitude_reference;     ///< rad
+  std::optional<double> position_reference;  ///< m
+  std::optional<double> attitude_reference;  ///< rad
   std::optional<double> angular_velocity_reference_rel;
   ContactMeasures contact;
-  double seconds = 0;                           ///< wall time of the motion, measuring included; goes to timings.csv only
+  double seconds = 0;  ///< wall time of the motion, measuring included; goes to timings.csv only
   std::vector<SeriesPoint> series;
-  std::vector<AttitudeError> attitude_errors;   ///< empty without an exact solution, and where a reference stands for it
+  std::vector<AttitudeError> attitude_errors;  ///< empty without an exact solution, and where a reference stands for it
 };
 
 struct RunRecord {

@@ -11,8 +11,8 @@
 #include "core/run/simulate_ensemble.hpp"
 #include "experiments/study/metrics/contact_meter.hpp"
 #include "experiments/study/metrics/drift_meter.hpp"
-#include "experiments/study/scenario/narrow_phase_choice.hpp"
 #include "experiments/study/record/result_numbers.hpp"
+#include "experiments/study/scenario/narrow_phase_choice.hpp"
 #include "experiments/study/setup/run_setup.hpp"
 #include "integrators/catalogue.hpp"
 
@@ -83,8 +83,9 @@ RunOutcome guarded(const Scenario& scenario, const Run& run) {
   } catch (const TrajectoryError&) {
     throw;
   } catch (const std::bad_alloc&) {
-    outcome.message = fmt::format("out of memory, with {} bodies; take fewer of them, or fewer runs at a time with --jobs",
-                                  scenario.problem.bodies.size());
+    outcome.message =
+        fmt::format("out of memory, with {} bodies; take fewer of them, or fewer runs at a time with --jobs",
+                    scenario.problem.bodies.size());
   } catch (const std::exception& error) {
     outcome.message = error.what();
   }
@@ -106,15 +107,17 @@ RunResult measured(const RunConfig& config, const Scenario& scenario, const Traj
                                       : open_trajectory(trajectory.format, trajectory.folder, *truth, seen);
   Observer& observer = writer ? static_cast<Observer&>(*writer) : seen;
   double seconds = 0;
-  const RunOutcome outcome = guarded(
-      scenario, [&] { return run_on(*truth, config, observer, stop, seconds, contact ? contact->model.get() : nullptr); });
+  const RunOutcome outcome = guarded(scenario, [&] {
+    return run_on(*truth, config, observer, stop, seconds, contact ? contact->model.get() : nullptr);
+  });
   if (writer && outcome.status != RunStatus::interrupted) writer->close();  // else it stays unfinished by name
   RunResult result = result_of(outcome, meter, seconds);
   if (contact_meter) contact_meter->report(result);
   return result;
 }
 
-std::vector<RunResult> side_by_side(std::span<const LanedRun> runs, const std::atomic<bool>* stop, References* references) {
+std::vector<RunResult> side_by_side(std::span<const LanedRun> runs, const std::atomic<bool>* stop,
+                                    References* references) {
   const RunConfig& config = runs.front().config;
   std::vector<Problem> problems;
   std::vector<std::unique_ptr<System<double>>> truths;
@@ -123,9 +126,8 @@ std::vector<RunResult> side_by_side(std::span<const LanedRun> runs, const std::a
   for (const LanedRun& run : runs) {
     problems.push_back(run.scenario.problem);
     truths.push_back(make_system<double>(run.scenario.problem, config.formulation));
-    meters.push_back(std::make_unique<DriftMeter>(
-        *truths.back(), run.scenario.invariants, config.t_end, false,
-        true_motion_of(run.config, run.scenario, stop, references)));
+    meters.push_back(std::make_unique<DriftMeter>(*truths.back(), run.scenario.invariants, config.t_end, false,
+                                                  true_motion_of(run.config, run.scenario, stop, references)));
     lanes.push_back({*truths.back(), *meters.back()});
   }
   problems.resize(std::size_t(lane_count), problems.back());  // lanes that nobody looks at
@@ -158,7 +160,8 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
                        *config.tolerance, epsilon(config.precision), name(config.precision));
   }
   const Declaration& declared = entry->declaration;
-  if (const int order = config.order.value_or(0); order > 0 && (order < declared.lowest_order || order > declared.highest_order)) {
+  if (const int order = config.order.value_or(0);
+      order > 0 && (order < declared.lowest_order || order > declared.highest_order)) {
     return fmt::format("{} has the orders {} to {}, not {}", config.integrator, declared.lowest_order,
                        declared.highest_order, order);
   }
@@ -169,7 +172,8 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
                                       "and an increment");
   }
   if (config.contact) {
-    if (config.precision != Precision::dual) return "contact works in double only, not in " + std::string(name(config.precision));
+    if (config.precision != Precision::dual)
+      return "contact works in double only, not in " + std::string(name(config.precision));
     if (config.reference) return "no reference can be made of a motion with contact; leave --reference out";
     const std::string& timing = config.contact->impact_timing;
     if (declared.adaptive && !timing.empty() && find_impact_timing(timing)->fixed_steps_only) {
@@ -179,7 +183,8 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
     if (scenario.end_at_contact && !find_response(config.contact->response)->make) {
       return config.contact->response + " knows no impacts for end_at_contact to end at; take another --response";
     }
-    if (std::string reason = narrow_phase_refusal(config.contact->narrow_phase, scenario); !reason.empty()) return reason;
+    if (std::string reason = narrow_phase_refusal(config.contact->narrow_phase, scenario); !reason.empty())
+      return reason;
   }
   if (entry->refusal) {
     if (std::string reason = entry->refusal(scenario.problem, config.formulation); !reason.empty()) {

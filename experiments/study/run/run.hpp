@@ -26,10 +26,10 @@ struct TrajectoryRequest {
   std::function<std::unique_ptr<TrajectoryWriter>(const System<double>&, Observer& next)> open{};
 };
 
-/// What is thrown out of the run is its failure, and its message says why; throws TrajectoryError alone, when a trajectory
-/// cannot be written. All numbers of the result are finite. A run stopped from outside has the status "interrupted" and must
-/// not be kept. `references`: where the runs of a study share them;
-/// null: a run that asks for one makes its own.
+/// What is thrown out of the run is its failure, and its message says why; throws TrajectoryError alone, when a
+/// trajectory cannot be written. All numbers of the result are finite. A run stopped from outside has the status
+/// "interrupted" and must not be kept. `references`: where the runs of a study share them; null: a run that asks for
+/// one makes its own.
 RunResult carry_out(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory,
                     const std::atomic<bool>* stop, References* references = nullptr);
 
@@ -41,8 +41,8 @@ struct LanedRun {
   const RunConfig& config;
   const Scenario& scenario;
 };
-/// At most lane_count runs of one key, together, with the digits that carry_out() gives to each; the time is shared out.
-/// Where that throws, each goes alone, so that only those fail which do so by themselves.
+/// At most lane_count runs of one key, together, with the digits that carry_out() gives to each; the time is shared
+/// out. Where that throws, each goes alone, so that only those fail which do so by themselves.
 std::vector<RunResult> carry_out_together(std::span<const LanedRun> runs, const std::atomic<bool>* stop,
                                           References* references = nullptr);
 

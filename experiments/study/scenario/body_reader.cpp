@@ -5,19 +5,18 @@
 #include <cmath>
 
 #include "collision/shapes/shape_catalogue.hpp"
-#include "core/problem/inertia.hpp"
 #include "collision/shapes/shape_inertia.hpp"
-#include "experiments/study/text/value_lists.hpp"
+#include "core/problem/inertia.hpp"
 #include "experiments/study/scenario/canonical_text.hpp"
 #include "experiments/study/scenario/parameter_reader.hpp"
 #include "experiments/study/scenario/scenario_keys.hpp"
+#include "experiments/study/text/value_lists.hpp"
 
 namespace polhode::study {
 
 namespace {
 
 using Range = Parameter::Range;
-
 
 // Names.
 
@@ -78,10 +77,13 @@ Matrix3<double> read_shape(const TomlCursor& shape, double mass) {
   const TomlCursor name = shape.at("kind", "the name of a shape");
   const ShapeKind* kind = find_shape(name.text("the name of a shape"));
   if (!kind && !find_collision_shape(name.value().text)) name.unknown("shape", "There are", known);
-  if (kind) return kind->moments(mass, read_parameters(shape, kind->parameters, {"kind"}, "A " + kind->name + " has")).asDiagonal();
+  if (kind)
+    return kind->moments(mass, read_parameters(shape, kind->parameters, {"kind"}, "A " + kind->name + " has"))
+        .asDiagonal();
   ShapeParameters sizes;
   const ShapePointer built = build_shape(shape, sizes);
-  if (!built->finite()) shape.fail("a " + std::string(built->kind()) + " has no end and no inertia; its body must be static");
+  if (!built->finite())
+    shape.fail("a " + std::string(built->kind()) + " has no end and no inertia; its body must be static");
   const MassProperties matter = built->mass_properties();
   if (!(matter.centroid.norm() <= 1e-9 * std::cbrt(matter.volume))) {
     shape.fail("has its mass centre at " + text(matter.centroid) + " m; it must be at the origin of the body's axes");
@@ -144,7 +146,8 @@ bool known_in_core(const TomlCursor& shape) {
 void take_inertia(const TomlCursor& table, Body& body) {
   // A static body needs no inertia, and some shapes have none.
   const bool needed = table.has("shape") && (!body.fixed || known_in_core(table.at("shape", "")));
-  const Matrix3<double> of_shape = needed ? read_shape(table.at("shape", ""), body.mass) : Matrix3<double>(Matrix3<double>::Identity());
+  const Matrix3<double> of_shape =
+      needed ? read_shape(table.at("shape", ""), body.mass) : Matrix3<double>(Matrix3<double>::Identity());
   if (table.has("inertia")) {
     body.inertia = read_inertia(table.at("inertia", ""));
     check_inertia(table, "inertia", body);
@@ -260,7 +263,9 @@ void read_collider(const TomlCursor& table, bool contact, ReadBody& read) {
 
 }  // namespace
 
-TomlCursor body_key(const TomlCursor& body, std::string_view name) { return body.at(name, otherwise(body_keys(), name)); }
+TomlCursor body_key(const TomlCursor& body, std::string_view name) {
+  return body.at(name, otherwise(body_keys(), name));
+}
 
 ReadBody read_body(const TomlCursor& table, std::size_t index, bool contact) {
   table.table("A body has", names(body_keys()));

@@ -20,7 +20,8 @@ struct ReadBody {
 /// What a body says of a key, or the default.
 TomlCursor body_key(const TomlCursor& body, std::string_view name);
 
-/// `index` gives the name of a body that has none: body0, body1, … With `contact` a shape is one that touches. Throws a Fault.
+/// `index` gives the name of a body that has none: body0, body1, … With `contact` a shape is one that touches. Throws a
+/// Fault.
 ReadBody read_body(const TomlCursor& table, std::size_t index, bool contact);
 
 }  // namespace polhode::study

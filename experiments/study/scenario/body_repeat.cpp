@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/math/quaternion.hpp"
-#include "experiments/study/text/value_lists.hpp"
 #include "core/math/portable_random.hpp"
+#include "core/math/quaternion.hpp"
 #include "experiments/study/scenario/scenario_keys.hpp"
+#include "experiments/study/text/value_lists.hpp"
 
 namespace polhode::study {
 
@@ -22,7 +22,8 @@ Counts read_counts(const TomlCursor& repeat) {
   constexpr std::string_view must_be = "3 whole numbers from 1, the copies along x, y and z";
   const Vector3<double> n = repeat.vector("copies");
   if (n != n.array().floor().matrix() || !(n.minCoeff() >= 1)) repeat.refuse(must_be);
-  if (!(n.prod() <= most_bodies)) repeat.fail("asks for " + exact(n.prod()) + " copies; it must be at most " + exact(most_bodies));
+  if (!(n.prod() <= most_bodies))
+    repeat.fail("asks for " + exact(n.prod()) + " copies; it must be at most " + exact(most_bodies));
   return {int(n[0]), int(n[1]), int(n[2])};
 }
 
@@ -40,7 +41,8 @@ Vector3<double> read_spacing(const TomlCursor& spacing, const Counts& counts) {
 Quaternion<double> turned(const Quaternion<double>& q, double most, Dice& dice) {
   const Vector3<double> axis = dice.direction();
   const double half = 0.5 * dice.uniform(-most, most);
-  const Quaternion<double> turn(std::cos(half), std::sin(half) * axis[0], std::sin(half) * axis[1], std::sin(half) * axis[2]);
+  const Quaternion<double> turn(std::cos(half), std::sin(half) * axis[0], std::sin(half) * axis[1],
+                                std::sin(half) * axis[2]);
   return product(turn, q);
 }
 
@@ -68,7 +70,8 @@ std::vector<ReadBody> repeated(const TomlCursor& table, std::size_t index, ReadB
         copy.body.name += '_' + std::to_string(copies.size() - 1);
         copy.start.position += spacing.cwiseProduct(Vector3<double>(x, y, z));
         if (jitter > 0) copy.start.position += dice.uniform_vector(-jitter, jitter);
-        if (!copy.start.position.allFinite()) table.fail("its copies stand too far away for a number; take a smaller spacing or jitter");
+        if (!copy.start.position.allFinite())
+          table.fail("its copies stand too far away for a number; take a smaller spacing or jitter");
         if (jitter_angle > 0) copy.start.orientation = turned(body.start.orientation, jitter_angle, dice);
       }
     }

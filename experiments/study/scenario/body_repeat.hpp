@@ -8,8 +8,9 @@
 
 namespace polhode::study {
 
-/// The copies of a body with the key `repeat`, the first axis fastest, called NAME_0, NAME_1, …; of any other body itself.
-/// `index` (of the table in the scenario) seeds the jitter: the same scenario has the same copies. Throws a Fault.
+/// The copies of a body with the key `repeat`, the first axis fastest, called NAME_0, NAME_1, …; of any other body
+/// itself. `index` (of the table in the scenario) seeds the jitter: the same scenario has the same copies. Throws a
+/// Fault.
 std::vector<ReadBody> repeated(const TomlCursor& table, std::size_t index, ReadBody body);
 
 }  // namespace polhode::study

@@ -6,8 +6,8 @@
 
 namespace polhode::study {
 
-/// m: the largest distance of a moving body's mass centre from its start, at 64 instants of the exact motion up to t_end.
-/// Infinite where no path is known exactly, or nothing leaves its place.
+/// m: the largest distance of a moving body's mass centre from its start, at 64 instants of the exact motion up to
+/// t_end. Infinite where no path is known exactly, or nothing leaves its place.
 double motion_size(const Scenario& scenario, double t_end);
 
 }  // namespace polhode::study

@@ -9,7 +9,8 @@
 
 namespace polhode::study {
 
-/// Why this narrow phase cannot answer for some two of the scenario's shapes, in its own words; empty if it can for all.
+/// Why this narrow phase cannot answer for some two of the scenario's shapes, in its own words; empty if it can for
+/// all.
 std::string narrow_phase_refusal(std::string_view narrow_phase, const Scenario& scenario);
 
 /// `sat` where it can answer, else `gjk`, which can for any convex shapes.

@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "experiments/study/scenario/builtin_scenarios.hpp"
-#include "experiments/study/text/input_error.hpp"
 #include "experiments/study/scenario/scenario_override.hpp"
 #include "experiments/study/scenario/scenario_reader.hpp"
+#include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/suggestion.hpp"
 #include "experiments/study/text/text_file.hpp"
 #include "experiments/study/text/toml_cursor.hpp"
@@ -56,7 +56,8 @@ std::string text_of(const std::string& path) {
   std::error_code error;
   if (path.find('/') == std::string::npos && !std::filesystem::exists(path, error)) {
     const std::string stem = std::filesystem::path(path).stem().string();
-    throw InputError(path + ": no such file, or it cannot be read" + suggestion_of_many(stem, builtin_names(), list_scenarios));
+    throw InputError(path + ": no such file, or it cannot be read" +
+                     suggestion_of_many(stem, builtin_names(), list_scenarios));
   }
   return read_text(path);
 }
@@ -120,7 +121,8 @@ ScenarioSource ScenarioSource::open(const std::string& name_or_path, const std::
     return ScenarioSource(std::make_unique<Parsed>(name_or_path, "builtin " + name_or_path, scenario.text));
   }
   throw InputError(label + ": no built-in scenario is called '" + name_or_path + "'" +
-                   suggestion_of_many(name_or_path, builtin_names(), list_scenarios) + "; a file's name holds a '/' or ends in .toml");
+                   suggestion_of_many(name_or_path, builtin_names(), list_scenarios) +
+                   "; a file's name holds a '/' or ends in .toml");
 }
 
 ScenarioSource ScenarioSource::parse(std::string text, std::string origin) {

@@ -20,22 +20,22 @@ namespace polhode::study {
 struct Override {
   /// Dotted path; numbers count from 0, a body may be named: "body.0.angular_velocity", "body.box.mass", "gravity.2".
   std::string key;
-  std::string value;  ///< TOML text: "0.5", "[0.01, 1, 0.01]"
+  std::string value;    ///< TOML text: "0.5", "[0.01, 1, 0.01]"
   std::string place{};  ///< where a study file says so: "study.toml:3:8: vary.body.0.mass"; empty: on the command line
   std::string label() const { return place.empty() ? "--vary " + key : place; }
   bool operator==(const Override& other) const { return key == other.key && value == other.value; }
 };
 
 struct Scenario {
-  std::string name;         ///< of a built-in one, or the file's stem
+  std::string name;  ///< of a built-in one, or the file's stem
   std::string title;
-  std::string description;  ///< one line of physics; may be empty
-  double t_end = 1;         ///< s
-  Problem problem;          ///< moving bodies first, in the scenario's order
-  std::vector<ShapePointer> shapes;     ///< of each body, contact or not; null where the scenario names none that is known
-  std::vector<Collider> colliders;      ///< of each body where the scenario has contact; else empty
-  Compliance compliance;                ///< of the surfaces, for a response by forces
-  bool end_at_contact = false;          ///< a run ends at its first impact, before it is answered
+  std::string description;           ///< one line of physics; may be empty
+  double t_end = 1;                  ///< s
+  Problem problem;                   ///< moving bodies first, in the scenario's order
+  std::vector<ShapePointer> shapes;  ///< of each body, contact or not; null where the scenario names none that is known
+  std::vector<Collider> colliders;   ///< of each body where the scenario has contact; else empty
+  Compliance compliance;             ///< of the surfaces, for a response by forces
+  bool end_at_contact = false;       ///< a run ends at its first impact, before it is answered
   std::optional<double> energy_scale;   ///< J, that relative energy drifts are told against; absent: the motion's own
   std::vector<std::string> invariants;  ///< declared beyond energy and momenta; names of core/invariants
   /// Everything that decides how a run goes, and nothing else, as text with every default filled in and numbers that

@@ -21,7 +21,7 @@ const std::vector<ScenarioKey>& root_keys() {
       {"gravity", zero()},
       {"t_end", std::nullopt},
       {"invariants", empty_list()},
-      {"energy_scale", std::nullopt},  // the motion's own
+      {"energy_scale", std::nullopt},                     // the motion's own
       {"contact", TomlValue::of(false), Decides::never},  // which nothing is that has always been
       {"end_at_contact", TomlValue::of(false), Decides::with_contact},
       {"contact_stiffness", std::nullopt, Decides::with_contact},  // from the masses

@@ -126,7 +126,9 @@ class Walk {
     const bool unread = name == "shape" && !contact && (table.find("inertia") || table.find("point_masses"));
     if (key->decides == Decides::never || (key->decides == Decides::with_contact && !contact) || unread) {
       fail("the " + name + " decides nothing about a run" +
-           (unread ? " while the inertia is given beside it" : key->decides == Decides::never ? "" : " without contact = true"));
+           (unread                           ? " while the inertia is given beside it"
+            : key->decides == Decides::never ? ""
+                                             : " without contact = true"));
     }
     TomlValue* found = table.find(name);
     if (!found && depth + 1 < parts_.size()) {

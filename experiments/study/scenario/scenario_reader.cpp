@@ -6,13 +6,13 @@
 
 #include "core/forces/catalogue.hpp"
 #include "core/system/invariants.hpp"
-#include "experiments/study/text/value_lists.hpp"
 #include "experiments/study/scenario/body_reader.hpp"
 #include "experiments/study/scenario/body_repeat.hpp"
 #include "experiments/study/scenario/canonical_text.hpp"
 #include "experiments/study/scenario/parameter_reader.hpp"
 #include "experiments/study/scenario/scenario_keys.hpp"
 #include "experiments/study/text/toml_cursor.hpp"
+#include "experiments/study/text/value_lists.hpp"
 
 namespace polhode::study {
 
@@ -39,7 +39,8 @@ std::vector<ReadBody> read_all_bodies(const TomlCursor& list, bool contact) {
       const auto [known, is_new] = named.emplace(body.body.name, i);
       const TomlCursor name = table.at("name", table.value());
       if (!is_new) {
-        name.fail("body " + std::to_string(known->second) + " is called '" + known->first + "' already; names must differ");
+        name.fail("body " + std::to_string(known->second) + " is called '" + known->first +
+                  "' already; names must differ");
       }
       bodies.push_back(std::move(body));
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ends a run at its first impact, before it is answered: the course report's screenshots, "paused when a collision is detected".
+// Ends a run at its first impact, before it is answered: the course report's screenshots, "paused when a collision is
+// detected".
 #pragma once
 
 #include <memory>
@@ -12,7 +13,8 @@ namespace polhode::study {
 /// The steps are those of another model. The impact that ends the run is listed without an impulse.
 class EndAtContact final : public ContactModel {
  public:
-  /// `located`: the model knows when within a step an impact is. Otherwise the run ends where the step of the impact begins.
+  /// `located`: the model knows when within a step an impact is. Otherwise the run ends where the step of the impact
+  /// begins.
   EndAtContact(std::unique_ptr<ContactModel> model, bool located) : model_(std::move(model)), located_(located) {}
 
   void begin(Integrator<double>& method, const State<double>& state) override {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Puts a run together from its configuration: schedule, method and contact, for studies and for the viewer's sessions alike.
+// Puts a run together from its configuration: schedule, method and contact, for studies and for the viewer's sessions
+// alike.
 #pragma once
 
 #include <memory>
@@ -12,7 +13,8 @@ namespace polhode::study {
 
 Schedule schedule_of(const RunConfig& config);
 
-/// In float, double, long double, or the lanes of an ensemble, where nothing is compensated; the system must outlive it.
+/// In float, double, long double, or the lanes of an ensemble, where nothing is compensated; the system must outlive
+/// it.
 template <class S>
 std::unique_ptr<Integrator<S>> integrator_of(const RunConfig& config, const System<S>& system);
 

@@ -260,7 +260,8 @@ struct Exponent {
 
 class Estimator {
  public:
-  Estimator(const Cosines& cosines, const Vector& t, const Vector& drift) : cosines_(cosines), t_(t), log_t_(t.array().log()) {
+  Estimator(const Cosines& cosines, const Vector& t, const Vector& drift)
+      : cosines_(cosines), t_(t), log_t_(t.array().log()) {
     polynomial_.resize(cosines_.size, 2);
     polynomial_ << cosines_.transform(t), cosines_.transform(t.cwiseAbs2());
     const Spectrum c = cosines_.transform(drift);
@@ -316,8 +317,8 @@ class Estimator {
   /// What t^p comes to over the run; after power_law().
   double change() const { return change_; }
 
-  /// Half of the number of the strongest cosine beside t^p, where those that are too slow for a line come to half of the
-  /// change from peak to peak.
+  /// Half of the number of the strongest cosine beside t^p, where those that are too slow for a line come to half of
+  /// the change from peak to peak.
   double slow_periods_beside_growth() const {
     const Spectrum low = misfit_.head(lowest_line - 1).cwiseAbs2();
     Index at = 0;
@@ -341,8 +342,8 @@ class Estimator {
     return at + 1 < lowest_line ? static_cast<double>(at + 1) / 2 : 0;
   }
 
-  /// Whether what is left is noise of the exponent h throughout: no cosine stands out, no third of them (by logarithm) has
-  /// more than its part, and no block's change stands out of those of a random walk.
+  /// Whether what is left is noise of the exponent h throughout: no cosine stands out, no third of them (by logarithm)
+  /// has more than its part, and no block's change stands out of those of a random walk.
   bool is_even(double h) const {
     const Spectrum per_h = cosines_.log_averaging.head(below_.size()) - 2 * cosines_.log_frequency.head(below_.size());
     const Spectrum white = below_.cwiseAbs2().cwiseQuotient(((h + 0.5) * per_h).array().exp().matrix());
@@ -354,8 +355,8 @@ class Estimator {
     };
     constexpr Index fewest = 48;
     const Index n = white.size();
-    return n >= fewest && its_part(0, 4) && its_part(4, 16) && its_part(16, n) && white.maxCoeff() < stands_out * white.mean() &&
-           steps.maxCoeff() < stands_out * steps.mean();
+    return n >= fewest && its_part(0, 4) && its_part(4, 16) && its_part(16, n) &&
+           white.maxCoeff() < stands_out * white.mean() && steps.maxCoeff() < stands_out * steps.mean();
   }
 
   /// H of v_k = s² (2 sin(θ/2))^−(1+2H).
@@ -382,9 +383,7 @@ class Estimator {
 
  private:
   /// Of what has these squares of cosines in all, if it is a sine.
-  double peak_to_peak(double squares) const {
-    return 2 * std::sqrt(2 * squares / static_cast<double>(t_.size()));
-  }
+  double peak_to_peak(double squares) const { return 2 * std::sqrt(2 * squares / static_cast<double>(t_.size())); }
 
   Spectrum without_polynomial(const Spectrum& c) const {
     return c - polynomial_ * fit(c, polynomial_, Spectrum::Ones(c.size())).coefficients;
@@ -421,8 +420,7 @@ class Estimator {
   Regressors power_regressors(double p) const {
     const Vector power = (p * log_t_).array().exp();
     Regressors x(c_.size(), 2);
-    x << cosines_.transform(power, c_.size()),
-        cosines_.transform(power.cwiseProduct(log_t_), c_.size());
+    x << cosines_.transform(power, c_.size()), cosines_.transform(power.cwiseProduct(log_t_), c_.size());
     return with_edges(x);
   }
 
@@ -446,8 +444,8 @@ class Estimator {
   Spectrum below_;         ///< the drift's cosines without its lines, those that are well below what is left of them
   Spectrum c_, v_;         ///< the first of these, which trends are fitted to, and the shape of their variance
   Regressors trend_, edges_;
-  Vector smooth_;   ///< the drift without its lines
-  Spectrum misfit_; ///< c_ without t^p
+  Vector smooth_;    ///< the drift without its lines
+  Spectrum misfit_;  ///< c_ without t^p
   double largest_oscillation_ = 0, change_ = 0;
   Index slowest_line_ = 0;
 };

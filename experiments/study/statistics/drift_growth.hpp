@@ -50,23 +50,23 @@ class BlockMeans {
 
 /// What a class is found from (drift_class.hpp); sizes in the unit of the drift.
 struct DriftGrowth {
-  bool secular = false;            ///< the drift goes one way: told from noise with 99.5 % confidence
-  double exponent = 0;             ///< p of a drift that goes one way, else H of what is left, below 0 where that is bounded
-  double low = 0, high = 0;        ///< its 95 % confidence interval
+  bool secular = false;      ///< the drift goes one way: told from noise with 99.5 % confidence
+  double exponent = 0;       ///< p of a drift that goes one way, else H of what is left, below 0 where that is bounded
+  double low = 0, high = 0;  ///< its 95 % confidence interval
   double slope_half_width_95 = 0;  ///< of the least-squares slope, per s
   double change = 0;               ///< what goes one way comes to over the run
   double change_limit = 0;         ///< what a change in proportion to time may come to, with 97.5 % confidence
-  double rest = 0;                 ///< the largest of what is left without the oscillations that were taken out, from its mean
-  double oscillation = 0;          ///< the largest of these
+  double rest = 0;         ///< the largest of what is left without the oscillations that were taken out, from its mean
+  double oscillation = 0;  ///< the largest of these
   /// How many periods the run has of an oscillation that is too slow to be told from growth; 0: there is none.
   double slow_periods = 0;
   double slowest_line = 0;  ///< how many periods it has of the slowest oscillation that was taken out; 0: none was
   double misfit = 0;        ///< what t^p leaves from peak to peak, where that is smooth
-  bool even = true;       ///< no instant and no frequency stands out of what is left, as none does of a random walk
+  bool even = true;         ///< no instant and no frequency stands out of what is left, as none does of a random walk
 };
 
-/// Absent: fewer than `fewest_blocks`, a drift that is constant to its last digit, or numbers that are not finite. Costs some
-/// 0.3 ms.
+/// Absent: fewer than `fewest_blocks`, a drift that is constant to its last digit, or numbers that are not finite.
+/// Costs some 0.3 ms.
 std::optional<DriftGrowth> growth_of(const std::vector<BlockMean>& blocks);
 inline constexpr std::size_t fewest_blocks = 32;
 

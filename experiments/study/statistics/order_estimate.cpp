@@ -55,8 +55,7 @@ void drop_round_off(std::vector<LadderPoint>& points, const OrderSettings& setti
   double floor = 0;
   // Rounding goes up and down from step to step: two of them see it where one does not.
   const auto falls_from = [&](std::size_t back) {
-    return points.size() <= back ||
-           local_slope(points[points.size() - 1 - back], points.back()) >= settings.least_fall;
+    return points.size() <= back || local_slope(points[points.size() - 1 - back], points.back()) >= settings.least_fall;
   };
   while (points.size() >= 2 && points.back().error < std::sqrt(settings.epsilon) && !(falls_from(1) && falls_from(2))) {
     floor = std::max(floor, points.back().error);
@@ -100,10 +99,9 @@ OrderEstimate estimate_order(std::vector<LadderPoint> points, const OrderSetting
                points.end());
   drop_blown_up(points, settings.lost, estimate);
   const bool any = !points.empty();
-  estimate.exact = any && std::all_of(points.begin(), points.end(),
-                                      [](const LadderPoint& p) {
-                                        return std::isfinite(p.round_off) && p.error <= above_rounding * p.round_off;
-                                      });
+  estimate.exact = any && std::all_of(points.begin(), points.end(), [](const LadderPoint& p) {
+                     return std::isfinite(p.round_off) && p.error <= above_rounding * p.round_off;
+                   });
   drop_round_off(points, settings, estimate);
   estimate.points = points.size();
   if (points.empty()) return estimate;
@@ -122,25 +120,19 @@ OrderEstimate estimate_order(std::vector<LadderPoint> points, const OrderSetting
   estimate.not_straight = logs.size() - stretch.size();
   estimate.points = stretch.size();
   estimate.largest = points[estimate.not_straight].step;
-  estimate.line =
-      OrderEstimate::Line{line.slope, line.standard_error, students_t_95(static_cast<double>(stretch.size() - 2)) * line.standard_error};
+  estimate.line = OrderEstimate::Line{line.slope, line.standard_error,
+                                      students_t_95(static_cast<double>(stretch.size() - 2)) * line.standard_error};
   return estimate;
 }
 
 std::string text(OrderVerdict verdict) {
   switch (verdict) {
-    case OrderVerdict::as_declared:
-      return "as declared";
-    case OrderVerdict::higher:
-      return "higher";
-    case OrderVerdict::lower:
-      return "lower";
-    case OrderVerdict::exact_here:
-      return "exact here";
-    case OrderVerdict::too_few:
-      return "not seen: too few points";
-    default:
-      return "not seen: points scatter";
+    case OrderVerdict::as_declared: return "as declared";
+    case OrderVerdict::higher: return "higher";
+    case OrderVerdict::lower: return "lower";
+    case OrderVerdict::exact_here: return "exact here";
+    case OrderVerdict::too_few: return "not seen: too few points";
+    default: return "not seen: points scatter";
   }
 }
 

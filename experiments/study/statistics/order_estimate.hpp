@@ -21,8 +21,8 @@
 
 namespace polhode::study {
 
-/// rad of an attitude, or 1 of what is relative: from here on the motion is lost. Angles beyond are wrapped or saturated, and
-/// which of two is the less is chance.
+/// rad of an attitude, or 1 of what is relative: from here on the motion is lost. Angles beyond are wrapped or
+/// saturated, and which of two is the less is chance.
 inline constexpr double motion_lost = 1;
 /// From half of that on an error bends away from a power law, and tells no order.
 inline constexpr double lost_to_fits = 0.5 * motion_lost;
@@ -40,8 +40,10 @@ struct OrderSettings {
   double least_fall = 0.5;    ///< the lowest order is 1
 };
 
-/// A method that chooses its steps does not follow a line as closely as one that is given them: the whole ladder counts.
-inline constexpr OrderSettings of_chosen_steps = {.straightness = std::numeric_limits<double>::infinity(), .least_fall = 0};
+/// A method that chooses its steps does not follow a line as closely as one that is given them: the whole ladder
+/// counts.
+inline constexpr OrderSettings of_chosen_steps = {.straightness = std::numeric_limits<double>::infinity(),
+                                                  .least_fall = 0};
 
 /// Of a line that tells an order: half its 95 % confidence interval at most.
 inline constexpr double widest_order_interval = 0.5;
@@ -52,11 +54,11 @@ struct OrderEstimate {
     double standard_error = 0;
     double half_width_95 = 0;  ///< of the confidence interval
   };
-  std::optional<Line> line;                                      ///< absent with fewer than three points
-  bool straight = false;                                         ///< no point is further than `straightness` from the line
-  double floor = 0;  ///< the largest error, below √ε, of the smallest steps at which the error no longer falls
-  bool exact = false;                                            ///< every error that was not blown up is round-off
-  std::size_t points = 0;                                        ///< behind the line, or that there are for one
+  std::optional<Line> line;  ///< absent with fewer than three points
+  bool straight = false;     ///< no point is further than `straightness` from the line
+  double floor = 0;        ///< the largest error, below √ε, of the smallest steps at which the error no longer falls
+  bool exact = false;      ///< every error that was not blown up is round-off
+  std::size_t points = 0;  ///< behind the line, or that there are for one
   double smallest = 0, largest = 0;                              ///< the steps of the stretch
   std::size_t blown_up = 0, at_round_off = 0, not_straight = 0;  ///< points left out
 };

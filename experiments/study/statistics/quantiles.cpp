@@ -12,7 +12,8 @@ double students_t_95(double degrees) {
   // Studies ask for the same few degrees over and over.
   thread_local std::map<double, double> known;
   auto at = known.find(degrees);
-  if (at == known.end()) at = known.emplace(degrees, boost::math::quantile(boost::math::students_t(degrees), 0.975)).first;
+  if (at == known.end())
+    at = known.emplace(degrees, boost::math::quantile(boost::math::students_t(degrees), 0.975)).first;
   return at->second;
 }
 

@@ -4,8 +4,8 @@
 
 namespace polhode::study {
 
-/// Student's t that is exceeded, on either side, with probability 0.05: half the width of a 95 % interval in units of the
-/// standard error.
+/// Student's t that is exceeded, on either side, with probability 0.05: half the width of a 95 % interval in units of
+/// the standard error.
 double students_t_95(double degrees);
 
 /// Fisher's F with (numerator, denominator) degrees of freedom that is exceeded with probability `significance`.

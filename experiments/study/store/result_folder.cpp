@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "experiments/study/record/analysis.hpp"
-#include "experiments/study/text/input_error.hpp"
 #include "experiments/study/store/store.hpp"
+#include "experiments/study/text/input_error.hpp"
 
 namespace polhode::study {
 namespace {
@@ -43,7 +43,8 @@ std::vector<std::filesystem::path> misplaced(const std::filesystem::path& path) 
   std::error_code error;
   for (const auto& run : std::filesystem::directory_iterator(path / "trajectories", error)) {
     look(run.path(), true);
-    for (const char* name : {"trajectory.csv", "energy.csv", "events.csv", "trajectory.h5"}) look(run.path() / name, false);
+    for (const char* name : {"trajectory.csv", "energy.csv", "events.csv", "trajectory.h5"})
+      look(run.path() / name, false);
   }
   return all;
 }
@@ -61,7 +62,8 @@ void refuse_other_study(const std::filesystem::path& path, const std::set<std::s
   const std::string remedy = "; name another folder with --out, or overwrite it with --force";
   for (const auto& at : misplaced(path)) {
     throw InputError("--out: " + at.string() + " is a " +
-                     (std::filesystem::is_directory(at) ? "folder where the study writes a file" : "file where the study needs a folder") +
+                     (std::filesystem::is_directory(at) ? "folder where the study writes a file"
+                                                        : "file where the study needs a folder") +
                      "; move it away, or overwrite it with --force");
   }
   std::set<std::string> stored;
@@ -75,7 +77,8 @@ void refuse_other_study(const std::filesystem::path& path, const std::set<std::s
   }
   if (!std::filesystem::exists(path / Store::file_name)) {
     for (const auto& product : products(path)) {
-      if (std::filesystem::exists(product)) throw InputError("--out: " + product.string() + " is there already" + remedy);
+      if (std::filesystem::exists(product))
+        throw InputError("--out: " + product.string() + " is there already" + remedy);
     }
   }
 }
@@ -98,7 +101,8 @@ ResultFolder::ResultFolder(const std::filesystem::path& path, const std::set<std
   // Locked before it is read, so that of two programs only one sees a folder that is just being filled.
   lock_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock_ < 0) {
-    fail("cannot read " + path.string() + ": " + std::strerror(errno) + "; make it readable (chmod u+r), or name another folder");
+    fail("cannot read " + path.string() + ": " + std::strerror(errno) +
+         "; make it readable (chmod u+r), or name another folder");
   }
   if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
     if (errno == EWOULDBLOCK) {
@@ -123,7 +127,8 @@ ResultFolder::ResultFolder(const std::filesystem::path& path, const std::set<std
   }
   for (const auto& at : misplaced(path)) std::filesystem::remove_all(at, error);
   if (holds_only(path, ids)) return;
-  for (const auto& product : products(path)) std::filesystem::remove_all(product, error);  // nothing of the other study stays
+  for (const auto& product : products(path))
+    std::filesystem::remove_all(product, error);  // nothing of the other study stays
   for (const char* suffix : {"", "-wal", "-shm"}) {
     std::filesystem::remove(path / (std::string(Store::file_name) + suffix), error);
   }

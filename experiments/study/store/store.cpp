@@ -12,8 +12,8 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "experiments/study/text/value_lists.hpp"
 #include "experiments/study/record/result_numbers.hpp"
+#include "experiments/study/text/value_lists.hpp"
 
 namespace polhode::study {
 namespace {
@@ -31,8 +31,8 @@ class Damage : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A prepared statement with typed binding and reading; columns and parameters are taken in order. Reading throws Damage where
-/// a column holds another type, or a number that is not finite.
+/// A prepared statement with typed binding and reading; columns and parameters are taken in order. Reading throws
+/// Damage where a column holds another type, or a number that is not finite.
 class Statement {
  public:
   Statement(const std::filesystem::path& path, sqlite3* db, const std::string& sql) : path_(path), db_(db) {
@@ -189,8 +189,8 @@ std::string insertion(const std::string& name) {
 /// How long another program that looks into the store may hold it.
 constexpr int patience_ms = 5000;
 
-/// SQLite maps the file of a store's shared memory, having written one byte of each page of it. Where a block of the file system
-/// is smaller than a page, the others are holes, and to touch one on a full disk would kill the program.
+/// SQLite maps the file of a store's shared memory, having written one byte of each page of it. Where a block of the
+/// file system is smaller than a page, the others are holes, and to touch one on a full disk would kill the program.
 void* map_filled(void* at, std::size_t length, int protection, int flags, int file, off_t offset) {
   if ((protection & PROT_WRITE) && fallocate(file, 0, offset, static_cast<off_t>(length)) != 0 &&
       (errno == ENOSPC || errno == EDQUOT)) {
@@ -403,7 +403,8 @@ std::set<std::string> Store::ids_in(const std::filesystem::path& folder) {
 
 std::size_t Store::longest_folder() {
   // SQLite leaves room for what it adds to the name.
-  return static_cast<std::size_t>(sqlite3_vfs_find(nullptr)->mxPathname) - std::strlen("/-journal") - std::strlen(file_name);
+  return static_cast<std::size_t>(sqlite3_vfs_find(nullptr)->mxPathname) - std::strlen("/-journal") -
+         std::strlen(file_name);
 }
 
 }  // namespace polhode::study

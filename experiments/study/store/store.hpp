@@ -32,8 +32,8 @@ class Store {
   void keep(std::span<const RunRecord> records);  ///< in one transaction
   void forget(const std::string& id);
 
-  /// The ids in a folder's store, empty if there is none; changes nothing. Throws too where another program has made tables of
-  /// these names, and where the database is damaged anywhere.
+  /// The ids in a folder's store, empty if there is none; changes nothing. Throws too where another program has made
+  /// tables of these names, and where the database is damaged anywhere.
   static std::set<std::string> ids_in(const std::filesystem::path& folder);
 
   /// Bytes, of the absolute path of a folder whose store SQLite opens.

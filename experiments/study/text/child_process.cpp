@@ -128,8 +128,10 @@ std::optional<ChildProcess> ChildProcess::start(const std::vector<std::string>& 
 }
 
 ChildProcess::ChildProcess(ChildProcess&& other) noexcept
-    : pid_(std::exchange(other.pid_, -1)), output_(std::exchange(other.output_, -1)),
-      input_(std::exchange(other.input_, -1)), printed_(std::move(other.printed_)) {}
+    : pid_(std::exchange(other.pid_, -1)),
+      output_(std::exchange(other.output_, -1)),
+      input_(std::exchange(other.input_, -1)),
+      printed_(std::move(other.printed_)) {}
 
 ChildProcess::~ChildProcess() {
   if (pid_ >= 0) wait();

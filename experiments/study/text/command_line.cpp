@@ -10,8 +10,9 @@ namespace polhode::study {
 namespace {
 
 std::string quoted(const std::string& word) {
-  if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%") ==
-                           std::string::npos) {
+  if (!word.empty() &&
+      word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%") ==
+          std::string::npos) {
     return word;
   }
   std::string text = "'";
@@ -37,7 +38,8 @@ std::string unknown_word(const CLI::App& app, const std::string& word) {
 }  // namespace
 
 CLI::Option* add_no_figures(CLI::App& app, bool& figures) {
-  return app.add_flag_callback("--no-figures", [&figures] { figures = false; }, "no figures");
+  return app.add_flag_callback(
+      "--no-figures", [&figures] { figures = false; }, "no figures");
 }
 
 std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const* argv) {

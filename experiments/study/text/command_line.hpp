@@ -15,8 +15,8 @@ namespace polhode::study {
 /// Adds --no-figures, which makes `figures` false.
 CLI::Option* add_no_figures(CLI::App& app, bool& figures);
 
-/// Fills in what the options of `app` stand for. Returns the exit status where nothing is left to do, because help was asked
-/// for and printed; throws InputError, of one line, for what no option takes.
+/// Fills in what the options of `app` stand for. Returns the exit status where nothing is left to do, because help was
+/// asked for and printed; throws InputError, of one line, for what no option takes.
 std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const* argv);
 
 /// The call, "./run PROGRAM …", quoted so that a shell takes it again.

@@ -66,7 +66,8 @@ bool CsvReader::next() {
   split();
   if (cells_.size() != names_.size()) {
     fail_at(places_.back(), fmt::format("{} cells under {} column names; end the file after a whole row, and put cells "
-                                        "with commas into quotes", cells_.size(), names_.size()));
+                                        "with commas into quotes",
+                                        cells_.size(), names_.size()));
   }
   return true;
 }
@@ -116,7 +117,8 @@ void CsvReader::split() {
         cell += line_[k];
       }
       at = std::min(line_.find_first_not_of(blanks, k + 1), line_.size());
-      if (at < line_.size() && line_[at] != ',') fail_at(at + 1, "text behind a closed quote; double the quotes within");
+      if (at < line_.size() && line_[at] != ',')
+        fail_at(at + 1, "text behind a closed quote; double the quotes within");
     } else {
       const std::size_t end = std::min(line_.find(',', at), line_.size());
       cell.assign(trimmed(std::string_view(line_).substr(at, end - at)));

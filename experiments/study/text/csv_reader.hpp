@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads tables of numbers that any program wrote as CSV (RFC 4180), a row at a time. The first line names the columns, which
-// go by their names, in any order; others are passed over. Lines may end in CR LF; empty lines, and those that begin with #,
-// are skipped. Every error is an InputError with file, line, column and a remedy; so is a line of more than 1 MiB, a zero
-// byte, which no text has, and a file that has no end.
+// Reads tables of numbers that any program wrote as CSV (RFC 4180), a row at a time. The first line names the columns,
+// which go by their names, in any order; others are passed over. Lines may end in CR LF; empty lines, and those that
+// begin with #, are skipped. Every error is an InputError with file, line, column and a remedy; so is a line of more
+// than 1 MiB, a zero byte, which no text has, and a file that has no end.
 #pragma once
 
 #include <cstddef>

@@ -9,8 +9,8 @@
 
 namespace polhode::study {
 
-/// what() is the one line, without the program's name, legible whatever the user gave. main() prints it on stderr and exits
-/// with 2.
+/// what() is the one line, without the program's name, legible whatever the user gave. main() prints it on stderr and
+/// exits with 2.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::string_view message) : std::runtime_error(legible(message)) {}

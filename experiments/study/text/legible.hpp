@@ -7,8 +7,8 @@
 
 namespace polhode::study {
 
-/// One line: control characters, and bytes that are no UTF-8, are spelled out (\x0a). Of a word longer than 300 bytes, and
-/// of a message longer than 3000, the middle is left out.
+/// One line: control characters, and bytes that are no UTF-8, are spelled out (\x0a). Of a word longer than 300 bytes,
+/// and of a message longer than 3000, the middle is left out.
 std::string legible(std::string_view message);
 
 /// The beginning of what is quoted, 40 bytes at most, spelled out as legible() does it; "..." stands for the rest.

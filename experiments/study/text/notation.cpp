@@ -31,12 +31,9 @@ std::string escaped(std::string_view text, Escape escape) {
   std::string out;
   out.reserve(text.size() + 8);
   for (const char c : text) {
-    if (is_control(c))
-      out += ' ';
-    else if (const std::string_view replacement = escape(c); !replacement.empty())
-      out += replacement;
-    else
-      out += c;
+    if (is_control(c)) out += ' ';
+    else if (const std::string_view replacement = escape(c); !replacement.empty()) out += replacement;
+    else out += c;
   }
   return out;
 }
@@ -88,18 +85,12 @@ std::string words(const std::vector<std::string>& items) {
 std::string html(std::string_view text) {
   return escaped(text, [](char c) -> std::string_view {
     switch (c) {
-      case '&':
-        return "&amp;";
-      case '<':
-        return "&lt;";
-      case '>':
-        return "&gt;";
-      case '"':
-        return "&quot;";
-      case '\'':
-        return "&#39;";
-      default:
-        return {};
+      case '&': return "&amp;";
+      case '<': return "&lt;";
+      case '>': return "&gt;";
+      case '"': return "&quot;";
+      case '\'': return "&#39;";
+      default: return {};
     }
   });
 }
@@ -107,24 +98,15 @@ std::string html(std::string_view text) {
 std::string markdown(std::string_view text) {
   return escaped(text, [](char c) -> std::string_view {
     switch (c) {
-      case '|':
-        return "\\|";
-      case '_':
-        return "\\_";
-      case '*':
-        return "\\*";
-      case '`':
-        return "\\`";
-      case '<':
-        return "&lt;";
-      case '&':
-        return "&amp;";
-      case '\\':
-        return "\\\\";
-      case '[':
-        return "\\[";
-      default:
-        return {};
+      case '|': return "\\|";
+      case '_': return "\\_";
+      case '*': return "\\*";
+      case '`': return "\\`";
+      case '<': return "&lt;";
+      case '&': return "&amp;";
+      case '\\': return "\\\\";
+      case '[': return "\\[";
+      default: return {};
     }
   });
 }
@@ -132,34 +114,20 @@ std::string markdown(std::string_view text) {
 std::string tex(std::string_view text) {
   return escaped(text, [](char c) -> std::string_view {
     switch (c) {
-      case '\\':
-        return "\\textbackslash{}";
-      case '{':
-        return "\\{";
-      case '}':
-        return "\\}";
-      case '$':
-        return "\\$";
-      case '&':
-        return "\\&";
-      case '#':
-        return "\\#";
-      case '%':
-        return "\\%";
-      case '_':
-        return "\\_";
-      case '^':
-        return "\\textasciicircum{}";
-      case '~':
-        return "\\textasciitilde{}";
-      case '<':
-        return "\\textless{}";
-      case '>':
-        return "\\textgreater{}";
-      case '"':
-        return "\\textquotedbl{}";
-      default:
-        return {};
+      case '\\': return "\\textbackslash{}";
+      case '{': return "\\{";
+      case '}': return "\\}";
+      case '$': return "\\$";
+      case '&': return "\\&";
+      case '#': return "\\#";
+      case '%': return "\\%";
+      case '_': return "\\_";
+      case '^': return "\\textasciicircum{}";
+      case '~': return "\\textasciitilde{}";
+      case '<': return "\\textless{}";
+      case '>': return "\\textgreater{}";
+      case '"': return "\\textquotedbl{}";
+      default: return {};
     }
   });
 }

@@ -20,12 +20,14 @@ void say(const std::string& name, const std::string& message) {
   fmt::print(stderr, "{}: {}\n", name, legible(message));
 }
 
-/// Whether all that was printed on standard output has been taken; if not, says so. `reason`: of errno, where it is known.
+/// Whether all that was printed on standard output has been taken; if not, says so. `reason`: of errno, where it is
+/// known.
 bool printed(const std::string& name, int reason = 0) {
   errno = reason;
   std::cout.flush();
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout) return true;
-  say(name, fmt::format("standard output cannot be written{}{}", errno == 0 ? "" : ": ", errno == 0 ? "" : std::strerror(errno)));
+  say(name, fmt::format("standard output cannot be written{}{}", errno == 0 ? "" : ": ",
+                        errno == 0 ? "" : std::strerror(errno)));
   return false;
 }
 

@@ -88,7 +88,8 @@ std::string question(std::string_view name, const std::vector<std::string_view>&
 std::vector<std::string_view> near_names(std::string_view name, const std::vector<std::string_view>& known) {
   const std::string said = folded(name);
   auto found = those(known, [&](const std::string& k) { return k == said; });
-  if (found.empty()) found = those(known, [&](const std::string& k) { return holds_words(k, said) || holds_words(said, k); });
+  if (found.empty())
+    found = those(known, [&](const std::string& k) { return holds_words(k, said) || holds_words(said, k); });
   if (!found.empty()) return found;
   std::vector<std::string> all;
   for (const std::string_view candidate : known) all.push_back(folded(candidate));
@@ -108,7 +109,8 @@ std::string suggestion(std::string_view name, std::string_view introduction,
   return text;
 }
 
-std::string suggestion_of_many(std::string_view name, const std::vector<std::string_view>& known, std::string_view list) {
+std::string suggestion_of_many(std::string_view name, const std::vector<std::string_view>& known,
+                               std::string_view list) {
   return question(name, known).append(list).append(" prints all ").append(std::to_string(known.size()));
 }
 

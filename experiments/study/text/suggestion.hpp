@@ -24,7 +24,8 @@ std::string suggestion(std::string_view name, std::string_view introduction,
                        const std::vector<std::string_view>& known);
 
 /// Where the names are too many for a line: "; did you mean 'rk4'? --list integrators prints all 45".
-std::string suggestion_of_many(std::string_view name, const std::vector<std::string_view>& known, std::string_view list);
+std::string suggestion_of_many(std::string_view name, const std::vector<std::string_view>& known,
+                               std::string_view list);
 
 /// The question alone, "; did you mean '--dt'?", or nothing. `sign` stands before each name: "--".
 std::string did_you_mean(std::string_view name, const std::vector<std::string_view>& known, std::string_view sign = "");

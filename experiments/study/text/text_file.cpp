@@ -55,7 +55,8 @@ std::string read_text(const std::string& path, std::size_t most) {
 
 void write_text(const fs::path& path, std::string_view text) {
   std::error_code ignored;
-  if (const auto kind = fs::status(path, ignored).type(); kind != fs::file_type::regular && kind != fs::file_type::not_found) {
+  if (const auto kind = fs::status(path, ignored).type();
+      kind != fs::file_type::regular && kind != fs::file_type::not_found) {
     if (const int reason = written(path, text)) throw WriteError(path, reason);
     return;
   }

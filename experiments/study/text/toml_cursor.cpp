@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/study/text/value_lists.hpp"
 #include "experiments/study/text/legible.hpp"
 #include "experiments/study/text/suggestion.hpp"
+#include "experiments/study/text/value_lists.hpp"
 
 namespace polhode::study {
 
@@ -28,29 +28,20 @@ TomlPlace place_of(const TomlValue& value) {
 
 std::string describe(const TomlValue& value) {
   switch (value.type) {
-    case Type::boolean:
-      return value.boolean ? "true" : "false";
-    case Type::number:
-      return exact(value.number);
-    case Type::text:
-      return '"' + shortened(value.text) + '"';
-    case Type::list:
-      return "a list of " + std::to_string(value.items.size());
-    case Type::table:
-      return "a table";
-    default:
-      return "a date or time";
+    case Type::boolean: return value.boolean ? "true" : "false";
+    case Type::number: return exact(value.number);
+    case Type::text: return '"' + shortened(value.text) + '"';
+    case Type::list: return "a list of " + std::to_string(value.items.size());
+    case Type::table: return "a table";
+    default: return "a date or time";
   }
 }
 
 std::string in_words(TomlCursor::Range range, const char* noun) {
   switch (range) {
-    case TomlCursor::Range::positive:
-      return std::string("positive ") + noun;
-    case TomlCursor::Range::non_negative:
-      return std::string("non-negative ") + noun;
-    default:
-      return std::string("finite ") + noun;
+    case TomlCursor::Range::positive: return std::string("positive ") + noun;
+    case TomlCursor::Range::non_negative: return std::string("non-negative ") + noun;
+    default: return std::string("finite ") + noun;
   }
 }
 
@@ -133,7 +124,8 @@ void TomlCursor::refuse(std::string_view must_be) const {
 
 void TomlCursor::unknown(std::string_view what, std::string_view introduction,
                          const std::vector<std::string_view>& known) const {
-  fail("no " + std::string(what) + " is called '" + shortened(value_->text) + "'" + suggestion(value_->text, introduction, known));
+  fail("no " + std::string(what) + " is called '" + shortened(value_->text) + "'" +
+       suggestion(value_->text, introduction, known));
 }
 
 }  // namespace polhode::study

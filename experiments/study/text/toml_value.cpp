@@ -53,8 +53,8 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
   return text.size();
 }
 
-/// The library recurses over the parts of a dotted key without a bound, so that a.a.a.… overflows the stack; and so do we
-/// over what it gives. The depth is that of the brackets that are open, and of the dots before each and before here.
+/// The library recurses over the parts of a dotted key without a bound, so that a.a.a.… overflows the stack; and so do
+/// we over what it gives. The depth is that of the brackets that are open, and of the dots before each and before here.
 void refuse_deep_nesting(std::string_view text) {
   constexpr std::size_t limit = 100;
   std::vector<std::size_t> outer;  // dots in front of each bracket that is open
@@ -85,7 +85,8 @@ void refuse_deep_nesting(std::string_view text) {
       if (c == '\n') ++line, line_start = i + 1;
     }
     if (outer.size() + outer_dots + dots <= limit) continue;
-    throw TomlSyntaxError{{line, static_cast<int>(i - line_start) + 1, -1}, "keys and lists are nested more than 100 deep; give fewer"};
+    throw TomlSyntaxError{{line, static_cast<int>(i - line_start) + 1, -1},
+                          "keys and lists are nested more than 100 deep; give fewer"};
   }
 }
 

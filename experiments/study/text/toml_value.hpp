@@ -47,7 +47,8 @@ struct TomlEntry {
   TomlValue value;
 };
 
-/// The text is not TOML: a duplicate key, a bracket that is not closed; or nested too deep. The message is one sentence.
+/// The text is not TOML: a duplicate key, a bracket that is not closed; or nested too deep. The message is one
+/// sentence.
 struct TomlSyntaxError {
   TomlPlace place;
   std::string message;

@@ -8,7 +8,8 @@
 
 namespace polhode::study {
 
-/// Splits at the separator; blanks around items are dropped. Throws InputError, naming `option`, on an empty list or item.
+/// Splits at the separator; blanks around items are dropped. Throws InputError, naming `option`, on an empty list or
+/// item.
 std::vector<std::string> split_list(std::string_view text, char separator, const std::string& option);
 
 /// Numbers: 0.1,0.2 or 1e-4:1e-1:10 (evenly spaced, ends included) or 1e-4:1e-1:10:log. Throws InputError.

@@ -23,7 +23,8 @@ std::filesystem::path unfinished(const std::filesystem::path& path) { return pat
 
 /// `reason`: what errno says; 0: nothing.
 [[noreturn]] void cannot_write(const std::filesystem::path& path, int reason) {
-  throw TrajectoryError("cannot write " + path.string() + (reason != 0 ? std::string(": ") + std::strerror(reason) : ""));
+  throw TrajectoryError("cannot write " + path.string() +
+                        (reason != 0 ? std::string(": ") + std::strerror(reason) : ""));
 }
 
 void give_own_name(const std::filesystem::path& path) {
@@ -177,8 +178,17 @@ std::vector<std::string> event_columns(bool kind) {
 }
 
 std::vector<double> event_row(const Impact& i) {
-  return {i.t,         static_cast<double>(i.a), static_cast<double>(i.b), i.point[0],  i.point[1],       i.point[2],
-          i.normal[0], i.normal[1],              i.normal[2],              i.impulse.norm(), i.energy_lost};
+  return {i.t,
+          static_cast<double>(i.a),
+          static_cast<double>(i.b),
+          i.point[0],
+          i.point[1],
+          i.point[2],
+          i.normal[0],
+          i.normal[1],
+          i.normal[2],
+          i.impulse.norm(),
+          i.energy_lost};
 }
 
 /// In the same columns.

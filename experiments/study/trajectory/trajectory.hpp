@@ -12,7 +12,8 @@ namespace polhode::study {
 
 enum class TrajectoryFormat { none, csv, hdf5 };
 
-/// A trajectory cannot be written: no fault of the run, whose results are not kept. what() names the file and the reason.
+/// A trajectory cannot be written: no fault of the run, whose results are not kept. what() names the file and the
+/// reason.
 class TrajectoryError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

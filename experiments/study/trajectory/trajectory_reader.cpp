@@ -31,8 +31,8 @@ const Group time_group{"the time", {"t_s"}}, body_group{"the body", {"body"}},
     momentum_group{"the angular momentum", {"lx_kg_m2_per_s", "ly_kg_m2_per_s", "lz_kg_m2_per_s"}},
     energy_group{"the energy", {"energy_J"}},
     matrix_group{"the rotation matrix", {"r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"}};
-const std::array groups = {&time_group,     &body_group,  &position_group, &quaternion_group, &velocity_group,
-                           &omega_group,    &momentum_group, &energy_group, &matrix_group};
+const std::array groups = {&time_group,  &body_group,     &position_group, &quaternion_group, &velocity_group,
+                           &omega_group, &momentum_group, &energy_group,   &matrix_group};
 
 /// How far the first orientation may be from a rotation: few digits and single precision pass, another convention does
 /// not. Later ones may be anywhere, since a method that leaves its manifold is a finding.
@@ -73,7 +73,8 @@ class Parser {
   Trajectory parse() {
     if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
     std::string_view line;
-    if (!next(line)) throw InputError(origin_ + ": there is nothing in it; it needs a line of column names, then numbers");
+    if (!next(line))
+      throw InputError(origin_ + ": there is nothing in it; it needs a line of column names, then numbers");
     read_header(cells_of(line));
     while (next(line)) read_row(cells_of(line));
     finish_instant();
@@ -181,7 +182,8 @@ class Parser {
       finish_instant();
       if (!result_.times.empty() && t < result_.times.back()) {
         fail(cell_column(cells, "t_s"), fmt::format("t_s goes back from {} to {}; sort the rows by time, and several "
-                                                    "runs into a file each", result_.times.back(), t));
+                                                    "runs into a file each",
+                                                    result_.times.back(), t));
       }
       result_.times.push_back(t);
       result_.bodies.resize(result_.bodies.size() + result_.moving);
@@ -201,8 +203,8 @@ class Parser {
     if (!has_body_) return 0;
     const double x = number(cells, "body");
     if (!(x >= 0 && x < static_cast<double>(result_.moving)) || x != std::floor(x)) {
-      fail(cell_column(cells, "body"), fmt::format("body is {}; the scenario's moving bodies are numbered 0 to {}", x,
-                                                   result_.moving - 1));
+      fail(cell_column(cells, "body"),
+           fmt::format("body is {}; the scenario's moving bodies are numbered 0 to {}", x, result_.moving - 1));
     }
     return static_cast<std::size_t>(x);
   }
@@ -224,7 +226,8 @@ class Parser {
 
   void check_quaternion(double length, bool first, std::size_t column) const {
     if (first && !(std::abs(length - 1) <= first_defect)) {
-      fail(column, fmt::format("a quaternion of length {:.6g} at the start; give unit quaternions, scalar first", length));
+      fail(column,
+           fmt::format("a quaternion of length {:.6g} at the start; give unit quaternions, scalar first", length));
     }
     if (!(length >= least_length) || !std::isfinite(length)) {
       fail(column, fmt::format("a quaternion of length {:.3g} is no orientation; cut the file before", length));
@@ -234,8 +237,10 @@ class Parser {
   void check_matrix(const Matrix3<double>& r, bool first, std::size_t column) const {
     const double defect = (r.transpose() * r - Matrix3<double>::Identity()).norm(), determinant = r.determinant();
     if (first && !(defect <= first_defect && determinant > 0)) {
-      fail(column, fmt::format("no rotation matrix at the start: |RᵀR − 1| = {:.3g}, det R = {:.3g}; r11 … r33 take body "
-                               "to world, row by row", defect, determinant));
+      fail(column,
+           fmt::format("no rotation matrix at the start: |RᵀR − 1| = {:.3g}, det R = {:.3g}; r11 … r33 take body "
+                       "to world, row by row",
+                       defect, determinant));
     }
     if (!(std::abs(determinant) >= least_length) || !std::isfinite(determinant)) {
       fail(column, fmt::format("a matrix of determinant {:.3g} is no orientation; cut the file before", determinant));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the trajectory of any program: CSV in the format of trajectory.csv, world axes and SI units. Columns go by their
-// names, in any order; others are passed over. Lines may end in CR LF; empty lines and lines that begin with # are
-// skipped. Nothing but numbers that are finite is let through.
+// Reads the trajectory of any program: CSV in the format of trajectory.csv, world axes and SI units. Columns go by
+// their names, in any order; others are passed over. Lines may end in CR LF; empty lines and lines that begin with #
+// are skipped. Nothing but numbers that are finite is let through.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/problem/problem.hpp"
 #include "core/math/quaternion.hpp"
+#include "core/problem/problem.hpp"
 
 namespace polhode::study {
 
@@ -24,15 +24,15 @@ struct TrajectoryBody {
 struct Trajectory {
   bool has_matrix = false, has_position = false, has_velocity = false, has_angular_velocity = false;
   bool has_angular_momentum = false, has_energy = false;
-  std::size_t moving = 1;             ///< bodies
-  std::vector<double> times;          ///< s, increasing, none negative
-  std::vector<TrajectoryBody> bodies; ///< of each instant `moving` of them, in the problem's order
-  std::vector<double> energy;         ///< J, of each instant: the file's own
+  std::size_t moving = 1;              ///< bodies
+  std::vector<double> times;           ///< s, increasing, none negative
+  std::vector<TrajectoryBody> bodies;  ///< of each instant `moving` of them, in the problem's order
+  std::vector<double> energy;          ///< J, of each instant: the file's own
 };
 
-/// The text of a file that is named `origin` in errors. Needs t_s, an orientation (qw … qz, or r11 … r33, which is taken
-/// where both stand), and `body` unless one body moves; all rows of an instant stand together. Throws InputError, with
-/// line, column and a remedy.
+/// The text of a file that is named `origin` in errors. Needs t_s, an orientation (qw … qz, or r11 … r33, which is
+/// taken where both stand), and `body` unless one body moves; all rows of an instant stand together. Throws InputError,
+/// with line, column and a remedy.
 Trajectory parse_trajectory(std::string_view text, const std::string& origin, const Problem& problem);
 
 /// Of the file. Throws InputError also where it cannot be read.

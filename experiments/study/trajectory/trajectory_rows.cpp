@@ -5,9 +5,9 @@ namespace polhode::study {
 
 std::vector<std::string> trajectory_columns(const System<double>& system) {
   std::vector<std::string> names = {
-      "t_s",           "body",          "px_m",          "py_m",           "pz_m",           "qw",
-      "qx",            "qy",            "qz",            "vx_m_per_s",     "vy_m_per_s",     "vz_m_per_s",
-      "wx_rad_per_s",  "wy_rad_per_s",  "wz_rad_per_s",  "lx_kg_m2_per_s", "ly_kg_m2_per_s", "lz_kg_m2_per_s",
+      "t_s",          "body",         "px_m",         "py_m",           "pz_m",           "qw",
+      "qx",           "qy",           "qz",           "vx_m_per_s",     "vy_m_per_s",     "vz_m_per_s",
+      "wx_rad_per_s", "wy_rad_per_s", "wz_rad_per_s", "lx_kg_m2_per_s", "ly_kg_m2_per_s", "lz_kg_m2_per_s",
       "energy_J"};
   if (system.formulation().orientation == Orientation::matrix) {
     for (const char* name : {"r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"}) names.emplace_back(name);
@@ -37,14 +37,21 @@ std::vector<double> trajectory_row(const System<double>& system, const State<dou
 }
 
 std::vector<std::string> energy_columns() {
-  return {"t_s", "kinetic_J", "potential_J", "work_J", "impact_loss_J", "friction_loss_J", "penetration_J",
-          "projection_J", "drift_J"};
+  return {"t_s",           "kinetic_J",    "potential_J", "work_J", "impact_loss_J", "friction_loss_J",
+          "penetration_J", "projection_J", "drift_J"};
 }
 
 std::vector<double> energy_row(const Sample& sample, const ContactLosses& contact, double energy_start) {
   const Measurement<double>& m = sample.seen;
-  return {sample.t,  m.kinetic, m.potential, sample.work, contact.impact, contact.friction,
-          contact.penetration, sample.projection, sample.ledger(contact.total()) - energy_start};
+  return {sample.t,
+          m.kinetic,
+          m.potential,
+          sample.work,
+          contact.impact,
+          contact.friction,
+          contact.penetration,
+          sample.projection,
+          sample.ledger(contact.total()) - energy_start};
 }
 
 }  // namespace polhode::study

@@ -10,8 +10,8 @@
 
 namespace polhode::study {
 
-/// t_s, body, p, q, v, ω, L, energy_J, and with the matrix chart r11 … r33: world axes, SI units; p and v are of the mass
-/// centre, L about the reference point.
+/// t_s, body, p, q, v, ω, L, energy_J, and with the matrix chart r11 … r33: world axes, SI units; p and v are of the
+/// mass centre, L about the reference point.
 std::vector<std::string> trajectory_columns(const System<double>& system);
 
 /// One row for each moving body, in the order of the columns.
@@ -21,6 +21,5 @@ std::vector<double> trajectory_row(const System<double>& system, const State<dou
 std::vector<std::string> energy_columns();
 /// The ledger; energy_start is what it showed at the start.
 std::vector<double> energy_row(const Sample& sample, const ContactLosses& contact, double energy_start);
-
 
 }  // namespace polhode::study

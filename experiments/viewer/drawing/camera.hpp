@@ -22,13 +22,13 @@ struct Camera {
   /// Camera axes to clip space as OpenGL has it.
   Eigen::Matrix4d projection(double width_over_height) const;
 
-  /// Where a point of the world is in a picture of that size: pixels right of its left edge and below its upper one. None
-  /// of what is behind the eye.
+  /// Where a point of the world is in a picture of that size: pixels right of its left edge and below its upper one.
+  /// None of what is behind the eye.
   std::optional<Eigen::Vector2d> pixel(const Vector3<double>& point, int width, int height) const;
 
   void orbit(double by_azimuth, double by_elevation);
-  void zoom(double factor);                             ///< of the distance
-  void pan(double right, double up);                    ///< m, of the target
+  void zoom(double factor);           ///< of the distance
+  void pan(double right, double up);  ///< m, of the target
   /// Sees a ball of that middle and radius (m) whole.
   void look_at(const Vector3<double>& middle, double radius);
 };

@@ -6,8 +6,8 @@
 
 #include "experiments/scene/scene.hpp"
 #include "experiments/viewer/drawing/camera.hpp"
-#include "experiments/viewer/frame/frame.hpp"
 #include "experiments/viewer/drawing/look.hpp"
+#include "experiments/viewer/frame/frame.hpp"
 
 namespace polhode::viewer {
 

@@ -6,9 +6,9 @@
 
 #include "experiments/viewer/drawing/arrow_pass.hpp"
 #include "experiments/viewer/drawing/cast.hpp"
-#include "experiments/viewer/frame/frame.hpp"
 #include "experiments/viewer/drawing/line_pass.hpp"
 #include "experiments/viewer/drawing/vector_scale.hpp"
+#include "experiments/viewer/frame/frame.hpp"
 
 namespace polhode::viewer {
 

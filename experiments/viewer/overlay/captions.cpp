@@ -22,7 +22,8 @@ void write(float left, float upper, const std::string& text, Colour ink) {
 std::string state_of(const View& view) {
   const SessionStatus& status = view.status;
   if (!status.message.empty()) return status.message;
-  if (status.slower_than_wanted) return fmt::format("slower than wanted: {:.2g} of {:.2g} s per s", status.pace, status.speed);
+  if (status.slower_than_wanted)
+    return fmt::format("slower than wanted: {:.2g} of {:.2g} s per s", status.pace, status.speed);
   return {};
 }
 
@@ -31,9 +32,9 @@ std::string collision(const View& view) {
   if (!view.status.paused_at_collision || view.frame.contacts.empty()) return {};
   const auto deepest = std::max_element(view.frame.contacts.begin(), view.frame.contacts.end(),
                                         [](const FrameContact& a, const FrameContact& b) { return a.depth < b.depth; });
-  return fmt::format("collision: {} point{}, depth {:.3g} m, normal ({:.3f}, {:.3f}, {:.3f})", view.frame.contacts.size(),
-                     view.frame.contacts.size() == 1 ? "" : "s", deepest->depth, deepest->normal[0], deepest->normal[1],
-                     deepest->normal[2]);
+  return fmt::format("collision: {} point{}, depth {:.3g} m, normal ({:.3f}, {:.3f}, {:.3f})",
+                     view.frame.contacts.size(), view.frame.contacts.size() == 1 ? "" : "s", deepest->depth,
+                     deepest->normal[0], deepest->normal[1], deepest->normal[2]);
 }
 
 }  // namespace

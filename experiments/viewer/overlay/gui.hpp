@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dear ImGui over OpenGL, with or without a window: text and controls on top of what was drawn, and where each control is,
-// so that a script finds it.
+// Dear ImGui over OpenGL, with or without a window: text and controls on top of what was drawn, and where each control
+// is, so that a script finds it.
 #pragma once
 
 #include <map>

@@ -28,7 +28,8 @@ bool check(Controls& controls, const char* label, const char* name, bool& value)
 }
 
 /// A list to choose from; true where `value` is another one now.
-bool choose(Controls& controls, const char* label, const std::string& name, const std::vector<std::string>& items, std::string& value) {
+bool choose(Controls& controls, const char* label, const std::string& name, const std::vector<std::string>& items,
+            std::string& value) {
   bool changed = false;
   const bool open = ImGui::BeginCombo(label, value.c_str(), ImGuiComboFlags_HeightLarge);
   if (!open) {
@@ -81,7 +82,8 @@ PanelWishes Panel::draw(Stage& stage, Controls& controls, float width, float hei
   ImGui::PushItemWidth(-110);
   if (stage.live()) {
     std::string scenario = stage.setup().scenario;
-    if (choose(controls, "scenario", "scenario", names_of(study::builtin_scenarios()), scenario)) wishes.scenario = scenario;
+    if (choose(controls, "scenario", "scenario", names_of(study::builtin_scenarios()), scenario))
+      wishes.scenario = scenario;
   }
   time(stage, controls);
   const std::size_t runs_before = stage.size();
@@ -161,7 +163,9 @@ void Panel::runs(Stage& stage, Controls& controls) {
   }
 }
 
-void Panel::change(Stage& stage, const Configuration& configuration) { refused_ = stage.session(run_).change(configuration); }
+void Panel::change(Stage& stage, const Configuration& configuration) {
+  refused_ = stage.session(run_).change(configuration);
+}
 
 void Panel::method(Stage& stage, Controls& controls) {
   Configuration c = stage.views()[run_]->configuration;
@@ -187,7 +191,8 @@ void Panel::method(Stage& stage, Controls& controls) {
     run.formulation.orientation = chart == "matrix" ? Orientation::matrix : Orientation::quaternion;
     change(stage, c);
   }
-  if (choose(controls, "angular state", "angular_state", {"velocity_world", "velocity_body", "momentum_world"}, state)) {
+  if (choose(controls, "angular state", "angular_state", {"velocity_world", "velocity_body", "momentum_world"},
+             state)) {
     run.formulation.angular_state = state == "velocity_world"  ? AngularState::velocity_world
                                     : state == "velocity_body" ? AngularState::velocity_body
                                                                : AngularState::momentum_world;
@@ -197,8 +202,10 @@ void Panel::method(Stage& stage, Controls& controls) {
   if (check(controls, "normalise each step", "normalise", run.normalise)) change(stage, c);
   if (run.contact) {
     study::ContactConfig& contact = *run.contact;
-    if (choose(controls, "broad phase", "broad_phase", names_of(broad_phase_catalogue()), contact.broad_phase)) change(stage, c);
-    if (choose(controls, "narrow phase", "narrow_phase", names_of(narrow_phase_catalogue()), contact.narrow_phase)) change(stage, c);
+    if (choose(controls, "broad phase", "broad_phase", names_of(broad_phase_catalogue()), contact.broad_phase))
+      change(stage, c);
+    if (choose(controls, "narrow phase", "narrow_phase", names_of(narrow_phase_catalogue()), contact.narrow_phase))
+      change(stage, c);
     if (choose(controls, "response", "response", names_of(response_catalogue()), contact.response)) {
       const bool force = !find_response(contact.response)->make;
       contact.impact_timing = force ? "" : contact.impact_timing.empty() ? "time_stepping" : contact.impact_timing;
@@ -217,7 +224,8 @@ void Panel::shown(Stage& stage, Controls& controls) {
   if (stage.moving().size() > 1) {
     std::string body = stage.moving()[stage.selected];
     if (choose(controls, "body", "body", stage.moving(), body)) {
-      stage.selected = std::size_t(std::find(stage.moving().begin(), stage.moving().end(), body) - stage.moving().begin());
+      stage.selected =
+          std::size_t(std::find(stage.moving().begin(), stage.moving().end(), body) - stage.moving().begin());
     }
   }
   Look& look = stage.look;

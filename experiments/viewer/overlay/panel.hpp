@@ -30,10 +30,10 @@ class Panel {
   void numbers(Stage& stage);
   void change(Stage& stage, const Configuration& configuration);
 
-  std::size_t run_ = 0;   ///< whose method is shown
-  double speed_ = 1;      ///< of all runs, as they say it
+  std::size_t run_ = 0;  ///< whose method is shown
+  double speed_ = 1;     ///< of all runs, as they say it
   bool pause_on_collision_ = false;
-  std::string refused_;   ///< why the last change was not made
+  std::string refused_;  ///< why the last change was not made
 };
 
 }  // namespace polhode::viewer

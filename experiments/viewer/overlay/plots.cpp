@@ -13,8 +13,9 @@ namespace polhode::viewer {
 namespace {
 
 /// Okabe and Ito's, as in the figures of a study.
-constexpr std::array<ImU32, 6> runs = {IM_COL32(0, 114, 178, 255), IM_COL32(213, 94, 0, 255),   IM_COL32(0, 158, 115, 255),
-                                       IM_COL32(204, 121, 167, 255), IM_COL32(230, 159, 0, 255), IM_COL32(0, 0, 0, 255)};
+constexpr std::array<ImU32, 6> runs = {IM_COL32(0, 114, 178, 255), IM_COL32(213, 94, 0, 255),
+                                       IM_COL32(0, 158, 115, 255), IM_COL32(204, 121, 167, 255),
+                                       IM_COL32(230, 159, 0, 255), IM_COL32(0, 0, 0, 255)};
 constexpr ImU32 ink = IM_COL32(38, 44, 52, 255), pale = IM_COL32(200, 206, 214, 255);
 
 struct Quantity {
@@ -81,7 +82,9 @@ void plot(Stage& stage, const Quantity& quantity, ImVec2 from, ImVec2 to) {
   for (std::size_t k = 0; k < stage.size(); ++k) {
     const View& view = *stage.views()[k];
     const ImU32 colour = runs[k % runs.size()];
-    if (quantity.further) draw(view, [&](const PlotPoint& p) { return p.*quantity.further; }, colour, 1);
+    if (quantity.further)
+      draw(
+          view, [&](const PlotPoint& p) { return p.*quantity.further; }, colour, 1);
     draw(view, quantity.of, colour, 2);
     const float x = place(view.frame.t, values.low).x;
     list->AddLine({x, upper}, {x, lower}, colour, 1);
@@ -99,7 +102,8 @@ void plot(Stage& stage, const Quantity& quantity, ImVec2 from, ImVec2 to) {
 void draw_plots(Stage& stage, float left, float upper, float width, float height) {
   ImGui::SetNextWindowPos({left, upper});
   ImGui::SetNextWindowSize({width, height});
-  ImGui::Begin("plots", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus);
+  ImGui::Begin("plots", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus);
   const float legend = stage.size() > 1 ? ImGui::GetTextLineHeight() + 4 : 0, margin = 12;
   const float each = (width - margin * float(quantities.size() + 1)) / float(quantities.size());
   for (std::size_t i = 0; i < quantities.size(); ++i) {

@@ -32,8 +32,8 @@ bool has_x264(const std::filesystem::path& path) {
   return asked->wait().printed.find(" libx264 ") != std::string::npos;
 }
 
-/// Whether the boxes of an MP4 file (ISO/IEC 14496-12, 4.2) end where the file does, with pictures and their index among them:
-/// on a full disk ffmpeg may end well without them.
+/// Whether the boxes of an MP4 file (ISO/IEC 14496-12, 4.2) end where the file does, with pictures and their index
+/// among them: on a full disk ffmpeg may end well without them.
 bool is_whole(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::error_code error;
@@ -42,7 +42,8 @@ bool is_whole(const std::filesystem::path& path) {
   bool pictures = false, index = false;
   std::array<unsigned char, 16> head{};
   while (!error && at + 8 <= size && file.seekg(static_cast<std::streamoff>(at))) {
-    file.read(reinterpret_cast<char*>(head.data()), static_cast<std::streamsize>(std::min<std::uintmax_t>(16, size - at)));
+    file.read(reinterpret_cast<char*>(head.data()),
+              static_cast<std::streamsize>(std::min<std::uintmax_t>(16, size - at)));
     file.clear();
     const auto number = [&](std::size_t first, std::size_t bytes) {
       std::uintmax_t n = 0;

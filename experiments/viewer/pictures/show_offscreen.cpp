@@ -8,10 +8,10 @@
 #include <stdexcept>
 
 #include "experiments/viewer/overlay/captions.hpp"
-#include "experiments/viewer/pictures/film.hpp"
 #include "experiments/viewer/overlay/gui.hpp"
-#include "experiments/viewer/pictures/offscreen.hpp"
 #include "experiments/viewer/overlay/plots.hpp"
+#include "experiments/viewer/pictures/film.hpp"
+#include "experiments/viewer/pictures/offscreen.hpp"
 #include "experiments/viewer/pictures/png.hpp"
 #include "experiments/viewer/stage/show.hpp"
 
@@ -53,7 +53,8 @@ int show_offscreen(StageSetup setup, const OffscreenSettings& settings) {
   if (settings.frames) std::filesystem::create_directories(settings.out);
 
   const double between = settings.speed / settings.frames_per_second;
-  const double duration = settings.duration.value_or(stage.views().front()->status.t_end - stage.views().front()->frame.t);
+  const double duration =
+      settings.duration.value_or(stage.views().front()->status.t_end - stage.views().front()->frame.t);
   const auto count = static_cast<int>(std::floor(duration / between * (1 + 1e-12))) + 1;
   int n = 0;
   while (true) {

@@ -9,8 +9,8 @@
 #include "collision/contact/impact_timing.hpp"
 #include "collision/narrow_phase.hpp"
 #include "collision/response.hpp"
-#include "experiments/study/scenario/narrow_phase_choice.hpp"
 #include "experiments/study/run/run.hpp"
+#include "experiments/study/scenario/narrow_phase_choice.hpp"
 #include "experiments/study/text/suggestion.hpp"
 #include "experiments/viewer/session/session.hpp"
 #include "integrators/catalogue.hpp"
@@ -52,7 +52,8 @@ std::string integrator_fault(const study::RunConfig& run) {
   }
   const bool adaptive = entry->declaration.adaptive;
   const std::optional<double>&said = adaptive ? run.tolerance : run.dt, &other = adaptive ? run.dt : run.tolerance;
-  if (!said || other) return run.integrator + (adaptive ? " takes a tolerance, and no dt" : " takes dt, and no tolerance");
+  if (!said || other)
+    return run.integrator + (adaptive ? " takes a tolerance, and no dt" : " takes dt, and no tolerance");
   if (!(*said > 0 && std::isfinite(*said)) || (adaptive && !(*said < 1))) {
     return adaptive ? "the tolerance must be positive and below 1" : "dt must be a positive number of seconds";
   }
@@ -86,7 +87,8 @@ std::string refusal(const Configuration& configuration, const study::Scenario& s
   if (std::string fault = contact_fault(run, scenario); !fault.empty()) return fault;
   if (!(run.t_end > 0) || !std::isfinite(run.t_end)) return "t_end must be a positive number of seconds";
   if (run.precision != study::Precision::dual) return "a session works in double only; leave the precision out";
-  if (run.samples || run.reference) return "a session shows every step and takes no reference; leave samples and reference out";
+  if (run.samples || run.reference)
+    return "a session shows every step and takes no reference; leave samples and reference out";
   if (configuration.drive == Drive::frame_clock && !run.dt) {
     return run.integrator + " chooses its own steps, and the frame clock gives them; take the accumulator";
   }

@@ -24,7 +24,8 @@ ContactLookout::ContactLookout(const study::Scenario& scenario, const study::Con
   apart_ = apart * largest;
 }
 
-std::span<const ImpulseContact> ContactLookout::look(const System<double>& system, const VectorX<double>& y, double margin) {
+std::span<const ImpulseContact> ContactLookout::look(const System<double>& system, const VectorX<double>& y,
+                                                     double margin) {
   shape_poses(system, y, poses_);
   scene_.near_pairs(poses_, poses_, {}, margin);
   return scene_.contacts(poses_, margin);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks where bodies touch, for the eye alone: with a scene of its own, so that what the running one remembers is left as it
-// is. It tells a pair that has newly met from one that goes on touching.
+// Looks where bodies touch, for the eye alone: with a scene of its own, so that what the running one remembers is left
+// as it is. It tells a pair that has newly met from one that goes on touching.
 #pragma once
 
 #include <span>
@@ -24,9 +24,10 @@ class ContactLookout {
 
   /// What touches here is known, and no more.
   void begin(const System<double>& system, const VectorX<double>& y);
-  /// The pairs that touch here or have met in the step before, and did not when it was asked last. A pair is forgotten once
-  /// it is apart by 1e-3 of the largest body.
-  std::vector<BodyPair> newly_met(const System<double>& system, const VectorX<double>& y, std::span<const Impact> impacts);
+  /// The pairs that touch here or have met in the step before, and did not when it was asked last. A pair is forgotten
+  /// once it is apart by 1e-3 of the largest body.
+  std::vector<BodyPair> newly_met(const System<double>& system, const VectorX<double>& y,
+                                  std::span<const Impact> impacts);
 
  private:
   std::span<const ImpulseContact> look(const System<double>& system, const VectorX<double>& y, double margin);

@@ -25,7 +25,8 @@ Configuration configuration_of(const SessionSetup& setup, const study::Scenario&
   Configuration c = setup.configuration.value_or(usual_configuration(scenario));
   c.run.scenario = scenario.name;
   c.run.varied = setup.overrides;
-  if (std::string reason = refusal(c, scenario); !reason.empty()) throw study::InputError(scenario.name + ": " + reason);
+  if (std::string reason = refusal(c, scenario); !reason.empty())
+    throw study::InputError(scenario.name + ": " + reason);
   return c;
 }
 
@@ -219,7 +220,9 @@ std::size_t LiveSession::observe(std::span<const Sample> samples) {
     Sample sample = samples[taken];
     sample.projection += projection_before_;
     if (first_look_) continue;
-    if (memory_.hopeless(memory_.energy_drift(sample, sum(losses_before_, losses_))) || memory_.hopeless(sample.seen.kinetic)) break;
+    if (memory_.hopeless(memory_.energy_drift(sample, sum(losses_before_, losses_))) ||
+        memory_.hopeless(sample.seen.kinetic))
+      break;
   }
   return taken;
 }
@@ -354,7 +357,8 @@ void LiveSession::begin_again() {
   const System<double>& system = memory_.system(formulation);
   const State<double> start = system.start();
   const Sample sample{start.t, system.measure(start.y), 0, 0};
-  present_ = {.state = start, .formulation = formulation, .place = {++segment_, 0}, .step = 0, .sample = sample, .losses = {}};
+  present_ = {
+      .state = start, .formulation = formulation, .place = {++segment_, 0}, .step = 0, .sample = sample, .losses = {}};
   memory_.begin(present_);
   fresh_ = true;
   leave_for_new();
@@ -390,8 +394,8 @@ void LiveSession::watch_collisions() {
   }
 }
 
-/// The state at the first impact of these pairs within the last step, for the eye: flown there from where the step began by
-/// the same method, apart from the run, which has gone on.
+/// The state at the first impact of these pairs within the last step, for the eye: flown there from where the step
+/// began by the same method, apart from the run, which has gone on.
 std::optional<Kept> LiveSession::at_impact(std::span<const BodyPair> met) {
   double t = present_.state.t;
   for (const Impact& i : impacts_) {

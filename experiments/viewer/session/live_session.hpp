@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A session that simulates. Its thread goes through core/simulate, segment by segment, and is the observer there: after each
-// step it keeps the state, lets the window see it, applies what commands have come, and waits for the next step's turn.
+// A session that simulates. Its thread goes through core/simulate, segment by segment, and is the observer there: after
+// each step it keeps the state, lets the window see it, applies what commands have come, and waits for the next step's
+// turn.
 #pragma once
 
 #include <atomic>
@@ -50,7 +51,9 @@ class LiveSession final : public Session, private Observer {
   void finish_segment(const RunOutcome& outcome);
   std::size_t observe(std::span<const Sample> samples) override;
   void look(const State<double>& state, const Sample& sample) override;
-  void meet(std::span<const Impact> impacts) override { impacts_.insert(impacts_.end(), impacts.begin(), impacts.end()); }
+  void meet(std::span<const Impact> impacts) override {
+    impacts_.insert(impacts_.end(), impacts.begin(), impacts.end());
+  }
   void account(const ContactLosses& losses) override;
   double next_look() const override { return 0; }
 
@@ -85,7 +88,7 @@ class LiveSession final : public Session, private Observer {
   std::condition_variable news_came_, became_idle_;
   std::vector<std::function<void()>> commands_;
   double ticked_ = 0, held_back_ = 0;  ///< s, not yet taken
-  double behind_ = 0;                ///< s, of what was taken
+  double behind_ = 0;                  ///< s, of what was taken
   bool idle_ = false;
   std::shared_ptr<const View> view_;
   std::atomic<bool> view_wanted_{false}, news_{false}, quit_{false};
@@ -98,19 +101,19 @@ class LiveSession final : public Session, private Observer {
   std::optional<ContactLookout> lookout_;  ///< where the scenario has contact
   std::unique_ptr<SessionWriter> writer_;
   Kept present_;
-  State<double> before_;             ///< a step earlier
-  std::optional<Kept> past_;         ///< scrubbed back to
-  std::optional<Kept> impact_;       ///< within the last step, where it paused
+  State<double> before_;        ///< a step earlier
+  std::optional<Kept> past_;    ///< scrubbed back to
+  std::optional<Kept> impact_;  ///< within the last step, where it paused
   std::vector<FrameContact> impact_contacts_;
-  std::vector<Impact> impacts_;      ///< of the last step
-  double projection_before_ = 0;     ///< J, in the segments before this one
+  std::vector<Impact> impacts_;   ///< of the last step
+  double projection_before_ = 0;  ///< J, in the segments before this one
   ContactLosses losses_before_, losses_;
   std::int64_t segment_ = 0;
   Wanted wanted_;
-  std::atomic<bool> stop_{false};    ///< ends the run of a segment
-  bool first_look_ = true;           ///< of a segment
-  bool fresh_ = true;                ///< the segment is the start of all
-  bool leaving_ = false;             ///< for another segment
+  std::atomic<bool> stop_{false};  ///< ends the run of a segment
+  bool first_look_ = true;         ///< of a segment
+  bool fresh_ = true;              ///< the segment is the start of all
+  bool leaving_ = false;           ///< for another segment
   bool playing_ = false, at_end_ = false, failed_ = false, paused_at_collision_ = false, pause_on_collision_ = false;
   std::int64_t steps_wanted_ = 0;
   double next_size_ = 0;             ///< s, where the frame clock drives
@@ -119,9 +122,9 @@ class LiveSession final : public Session, private Observer {
   bool changed_ = true;              ///< since the view was made
   std::int64_t recorded_steps_ = 0;  ///< of this segment
   std::vector<double> unrecorded_sizes_;
-  double since_record_ = 0;          ///< s of the wall
+  double since_record_ = 0;  ///< s of the wall
 
-  std::thread thread_;               ///< last: it starts when all else is there
+  std::thread thread_;  ///< last: it starts when all else is there
 };
 
 }  // namespace polhode::viewer

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much simulated time a session may go on by: wall time times speed adds up, and steps take from it. What a simulation
-// that is too slow falls behind by is bounded; beyond that, time is let go, and it is said (Fiedler, Fix your timestep!, 2004).
+// How much simulated time a session may go on by: wall time times speed adds up, and steps take from it. What a
+// simulation that is too slow falls behind by is bounded; beyond that, time is let go, and it is said (Fiedler, Fix
+// your timestep!, 2004).
 #pragma once
 
 #include <algorithm>
@@ -12,8 +13,8 @@ class Pace {
   double speed() const { return speed_; }
   void set_speed(double speed) { speed_ = speed; }
 
-  /// Wall time (s) passes while it plays, but for what is held back since another session is slower; `step` (s) is the least
-  /// that it must be able to save up for, 0 of a method that chooses its steps.
+  /// Wall time (s) passes while it plays, but for what is held back since another session is slower; `step` (s) is the
+  /// least that it must be able to save up for, 0 of a method that chooses its steps.
   void tick(double seconds, double step, double held_back = 0) {
     const double most_behind = std::max(longest_behind * speed_, step);
     let_go_ = let_go_ || owed_ > most_behind || seconds > longest_tick || held_back > 0;

@@ -28,8 +28,8 @@ Quaternion<double> slerp(const Quaternion<double>& a, const Quaternion<double>& 
 
 class RecordedSession final : public Session {
  public:
-  RecordedSession(const std::string& trajectory, const std::string& scenario, const std::vector<study::Override>& overrides,
-                  Between between)
+  RecordedSession(const std::string& trajectory, const std::string& scenario,
+                  const std::vector<study::Override>& overrides, Between between)
       : scenario_(study::ScenarioSource::open(scenario).resolve(overrides)),
         between_(between),
         motion_(study::read_trajectory(trajectory, scenario_.problem)),
@@ -80,7 +80,9 @@ class RecordedSession final : public Session {
     wanted_ = wanted;
     view_.reset();
   }
-  std::string change(const Configuration&) override { return "a recorded trajectory is as it is; open the scenario to change it"; }
+  std::string change(const Configuration&) override {
+    return "a recorded trajectory is as it is; open the scenario to change it";
+  }
   void settle() override {}
 
  private:
@@ -126,7 +128,9 @@ class RecordedSession final : public Session {
     for (std::size_t i = 0; i < motion_.moving; ++i) {
       const study::TrajectoryBody &a = body(k, i), &b = body(next, i);
       BodySnapshot<double> at;
-      const auto mean = [s](const Vector3<double>& x, const Vector3<double>& z) { return Vector3<double>((1 - s) * x + s * z); };
+      const auto mean = [s](const Vector3<double>& x, const Vector3<double>& z) {
+        return Vector3<double>((1 - s) * x + s * z);
+      };
       at.position = mean(a.position, b.position);
       at.velocity = mean(a.velocity, b.velocity);
       at.angular_velocity = mean(a.angular_velocity, b.angular_velocity);
@@ -152,12 +156,16 @@ class RecordedSession final : public Session {
   PlotPoint measured(double t, const VectorX<double>& y, std::size_t sample) const {
     const Measurement<double> m = system_->measure(y);
     const double energy = motion_.has_energy ? motion_.energy[sample] : m.energy();
-    return {t, m.kinetic, m.potential, drift_.empty() ? energy - energy_start_ : drift_[sample],
-            (m.angular_momentum - momentum_start_).norm(), defect(sample)};
+    return {t,
+            m.kinetic,
+            m.potential,
+            drift_.empty() ? energy - energy_start_ : drift_[sample],
+            (m.angular_momentum - momentum_start_).norm(),
+            defect(sample)};
   }
 
-  /// The ledger of the run, where it stands beside the trajectory with a row for each of its instants; else the drift is the
-  /// change of the energy.
+  /// The ledger of the run, where it stands beside the trajectory with a row for each of its instants; else the drift
+  /// is the change of the energy.
   void read_ledger(const std::string& trajectory) {
     const std::filesystem::path path = std::filesystem::path(trajectory).parent_path() / "energy.csv";
     std::error_code ignored;
@@ -252,7 +260,7 @@ class RecordedSession final : public Session {
   std::vector<double> drift_;  ///< J, of each instant; empty: nobody says
   std::vector<PlotPoint> plot_;
   double t_ = 0, speed_ = 1;
-  std::size_t sample_ = 0;     ///< the last one that is not after t
+  std::size_t sample_ = 0;  ///< the last one that is not after t
   bool playing_ = false, pause_on_collision_ = false, collided_ = false;
   std::shared_ptr<const View> view_;
 };

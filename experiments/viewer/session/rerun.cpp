@@ -54,8 +54,8 @@ class Follower final : public Observer {
     ++part_;
     const std::string now = digest(state);
     if (mismatch_.empty() && now != part.digest) {
-      mismatch_ = fmt::format("segment {}, step {}, t = {} s: the state is {}, and was {}", number_, step_, state.t, now,
-                              part.digest);
+      mismatch_ = fmt::format("segment {}, step {}, t = {} s: the state is {}, and was {}", number_, step_, state.t,
+                              now, part.digest);
     }
   }
 

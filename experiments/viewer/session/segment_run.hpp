@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A segment of a session: a stretch of the motion in one configuration, from a state to where it is left. A session and its
-// rerun both go through it here, and so through the same loop as every study.
+// A segment of a session: a stretch of the motion in one configuration, from a state to where it is left. A session and
+// its rerun both go through it here, and so through the same loop as every study.
 #pragma once
 
 #include <atomic>
@@ -21,9 +21,10 @@ class SegmentRun {
 
   const System<double>& system() const { return *system_; }
 
-  /// From this state, of the system, to t_end or until `stop` is set in a look of the observer, who sees the start even where
-  /// that is t_end. `next_step` is asked where the frame clock drives.
-  RunOutcome go(State<double>& state, Observer& observer, const std::atomic<bool>& stop, std::function<double()> next_step);
+  /// From this state, of the system, to t_end or until `stop` is set in a look of the observer, who sees the start even
+  /// where that is t_end. `next_step` is asked where the frame clock drives.
+  RunOutcome go(State<double>& state, Observer& observer, const std::atomic<bool>& stop,
+                std::function<double()> next_step);
 
  private:
   Configuration configuration_;

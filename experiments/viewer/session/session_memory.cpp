@@ -54,8 +54,8 @@ void SessionMemory::forget_after(std::int64_t step) {
 
 bool SessionMemory::hopeless(double energy) {
   if (!std::isfinite(energy)) return true;
-  // With contact a scale can take a second, in which nothing moves. That of a part of the motion is no larger than that of
-  // the whole; half of it allows for other steps.
+  // With contact a scale can take a second, in which nothing moves. That of a part of the motion is no larger than that
+  // of the whole; half of it allows for other steps.
   constexpr double part = 0.01;
   if (!early_scale_) early_scale_ = study::motion_scales(scenario_, part * scenario_.t_end).energy / 2;
   if (std::abs(energy) <= study::hopeless_drift * *early_scale_) return false;
@@ -63,7 +63,9 @@ bool SessionMemory::hopeless(double energy) {
   return *energy_scale_ > 0 && std::abs(energy) > study::hopeless_drift * *energy_scale_;
 }
 
-double SessionMemory::first_time() const { return history_.items().empty() ? 0 : history_.items().front().value.state.t; }
+double SessionMemory::first_time() const {
+  return history_.items().empty() ? 0 : history_.items().front().value.state.t;
+}
 
 const Kept& SessionMemory::nearest(double t, const Kept& now) const {
   const Kept* best = &now;
@@ -94,8 +96,12 @@ Frame SessionMemory::frame(const Kept& kept) {
 
 PlotPoint SessionMemory::plot_point(const Kept& kept) const {
   const Measurement<double>& m = kept.sample.seen;
-  return {kept.state.t,  m.kinetic, m.potential, energy_drift(kept.sample, kept.losses),
-          (m.angular_momentum - momentum_start_).norm(), m.orientation_defect};
+  return {kept.state.t,
+          m.kinetic,
+          m.potential,
+          energy_drift(kept.sample, kept.losses),
+          (m.angular_momentum - momentum_start_).norm(),
+          m.orientation_defect};
 }
 
 TracePoint SessionMemory::trace_point(const Kept& kept, std::size_t body) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a session remembers of its motion, bounded and thinned: states to go back to, its energy ledger, the points of its plots
-// and the traces of bodies.
+// What a session remembers of its motion, bounded and thinned: states to go back to, its energy ledger, the points of
+// its plots and the traces of bodies.
 #pragma once
 
 #include <map>

@@ -16,9 +16,9 @@ using study::TomlCursor;
 using Range = TomlCursor::Range;
 
 const std::vector<std::string_view> segment_keys = {
-    "from_segment", "from_step",     "drive",      "integrator",    "dt",        "tolerance",   "order",
-    "summation",    "t_end",         "orientation", "angular_state", "gyroscopic", "rotation_from", "normalise",
-    "broad_phase",  "narrow_phase",  "response",   "impact_timing", "part"};
+    "from_segment", "from_step",    "drive",       "integrator",    "dt",         "tolerance",     "order",
+    "summation",    "t_end",        "orientation", "angular_state", "gyroscopic", "rotation_from", "normalise",
+    "broad_phase",  "narrow_phase", "response",    "impact_timing", "part"};
 
 std::int64_t whole(const TomlCursor& cursor, double most) {
   const double x = cursor.number("", Range::non_negative);
@@ -52,7 +52,8 @@ Configuration configuration_of(const TomlCursor& segment) {
   if (segment.has("dt")) run.dt = at("dt").number("s", Range::positive);
   if (segment.has("tolerance")) run.tolerance = at("tolerance").number("", Range::positive);
   if (segment.has("order")) run.order = static_cast<int>(whole(at("order"), 100));
-  if (segment.has("summation")) run.summation = choice(at("summation"), {study::Summation::plain, study::Summation::compensated});
+  if (segment.has("summation"))
+    run.summation = choice(at("summation"), {study::Summation::plain, study::Summation::compensated});
   run.t_end = at("t_end").number("s", Range::positive);
   Formulation& f = run.formulation;
   f.orientation = choice(at("orientation"), {Orientation::quaternion, Orientation::matrix});
@@ -74,7 +75,8 @@ SegmentPart part_of(const TomlCursor& cursor, Drive drive) {
   if (drive == Drive::frame_clock) {
     const TomlCursor sizes = cursor.at("sizes", "a list of seconds");
     part.steps = static_cast<std::int64_t>(sizes.list("a list of seconds"));
-    for (std::size_t i = 0; i < std::size_t(part.steps); ++i) part.sizes.push_back(sizes.item(i).number("s", Range::positive));
+    for (std::size_t i = 0; i < std::size_t(part.steps); ++i)
+      part.sizes.push_back(sizes.item(i).number("s", Range::positive));
   } else {
     part.steps = whole(cursor.at("steps", "a whole number"), most_steps);
   }
@@ -88,9 +90,11 @@ SegmentPart part_of(const TomlCursor& cursor, Drive drive) {
 
 SegmentStart start_of(const TomlCursor& cursor, const std::vector<RecordedSegment>& before) {
   if (!cursor.has("from_segment")) return {};
-  const TomlCursor segment = cursor.at("from_segment", "a segment before it"), step = cursor.at("from_step", "a whole number");
+  const TomlCursor segment = cursor.at("from_segment", "a segment before it"),
+                   step = cursor.at("from_step", "a whole number");
   SegmentStart from{whole(segment, most_steps), whole(step, most_steps)};
-  if (from.segment < 1 || from.segment > static_cast<std::int64_t>(before.size())) segment.refuse("a segment before it, from 1");
+  if (from.segment < 1 || from.segment > static_cast<std::int64_t>(before.size()))
+    segment.refuse("a segment before it, from 1");
   if (from.step > before[std::size_t(from.segment - 1)].steps()) step.refuse("a step that this segment came to");
   return from;
 }
@@ -153,7 +157,8 @@ SessionRecord record_of(const TomlCursor& root, const std::string& origin) {
 
 SessionRecord parse_session(std::string_view text, const std::string& origin) {
   const auto at = [&](study::TomlPlace place) {
-    return place.line > 0 ? origin + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) + ": " : origin + ": ";
+    return place.line > 0 ? origin + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) + ": "
+                          : origin + ": ";
   };
   try {
     const study::TomlValue root = study::parse_toml(text);
@@ -166,8 +171,6 @@ SessionRecord parse_session(std::string_view text, const std::string& origin) {
   }
 }
 
-SessionRecord read_session(const std::string& path) {
-  return parse_session(study::read_text(path), path);
-}
+SessionRecord read_session(const std::string& path) { return parse_session(study::read_text(path), path); }
 
 }  // namespace polhode::viewer

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What decided the digits of a session, as a file (session.toml): the scenario, and segment by segment where it started, how
-// it was configured and how far it went. It is only ever appended to, after each command, where it
-// pauses, and each second that it plays, so that a session that is killed leaves what it had done up to then.
+// What decided the digits of a session, as a file (session.toml): the scenario, and segment by segment where it
+// started, how it was configured and how far it went. It is only ever appended to, after each command, where it pauses,
+// and each second that it plays, so that a session that is killed leaves what it had done up to then.
 #pragma once
 
 #include <cstdint>
@@ -61,8 +61,8 @@ class SessionWriter {
   std::FILE* file_;
 };
 
-/// The text of a file that is named `origin` in errors. Throws InputError, with line, column, key and a remedy; also where the
-/// scenario is another one by now, or a configuration cannot be run.
+/// The text of a file that is named `origin` in errors. Throws InputError, with line, column, key and a remedy; also
+/// where the scenario is another one by now, or a configuration cannot be run.
 SessionRecord parse_session(std::string_view text, const std::string& origin);
 SessionRecord read_session(const std::string& path);
 

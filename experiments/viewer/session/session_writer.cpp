@@ -32,14 +32,17 @@ std::string seen_from(const std::filesystem::path& record, const std::string& sc
   if (!is_path(scenario)) return scenario;
   std::error_code error;
   const auto folder = std::filesystem::absolute(record, error).parent_path();
-  const std::string path = std::filesystem::proximate(std::filesystem::absolute(scenario, error), folder, error).string();
+  const std::string path =
+      std::filesystem::proximate(std::filesystem::absolute(scenario, error), folder, error).string();
   if (error || path.empty()) return scenario;
   return is_path(path) ? path : "./" + path;
 }
 
 }  // namespace
 
-bool is_path(const std::string& scenario) { return scenario.find('/') != std::string::npos || scenario.ends_with(".toml"); }
+bool is_path(const std::string& scenario) {
+  return scenario.find('/') != std::string::npos || scenario.ends_with(".toml");
+}
 
 std::int64_t RecordedSegment::steps() const {
   std::int64_t sum = 0;
@@ -47,7 +50,8 @@ std::int64_t RecordedSegment::steps() const {
   return sum;
 }
 
-SessionWriter::SessionWriter(const std::filesystem::path& path, const SessionSetup& setup, const study::Scenario& scenario)
+SessionWriter::SessionWriter(const std::filesystem::path& path, const SessionSetup& setup,
+                             const study::Scenario& scenario)
     : path_(path.string()) {
   std::error_code ignored;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);

@@ -23,7 +23,9 @@ void write_body(const System<double>& system, const BodySnapshot<double>& body, 
   else QuaternionChart::store(body.orientation, orientation);
   switch (f.angular_state) {
     case AngularState::velocity_world: y.segment<3>(slot.angular) = body.angular_velocity; break;
-    case AngularState::velocity_body: y.segment<3>(slot.angular) = body.rotation.transpose() * body.angular_velocity; break;
+    case AngularState::velocity_body:
+      y.segment<3>(slot.angular) = body.rotation.transpose() * body.angular_velocity;
+      break;
     default: y.segment<3>(slot.angular) = body.angular_momentum;
   }
   if (slot.position < 0) return;

@@ -12,8 +12,8 @@ namespace polhode::viewer {
 
 /// What is shown at first.
 struct Shown {
-  bool axes = false, angular_velocity = false, angular_momentum = false, trails = true, polhode = false, poinsot = false, contacts = true,
-       cells = false;
+  bool axes = false, angular_velocity = false, angular_momentum = false, trails = true, polhode = false,
+       poinsot = false, contacts = true, cells = false;
   std::optional<double> azimuth, elevation;  ///< rad; absent: as the scene asks for
   double zoom = 1;                           ///< so many times as near
 };
@@ -21,7 +21,7 @@ void show(const Shown& shown, Stage& stage);
 
 struct WindowSettings {
   int width = 1280, height = 720;
-  std::optional<int> samples;    ///< a pixel; absent: 4, or 1 where the processor draws
+  std::optional<int> samples;  ///< a pixel; absent: 4, or 1 where the processor draws
   bool play = false;
   double speed = 1;
   std::filesystem::path script;  ///< empty: none
@@ -33,13 +33,13 @@ void show_window(StageSetup setup, const WindowSettings& settings);
 
 struct OffscreenSettings {
   int width = 1280, height = 720, samples = 4;
-  std::filesystem::path out;      ///< folder of frame_0001.png and so on
-  std::filesystem::path film;     ///< empty: none
-  bool frames = true;             ///< as PNG files
+  std::filesystem::path out;   ///< folder of frame_0001.png and so on
+  std::filesystem::path film;  ///< empty: none
+  bool frames = true;          ///< as PNG files
   int frames_per_second = 30;
-  double speed = 1;               ///< simulated seconds to one of the film
-  std::optional<double> from;     ///< s: the first picture
-  std::optional<double> duration; ///< s of simulated time; 0: one picture
+  double speed = 1;                 ///< simulated seconds to one of the film
+  std::optional<double> from;       ///< s: the first picture
+  std::optional<double> duration;   ///< s of simulated time; 0: one picture
   bool pause_on_collision = false;  ///< the last picture is of the first collision
   bool captions = true;
   bool plots = false;

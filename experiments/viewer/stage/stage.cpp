@@ -82,9 +82,7 @@ void Stage::each(const std::function<void(Session&)>& command) {
   for (const auto& session : sessions_) command(*session);
 }
 
-void Stage::tick(double seconds) {
-  tick_together(sessions_, seconds);
-}
+void Stage::tick(double seconds) { tick_together(sessions_, seconds); }
 
 void Stage::add(const Configuration& configuration) {
   sessions_.push_back(open(configuration));

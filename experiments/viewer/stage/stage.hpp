@@ -16,12 +16,12 @@
 namespace polhode::viewer {
 
 struct StageSetup {
-  std::string scenario;                         ///< a built-in name or a path
+  std::string scenario;  ///< a built-in name or a path
   std::vector<study::Override> overrides;
-  std::vector<Configuration> configurations;    ///< one for each run; at least one
-  std::vector<std::string> trajectories;        ///< recorded ones; where there are any, configurations are not read
-  std::filesystem::path out;                    ///< where sessions are recorded: session_1.toml and so on; empty: nowhere
-  std::filesystem::path trajectory;             ///< where their motion is written; empty: nowhere
+  std::vector<Configuration> configurations;  ///< one for each run; at least one
+  std::vector<std::string> trajectories;      ///< recorded ones; where there are any, configurations are not read
+  std::filesystem::path out;                  ///< where sessions are recorded: session_1.toml and so on; empty: nowhere
+  std::filesystem::path trajectory;           ///< where their motion is written; empty: nowhere
 };
 
 /// All but the drawing, which wants a context: sessions, their clock, camera, and what is shown.
@@ -59,7 +59,7 @@ class Stage {
 
   Camera camera;
   Look look;
-  bool cells = false;     ///< of the broad phase
+  bool cells = false;  ///< of the broad phase
   bool trails = true;
   std::size_t selected = 0;  ///< among the moving bodies
 

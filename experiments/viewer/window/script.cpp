@@ -19,8 +19,8 @@ namespace {
 
 /// How many words stand after each.
 const std::map<std::string, std::vector<std::size_t>> commands = {
-    {"click", {1}}, {"choose", {2}}, {"drag", {2}}, {"type", {2}}, {"wait", {1}}, {"until", {1, 2}},
-    {"expect", {2, 3}}, {"pull", {2}}, {"key", {1}}, {"picture", {1}}, {"places", {1}}};
+    {"click", {1}},     {"choose", {2}}, {"drag", {2}}, {"type", {2}},    {"wait", {1}},  {"until", {1, 2}},
+    {"expect", {2, 3}}, {"pull", {2}},   {"key", {1}},  {"picture", {1}}, {"places", {1}}};
 const std::map<std::string, int> keys = {{"space", GLFW_KEY_SPACE}, {"right", GLFW_KEY_RIGHT}, {"home", GLFW_KEY_HOME}};
 constexpr int most_frames = 20000;  // of waiting
 
@@ -44,7 +44,9 @@ Script::Script(const std::string& file, FileMaker take_picture, FileMaker write_
   }
 }
 
-void Script::fail(const std::string& why) const { throw study::InputError(fmt::format("{}:{}: {}", file_, line_.number, why)); }
+void Script::fail(const std::string& why) const {
+  throw study::InputError(fmt::format("{}:{}: {}", file_, line_.number, why));
+}
 
 double Script::number(const std::string& word) const {
   double x = 0;
@@ -65,7 +67,8 @@ void Script::before_frame() {
   }
   io.MousePos = {now_.x, now_.y};
   io.MouseDown[0] = now_.pressed;
-  for (const int key : {GLFW_KEY_ENTER, GLFW_KEY_SPACE, GLFW_KEY_RIGHT, GLFW_KEY_HOME}) io.KeysDown[key] = key == now_.key;
+  for (const int key : {GLFW_KEY_ENTER, GLFW_KEY_SPACE, GLFW_KEY_RIGHT, GLFW_KEY_HOME})
+    io.KeysDown[key] = key == now_.key;
   if (!now_.typed.empty()) io.AddInputCharactersUTF8(now_.typed.c_str());
 }
 
@@ -137,7 +140,8 @@ void Script::take(Stage& stage, Controls& controls) {
     inputs_.push_back(again);
     inputs_.push_back(again);
   } else if (w[0] == "expect") {
-    if (!holds(stage, w)) fail(fmt::format("expected {}; it is {}", fmt::join(w.begin() + 1, w.end(), " "), value(stage, w[1])));
+    if (!holds(stage, w))
+      fail(fmt::format("expected {}; it is {}", fmt::join(w.begin() + 1, w.end(), " "), value(stage, w[1])));
   } else if (w[0] == "pull") {
     Input at;
     at.x = view_x_;
@@ -205,7 +209,8 @@ std::string Script::value(Stage& stage, const std::string& of) const {
       {"broad_phase", [&] { return run.contact ? run.contact->broad_phase : "none"; }},
       {"narrow_phase", [&] { return run.contact ? run.contact->narrow_phase : "none"; }},
       {"response", [&] { return run.contact ? run.contact->response : "none"; }},
-      {"impact_timing", [&] { return run.contact && !run.contact->impact_timing.empty() ? run.contact->impact_timing : "none"; }},
+      {"impact_timing",
+       [&] { return run.contact && !run.contact->impact_timing.empty() ? run.contact->impact_timing : "none"; }},
       {"axes", [&] { return truth(stage.look.axes); }},
       {"angular_velocity", [&] { return truth(stage.look.angular_velocity); }},
       {"angular_momentum", [&] { return truth(stage.look.angular_momentum); }},

@@ -16,13 +16,13 @@
 
 #include "experiments/study/text/text_file.hpp"
 #include "experiments/viewer/overlay/captions.hpp"
-#include "experiments/viewer/window/frame_clock.hpp"
-#include "experiments/viewer/pictures/offscreen.hpp"
 #include "experiments/viewer/overlay/panel.hpp"
 #include "experiments/viewer/overlay/plots.hpp"
+#include "experiments/viewer/pictures/offscreen.hpp"
 #include "experiments/viewer/pictures/png.hpp"
-#include "experiments/viewer/window/script.hpp"
 #include "experiments/viewer/stage/show.hpp"
+#include "experiments/viewer/window/frame_clock.hpp"
+#include "experiments/viewer/window/script.hpp"
 
 namespace polhode::viewer {
 namespace {
@@ -70,9 +70,10 @@ class Window {
     glfwMakeContextCurrent(window_);
   }
   [[noreturn]] static void fail(const std::string& what) {
-    throw std::runtime_error(fmt::format("{} ({}); `./run replay` makes a page that plays in any browser, and `--offscreen` "
-                                         "pictures and films",
-                                         what, glfw_fault.empty() ? "GLFW does not say why" : glfw_fault));
+    throw std::runtime_error(
+        fmt::format("{} ({}); `./run replay` makes a page that plays in any browser, and `--offscreen` "
+                    "pictures and films",
+                    what, glfw_fault.empty() ? "GLFW does not say why" : glfw_fault));
   }
   GLFWwindow* window_ = nullptr;
 };
@@ -97,7 +98,8 @@ void steer(Stage& stage) {
     constexpr double turn = 0.008, pan = 0.0012, zoom = 0.9;
     if (ImGui::IsMouseDragging(0)) stage.camera.orbit(-turn * double(io.MouseDelta.x), turn * double(io.MouseDelta.y));
     if (ImGui::IsMouseDragging(1) || ImGui::IsMouseDragging(2)) {
-      stage.camera.pan(-pan * stage.camera.distance * double(io.MouseDelta.x), pan * stage.camera.distance * double(io.MouseDelta.y));
+      stage.camera.pan(-pan * stage.camera.distance * double(io.MouseDelta.x),
+                       pan * stage.camera.distance * double(io.MouseDelta.y));
     }
     if (io.MouseWheel != 0) stage.camera.zoom(std::pow(zoom, double(io.MouseWheel)));
   }
@@ -132,7 +134,8 @@ class Show {
     FrameClock clock;
     double seconds = 0;
     std::int64_t frames = 0;
-    while (!glfwWindowShouldClose(window_.get()) && !asked_to_stop && !(script_ && script_->done() && picture_.empty())) {
+    while (!glfwWindowShouldClose(window_.get()) && !asked_to_stop &&
+           !(script_ && script_->done() && picture_.empty())) {
       glfwPollEvents();
       const double passed = clock.tick();
       seconds += passed;
@@ -141,7 +144,8 @@ class Show {
     }
     keep_in_mind(stage_->finish());
     if (!unwritten_.empty()) throw std::runtime_error(unwritten_);
-    fmt::print("{} frames in {:.1f} s, {:.1f} per second\n", frames, seconds, seconds > 0 ? double(frames) / seconds : 0.0);
+    fmt::print("{} frames in {:.1f} s, {:.1f} per second\n", frames, seconds,
+               seconds > 0 ? double(frames) / seconds : 0.0);
   }
 
  private:
@@ -181,10 +185,12 @@ class Show {
     const PanelWishes wishes = panel_.draw(*stage_, gui_.controls, panel_width, float(height));
     draw_plots(*stage_, panel_width, float(height - plots_height), float(width - panel_width), plots_height);
     steer(*stage_);
-    const Rectangle area = {panel_width, plots_height, std::max(width - panel_width, 1), std::max(height - plots_height, 1)};
+    const Rectangle area = {panel_width, plots_height, std::max(width - panel_width, 1),
+                            std::max(height - plots_height, 1)};
     area_ = area;
     height_ = height;
-    if (script_) script_->set_view(float(area.left) + float(area.width) / 2, float(height - area.bottom) - float(area.height) / 2);
+    if (script_)
+      script_->set_view(float(area.left) + float(area.width) / 2, float(height - area.bottom) - float(area.height) / 2);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     painter_->draw(*stage_, area);
     glDisable(GL_SCISSOR_TEST);
@@ -247,8 +253,8 @@ class Show {
   std::unique_ptr<StagePainter> painter_;
   std::filesystem::path picture_;
   std::string unwritten_;  ///< the first file that could not be written, and why
-  Rectangle area_;   ///< where the runs were drawn last
-  int height_ = 0;   ///< px, of the picture
+  Rectangle area_;         ///< where the runs were drawn last
+  int height_ = 0;         ///< px, of the picture
 };
 
 }  // namespace

@@ -19,7 +19,8 @@ fcl::CollisionObjectd object(const FclShape& shape) {
     for (std::size_t i = 0; i + 2 < shape.vertices.size(); i += 3) {
       vertices->emplace_back(shape.vertices[i], shape.vertices[i + 1], shape.vertices[i + 2]);
     }
-    geometry = std::make_shared<fcl::Convexd>(vertices, shape.face_count, std::make_shared<std::vector<int>>(shape.faces));
+    geometry =
+        std::make_shared<fcl::Convexd>(vertices, shape.face_count, std::make_shared<std::vector<int>>(shape.faces));
   }
   fcl::Transform3d at = fcl::Transform3d::Identity();
   for (int i = 0; i < 3; ++i) {

@@ -13,7 +13,7 @@ struct FclShape {
   std::vector<double> vertices;      ///< x, y, z, …
   std::vector<int> faces;            ///< count, then as many vertices, …
   int face_count = 0;
-  double position[3], rotation[9];   ///< the matrix row by row
+  double position[3], rotation[9];  ///< the matrix row by row
 };
 
 class FclPairs {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FCL's dynamic trees of boxes, behind plain numbers: FCL is built with another alignment of Eigen's types than polhode, so
-// that no such type may pass from one to the other.
+// FCL's dynamic trees of boxes, behind plain numbers: FCL is built with another alignment of Eigen's types than
+// polhode, so that no such type may pass from one to the other.
 #pragma once
 
 #include <cstddef>

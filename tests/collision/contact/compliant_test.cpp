@@ -24,7 +24,8 @@ ContactRun ball(double above, double speed, double restitution = 1) {
   ContactRun run;
   run.response = "compliant";
   run.compliance.stiffness = stiffness;
-  run.add(mass, std::make_shared<Sphere>(radius), {.position = {0, 0, radius + above}, .velocity = {0, 0, speed}}, restitution);
+  run.add(mass, std::make_shared<Sphere>(radius), {.position = {0, 0, radius + above}, .velocity = {0, 0, speed}},
+          restitution);
   run.add_floor();
   return run;
 }
@@ -98,8 +99,9 @@ TEST(Compliant, ABallReboundsWithTheRestitutionOfThePair) {
         run.t_end = 0.05;
         run.run();
         EXPECT_NEAR(run.path.back().velocity[2] / speed, std::max(e, std::exp(-2.0)), 1e-6) << method << " " << speed;
-        EXPECT_NEAR(run.samples.back().work, 0.5 * mass * speed * speed * (std::pow(std::max(e, std::exp(-2.0)), 2) - 1),
-                    1e-5 * speed * speed) << method;
+        EXPECT_NEAR(run.samples.back().work,
+                    0.5 * mass * speed * speed * (std::pow(std::max(e, std::exp(-2.0)), 2) - 1), 1e-5 * speed * speed)
+            << method;
       }
     }
   }
@@ -123,8 +125,10 @@ ContactRun two_boxes(double restitution, double friction) {
   ContactRun run;
   run.response = "compliant";
   const auto box = std::make_shared<Box>(Vector(0.2, 0.3, 0.4));
-  run.add(1, box, {.position = {0, 0, 0}, .velocity = {1, 0.2, 0}, .angular_velocity = {2, -1, 3}}, restitution, friction);
-  run.add(2, box, {.position = {0.6, 0.1, 0.1}, .velocity = {-1, 0, 0}, .angular_velocity = {-1, 4, 0}}, restitution, friction);
+  run.add(1, box, {.position = {0, 0, 0}, .velocity = {1, 0.2, 0}, .angular_velocity = {2, -1, 3}}, restitution,
+          friction);
+  run.add(2, box, {.position = {0.6, 0.1, 0.1}, .velocity = {-1, 0, 0}, .angular_velocity = {-1, 4, 0}}, restitution,
+          friction);
   return run;
 }
 
@@ -151,8 +155,8 @@ TEST(Compliant, BoxesKeepMomentumAndTheLedger) {
 ContactRun tumbling_cube(double restitution, double friction) {
   ContactRun run;
   run.response = "compliant";
-  run.add(1, std::make_shared<Box>(Vector(0.5, 0.5, 0.5)), {.position = {0, 0, 0.6}, .angular_velocity = {1, 2, 0.5}}, restitution,
-          friction);
+  run.add(1, std::make_shared<Box>(Vector(0.5, 0.5, 0.5)), {.position = {0, 0, 0.6}, .angular_velocity = {1, 2, 0.5}},
+          restitution, friction);
   run.add_floor(0, friction);
   run.add_gravity();
   return run;

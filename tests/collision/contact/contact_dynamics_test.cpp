@@ -26,7 +26,7 @@ ContactRun bouncing_ball(double restitution) {
 
 struct LocatedBy {
   const char* method;
-  double accuracy;  // s
+  double accuracy;      // s
   std::size_t bounces;  // that rise well above the method's own error
   double at_the_end;    // s and m: what that error makes of the lowest ones
 };
@@ -50,7 +50,8 @@ TEST_P(BouncingBall, KeepsTheTimesAndRestsWhereTheyEnd) {
       speed *= e;
       t += 2 * speed / g;
     }
-    const auto last = std::find_if(run.impacts.begin(), run.impacts.end(), [](const Impact& i) { return std::isfinite(i.rests_from); });
+    const auto last = std::find_if(run.impacts.begin(), run.impacts.end(),
+                                   [](const Impact& i) { return std::isfinite(i.rests_from); });
     // A method whose error is higher than the lowest bounces ends where it cannot tell them from rest.
     ASSERT_TRUE(last != run.impacts.end() || GetParam().at_the_end > 1e-9);
     EXPECT_NEAR(last != run.impacts.end() ? last->rests_from : run.impacts.back().t, zeno, GetParam().at_the_end);
@@ -66,8 +67,10 @@ TEST_P(BouncingBall, KeepsTheTimesAndRestsWhereTheyEnd) {
 }
 INSTANTIATE_TEST_SUITE_P(Methods, BouncingBall,
                          testing::Values(LocatedBy{"rk4", 1e-10, 20, 1e-9}, LocatedBy{"lie_midpoint", 1e-10, 20, 1e-9},
-                                         LocatedBy{"odeint_dopri5", 1e-9, 20, 1e-9}, LocatedBy{"cvode_adams", 1e-8, 10, 1e-5},
-                                         LocatedBy{"cvode_bdf", 2e-8, 10, 1e-5}, LocatedBy{"arkode_erk", 1e-9, 12, 1e-6}),
+                                         LocatedBy{"odeint_dopri5", 1e-9, 20, 1e-9},
+                                         LocatedBy{"cvode_adams", 1e-8, 10, 1e-5},
+                                         LocatedBy{"cvode_bdf", 2e-8, 10, 1e-5},
+                                         LocatedBy{"arkode_erk", 1e-9, 12, 1e-6}),
                          [](const auto& param) { return std::string(param.param.method); });
 
 TEST(ElasticBall, KeepsItsEnergyWhereImpactsAreLocated) {
@@ -112,7 +115,8 @@ TEST(SimBenchmarkBouncing, LocatedImpactsLeaveTheErrorOfTheFlight) {
 
 ContactRun dropped_cube(double restitution, const Vector& spin) {
   ContactRun run;
-  run.add(1, std::make_shared<Box>(Vector(0.5, 0.5, 0.5)), {.position = {0, 0, 1.9}, .angular_velocity = spin}, restitution);
+  run.add(1, std::make_shared<Box>(Vector(0.5, 0.5, 0.5)), {.position = {0, 0, 1.9}, .angular_velocity = spin},
+          restitution);
   run.add_floor();
   run.add_gravity();
   return run;
@@ -130,7 +134,8 @@ TEST(ElasticCube, LocatedKeepsTheEnergy) {
   }
 }
 
-// Semi-implicit Euler keeps E − ½ m g h v_z in flight, and the reflection of the velocity at the start of the step does too.
+// Semi-implicit Euler keeps E − ½ m g h v_z in flight, and the reflection of the velocity at the start of the step does
+// too.
 TEST(ElasticCube, TimeSteppingKeepsTheModifiedEnergy) {
   for (const Vector& spin : {Vector(0, 0, 0), Vector(1, 2, 0.5), Vector(-3, 0.2, 4)}) {
     double before = 1;
@@ -207,7 +212,8 @@ TEST(SlipToRoll, TransitionAndSpeed) {
 TEST(Located, TimesHaveTheOrderOfTheMethod) {
   const auto first_impact = [](const char* method, double h) {
     ContactRun run;  // a brick that spins freely: no method is exact
-    run.add(1, std::make_shared<Box>(Vector(0.2, 0.5, 0.8)), {.position = {0, 0, 3}, .angular_velocity = {3, 4, 2}}, 0.5);
+    run.add(1, std::make_shared<Box>(Vector(0.2, 0.5, 0.8)), {.position = {0, 0, 3}, .angular_velocity = {3, 4, 2}},
+            0.5);
     run.add_floor();
     run.add_gravity();
     run.method = method;
@@ -225,7 +231,8 @@ TEST(Located, TimesHaveTheOrderOfTheMethod) {
     double h;
   };
   for (const Case& c : {Case{"semi_implicit_euler_exp", 1, 1e-3}, {"explicit_midpoint", 2, 4e-3}, {"rk4", 4, 4e-2}}) {
-    const double coarse = std::abs(first_impact(c.method, c.h) - exact), fine = std::abs(first_impact(c.method, c.h / 4) - exact);
+    const double coarse = std::abs(first_impact(c.method, c.h) - exact),
+                 fine = std::abs(first_impact(c.method, c.h / 4) - exact);
     EXPECT_NEAR(std::log2(coarse / fine) / 2, c.order, 0.4) << c.method << " " << coarse << " " << fine;
   }
 }

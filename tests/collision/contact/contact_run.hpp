@@ -31,7 +31,7 @@ struct ContactRun {
 
   // What came out.
   RunOutcome outcome;
-  std::vector<Sample> samples;  // after every step
+  std::vector<Sample> samples;             // after every step
   std::vector<BodySnapshot<double>> path;  // of the body 0, at the same times
   std::vector<Impact> impacts;
   std::vector<Transition> transitions;
@@ -76,8 +76,8 @@ struct ContactRun {
     } else if (timing == Timing::located) {
       contact = std::make_unique<EventLocated>(*system, scene, answer.make());
     } else {
-      contact = std::make_unique<TimeStepping>(*system, scene, answer.make(),
-                                               timing == Timing::at_step ? Reflected::at_start : Reflected::at_free_end);
+      contact = std::make_unique<TimeStepping>(
+          *system, scene, answer.make(), timing == Timing::at_step ? Reflected::at_start : Reflected::at_free_end);
     }
     const IntegratorEntry& entry = *find_integrator(method);
     const auto integrator = entry.make(*system, {.dt = dt, .tolerance = tolerance, .t_end = t_end});
@@ -95,7 +95,9 @@ struct ContactRun {
       run.samples.insert(run.samples.end(), seen.begin(), seen.end());
       return seen.size();
     }
-    void meet(std::span<const Impact> some) override { run.impacts.insert(run.impacts.end(), some.begin(), some.end()); }
+    void meet(std::span<const Impact> some) override {
+      run.impacts.insert(run.impacts.end(), some.begin(), some.end());
+    }
     void slides_end(std::span<const Transition> some) override {
       run.transitions.insert(run.transitions.end(), some.begin(), some.end());
     }

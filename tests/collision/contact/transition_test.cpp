@@ -91,8 +91,8 @@ TEST(Slide, TheEndOfASpinningSlideConvergesWithTheStep) {
   EXPECT_LT(coarse, 1e-3);
 }
 
-// Two free plates that attract each other, one sliding and spinning on the other, until they go together: held forces are
-// equal, opposite and in line.
+// Two free plates that attract each other, one sliding and spinning on the other, until they go together: held forces
+// are equal, opposite and in line.
 TEST(HeldContacts, KeepMomentumOfFreeBodies) {
   ContactRun run;
   const auto plate = std::make_shared<Box>(Vector(0.5, 0.4, 0.1));
@@ -108,7 +108,8 @@ TEST(HeldContacts, KeepMomentumOfFreeBodies) {
   EXPECT_LT((last.angular_momentum - first.angular_momentum).norm(), 1e-9);
 }
 
-// However fast, a body that skims past a surface costs few looks: right-hand sides of its run over those without contact.
+// However fast, a body that skims past a surface costs few looks: right-hand sides of its run over those without
+// contact.
 TEST(Skimming, CostsNextToNothing) {
   for (const double gap : {1e-4, 1e-7, 2e-9}) {
     for (const bool box : {false, true}) {
@@ -151,7 +152,8 @@ TEST(Located, ADipWithinAStepIsFound) {
   for (const double spin : {60.0, 100.0, 155.0}) {
     const double fine = first_impact(1e-4, spin);
     EXPECT_GT(fine, 0);
-    EXPECT_NEAR(first_impact(0.02, spin), fine, 2e-2 * fine) << spin;  // RK4 turns a rod by three radians a step so well
+    EXPECT_NEAR(first_impact(0.02, spin), fine, 2e-2 * fine)
+        << spin;  // RK4 turns a rod by three radians a step so well
   }
 }
 

@@ -43,7 +43,8 @@ std::string describe(const BoxPairCase& pair) {
   text.precision(17);
   text << pair.what;
   for (const ExactBox* box : {&pair.a, &pair.b}) {
-    text << " | " << box->half.transpose() << " at " << box->position.transpose() << " q " << box->orientation.transpose();
+    text << " | " << box->half.transpose() << " at " << box->position.transpose() << " q "
+         << box->orientation.transpose();
   }
   return text.str();
 }
@@ -65,9 +66,10 @@ void judge(const NarrowPhase& narrow, const BoxPairCase& pair, double share, dou
   }
   ASSERT_EQ(overlap, d.distance <= 0);
   ASSERT_NEAR(d.normal.norm(), 1, 1e-14);
-  // Moving B by the depth separates; apart, the shadows on the normal are as far apart as the boxes. The direction of a short
-  // difference is as sure as round-off over its length.
-  const double unsure = exact.sign < 0 ? separated : tolerance + (d.distance > 0 ? 4e-16 * larger * larger / d.distance : 0);
+  // Moving B by the depth separates; apart, the shadows on the normal are as far apart as the boxes. The direction of a
+  // short difference is as sure as round-off over its length.
+  const double unsure =
+      exact.sign < 0 ? separated : tolerance + (d.distance > 0 ? 4e-16 * larger * larger / d.distance : 0);
   ASSERT_GE(double(shadow_gap(pair.a, pair.b, -d.normal) - exact.distance), -unsure);
   ASSERT_LE(outside(pair.a.half, at_a, d.on_a), tolerance);
   ASSERT_LE(outside(pair.b.half, at_b, d.on_b), tolerance);
@@ -119,7 +121,8 @@ void judge_published(const NarrowPhase& narrow, double share) {
     const ConvexHull hull_a = hull_of(pair.a), hull_b = hull_of(pair.b);
     const double truth = double(exact_distance(pair.a, pair.b).distance);
     const double smaller = std::min(pair.a.half.minCoeff(), pair.b.half.minCoeff());
-    EXPECT_NEAR(narrow.distance(hull_a, pose_of(pair.a), hull_b, pose_of(pair.b)).distance, truth, share * smaller) << name;
+    EXPECT_NEAR(narrow.distance(hull_a, pose_of(pair.a), hull_b, pose_of(pair.b)).distance, truth, share * smaller)
+        << name;
     if (!std::isnan(x[20])) {
       const Box a(pair.a.half), b(pair.b.half);
       EXPECT_NEAR(narrow.distance(a, pose_of(pair.a), b, pose_of(pair.b)).distance, x[20], x[21]) << name;

@@ -14,15 +14,16 @@ namespace polhode {
 std::string describe(const BoxPairCase& pair);
 
 /// Fails the test where an answer is missing or wrong: the signed distance by more than `share` of the smaller box, the
-/// overlap where the true signed distance exceeds 1e-14 of the larger box, the witness points, the mirrored question, and
-/// 1e-9 after moving B by the depth. The rounding of the poses is allowed for: `rounding` units of 1e-16 of their numbers.
+/// overlap where the true signed distance exceeds 1e-14 of the larger box, the witness points, the mirrored question,
+/// and 1e-9 after moving B by the depth. The rounding of the poses is allowed for: `rounding` units of 1e-16 of their
+/// numbers.
 void judge(const NarrowPhase& narrow, const BoxPairCase& pair, double share, double rounding = 0);
 
 /// The pairs 0 … count − 1 of a sequence, up to the first that fails.
 void judge_many(const NarrowPhase& narrow, std::uint64_t seed, std::uint64_t count, double share, double rounding = 0);
 
-/// The cases of FCL, libccd, Coal and Drake, each with its source in collision_cases.csv, by the judge and by the distance
-/// that is published.
+/// The cases of FCL, libccd, Coal and Drake, each with its source in collision_cases.csv, by the judge and by the
+/// distance that is published.
 void judge_published(const NarrowPhase& narrow, double share);
 
 }  // namespace polhode

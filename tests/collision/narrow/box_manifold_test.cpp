@@ -9,8 +9,8 @@
 #include <tuple>
 
 #include "collision/shapes/box.hpp"
-#include "experiments/narrow_phase/box_pairs.hpp"
 #include "core/math/portable_random.hpp"
+#include "experiments/narrow_phase/box_pairs.hpp"
 
 namespace polhode {
 namespace {
@@ -19,14 +19,18 @@ using Vector = Vector3<double>;
 using Kind = Feature::Kind;
 
 PosedBox cube(double half, const Vector& position, const Vector& rotation = Vector::Zero()) {
-  return {Vector::Constant(half), {position, rotation_matrix<double>(quaternion_from_rotation_vector<double>(rotation))}};
+  return {Vector::Constant(half),
+          {position, rotation_matrix<double>(quaternion_from_rotation_vector<double>(rotation))}};
 }
 BoxAt at(const PosedBox& box) { return {box.half, box.pose}; }
-Manifold manifold(const PosedBox& a, const PosedBox& b, double margin = 0) { return boxes_manifold(at(a), at(b), margin); }
+Manifold manifold(const PosedBox& a, const PosedBox& b, double margin = 0) {
+  return boxes_manifold(at(a), at(b), margin);
+}
 
 std::set<std::tuple<Kind, std::uint32_t, std::uint32_t>> names(const Manifold& m) {
   std::set<std::tuple<Kind, std::uint32_t, std::uint32_t>> all;
-  for (std::size_t k = 0; k < m.count; ++k) all.insert({m.points[k].feature.kind, m.points[k].feature.of_a, m.points[k].feature.of_b});
+  for (std::size_t k = 0; k < m.count; ++k)
+    all.insert({m.points[k].feature.kind, m.points[k].feature.of_a, m.points[k].feature.of_b});
   return all;
 }
 
@@ -37,7 +41,8 @@ double deepest(const Manifold& m) {
 }
 
 TEST(BoxManifold, TiltedCubesKeepAFourPointFaceContact) {
-  const Vector axes[] = {Vector(1, 1, 1).normalized(), Vector::UnitX(), Vector::UnitZ(), Vector(1, 0.2, -0.7).normalized()};
+  const Vector axes[] = {Vector(1, 1, 1).normalized(), Vector::UnitX(), Vector::UnitZ(),
+                         Vector(1, 0.2, -0.7).normalized()};
   for (const Vector& axis : axes) {
     std::set<std::tuple<Kind, std::uint32_t, std::uint32_t>> before;
     for (double tilt = 0; tilt <= 0.05001; tilt += 0.0005) {
@@ -62,7 +67,8 @@ TEST(BoxManifold, AFaceTurnedBy45DegreesIsAnOctagon) {
     EXPECT_EQ(p.feature.kind, Kind::edge_edge);
     EXPECT_NEAR(p.depth, 0.001, 1e-12);
     EXPECT_NEAR(p.point.z(), 0.9995, 1e-12);
-    const double small = std::min(std::abs(p.point.x()), std::abs(p.point.y())), large = std::max(std::abs(p.point.x()), std::abs(p.point.y()));
+    const double small = std::min(std::abs(p.point.x()), std::abs(p.point.y())),
+                 large = std::max(std::abs(p.point.x()), std::abs(p.point.y()));
     EXPECT_NEAR(large, 1, 1e-12);
     EXPECT_NEAR(small, std::numbers::sqrt2 - 1, 1e-12);
   }
@@ -80,7 +86,8 @@ TEST(BoxManifold, EachKindOfContactHasItsName) {
     EXPECT_NEAR(edge_on_face.points[k].depth, 0.001, 1e-12);
   }
   PosedBox on_a_vertex = cube(1, {0, 0, 2.7310508075688773});
-  on_a_vertex.pose.rotation = rotation_matrix<double>({0.45970084338098305, 0.6279630301995544, -0.6279630301995544, 0});
+  on_a_vertex.pose.rotation =
+      rotation_matrix<double>({0.45970084338098305, 0.6279630301995544, -0.6279630301995544, 0});
   const Manifold vertex_on_face = manifold(a, on_a_vertex);
   ASSERT_EQ(vertex_on_face.count, 1u);
   EXPECT_EQ(vertex_on_face.points[0].feature.kind, Kind::face_vertex);
@@ -123,8 +130,12 @@ TEST(BoxManifold, NumbersAreThoseOfThePolytope) {
       };
       seen.insert(feature.kind);
       switch (feature.kind) {
-        case Kind::vertex_face: ASSERT_LE(off_vertex(a, shape_a.polytope(), feature.of_a, on_a), tolerance + std::abs(depth)) << k; break;
-        case Kind::face_vertex: ASSERT_LE(off_vertex(b, shape_b.polytope(), feature.of_b, on_b), tolerance + std::abs(depth)) << k; break;
+        case Kind::vertex_face:
+          ASSERT_LE(off_vertex(a, shape_a.polytope(), feature.of_a, on_a), tolerance + std::abs(depth)) << k;
+          break;
+        case Kind::face_vertex:
+          ASSERT_LE(off_vertex(b, shape_b.polytope(), feature.of_b, on_b), tolerance + std::abs(depth)) << k;
+          break;
         case Kind::edge_edge:
           ASSERT_LE(off_edge(a, shape_a.polytope(), feature.of_a, on_a), tolerance) << pair.what << k;
           ASSERT_LE(off_edge(b, shape_b.polytope(), feature.of_b, on_b), tolerance) << pair.what << k;
@@ -140,7 +151,8 @@ TEST(BoxManifold, FacesThatTouchButForRoundOffHaveTheWholePatch) {
   study::Dice dice(5);
   int touching = 0;
   for (int k = 0; k < 1000; ++k) {
-    PosedBox a{dice.uniform_vector(0.5, 1.5), {dice.uniform_vector(-1, 1), dice.rotation()}}, b{dice.uniform_vector(0.5, 1.5), a.pose};
+    PosedBox a{dice.uniform_vector(0.5, 1.5), {dice.uniform_vector(-1, 1), dice.rotation()}},
+        b{dice.uniform_vector(0.5, 1.5), a.pose};
     b.pose.position = a.pose.to_world({dice.uniform(-0.5, 0.5), a.half[1] + b.half[1], dice.uniform(-0.5, 0.5)});
     const Manifold m = manifold(a, b);
     if (m.count == 0) continue;

@@ -62,7 +62,8 @@ TEST(BoxSat, ARigidMotionOfThePairChangesRoundOffOnly) {
       return PosedBox{box.half, {motion.to_world(box.pose.position), motion.rotation * box.pose.rotation}};
     };
     const PosedBox moved_a = moved(a), moved_b = moved(b);
-    const double before = boxes_distance(at(a), at(b)).distance, after = boxes_distance(at(moved_a), at(moved_b)).distance;
+    const double before = boxes_distance(at(a), at(b)).distance,
+                 after = boxes_distance(at(moved_a), at(moved_b)).distance;
     const double scale = size + (b.pose.position - a.pose.position).norm() + a.pose.position.norm();
     ASSERT_NEAR(after, before, 1e-14 * scale) << describe(pair);
   }

@@ -16,8 +16,8 @@
 #include "collision/shapes/convex_hull.hpp"
 #include "collision/shapes/cylinder.hpp"
 #include "collision/shapes/half_space.hpp"
-#include "core/math/quaternion.hpp"
 #include "core/math/portable_random.hpp"
+#include "core/math/quaternion.hpp"
 
 namespace polhode {
 namespace {
@@ -38,7 +38,8 @@ Pose at(const Vector& position, const Vector& turn = Vector::Zero()) {
 
 std::set<Name> names(const Manifold& m) {
   std::set<Name> all;
-  for (std::size_t k = 0; k < m.count; ++k) all.insert({m.points[k].feature.kind, m.points[k].feature.of_a, m.points[k].feature.of_b});
+  for (std::size_t k = 0; k < m.count; ++k)
+    all.insert({m.points[k].feature.kind, m.points[k].feature.of_a, m.points[k].feature.of_b});
   return all;
 }
 
@@ -85,7 +86,10 @@ TEST(ContactPatch, WhatStandsOnAFloorTouchesWithAllItsCorners) {
   for (const double x : {4.0, 6.0}) {
     for (const double y : {4.0, 8.0}) EXPECT_TRUE(has(of_box, {x, y, -0.0005}));
   }
-  EXPECT_EQ(names(of_box), (std::set<Name>{{Kind::vertex_face, 0, 0}, {Kind::vertex_face, 1, 0}, {Kind::vertex_face, 2, 0}, {Kind::vertex_face, 3, 0}}));
+  EXPECT_EQ(
+      names(of_box),
+      (std::set<Name>{
+          {Kind::vertex_face, 0, 0}, {Kind::vertex_face, 1, 0}, {Kind::vertex_face, 2, 0}, {Kind::vertex_face, 3, 0}}));
   const Manifold of_hull = gjk().manifold(floor, {}, hull, at({5, 6, 0.9}));
   ASSERT_EQ(of_hull.count, 4u);
   EXPECT_EQ(of_hull.normal, Vector(0, 0, -1));
@@ -115,18 +119,21 @@ TEST(ContactPatch, AFloorMayBeAskew) {
 
 TEST(ContactPatch, BoxesHaveTheSamePointsFromGjkAndSat) {
   const Box a({1, 1, 1}), b({0.5, 0.7, 0.4});
-  for (const Pose& pose : {at({0.2, 0.1, 1.39}), at({0.8, 0.6, 1.39}, {0, 0, 0.3}), at({0.2, 0.1, 1.395}, {0.02, -0.01, 0.4}),
-                           at({-1.45, 0.3, 0.2}, {0.03, 0, 0}), at({0, 0, 1.39}, {0, 0, std::numbers::pi / 4})}) {
+  for (const Pose& pose :
+       {at({0.2, 0.1, 1.39}), at({0.8, 0.6, 1.39}, {0, 0, 0.3}), at({0.2, 0.1, 1.395}, {0.02, -0.01, 0.4}),
+        at({-1.45, 0.3, 0.2}, {0.03, 0, 0}), at({0, 0, 1.39}, {0, 0, std::numbers::pi / 4})}) {
     const Manifold one = gjk().manifold(a, {}, b, pose), other = phase("sat").manifold(a, {}, b, pose);
     ASSERT_GE(one.count, 4u);
     EXPECT_EQ(names(one), names(other)) << pose.position.transpose();
     EXPECT_LE((one.normal - other.normal).norm(), 1e-12);
-    for (std::size_t k = 0; k < one.count; ++k) EXPECT_TRUE(has(other, one.points[k].point)) << pose.position.transpose();
+    for (std::size_t k = 0; k < one.count; ++k)
+      EXPECT_TRUE(has(other, one.points[k].point)) << pose.position.transpose();
     EXPECT_NEAR(deepest(one), deepest(other), 1e-12);
   }
 }
 
-/// However one face lies on the other: turned, tilted, covered in part; the one's corners within, the other's, or all cut off.
+/// However one face lies on the other: turned, tilted, covered in part; the one's corners within, the other's, or all
+/// cut off.
 TEST(ContactPatch, FacesOfBoxesAreClippedAlikeByGjkAndSat) {
   study::Dice dice(3);
   std::set<std::size_t> counts;
@@ -136,12 +143,15 @@ TEST(ContactPatch, FacesOfBoxesAreClippedAlikeByGjkAndSat) {
     const int axis = dice.below(3);
     const Vector up = (dice.chance(0.5) ? 1 : -1) * Vector::Unit(axis);
     Pose pose = at({}, dice.uniform_vector(-0.02, 0.02));
-    pose.rotation = pose.rotation * at({}, dice.angle() * up).rotation * at({}, std::numbers::pi / 2 * dice.below(2) * Vector::Unit((axis + 1) % 3)).rotation;
+    pose.rotation = pose.rotation * at({}, dice.angle() * up).rotation *
+                    at({}, std::numbers::pi / 2 * dice.below(2) * Vector::Unit((axis + 1) % 3)).rotation;
     pose.position = dice.uniform_vector(-1.5, 1.5);
     pose.position[axis] = 0;
-    pose.position += up * (a.support(up) - pose.rotation * b.support(pose.rotation.transpose() * -up)).dot(up) - 0.01 * up;
+    pose.position +=
+        up * (a.support(up) - pose.rotation * b.support(pose.rotation.transpose() * -up)).dot(up) - 0.01 * up;
     const Manifold one = gjk().manifold(a, {}, b, pose), other = phase("sat").manifold(a, {}, b, pose);
-    if (one.count < 3 || !(one.normal.dot(other.normal) > 1 - 1e-15)) continue;  // an edge, or the other face, is as good
+    if (one.count < 3 || !(one.normal.dot(other.normal) > 1 - 1e-15))
+      continue;  // an edge, or the other face, is as good
     ++alike;
     ASSERT_EQ(names(one), names(other)) << k;
     for (std::size_t i = 0; i < one.count; ++i) ASSERT_TRUE(has(other, one.points[i].point)) << k;
@@ -156,7 +166,8 @@ TEST(ContactPatch, TiltedCubesKeepAFourPointFaceContact) {
   const Box cube(Vector::Constant(0.5));
   const ConvexHull hull = cube_hull(0.5);
   for (const char* name : {"gjk", "sat"}) {
-    for (const Vector& axis : {Vector(1, 0, 0), Vector(0, 0, 1), Vector(1, 0, 1).normalized().eval(), Vector(1, 0.2, -0.7).normalized().eval()}) {
+    for (const Vector& axis : {Vector(1, 0, 0), Vector(0, 0, 1), Vector(1, 0, 1).normalized().eval(),
+                               Vector(1, 0.2, -0.7).normalized().eval()}) {
       std::set<Name> before;
       for (double tilt = 0; tilt <= 0.05001; tilt += 0.0005) {
         const Manifold m = phase(name).manifold(cube, {}, cube, at({0.1, 0.99, 0.05}, tilt * axis));
@@ -179,7 +190,8 @@ TEST(ContactPatch, AFaceTurnedBy45DegreesIsAnOctagon) {
   const Pose turned = at({0, 0, 1.999}, {0, 0, std::numbers::pi / 4});
   const Box box({1, 1, 1});
   const ConvexHull hull = cube_hull(1);
-  for (const Manifold& m : {gjk().manifold(box, {}, box, turned), gjk().manifold(hull, {}, box, turned), gjk().manifold(hull, {}, hull, turned)}) {
+  for (const Manifold& m : {gjk().manifold(box, {}, box, turned), gjk().manifold(hull, {}, box, turned),
+                            gjk().manifold(hull, {}, hull, turned)}) {
     ASSERT_EQ(m.count, 8u);
     EXPECT_EQ(names(m).size(), 8u);
     for (std::size_t k = 0; k < 8; ++k) {
@@ -243,7 +255,8 @@ TEST(ContactPatch, EdgesSideBySideMeetInTwoPoints) {
   EXPECT_TRUE(has(m, {1, 0, 0.495}, 1e-12));
   EXPECT_TRUE(has(m, {-0.5, 0, 0.495}, 1e-12));
   EXPECT_NE(m.points[0].feature, m.points[1].feature);
-  const Manifold crossed = gjk().manifold(capsule, at({0, 0, 0}, on_side), capsule, at({0, 0, 0.99}, {std::numbers::pi / 2, 0, 0}));
+  const Manifold crossed =
+      gjk().manifold(capsule, at({0, 0, 0}, on_side), capsule, at({0, 0, 0.99}, {std::numbers::pi / 2, 0, 0}));
   ASSERT_EQ(crossed.count, 1u);
   EXPECT_EQ(crossed.points[0].feature.kind, Kind::edge_edge);
 }
@@ -254,7 +267,8 @@ TEST(ContactPatch, ManyCornersAreReducedAndTheExtremeOnesStay) {
   const Box table({5, 5, 1});
   for (const double tilt : {0.0, 1e-3, 0.03}) {
     const Pose pose = at({0, 0, 0.099}, {tilt, 0, 0});
-    for (const Manifold& m : {gjk().manifold(wheel, pose, floor, {}), gjk().manifold(wheel, pose, table, at({0, 0, -1}))}) {
+    for (const Manifold& m :
+         {gjk().manifold(wheel, pose, floor, {}), gjk().manifold(wheel, pose, table, at({0, 0, -1}))}) {
       ASSERT_EQ(m.count, 8u) << tilt;
       const Distance d = gjk().distance(wheel, pose, floor, {});
       EXPECT_NEAR(deepest(m), -d.distance, 1e-12) << tilt;
@@ -270,8 +284,10 @@ TEST(ContactPatch, NamesStayWhileAPairSlides) {
   const ConvexHull wheel = prism(20, 0.5, 0.3);
   const Cylinder cylinder(0.5, 0.6);
   const Capsule capsule(0.3, 1);
-  const std::pair<const Shape*, Pose> upper[] = {{&box, at({0.3, 0.4, 1.999}, {0, 0, 0.2})}, {&wheel, at({0.1, 0.1, 1.299}, {0, 0, 0.1})},
-                                                 {&cylinder, at({0.1, 0.1, 1.299})}, {&capsule, at({0.1, 0.1, 1.299}, on_side)}};
+  const std::pair<const Shape*, Pose> upper[] = {{&box, at({0.3, 0.4, 1.999}, {0, 0, 0.2})},
+                                                 {&wheel, at({0.1, 0.1, 1.299}, {0, 0, 0.1})},
+                                                 {&cylinder, at({0.1, 0.1, 1.299})},
+                                                 {&capsule, at({0.1, 0.1, 1.299}, on_side)}};
   for (const auto& [shape, start] : upper) {
     std::set<Name> before;
     for (int step = 0; step < 40; ++step) {
@@ -290,13 +306,15 @@ TEST(ContactPatch, NamesStayWhileAPairSlides) {
 TEST(ContactPatch, CompoundsStandOnAllTheirParts) {
   const auto leg = [](double x, double y) {
     std::vector<Vector> points;
-    for (int k = 0; k < 8; ++k) points.emplace_back(x + (k & 1 ? 0.1 : -0.1), y + (k & 2 ? 0.1 : -0.1), k & 4 ? 0.0 : -1.0);
+    for (int k = 0; k < 8; ++k)
+      points.emplace_back(x + (k & 1 ? 0.1 : -0.1), y + (k & 2 ? 0.1 : -0.1), k & 4 ? 0.0 : -1.0);
     return std::make_shared<const ConvexHull>(points);
   };
   const Compound table({leg(1, 1), leg(-1, 1), leg(1, -1), leg(-1, -1)});
   const HalfSpace floor(Vector(0, 0, 1));
   const Box ground({5, 5, 1});
-  for (const Manifold& m : {gjk().manifold(table, at({0, 0, 0.99}), floor, {}), gjk().manifold(table, at({0, 0, 0.99}), ground, at({0, 0, -1}))}) {
+  for (const Manifold& m : {gjk().manifold(table, at({0, 0, 0.99}), floor, {}),
+                            gjk().manifold(table, at({0, 0, 0.99}), ground, at({0, 0, -1}))}) {
     ASSERT_GE(m.count, 4u);
     for (const double x : {-1.1, 1.1}) {
       for (const double y : {-1.1, 1.1}) EXPECT_TRUE(has(m, {x, y, -0.005}));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rotation of q/|q| is one of whole numbers over |q|². Lengths are counted in units of 2^-k / (|qa|² |qb|²), with which every
-// vertex is a whole number.
+// The rotation of q/|q| is one of whole numbers over |q|². Lengths are counted in units of 2^-k / (|qa|² |qb|²), with
+// which every vertex is a whole number.
 #include "tests/collision/narrow/exact_boxes.hpp"
 
 #include <algorithm>
@@ -80,7 +80,8 @@ struct Pair {
 
   Pair(const ExactBox& first, const ExactBox& second) {
     int last = no_bits;
-    for (const ExactBox* box : {&first, &second}) last = last_bit_of_all(box->half, last_bit_of_all(box->position, last));
+    for (const ExactBox* box : {&first, &second})
+      last = last_bit_of_all(box->half, last_bit_of_all(box->position, last));
     const WholeRotation of_a(first.orientation), of_b(second.orientation);
     const Whole both = of_a.squared * of_b.squared;
     fill(a, first, of_a, of_b.squared, both, last);
@@ -88,8 +89,8 @@ struct Pair {
     unit = std::ldexp(1.0L, last) / rounded(both);
   }
 
-  static void fill(WholeBox& box, const ExactBox& from, const WholeRotation& rotation, const Whole& other, const Whole& both,
-                   int last) {
+  static void fill(WholeBox& box, const ExactBox& from, const WholeRotation& rotation, const Whole& other,
+                   const Whole& both, int last) {
     box.axis = rotation.axis;
     box.squared = rotation.squared;
     for (std::size_t k = 0; k < 3; ++k) {

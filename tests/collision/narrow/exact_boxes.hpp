@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The judge of two boxes: their signed distance in whole numbers, so that every sign is right. Only the last division and
-// root are rounded, in long double.
+// The judge of two boxes: their signed distance in whole numbers, so that every sign is right. Only the last division
+// and root are rounded, in long double.
 #pragma once
 
 #include "experiments/narrow_phase/box_pairs.hpp"
@@ -11,8 +11,8 @@ namespace polhode {
 using ExactBox = TurnedBox;
 
 struct ExactDistance {
-  int sign = 0;                ///< of the signed distance, exact: −1 where the interiors overlap
-  long double distance = 0;    ///< signed, to a few units of the last place of long double
+  int sign = 0;              ///< of the signed distance, exact: −1 where the interiors overlap
+  long double distance = 0;  ///< signed, to a few units of the last place of long double
 };
 
 ExactDistance exact_distance(const ExactBox& a, const ExactBox& b);

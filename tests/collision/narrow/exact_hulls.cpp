@@ -2,10 +2,10 @@
 // It needs the points alone, no faces, and is right by certificate.
 // Apart: GJK (Gilbert, Johnson & Keerthi, 1988) in whole numbers ends at a point v of the difference A ⊖ B and a plane
 // across v that leaves all of the difference behind it: none is nearer, and none as near as the plane.
-// Overlapping: EPA (van den Bergh, 2001) in whole numbers grows a closed convex polytope of points of the difference around
-// the origin, until no point of the difference lies beyond its nearest facet. The polytope proves that no shorter
-// translation separates, the facet that this one does.
-// Long double says where to begin, and decides where its error bound is sure; else whole numbers do.
+// Overlapping: EPA (van den Bergh, 2001) in whole numbers grows a closed convex polytope of points of the difference
+// around the origin, until no point of the difference lies beyond its nearest facet. The polytope proves that no
+// shorter translation separates, the facet that this one does. Long double says where to begin, and decides where its
+// error bound is sure; else whole numbers do.
 #include "tests/collision/narrow/exact_hulls.hpp"
 
 #include <limits>
@@ -112,9 +112,9 @@ class Difference {
 /// Of the hull of up to four points, the one nearest to the origin.
 template <class T>
 struct Nearest {
-  unsigned of = 0;             ///< bits: the points that it lies between
-  Three<T> towards;            ///< a positive multiple of it, but zero where it is the origin
-  T numerator, denominator;    ///< its squared distance
+  unsigned of = 0;           ///< bits: the points that it lies between
+  Three<T> towards;          ///< a positive multiple of it, but zero where it is the origin
+  T numerator, denominator;  ///< its squared distance
 };
 
 /// All faces of the simplex whose plane has its nearest point within them. The nearest of all is one of those.
@@ -122,7 +122,8 @@ template <class T>
 Nearest<T> nearest(std::span<const Three<T>> w) {
   Nearest<T> best{};
   const auto take = [&](unsigned of, const Three<T>& towards, const T& numerator, const T& denominator) {
-    if (best.of == 0 || numerator * best.denominator < best.numerator * denominator) best = {of, towards, numerator, denominator};
+    if (best.of == 0 || numerator * best.denominator < best.numerator * denominator)
+      best = {of, towards, numerator, denominator};
   };
   for (unsigned of = 1; of < 1u << w.size(); ++of) {
     std::array<std::size_t, 4> at{};
@@ -154,8 +155,10 @@ Nearest<T> nearest(std::span<const Three<T>> w) {
       continue;
     }
     const Three<T>& s = w[at[3]];
-    const T of_p = dot(q, cross(r, s)), of_q = -dot(p, cross(r, s)), of_r = dot(s, cross(p, q)), of_s = -dot(r, cross(p, q));
-    const bool inside = (of_p > 0 && of_q > 0 && of_r > 0 && of_s > 0) || (of_p < 0 && of_q < 0 && of_r < 0 && of_s < 0);
+    const T of_p = dot(q, cross(r, s)), of_q = -dot(p, cross(r, s)), of_r = dot(s, cross(p, q)),
+            of_s = -dot(r, cross(p, q));
+    const bool inside =
+        (of_p > 0 && of_q > 0 && of_r > 0 && of_s > 0) || (of_p < 0 && of_q < 0 && of_r < 0 && of_s < 0);
     if (inside) take(of, Three<T>{}, 0, 1);
   }
   return best;
@@ -208,13 +211,14 @@ std::array<Corner, 4> tetrahedron(const Difference& difference) {
   return {first, second, third, fourth};
 }
 
-/// A polytope of points of the difference that grows point by point. A facet is seen from a point that is strictly beyond
-/// its plane; what is coplanar stays.
+/// A polytope of points of the difference that grows point by point. A facet is seen from a point that is strictly
+/// beyond its plane; what is coplanar stays.
 class Polytope3 {
  public:
   explicit Polytope3(const Difference& difference) : difference_(difference) {
     for (const Corner& c : tetrahedron(difference)) vertices_.push_back(difference.exact(c));
-    const Whole volume = dot(cross(vertices_[1] - vertices_[0], vertices_[2] - vertices_[0]), vertices_[3] - vertices_[0]);
+    const Whole volume =
+        dot(cross(vertices_[1] - vertices_[0], vertices_[2] - vertices_[0]), vertices_[3] - vertices_[0]);
     if (volume == 0) throw std::invalid_argument("exact_distance: a hull has no volume");
     if (volume > 0) std::swap(vertices_[1], vertices_[2]);
     add_facet(0, 1, 2);
@@ -279,7 +283,8 @@ class Polytope3 {
     facets_ = std::move(kept);
     vertices_.push_back(next);
     for (const auto& [from, to] : sides) {
-      if (std::find(sides.begin(), sides.end(), std::array{to, from}) == sides.end()) add_facet(from, to, vertices_.size() - 1);
+      if (std::find(sides.begin(), sides.end(), std::array{to, from}) == sides.end())
+        add_facet(from, to, vertices_.size() - 1);
     }
   }
 

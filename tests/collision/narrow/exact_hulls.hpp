@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The judge of two convex hulls: their signed distance in whole numbers, so that every sign is right. Only the last division
-// and root are rounded, in long double.
+// The judge of two convex hulls: their signed distance in whole numbers, so that every sign is right. Only the last
+// division and root are rounded, in long double.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace polhode {
 
-/// The convex hull of points, at position + rotation · point, each number taken as it stands: the rotation need not be quite
-/// orthogonal.
+/// The convex hull of points, at position + rotation · point, each number taken as it stands: the rotation need not be
+/// quite orthogonal.
 struct ExactHull {
   std::vector<Vector3<double>> points;
   Pose pose;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The judge of hulls itself: what is known, boxes beside the judge of boxes, hulls beside all directions of their features.
+// The judge of hulls itself: what is known, boxes beside the judge of boxes, hulls beside all directions of their
+// features.
 #include "tests/collision/narrow/exact_hulls.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,8 @@ using Vector = Vector3<double>;
 
 ExactHull box(const Vector& half, const Pose& pose = {}) {
   ExactHull hull{{}, pose};
-  for (int k = 0; k < 8; ++k) hull.points.push_back(half.cwiseProduct(Vector(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));
+  for (int k = 0; k < 8; ++k)
+    hull.points.push_back(half.cwiseProduct(Vector(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));
   return hull;
 }
 
@@ -40,7 +42,9 @@ TEST(ExactHulls, KnowsWhatIsKnown) {
   const ExactHull tetrahedron{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 0, 0.5}}};
   EXPECT_EQ(exact_distance(cube, tetrahedron).sign, 0);
   EXPECT_EQ(exact_distance(box({1, 1, 1}), tetrahedron).distance, -0.5);
-  EXPECT_EQ(exact_distance(ExactHull{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}}, ExactHull{tetrahedron.points, {{1, 1, 1}}}).distance,
+  EXPECT_EQ(exact_distance(ExactHull{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}},
+                           ExactHull{tetrahedron.points, {{1, 1, 1}}})
+                .distance,
             2 / std::sqrt(3.0L));
 }
 
@@ -54,7 +58,9 @@ TEST(ExactHulls, SayOfBoxesWhatTheJudgeOfBoxesSays) {
   BoxPairs make(6);
   for (std::uint64_t k = 0; k < 800; ++k) {
     const BoxPairCase pair = make(k);
-    const auto posed = [](const ExactBox& b) { return box(b.half, {b.position, rotation_matrix<double>(b.orientation)}); };
+    const auto posed = [](const ExactBox& b) {
+      return box(b.half, {b.position, rotation_matrix<double>(b.orientation)});
+    };
     const ExactDistance d = exact_distance(posed(pair.a), posed(pair.b)), expected = exact_distance(pair.a, pair.b);
     const long double rounding = 4e-16L * (pair.a.half.norm() + pair.b.half.norm());
     ASSERT_LE(std::abs(d.distance - expected.distance), rounding) << k << " " << pair.what;
@@ -87,7 +93,8 @@ TEST(ExactHulls, MirrorAndKnowEveryClass) {
     const ExactHull a{pair.points_a, pair.at_a}, b{pair.points_b, pair.at_b};
     const ExactDistance d = exact_distance(a, b), mirrored = exact_distance(b, a);
     ASSERT_EQ(d.sign, mirrored.sign) << k << " " << pair.what;
-    ASSERT_NEAR(double(d.distance), double(mirrored.distance), 1e-17 * std::abs(double(d.distance))) << k << " " << pair.what;
+    ASSERT_NEAR(double(d.distance), double(mirrored.distance), 1e-17 * std::abs(double(d.distance)))
+        << k << " " << pair.what;
     (d.sign > 0 ? apart : d.sign < 0 ? overlapping : touching) += 1;
   }
   EXPECT_GT(apart, 100u);

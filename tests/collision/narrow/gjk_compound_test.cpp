@@ -56,8 +56,10 @@ TEST(GjkCompound, KnowsItsNotch) {
 }
 
 TEST(GjkCompound, AnotherCompoundHooksIntoIt) {
-  // Turned by half a turn about z, the other L sits in the notch with gaps of 0.25 and 0.5, and its notch over this one.
-  const Pose hooked = {{2.25, 4.5, 0}, rotation_matrix(quaternion_from_rotation_vector<double>({0, 0, std::numbers::pi}))};
+  // Turned by half a turn about z, the other L sits in the notch with gaps of 0.25 and 0.5, and its notch over this
+  // one.
+  const Pose hooked = {{2.25, 4.5, 0},
+                       rotation_matrix(quaternion_from_rotation_vector<double>({0, 0, std::numbers::pi}))};
   EXPECT_NEAR(gjk_phase().distance(ell(), {}, ell(), hooked).distance, 0.25, 1e-14);
   EXPECT_FALSE(gjk_phase().overlap(ell(), {}, ell(), hooked));
   const Pose closer = {{1.875, 4.5, 0}, hooked.rotation};
@@ -86,7 +88,8 @@ TEST(GjkCompound, AnswersWithItsParts) {
     const Pose at = random_pose(2 * k, 1), at_other = random_pose(2 * k + 1, 2);
     const Distance d = gjk_phase().distance(ell(), at, other, at_other);
     double least = std::numeric_limits<double>::infinity();
-    for (const auto& part : ell().parts()) least = std::min(least, gjk_phase().distance(*part, at, other, at_other).distance);
+    for (const auto& part : ell().parts())
+      least = std::min(least, gjk_phase().distance(*part, at, other, at_other).distance);
     EXPECT_NEAR(d.distance, least, 1e-14) << k;
     const Distance mirrored = gjk_phase().distance(other, at_other, ell(), at);
     EXPECT_EQ(mirrored.distance, d.distance) << k;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// gjk where surfaces bend: spheres, capsules, cylinders and ellipsoids against each other and against boxes, at random, in
-// contact and one within the other, by closed forms where there are such; and what every answer keeps.
+// gjk where surfaces bend: spheres, capsules, cylinders and ellipsoids against each other and against boxes, at random,
+// in contact and one within the other, by closed forms where there are such; and what every answer keeps.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -78,7 +78,8 @@ TEST_F(Curved, CylinderAndSphere) {
 
 TEST_F(Curved, ParallelCylindersAndBoxesUprightOnThem) {
   for (int k = 0; k < 200; ++k) {
-    const double r = uniform(0.1, 1), l = uniform(0.1, 2), r2 = uniform(0.1, 1), l2 = uniform(0.1, 2), turn = uniform(0, 6);
+    const double r = uniform(0.1, 1), l = uniform(0.1, 2), r2 = uniform(0.1, 1), l2 = uniform(0.1, 2),
+                 turn = uniform(0, 6);
     const Vector x = uniform3(-2, 2), h = uniform3(0.1, 1);
     const Pose at = {x, rotation_matrix(quaternion_from_rotation_vector<double>({0, 0, turn}))};
     expect_distance(Cylinder(r, l), {}, Cylinder(r2, l2), at,
@@ -142,7 +143,8 @@ TEST_F(Curved, RoundEllipsoidIsASphere) {
 
 TEST_F(Curved, CapsulesAsSegments) {
   for (int k = 0; k < 300; ++k) {
-    const double r = uniform(0.01, 1), l = uniform(0, 2), x = uniform(0, 2), z = uniform(-3, 3), angle = uniform(0.1, 3);
+    const double r = uniform(0.01, 1), l = uniform(0, 2), x = uniform(0, 2), z = uniform(-3, 3),
+                 angle = uniform(0.1, 3);
     // Crossing at right angles to the line between them: the segments' distance is x as long as both feet are within.
     const Pose across = {{x, 0, 0}, rotation_matrix(quaternion_from_rotation_vector<double>({angle, 0, 0}))};
     expect_distance(Capsule(r, l), {}, Capsule(0.5, 1), across, x - r - 0.5, 2);
@@ -152,7 +154,8 @@ TEST_F(Curved, CapsulesAsSegments) {
   }
 }
 
-// Two shapes side by side along any axis of A, kissing to the last digits: always an answer, and contact where they overlap.
+// Two shapes side by side along any axis of A, kissing to the last digits: always an answer, and contact where they
+// overlap.
 TEST_F(Curved, NeverDropsATouchingContact) {
   const Sphere sphere(0.5);
   const Capsule capsule(0.5, 1);
@@ -178,7 +181,8 @@ TEST_F(Curved, NeverDropsATouchingContact) {
   }
 }
 
-// No NaN, no endless search; the normal parts the two by what is said, at any size ratio, also where one is within the other.
+// No NaN, no endless search; the normal parts the two by what is said, at any size ratio, also where one is within the
+// other.
 TEST_F(Curved, EveryAnswerIsSound) {
   for (std::uint64_t k = 0; k < 1500; ++k) {
     const PlacedPair p = any_pair(k);

@@ -51,7 +51,8 @@ TEST(Gjk, DrakeCapsuleAgainstBox) {
   const Box box({0.5, 1, 2});
   EXPECT_NEAR(gjk_phase().distance(capsule, turned({3, 0, 0}, Vector::Zero()), box, {}).distance, 0.5, 1e-14);
   EXPECT_NEAR(gjk_phase().distance(capsule, turned({0, 0, 8}, Vector::Zero()), box, {}).distance, 2.0, 1e-14);
-  EXPECT_NEAR(gjk_phase().distance(capsule, turned({-10, 0.8, 1.5}, {0, std::numbers::pi / 2, 0}), box, {}).distance, 5.5, 1e-14);
+  EXPECT_NEAR(gjk_phase().distance(capsule, turned({-10, 0.8, 1.5}, {0, std::numbers::pi / 2, 0}), box, {}).distance,
+              5.5, 1e-14);
 }
 
 // Depth of spheres and capsules by their cores, also where these meet.
@@ -89,13 +90,16 @@ TEST(Gjk, CylindersAndEllipsoidsInClosedForm) {
   const Sphere sphere(0.25);
   EXPECT_NEAR(gjk_phase().distance(cylinder, {}, sphere, {{2, 0, 0.3}}).distance, 1.25, 1e-12);
   EXPECT_NEAR(gjk_phase().distance(cylinder, {}, sphere, {{0.2, 0.1, 2}}).distance, 0.75, 1e-12);
-  EXPECT_NEAR(gjk_phase().distance(cylinder, {}, sphere, {{3.5, 4, 2}}).distance, std::hypot(std::hypot(3.5, 4.0) - 0.5, 1) - 0.25, 1e-9);
+  EXPECT_NEAR(gjk_phase().distance(cylinder, {}, sphere, {{3.5, 4, 2}}).distance,
+              std::hypot(std::hypot(3.5, 4.0) - 0.5, 1) - 0.25, 1e-9);
   EXPECT_NEAR(gjk_phase().distance(cylinder, {}, sphere, {{0.3, 0, 0}}).distance, -0.45, 1e-9);
   EXPECT_NEAR(gjk_phase().distance(cylinder, {}, cylinder, {{0.1, 0, 1.9}}).distance, -0.1, 1e-12);
   EXPECT_NEAR(gjk_phase().distance(cylinder, {}, cylinder, {{0.8, 0, 0}}).distance, -0.2, 1e-9);
   EXPECT_NEAR(gjk_phase().distance(cylinder, {}, cylinder, {}).distance, -1, 1e-9);
   EXPECT_NEAR(gjk_phase().distance(ellipsoid, {}, sphere, {{0, 0, 5}}).distance, 1.75, 1e-9);
-  EXPECT_NEAR(gjk_phase().distance(ellipsoid, {}, ellipsoid, turned({3.5, 0, 0}, {0, 0, std::numbers::pi / 2})).distance, 0.5, 1e-9);
+  EXPECT_NEAR(
+      gjk_phase().distance(ellipsoid, {}, ellipsoid, turned({3.5, 0, 0}, {0, 0, std::numbers::pi / 2})).distance, 0.5,
+      1e-9);
   EXPECT_NEAR(gjk_phase().distance(ellipsoid, {}, ellipsoid, {{1.5, 0, 0}}).distance, -0.5, 1e-9);
   EXPECT_NEAR(gjk_phase().distance(ellipsoid, {}, ellipsoid, {}).distance, -2, 1e-9);
 }
@@ -135,7 +139,8 @@ TEST(Gjk, NeverDropsATouchingContact) {
   }
 }
 
-// Deep pairs that move a little, and now and then further: the polytope that is remembered loses its convexity, and its origin.
+// Deep pairs that move a little, and now and then further: the polytope that is remembered loses its convexity, and its
+// origin.
 TEST(Gjk, WarmDepthIsColdDepth) {
   const Box box({0.7, 0.5, 0.9}), other({0.4, 1.1, 0.6});
   const ShapePointer hull = hull_pair(3).a;
@@ -151,7 +156,8 @@ TEST(Gjk, WarmDepthIsColdDepth) {
       const double far = step % 7 == 3 ? 0.1 : 0.01;
       at_b.position += far * random_pose(1000 * k + step, unit).position;
       at_b.rotation = turned(Vector::Zero(), far * random_pose(step, 1).position).rotation * at_b.rotation;
-      const Distance warm = gjk_phase().distance(a, at_a, k % 2 ? static_cast<const Shape&>(other) : *hull, at_b, &memory);
+      const Distance warm =
+          gjk_phase().distance(a, at_a, k % 2 ? static_cast<const Shape&>(other) : *hull, at_b, &memory);
       const Distance cold = gjk_phase().distance(a, at_a, k % 2 ? static_cast<const Shape&>(other) : *hull, at_b);
       ASSERT_NEAR(warm.distance, cold.distance, 1e-13 * unit) << k << ", step " << step;
       together += cold.distance < 0;

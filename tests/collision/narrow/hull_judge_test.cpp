@@ -64,7 +64,8 @@ std::string faults(const NarrowPhase& narrow, double tolerance, const HullPairCa
   const Sizes sizes(pair);
   const Distance d = narrow.distance(*pair.a, pair.at_a, *pair.b, pair.at_b);
   const bool overlap = narrow.overlap(*pair.a, pair.at_a, *pair.b, pair.at_b);
-  const double rounding = 4e-16 * (pair.at_a.position.norm() + pair.at_b.position.norm() + sizes.larger);  // of the poses
+  const double rounding =
+      4e-16 * (pair.at_a.position.norm() + pair.at_b.position.norm() + sizes.larger);  // of the poses
   const double slack = tolerance * sizes.smaller + rounding;
   Faults faults(pair);
   faults.expect_at_most(double(std::abs(d.distance - exact.distance)), slack, "error of the signed distance");
@@ -97,7 +98,8 @@ class HullJudge : public testing::TestWithParam<NarrowPhaseEntry> {
         if (k > 0 || !std::string(refusal.what()).starts_with(GetParam().name + ":")) throw;
         GTEST_SKIP() << refusal.what();
       }
-      if (!said.empty() && ++wrong[pair.what] <= 10) first << "hull_pair_case(" << seed << ", " << k << "): " << said << "\n";
+      if (!said.empty() && ++wrong[pair.what] <= 10)
+        first << "hull_pair_case(" << seed << ", " << k << "): " << said << "\n";
     }
     for (const auto& [what, number] : wrong) ADD_FAILURE() << number << " pairs wrong of class " << what;
     EXPECT_EQ(first.str(), "");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A feature of A and one of B are laid against each other, a gap between them that is often tiny or none; then both hulls
-// may be moved rigidly, which rounds what was degenerate exactly.
+// A feature of A and one of B are laid against each other, a gap between them that is often tiny or none; then both
+// hulls may be moved rigidly, which rounds what was degenerate exactly.
 #include "tests/collision/narrow/hull_pairs.hpp"
 
 #include "core/math/portable_random.hpp"
@@ -42,8 +42,10 @@ Points of_a_prism(Dice& dice, int n) {
 
 Points of_a_box(Dice& dice) {
   Points points;
-  const Vector half(1, dice.chance(0.5) ? 1 : dice.power_of_ten(-1, 1), dice.chance(0.5) ? 1 : dice.power_of_ten(-1, 1));
-  for (int k = 0; k < 8; ++k) points.push_back(half.cwiseProduct(Vector(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));
+  const Vector half(1, dice.chance(0.5) ? 1 : dice.power_of_ten(-1, 1),
+                    dice.chance(0.5) ? 1 : dice.power_of_ten(-1, 1));
+  for (int k = 0; k < 8; ++k)
+    points.push_back(half.cwiseProduct(Vector(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));
   return points;
 }
 
@@ -81,7 +83,9 @@ enum class Part { vertex, edge, face };
 
 Feature feature(Dice& dice, const Polytope& p, Part part) {
   const auto any = [&](std::size_t count) { return std::uint32_t(dice.below(int(count))); };
-  const auto along = [&](const Polytope::Edge& e) -> Vector { return (p.vertices[e.to] - p.vertices[e.from]).normalized(); };
+  const auto along = [&](const Polytope::Edge& e) -> Vector {
+    return (p.vertices[e.to] - p.vertices[e.from]).normalized();
+  };
   if (part == Part::face) {
     const std::uint32_t face = any(p.faces.size());
     const auto corners = p.corners_of(face);
@@ -105,10 +109,13 @@ Feature feature(Dice& dice, const Polytope& p, Part part) {
   const std::uint32_t vertex = any(p.vertices.size());
   Vector out = Vector::Zero();
   for (const std::uint32_t face : p.faces_of(vertex)) out += dice.uniform(0.1, 1) * p.faces[face].normal;
-  return {p.vertices[vertex], out.normalized(), (p.vertices[p.neighbours_of(vertex)[0]] - p.vertices[vertex]).normalized()};
+  return {p.vertices[vertex], out.normalized(),
+          (p.vertices[p.neighbours_of(vertex)[0]] - p.vertices[vertex]).normalized()};
 }
 
-Quaternion<double> about(const Vector& axis, double angle) { return quaternion_from_rotation_vector<double>(axis * angle); }
+Quaternion<double> about(const Vector& axis, double angle) {
+  return quaternion_from_rotation_vector<double>(axis * angle);
+}
 
 /// By no more than the angle of a rounding error, or by none.
 Quaternion<double> almost_none(Dice& dice) {
@@ -159,7 +166,8 @@ HullPairCase hull_pair_case(std::uint64_t seed, std::uint64_t k) {
   pair.what = hull_pair_classes()[kind];
   Quaternion<double> turn(1, 0, 0, 0);  // of B
   // Of a power of two, so that a lattice stays one.
-  const double scale = std::exp2(std::round(dice.uniform(-10, 10))), ratio = dice.chance(0.5) ? 1 : dice.power_of_ten(-4, 0);
+  const double scale = std::exp2(std::round(dice.uniform(-10, 10))),
+               ratio = dice.chance(0.5) ? 1 : dice.power_of_ten(-4, 0);
   pair.points_a = of_any_kind(dice);
   pair.points_b = of_any_kind(dice);
   const bool first = dice.chance(0.5);
@@ -191,17 +199,23 @@ HullPairCase hull_pair_case(std::uint64_t seed, std::uint64_t k) {
   switch (kind) {
     case 0:
       turn = dice.turn();
-      pair.at_b.position = dice.uniform(0, 1.5) * (half_size(pair.points_a) + half_size(pair.points_b)) * dice.direction();
+      pair.at_b.position =
+          dice.uniform(0, 1.5) * (half_size(pair.points_a) + half_size(pair.points_b)) * dice.direction();
       break;
     case 1: meet(Part::face, Part::face, aligned, gap); break;
     case 2: meet(Part::edge, Part::edge, false, gap); break;
     case 3: meet(Part::edge, Part::edge, true, gap); break;
-    case 4: dice.chance(0.5) ? meet(Part::vertex, Part::face, aligned, gap) : meet(Part::face, Part::vertex, aligned, gap); break;
+    case 4:
+      dice.chance(0.5) ? meet(Part::vertex, Part::face, aligned, gap) : meet(Part::face, Part::vertex, aligned, gap);
+      break;
     case 5: meet(Part::vertex, Part::vertex, aligned, gap); break;
-    case 6: dice.chance(0.5) ? meet(Part::edge, Part::face, aligned, gap) : meet(Part::face, Part::edge, aligned, gap); break;
+    case 6:
+      dice.chance(0.5) ? meet(Part::edge, Part::face, aligned, gap) : meet(Part::face, Part::edge, aligned, gap);
+      break;
     case 7: {  // the same hull half a turn about an axis in the face, and back onto it
       const auto& face = a.faces[std::size_t(dice.below(int(a.faces.size())))];
-      const Vector on_face = a.vertices[a.corners[face.first].vertex], other = a.vertices[a.corners[face.first + 1].vertex];
+      const Vector on_face = a.vertices[a.corners[face.first].vertex],
+                   other = a.vertices[a.corners[face.first + 1].vertex];
       const Vector axis = (other - on_face).normalized();
       turn = {0, axis[0], axis[1], axis[2]};
       pair.at_b.position = on_face - rotation_matrix<double>(turn) * on_face + gap * face.normal;
@@ -210,9 +224,11 @@ HullPairCase hull_pair_case(std::uint64_t seed, std::uint64_t k) {
     case 8: {  // without a rounding, often in touch
       turn = of_a_cube(dice);
       const Vector n = Vector::Unit(dice.below(3));
-      const double reach = n.dot(pair.a->support(n)) - n.dot(pair.b->bounds({Vector::Zero(), rotation_matrix<double>(turn)}).min());
+      const double reach =
+          n.dot(pair.a->support(n)) - n.dot(pair.b->bounds({Vector::Zero(), rotation_matrix<double>(turn)}).min());
       for (int i = 0; i < 3; ++i) pair.at_b.position[i] = scale * (dice.below(5) - 2);
-      pair.at_b.position += (reach + (dice.chance(0.5) ? 0 : scale * (dice.below(5) - 3)) - n.dot(pair.at_b.position)) * n;
+      pair.at_b.position +=
+          (reach + (dice.chance(0.5) ? 0 : scale * (dice.below(5) - 3)) - n.dot(pair.at_b.position)) * n;
       break;
     }
     case 9: {
@@ -227,7 +243,8 @@ HullPairCase hull_pair_case(std::uint64_t seed, std::uint64_t k) {
       break;
     default:
       turn = dice.turn();
-      pair.at_b.position = dice.uniform(2, 20) * (half_size(pair.points_a) + half_size(pair.points_b)) * dice.direction();
+      pair.at_b.position =
+          dice.uniform(2, 20) * (half_size(pair.points_a) + half_size(pair.points_b)) * dice.direction();
       break;
   }
   pair.at_b.rotation = rotation_matrix<double>(turn);

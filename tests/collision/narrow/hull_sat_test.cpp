@@ -33,7 +33,8 @@ Distance distance(const PlacedPair& p) { return sat_phase().distance(*p.a, p.at_
 
 ConvexHull corners(const Vector& half) {
   std::vector<Vector> points;
-  for (int k = 0; k < 8; ++k) points.push_back(half.cwiseProduct(Vector(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));
+  for (int k = 0; k < 8; ++k)
+    points.push_back(half.cwiseProduct(Vector(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));
   return ConvexHull(points);
 }
 
@@ -77,8 +78,11 @@ void judge_boxes_as_hulls(std::uint64_t seed, std::uint64_t count) {
       if (d.distance < 0) {
         ASSERT_GE(double(exact_distance(pair.a, moved).distance), -1e-9 * smaller) << pair.what << k;
       } else {
-        const auto reach = [&](const Vector& half, const Pose& at) { return (at.rotation.transpose() * d.normal).cwiseAbs().dot(half); };
-        const double gap = -d.normal.dot(at_b.position - at_a.position) - reach(pair.a.half, at_a) - reach(pair.b.half, at_b);
+        const auto reach = [&](const Vector& half, const Pose& at) {
+          return (at.rotation.transpose() * d.normal).cwiseAbs().dot(half);
+        };
+        const double gap =
+            -d.normal.dot(at_b.position - at_a.position) - reach(pair.a.half, at_a) - reach(pair.b.half, at_b);
         ASSERT_NEAR(gap, d.distance, slack) << pair.what << k;
       }
       expect_mirrored(d, sat_phase().distance(*other, at_b, a, at_a));
@@ -128,7 +132,8 @@ TEST(HullSat, DrakeCapsuleAgainstBox) {
   };
   EXPECT_NEAR(sat_phase().distance(capsule, turned({3, 0, 0}, Vector::Zero()), box, {}).distance, 0.5, 1e-14);
   EXPECT_NEAR(sat_phase().distance(capsule, turned({0, 0, 8}, Vector::Zero()), box, {}).distance, 2.0, 1e-14);
-  EXPECT_NEAR(sat_phase().distance(capsule, turned({-10, 0.8, 1.5}, {0, std::numbers::pi / 2, 0}), box, {}).distance, 5.5, 1e-14);
+  EXPECT_NEAR(sat_phase().distance(capsule, turned({-10, 0.8, 1.5}, {0, std::numbers::pi / 2, 0}), box, {}).distance,
+              5.5, 1e-14);
 }
 
 TEST(HullSat, RoundShapesInClosedForm) {
@@ -144,7 +149,9 @@ TEST(HullSat, RoundShapesInClosedForm) {
     EXPECT_NEAR(sat_phase().distance(small, {{x, 0, 1}}, capsule, {}).distance, x - 0.75, 1e-15 * (1 + x)) << x;
   }
   // Crossing, parallel, in line and the same: the segments meet, and the depth is that of the radii.
-  const auto crossed = [](double x, double angle) { return Pose{{0, 0, x}, rotation_matrix<double>(Quaternion<double>(std::cos(angle), std::sin(angle), 0, 0))}; };
+  const auto crossed = [](double x, double angle) {
+    return Pose{{0, 0, x}, rotation_matrix<double>(Quaternion<double>(std::cos(angle), std::sin(angle), 0, 0))};
+  };
   for (const Pose& at : {crossed(0.3, 0.55), crossed(2, 0), Pose{}}) {
     const Distance d = sat_phase().distance(capsule, {}, capsule, at);
     EXPECT_NEAR(d.distance, -0.5, 1e-15);
@@ -170,7 +177,9 @@ TEST(HullSat, SegmentAcrossAnEdge) {
   const double root = std::numbers::sqrt2;
   const Capsule rod(0.125, 8);
   // Along (1, −1, 0), turned about z from the edge at x = y = 1.
-  const Pose at{{0.875, 0.875, 0}, rotation_matrix<double>(quaternion_from_rotation_vector<double>(Vector(1, 1, 0).normalized() * (std::numbers::pi / 2)))};
+  const Pose at{{0.875, 0.875, 0},
+                rotation_matrix<double>(
+                    quaternion_from_rotation_vector<double>(Vector(1, 1, 0).normalized() * (std::numbers::pi / 2)))};
   const Distance d = sat_phase().distance(rod, at, cube, {});
   EXPECT_NEAR(d.distance, -(0.125 * root + 0.125), 1e-15);
   EXPECT_NEAR((d.normal - Vector(1, 1, 0) / root).norm(), 0, 1e-15);
@@ -179,7 +188,8 @@ TEST(HullSat, SegmentAcrossAnEdge) {
 TEST(HullSat, HalfSpacesAndCompounds) {
   const HalfSpace floor({0, 0, 2}, 1);
   const Box box({1, 1, 1});
-  const Pose on_edge{{5, 6, 2}, rotation_matrix<double>(quaternion_from_rotation_vector<double>({std::numbers::pi / 4, 0, 0}))};
+  const Pose on_edge{{5, 6, 2},
+                     rotation_matrix<double>(quaternion_from_rotation_vector<double>({std::numbers::pi / 4, 0, 0}))};
   const Distance d = sat_phase().distance(box, on_edge, floor, {});
   EXPECT_NEAR(d.distance, 1.5 - std::numbers::sqrt2, 1e-15);
   EXPECT_EQ(d.normal, Vector(0, 0, 1));
@@ -214,7 +224,8 @@ RC_GTEST_PROP(HullSat, MirrorsExactlyAndARigidMotionChangesRoundOffOnly, ()) {
   const Pose motion = random_pose(seed + 1, size);
   PlacedPair q = p;
   for (Pose* at : {&q.at_a, &q.at_b}) *at = {motion.to_world(at->position), motion.rotation * at->rotation};
-  RC_ASSERT(std::abs(d.distance - distance(q).distance) <= 1e-14 * (size + p.at_a.position.norm() + p.at_b.position.norm()));
+  RC_ASSERT(std::abs(d.distance - distance(q).distance) <=
+            1e-14 * (size + p.at_a.position.norm() + p.at_b.position.norm()));
 }
 
 TEST(HullSat, SaysWhatItCannotDo) {

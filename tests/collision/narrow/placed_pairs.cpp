@@ -46,8 +46,13 @@ PlacedPair hull_pair(std::uint64_t k) {
   const double scale = dice.power_of_ten(-3, 3), ratio = dice.below(2) ? 1 : dice.power_of_ten(-2, 0);
   const auto count = [&] { return k % 10 == 0 ? 128 : 4 + dice.below(28); };
   const double size_a = scale, size_b = scale * ratio;
-  PlacedPair p = {sphere_hull(dice, count(), size_a), sphere_hull(dice, count(), size_b),
-                  {scale * bell_vector(dice), dice.rotation()}, {}, size_a, size_b, true};
+  PlacedPair p = {sphere_hull(dice, count(), size_a),
+                  sphere_hull(dice, count(), size_b),
+                  {scale * bell_vector(dice), dice.rotation()},
+                  {},
+                  size_a,
+                  size_b,
+                  true};
   p.at_b = {p.at_a.position + dice.uniform(0, 1) * (size_a + size_b) * dice.direction(), dice.rotation()};
   return p;
 }
@@ -71,7 +76,8 @@ PlacedPair any_pair(std::uint64_t seed) {
   p.a = shape(p.size_a);
   p.b = shape(p.size_b);
   p.at_a = {bell_vector(dice), dice.rotation()};
-  p.at_b = {p.at_a.position + dice.uniform(0, 2) * bell_vector(dice), dice.below(3) ? dice.rotation() : p.at_a.rotation};
+  p.at_b = {p.at_a.position + dice.uniform(0, 2) * bell_vector(dice),
+            dice.below(3) ? dice.rotation() : p.at_a.rotation};
   if (dice.below(8) == 0) p.at_b.position = p.at_a.position;
   return p;
 }

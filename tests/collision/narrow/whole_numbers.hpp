@@ -11,7 +11,8 @@
 namespace polhode {
 
 /// Numbers of up to 1024 bits lie in the object itself; longer ones ask for memory.
-using Whole = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<1024>, boost::multiprecision::et_off>;
+using Whole =
+    boost::multiprecision::number<boost::multiprecision::cpp_int_backend<1024>, boost::multiprecision::et_off>;
 
 template <class T>
 using Three = std::array<T, 3>;

@@ -44,7 +44,8 @@ struct Pile {
       start.position = {(k % row - (row - 1) / 2.0) * 1.5, (k / row - (row - 1) / 2.0) * 1.5, 0.9 + 1.5 * layer};
       // Angles that the golden ratio spreads evenly.
       const double way = 2 * std::numbers::pi * std::fmod(i * std::numbers::phi, 1), turn = tilt * std::sin(i + 1.0);
-      start.orientation = {std::cos(turn / 2), std::sin(turn / 2) * std::cos(way), std::sin(turn / 2) * std::sin(way), 0};
+      start.orientation = {std::cos(turn / 2), std::sin(turn / 2) * std::cos(way), std::sin(turn / 2) * std::sin(way),
+                           0};
     }
     problem.forces = {weight};
     for (const auto& [normal, offset] : walls()) {
@@ -62,7 +63,11 @@ struct Pile {
     double offset;           ///< m
   };
   std::array<Wall, 5> walls() const {
-    return {{{{0, 0, 1}, 0}, {{1, 0, 0}, -half_width}, {{-1, 0, 0}, -half_width}, {{0, 1, 0}, -half_width}, {{0, -1, 0}, -half_width}}};
+    return {{{{0, 0, 1}, 0},
+             {{1, 0, 0}, -half_width},
+             {{-1, 0, 0}, -half_width},
+             {{0, 1, 0}, -half_width},
+             {{0, -1, 0}, -half_width}}};
   }
 };
 

@@ -29,7 +29,8 @@ struct Watch final : Observer {
 
 class Piles : public testing::TestWithParam<int> {};
 
-/// Lines of issue and paper alike: the energy does not rise, nobody leaves or passes through another, nobody is deep in another.
+/// Lines of issue and paper alike: the energy does not rise, nobody leaves or passes through another, nobody is deep in
+/// another.
 void drop(int cubes, double t_end) {
   const Pile pile(cubes);
   const auto system = make_system<double>(pile.problem, {});
@@ -39,8 +40,9 @@ void drop(int cubes, double t_end) {
   const auto method = find_integrator("semi_implicit_euler")->make(*system, {.dt = dt, .t_end = t_end});
   State<double> state = system->start();
   Watch watch;
-  const RunOutcome outcome = simulate<double>(*system, *system, *method, state,
-                                              {.t_end = t_end, .dt = dt, .samples = {}, .normalise = true}, watch, nullptr, &contact);
+  const RunOutcome outcome =
+      simulate<double>(*system, *system, *method, state, {.t_end = t_end, .dt = dt, .samples = {}, .normalise = true},
+                       watch, nullptr, &contact);
   ASSERT_EQ(outcome.status, RunStatus::ok) << outcome.message;
   EXPECT_LE(watch.rise, 1e-3 * watch.first);
   std::vector<Pose> poses;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the responses are made of: the complementarity problem, the cone, the parabola of energy, the batches, the forces of
-// the step before.
+// What the responses are made of: the complementarity problem, the cone, the parabola of energy, the batches, the
+// forces of the step before.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -47,8 +47,8 @@ TEST(Complementarity, SolvesProblemsOfEveryRank) {
     for (Eigen::Index i = 0; i < size; ++i) {
       for (Eigen::Index k = 0; k < rank; ++k) jacobian(i, k) = dice.uniform(-1, 1);
       if (i > 0 && dice.chance(0.3)) jacobian.row(i) = jacobian.row(i - 1);  // the same again
-      b[i] = dice.chance(0.3) ? dice.uniform(0, 0.5) : 0;                   // a gap
-      if (dice.chance(0.3)) j[i] = dice.uniform(0, 1);                      // a start that is not zero
+      b[i] = dice.chance(0.3) ? dice.uniform(0, 0.5) : 0;                    // a gap
+      if (dice.chance(0.3)) j[i] = dice.uniform(0, 1);                       // a start that is not zero
     }
     const Eigen::MatrixXd a = jacobian * jacobian.transpose();
     b += jacobian * motion;
@@ -66,7 +66,8 @@ TEST(Complementarity, SolvesProblemsOfEveryRank) {
 TEST(FrictionCone, ComesToRestAgainstTheSlip) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     Dice dice(seed);
-    const double tt = dice.uniform(1, 3), bb = dice.uniform(1, 3), tb = dice.uniform(-0.9, 0.9), radius = dice.uniform(0, 1);
+    const double tt = dice.uniform(1, 3), bb = dice.uniform(1, 3), tb = dice.uniform(-0.9, 0.9),
+                 radius = dice.uniform(0, 1);
     const Tangential<double> before{dice.uniform(-2, 2), dice.uniform(-2, 2)};
     const FrictionCone<double> cone(tt, tb, bb);
     Tangential<double> j{0, 0}, slip = before;
@@ -89,8 +90,8 @@ TEST(FrictionCone, TakesNothingFromWhatCannotMove) {
 
 TEST(EnergyGuard, FindsWhereTheParabolaEndsAtZero) {
   EXPECT_EQ(share_without_gain(-1, 5, -0.5), 1);
-  EXPECT_NEAR(share_without_gain(-1, 0, 3), 0.5, 1e-15);    // 4 s² − 1
-  EXPECT_NEAR(share_without_gain(0, -1, 1), 0.5, 1e-15);    // 2 s² − s
+  EXPECT_NEAR(share_without_gain(-1, 0, 3), 0.5, 1e-15);                            // 4 s² − 1
+  EXPECT_NEAR(share_without_gain(0, -1, 1), 0.5, 1e-15);                            // 2 s² − s
   EXPECT_NEAR(share_without_gain(-1, 1.5, 1), 2 / (1.5 + std::sqrt(4.25)), 1e-15);  // s²/2 + 1.5 s − 1
   EXPECT_EQ(share_without_gain(0, 1, 3), 0);
   EXPECT_EQ(share_without_gain(0, 0, 0), 1);
@@ -147,7 +148,8 @@ TEST(Islands, EndAtWhatCannotMove) {
   const ImpulseBody wall, moves = laws::ball(1, 1, Vector3<double>::Zero());
   const std::vector<ImpulseBody> bodies = {wall, moves, moves, moves, moves, wall};
   std::vector<ImpulseContact> contacts;
-  for (const auto& [a, b] : std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 1}, {0, 2}, {0, 5}, {1, 4}, {2, 3}, {3, 5}, {4, 5}}) {
+  for (const auto& [a, b] :
+       std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 1}, {0, 2}, {0, 5}, {1, 4}, {2, 3}, {3, 5}, {4, 5}}) {
     contacts.emplace_back().a = a;
     contacts.back().b = b;
   }
@@ -177,9 +179,10 @@ TEST(WarmStart, FindsForcesByFeatureThenByPlace) {
   const std::vector<ImpulseBody> bodies(4);
   const std::vector<ImpulseContact> before = {contact(0, 1, 1, 0, 1), contact(0, 1, 2, 1, 2), contact(0, 1, 3, 2, 3),
                                               contact(1, 2, 1, 0, 4), contact(2, 3, 1, 0, 5)};
-  // Two of the first pair have changed their features and their order; one pair is new, one is gone, one has a new step.
+  // Two of the first pair have changed their features and their order; one pair is new, one is gone, one has a new
+  // step.
   std::vector<ImpulseContact> after = {contact(0, 1, 8, 2.1, 0), contact(0, 1, 9, 0.1, 0), contact(0, 1, 2, 7, 0),
-                                       contact(0, 1, 7, 1, 9), contact(0, 2, 1, 0, 9), contact(2, 3, 1, 0, 0)};
+                                       contact(0, 1, 7, 1, 9),   contact(0, 2, 1, 0, 9),   contact(2, 3, 1, 0, 0)};
   WarmStart memory;
   memory.remember(bodies, before, 0.1);
   memory.recall(bodies, after, 0.2);

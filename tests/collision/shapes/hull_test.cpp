@@ -63,7 +63,7 @@ void expect_sound(const Polytope& p) {
 TEST(ConvexHull, OfACubeHasSixSquares) {
   Points points = cube(0.5, rotation_matrix(Quaternion<double>(0.3, -0.5, 0.7, 0.2)), {10, -20, 30});
   points.insert(points.begin() + 3, Vector(10, -20, 30));  // inside
-  points.push_back(0.5 * (points[0] + points[1]));          // on an edge
+  points.push_back(0.5 * (points[0] + points[1]));         // on an edge
   const ConvexHull hull(points);
   EXPECT_EQ(hull.polytope().vertices.size(), 8u);
   EXPECT_EQ(hull.polytope().faces.size(), 6u);
@@ -173,13 +173,16 @@ const std::string tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 
 
 TEST(Compound, TakesWhatObjFilesHold) {
   EXPECT_EQ(compound_fault(tetrahedron), "");
-  EXPECT_EQ(compound_fault("# a comment\nmtllib a.mtl\ng one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\nusemtl red\n"
-                           "f 1//1 -2//1 2//1\nf 1/1/1 2/2/2 4/1/1\ns off\nf -3 -2 -1\nf 3 1 4 # last\n"), "");
+  EXPECT_EQ(
+      compound_fault("# a comment\nmtllib a.mtl\ng one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\nusemtl red\n"
+                     "f 1//1 -2//1 2//1\nf 1/1/1 2/2/2 4/1/1\ns off\nf -3 -2 -1\nf 3 1 4 # last\n"),
+      "");
 }
 
 TEST(Compound, RefusesWithFileAndLine) {
   using testing::StartsWith;
-  EXPECT_THAT(compound_fault("v 0 0 zero\n"), StartsWith("piece.obj:1: a vertex needs three finite numbers, not 'zero'"));
+  EXPECT_THAT(compound_fault("v 0 0 zero\n"),
+              StartsWith("piece.obj:1: a vertex needs three finite numbers, not 'zero'"));
   EXPECT_THAT(compound_fault("v 0 0\n"), StartsWith("piece.obj:1: "));
   EXPECT_THAT(compound_fault("v 0 0 nan\n"), StartsWith("piece.obj:1: "));
   EXPECT_THAT(compound_fault("v 0 0 0\nf 1 1 2\n"), StartsWith("piece.obj:2: vertex 2 is not among the 1 above"));

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "core/forces/catalogue.hpp"
 #include "core/exact/reference_motion.hpp"
+#include "core/forces/catalogue.hpp"
 
 namespace polhode {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The quaternions of the engine slides against ours: the product letter by letter, the rotation that a quaternion stands for,
-// and the slides' transform matrix, which is the transpose of that rotation.
+// The quaternions of the engine slides against ours: the product letter by letter, the rotation that a quaternion
+// stands for, and the slides' transform matrix, which is the transpose of that rotation.
 #include "core/math/quaternion.hpp"
 
 #include <gtest/gtest.h>
@@ -21,8 +21,8 @@ using Vector = Vector3<double>;
 /// "Quaternion Operations".
 Q slides_product(const Q& a, const Q& b) {
   const double w1 = a[0], x1 = a[1], y1 = a[2], z1 = a[3], w2 = b[0], x2 = b[1], y2 = b[2], z2 = b[3];
-  return {w1 * w2 - x1 * x2 - y1 * y2 - z1 * z2, w1 * x2 + x1 * w2 + y1 * z2 - z1 * y2, w1 * y2 - x1 * z2 + y1 * w2 + z1 * x2,
-          w1 * z2 + x1 * y2 - y1 * x2 + z1 * w2};
+  return {w1 * w2 - x1 * x2 - y1 * y2 - z1 * z2, w1 * x2 + x1 * w2 + y1 * z2 - z1 * y2,
+          w1 * y2 - x1 * z2 + y1 * w2 + z1 * x2, w1 * z2 + x1 * y2 - y1 * x2 + z1 * w2};
 }
 
 /// "Computing the Transform Matrix", its rotation part.

@@ -163,7 +163,8 @@ TEST(Invariants, ValuesByHand) {
   EXPECT_DOUBLE_EQ(invariant("kovalevskaya").value(problem, s), (1 - 4 - 5) * (1 - 4 - 5) + 16);  // k = 1·10·0.5/1
 }
 
-/// The size of the terms, not of their sum: no value is larger, and it is zero only where nothing turns and no weight pulls.
+/// The size of the terms, not of their sum: no value is larger, and it is zero only where nothing turns and no weight
+/// pulls.
 TEST(Invariants, ScalesAreTheSizeOfTheTerms) {
   for (const bool gravity : {false, true}) {
     for (const Vector& spin : {Vector(0, 0, 0), Vector(1, 0, 0), Vector(1e-20, 0, 1), Vector(0.3, -2, 0.7)}) {

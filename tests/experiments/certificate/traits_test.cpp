@@ -5,10 +5,10 @@
 #include <cmath>
 #include <functional>
 
-#include "experiments/study/run/run.hpp"
 #include "experiments/certificate/certificate.hpp"
 #include "experiments/certificate/order_finding.hpp"
 #include "experiments/certificate/symplecticity.hpp"
+#include "experiments/study/run/run.hpp"
 #include "tests/laws/problems.hpp"
 #include "tests/laws/reference_flow.hpp"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The growth of made-up errors: random walks, sums of them, straight lines and what does not grow.
+#include "experiments/precision/growth_estimate.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
-
-#include "experiments/precision/growth_estimate.hpp"
 
 namespace polhode::study {
 namespace {

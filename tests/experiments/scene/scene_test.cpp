@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is drawn of a scenario: surfaces of every shape of the catalogue, boxes that stand for an inertia, floors, springs.
+// What is drawn of a scenario: surfaces of every shape of the catalogue, boxes that stand for an inertia, floors,
+// springs.
 #include "experiments/scene/scene.hpp"
 
 #include <gtest/gtest.h>
@@ -8,9 +9,9 @@
 #include <fstream>
 #include <map>
 
-#include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/box.hpp"
 #include "collision/shapes/cylinder.hpp"
+#include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/shape_inertia.hpp"
 #include "experiments/study/scenario/builtin_scenarios.hpp"
 #include "tests/temporary_folder.hpp"
@@ -31,7 +32,8 @@ std::string obj_file() {
       for (int i = 0; i < 3; ++i) file << (i ? " " : "v ") << (k >> i & 1 ? high[i] : low[i]);
       file << "\n";
     }
-    for (const auto& f : {std::array{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
+    for (const auto& f :
+         {std::array{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
       file << "f " << base + f[0] << " " << base + f[1] << " " << base + f[2] << " " << base + f[3] << "\n";
     }
   };
@@ -58,7 +60,8 @@ Vector corner(const Surface& s, std::size_t k) { return s.points[s.corners[k]].c
 
 double volume(const Surface& s) {
   double six = 0;
-  for (std::size_t k = 0; k < s.corners.size(); k += 3) six += corner(s, k).dot(corner(s, k + 1).cross(corner(s, k + 2)));
+  for (std::size_t k = 0; k < s.corners.size(); k += 3)
+    six += corner(s, k).dot(corner(s, k + 1).cross(corner(s, k + 2)));
   return six / 6;
 }
 
@@ -72,7 +75,8 @@ void expect_watertight(const Surface& s, bool convex) {
   };
   ASSERT_EQ(s.corners.size() % 3, 0u);
   for (std::size_t k = 0; k < s.corners.size(); k += 3) {
-    for (const auto& [i, j] : {std::pair<std::size_t, std::size_t>(0, 1), {1, 2}, {2, 0}}) ++edges[{place(k + i), place(k + j)}];
+    for (const auto& [i, j] : {std::pair<std::size_t, std::size_t>(0, 1), {1, 2}, {2, 0}})
+      ++edges[{place(k + i), place(k + j)}];
   }
   for (const auto& [edge, times] : edges) {
     ASSERT_EQ((edges[{edge.second, edge.first}]), times);
@@ -80,7 +84,8 @@ void expect_watertight(const Surface& s, bool convex) {
   }
 }
 
-/// Triangles turn counterclockwise seen along their normals, none of which lies more than the smoothed angle beside its face.
+/// Triangles turn counterclockwise seen along their normals, none of which lies more than the smoothed angle beside its
+/// face.
 void expect_normals_outward(const Surface& s) {
   ASSERT_EQ(s.points.size(), s.normals.size());
   for (std::size_t k = 0; k < s.corners.size(); k += 3) {
@@ -93,7 +98,8 @@ void expect_normals_outward(const Surface& s) {
   }
 }
 
-/// m, how far a point lies inside of a convex shape: the least of h(d) - d·x over the directions, found by descent from d.
+/// m, how far a point lies inside of a convex shape: the least of h(d) - d·x over the directions, found by descent from
+/// d.
 double depth(const Shape& shape, const Vector& x, Vector d) {
   const auto gap = [&](const Vector& u) { return u.dot(shape.support(u) - x); };
   double step = 1;
@@ -187,7 +193,8 @@ point_masses = [{ mass = 1, position = [1, 1, 1] }, { mass = 1, position = [3, 3
   const Surface& s = scene.surfaces[*scene.bodies[0].surface];
   expect_watertight(s, true);
   expect_normals_outward(s);
-  // Second moments along the diagonals (1, 1, 0) and (1, -1, 0) are 4 and 2 kg m², of 6 kg: edges √(12 · 4/6) and √(12 · 2/6).
+  // Second moments along the diagonals (1, 1, 0) and (1, -1, 0) are 4 and 2 kg m², of 6 kg: edges √(12 · 4/6) and √(12
+  // · 2/6).
   Eigen::AlignedBox3d turned;
   const double h = std::sqrt(0.5);
   for (const Vector3<float>& x : s.points) turned.extend(Vector(h * (x[0] + x[1]), h * (x[0] - x[1]), x[2]));

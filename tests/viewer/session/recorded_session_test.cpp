@@ -6,9 +6,9 @@
 #include <deque>
 #include <numbers>
 
-#include "experiments/study/text/input_error.hpp"
 #include "core/math/quaternion.hpp"
 #include "experiments/study/run/run.hpp"
+#include "experiments/study/text/input_error.hpp"
 #include "experiments/viewer/window/frame_clock.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/viewer/session/session_run.hpp"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A session is recorded, and carried out again to the same bytes; what is no record is refused with place and reason.
+#include "experiments/viewer/session/session_record.hpp"
+
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -7,7 +9,6 @@
 #include "core/math/portable_random.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/viewer/session/segment_run.hpp"
-#include "experiments/viewer/session/session_record.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/viewer/session/session_run.hpp"
 
@@ -24,7 +25,9 @@ std::size_t place_in(Dice& dice, const std::string& text) {
   return static_cast<std::size_t>(dice.below(static_cast<int>(text.size())));
 }
 
-void write(const std::filesystem::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+void write(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
 
 /// The last digest of a record.
 std::string recorded_end(const std::string& text) {
@@ -47,7 +50,9 @@ void change_something(Session& session, Dice& dice) {
       if (c.run.dt) c.run.dt = dice.uniform(0.005, 0.02);
       break;
     case 3: c.run.formulation.orientation = dice.below(2) ? Orientation::matrix : Orientation::quaternion; break;
-    case 4: c.run.formulation.angular_state = dice.below(2) ? AngularState::velocity_body : AngularState::momentum_world; break;
+    case 4:
+      c.run.formulation.angular_state = dice.below(2) ? AngularState::velocity_body : AngularState::momentum_world;
+      break;
     default: c.drive = dice.below(2) ? Drive::frame_clock : Drive::accumulator;
   }
   if (c.run.contact) c.run.contact->impact_timing = c.run.dt && dice.below(2) ? "time_stepping" : "event_located";
@@ -201,7 +206,8 @@ TEST(SessionRecord, NumbersReadBackExactly) {
   ASSERT_EQ(record.segments.size(), 1u);
   EXPECT_EQ(record.segments[0].configuration.run.dt, 0.1 + 0.2);
   std::vector<double> read;
-  for (const SegmentPart& part : record.segments[0].parts) read.insert(read.end(), part.sizes.begin(), part.sizes.end());
+  for (const SegmentPart& part : record.segments[0].parts)
+    read.insert(read.end(), part.sizes.begin(), part.sizes.end());
   EXPECT_EQ(read, sizes);
   EXPECT_EQ(rerun((folder.path() / "session.toml").string()).mismatch, "");
 }
@@ -247,16 +253,19 @@ TEST(SessionRecord, FaultsAreSaidWithTheirPlace) {
     return fault(other.replace(at, from.size(), to));
   };
   EXPECT_THAT(after("version = 1", "version = 2"), testing::StartsWith("s.toml:2:11: version: "));
-  EXPECT_THAT(after("scenario = \"two_cubes\"", "scenario = \"two_cubs\""), testing::HasSubstr("did you mean 'two_cubes'"));
+  EXPECT_THAT(after("scenario = \"two_cubes\"", "scenario = \"two_cubs\""),
+              testing::HasSubstr("did you mean 'two_cubes'"));
   EXPECT_THAT(after("\"2.5\"", "\"3.5\""), testing::HasSubstr("not the one that was recorded"));
   EXPECT_THAT(after("\"2.5\"", "\"-1\""), testing::StartsWith("s.toml:8: override.0: "));
   EXPECT_THAT(after("\"rk4\"", "\"rk5\""), testing::HasSubstr("no integrator is called 'rk5'"));
-  EXPECT_THAT(after("steps = 30", "steps = 2.5"), testing::HasSubstr("segment.0.part.0.steps: 2.5 is not a valid steps"));
+  EXPECT_THAT(after("steps = 30", "steps = 2.5"),
+              testing::HasSubstr("segment.0.part.0.steps: 2.5 is not a valid steps"));
   EXPECT_THAT(after("from_segment = 1", "from_segment = 2"), testing::HasSubstr("segment.1.from_segment"));
   EXPECT_THAT(after("from_step = 10", "from_step = 31"), testing::HasSubstr("segment.1.from_step"));
   EXPECT_THAT(after("drive = \"accumulator\"", "drive = \"clock\""), testing::HasSubstr("segment.0.drive"));
   EXPECT_THAT(after("dt = ", "tt = "), testing::HasSubstr("there is no such key"));
-  EXPECT_THAT(after("]]\nsteps = 30\ndigest = \"", "]]\nsteps = 30\ndigest = \"x"), testing::HasSubstr("16 hexadecimal digits"));
+  EXPECT_THAT(after("]]\nsteps = 30\ndigest = \"", "]]\nsteps = 30\ndigest = \"x"),
+              testing::HasSubstr("16 hexadecimal digits"));
   EXPECT_THAT(after("version = 1", "version ="), testing::StartsWith("s.toml:2:"));
   EXPECT_THROW(read_session("no/such/file.toml"), study::InputError);
   EXPECT_THROW(read_session("/"), study::InputError);
@@ -264,9 +273,25 @@ TEST(SessionRecord, FaultsAreSaidWithTheirPlace) {
 
 TEST(SessionRecordFuzz, MutatedRecordsAreReadOrRefused) {
   const std::string text = a_record();
-  const std::vector<std::string> snippets = {"-1", "nan", "inf", "1e300", "\"", "[", "]", "=", "\n", "0", "true", "\x80", "rk4",
-                                             "1.5", "[[segment]]\n", "[[segment.part]]\n", "steps = 5\n",
-                                             "sizes = [0.1]\n", "from_segment = 1\n"};
+  const std::vector<std::string> snippets = {"-1",
+                                             "nan",
+                                             "inf",
+                                             "1e300",
+                                             "\"",
+                                             "[",
+                                             "]",
+                                             "=",
+                                             "\n",
+                                             "0",
+                                             "true",
+                                             "\x80",
+                                             "rk4",
+                                             "1.5",
+                                             "[[segment]]\n",
+                                             "[[segment.part]]\n",
+                                             "steps = 5\n",
+                                             "sizes = [0.1]\n",
+                                             "from_segment = 1\n"};
   Dice dice(5);
   int read_well = 0;
   constexpr int rounds = 3000;
@@ -279,7 +304,8 @@ TEST(SessionRecordFuzz, MutatedRecordsAreReadOrRefused) {
         case 1: other.erase(at, 1 + place_in(dice, "twelve bytes")); break;
         case 2: other[at] = static_cast<char>(dice.below(256)); break;
         default: {  // a line goes, or stands twice
-          const auto begin = other.rfind('\n', at == 0 ? 0 : at - 1) + 1, end = std::min(other.find('\n', begin), other.size());
+          const auto begin = other.rfind('\n', at == 0 ? 0 : at - 1) + 1,
+                     end = std::min(other.find('\n', begin), other.size());
           const std::string line = other.substr(begin, end + 1 - begin);
           if (dice.below(2) == 0) other.erase(begin, line.size());
           else other.insert(begin, line);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A live session: its digits are those of the same run without a window, whatever the pace, the pauses and the times of the
-// frames; and each command does what it says.
+// A live session: its digits are those of the same run without a window, whatever the pace, the pauses and the times of
+// the frames; and each command does what it says.
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <thread>
 
 #include "core/math/portable_random.hpp"
-#include "experiments/study/text/input_error.hpp"
 #include "experiments/study/run/run.hpp"
+#include "experiments/study/text/input_error.hpp"
 #include "experiments/viewer/session/pace.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/viewer/session/session_run.hpp"
@@ -30,7 +30,8 @@ INSTANTIATE_TEST_SUITE_P(Sessions, SameBytes,
                                          Case{"pile_10", "semi_implicit_euler", 1e-2, 1.5, "time_stepping"},
                                          Case{"bouncing_ball", "rk4", 1e-2, 3, "event_located"},
                                          Case{"bouncing_ball", "cvode_adams", 0, 2, "event_located"},
-                                         Case{"peters_hsu", "cvode_adams", 0, 3}, Case{"two_bodies", "odeint_dopri5", 0, 1}),
+                                         Case{"peters_hsu", "cvode_adams", 0, 3},
+                                         Case{"two_bodies", "odeint_dopri5", 0, 1}),
                          [](const auto& param_info) {
                            const Case& c = param_info.param;
                            return c.scenario + "_" + c.integrator + "_" + c.timing;
@@ -210,7 +211,8 @@ TEST(Session, ChangesItsFormulationWhileItRuns) {
     session->step(500);
     const auto start = settled(*session);
     for (const Orientation o : {Orientation::matrix, Orientation::quaternion}) {
-      for (const AngularState a : {AngularState::velocity_body, AngularState::momentum_world, AngularState::velocity_world}) {
+      for (const AngularState a :
+           {AngularState::velocity_body, AngularState::momentum_world, AngularState::velocity_world}) {
         const auto before = settled(*session);
         Configuration c = before->configuration;
         c.run.formulation.orientation = o;
@@ -241,21 +243,24 @@ TEST(Session, ChangesItsFormulationWhileItRuns) {
 TEST(Session, OneLedgerGoesThroughAllChanges) {
   const TemporaryFolder folder;
   const auto in_air = (folder.path() / "in_air.toml").string();
-  std::ofstream(in_air) << "t_end = 10\n[[body]]\nname = \"box\"\nmass = 2\nshape = { kind = \"box\", size = [1, 2, 3] }\n"
-                           "velocity = [3, 1, -2]\nangular_velocity = [2, 1, -3]\n"
-                           "[[force]]\nkind = \"drag\"\nbodies = [\"box\"]\nlinear = 0.5\n";
+  std::ofstream(in_air)
+      << "t_end = 10\n[[body]]\nname = \"box\"\nmass = 2\nshape = { kind = \"box\", size = [1, 2, 3] }\n"
+         "velocity = [3, 1, -2]\nangular_velocity = [2, 1, -3]\n"
+         "[[force]]\nkind = \"drag\"\nbodies = [\"box\"]\nlinear = 0.5\n";
   for (const std::string& scenario : {in_air, std::string("bouncing_ball")}) {
     Configuration c = with(scenario, "semi_implicit_euler", 1e-2, 10);
     c.run.formulation.orientation = Orientation::matrix;
     c.run.normalise = true;
     const auto session = open(scenario, c);
     session->step(150);
-    for (const AngularState a : {AngularState::velocity_body, AngularState::momentum_world, AngularState::velocity_world}) {
+    for (const AngularState a :
+         {AngularState::velocity_body, AngularState::momentum_world, AngularState::velocity_world}) {
       const auto before = settled(*session);
       c.run.formulation.angular_state = a;
       ASSERT_EQ(session->change(c), "");
       const auto after = settled(*session);
-      EXPECT_NEAR(after->frame.energy_drift, before->frame.energy_drift, 1e-12 * (1 + after->frame.kinetic)) << scenario;
+      EXPECT_NEAR(after->frame.energy_drift, before->frame.energy_drift, 1e-12 * (1 + after->frame.kinetic))
+          << scenario;
       EXPECT_NEAR(after->frame.momentum_drift, before->frame.momentum_drift, 1e-12) << scenario;
       session->step(10);
     }

@@ -13,8 +13,8 @@
 
 #include "collision/shapes/box.hpp"
 #include "experiments/scene/scene.hpp"
-#include "experiments/viewer/pictures/offscreen.hpp"
 #include "experiments/viewer/drawing/renderer.hpp"
+#include "experiments/viewer/pictures/offscreen.hpp"
 
 namespace polhode::viewer {
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "experiments/study/plot/figure.hpp"
 #include "experiments/study/curves/selection.hpp"
+#include "experiments/study/plot/figure.hpp"
 
 namespace polhode::study::report {
 
@@ -14,7 +14,8 @@ bool has_value(const Curve& curve, const Quantity& quantity);
 /// A value, or a run that ended early and so has a cross.
 bool has_mark(const Curve& curve, const Quantity& quantity);
 
-/// All on one y axis, without panels in which everything is exactly zero; with `guides`, gray lines of slope 1, 2 and 4.
+/// All on one y axis, without panels in which everything is exactly zero; with `guides`, gray lines of slope 1, 2
+/// and 4.
 std::vector<Panel> panels_against_step(const Selection& selection, const Quantity& quantity, bool guides);
 
 }  // namespace polhode::study::report

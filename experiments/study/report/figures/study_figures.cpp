@@ -8,12 +8,12 @@
 #include <set>
 #include <utility>
 
-#include "experiments/study/plot/figure_layout.hpp"
-#include "experiments/study/text/notation.hpp"
 #include "experiments/study/curves/reference_words.hpp"
 #include "experiments/study/curves/selection.hpp"
+#include "experiments/study/plot/figure_layout.hpp"
 #include "experiments/study/report/figures/step_panels.hpp"
 #include "experiments/study/report/figures/time_panels.hpp"
+#include "experiments/study/text/notation.hpp"
 
 namespace polhode::study::report {
 
@@ -213,11 +213,12 @@ class Figures {
   void error_against_step() {
     const auto quantities = defined({quantity::attitude_error(), quantity::position_error()});
     const bool by_reference = std::any_of(study_.runs.begin(), study_.runs.end(), used_reference);
-    Figure figure{.name = "error_against_step",
-                  .title = "Error against the step",
-                  .caption = fmt::format("The largest distance of each run from the exact motion{}, against its step; a motion "
-                                         "without any error of one kind has no panel for it.",
-                                         by_reference ? " or, where none is known, from the reference" : "")};
+    Figure figure{
+        .name = "error_against_step",
+        .title = "Error against the step",
+        .caption = fmt::format("The largest distance of each run from the exact motion{}, against its step; a motion "
+                               "without any error of one kind has no panel for it.",
+                               by_reference ? " or, where none is known, from the reference" : "")};
     if (quantities.empty()) {
       return absent(figure, by_reference ? "no exact solution is known for these motions, and their reference proves "
                                            "too few digits"

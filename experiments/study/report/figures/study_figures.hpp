@@ -7,7 +7,8 @@
 
 namespace polhode::study::report {
 
-/// Those of the analysis first, then those that the study has data for. What would be too much to read is left out, and the caption says so.
+/// Those of the analysis first, then those that the study has data for. What would be too much to read is left out, and
+/// the caption says so.
 FigureSet figures_of(const StudyView& study, const Grouping& grouping);
 
 }  // namespace polhode::study::report

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/study/plot/figure.hpp"
 #include "experiments/study/curves/selection.hpp"
+#include "experiments/study/plot/figure.hpp"
 
 namespace polhode::study::report {
 

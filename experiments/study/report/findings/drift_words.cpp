@@ -37,7 +37,8 @@ std::string exponent_interval(const RunResult& r) {
 }
 
 std::string growth_words(const RunResult& r) {
-  if (r.drift_decided_after) return fmt::format("{}, which some {} s would decide", r.drift_class, number(*r.drift_decided_after, 2));
+  if (r.drift_decided_after)
+    return fmt::format("{}, which some {} s would decide", r.drift_class, number(*r.drift_decided_after, 2));
   if (r.drift_class.empty() || !r.drift_exponent || r.drift_class == "bounded") return r.drift_class;
   return fmt::format("{}: p = {}, 95 % between {} and {}", r.drift_class, exponent(*r.drift_exponent),
                      exponent(*r.drift_exponent_low), exponent(*r.drift_exponent_high));
@@ -83,11 +84,11 @@ std::vector<std::string> growth_sentences(const StudyView& study) {
   if (durations.empty()) return sentences;
   std::sort(durations.begin(), durations.end());
   const std::string least = number(durations.front(), 2), most = number(durations.back(), 2);
-  sentences.push_back(fmt::format("{} would decide {}, by estimate.",
-                                  least == most ? fmt::format("Some {} s", least) : fmt::format("Between {} and {} s", least, most),
-                                  durations.size() == classes["undecided"].runs
-                                      ? (durations.size() == 1 ? std::string("it") : std::string("them"))
-                                      : fmt::format("{} of them", durations.size())));
+  sentences.push_back(fmt::format(
+      "{} would decide {}, by estimate.",
+      least == most ? fmt::format("Some {} s", least) : fmt::format("Between {} and {} s", least, most),
+      durations.size() == classes["undecided"].runs ? (durations.size() == 1 ? std::string("it") : std::string("them"))
+                                                    : fmt::format("{} of them", durations.size())));
   return sentences;
 }
 
@@ -103,9 +104,10 @@ std::vector<std::string> polhode_sentences(const StudyView& study) {
   for (const std::string& method : both) phase.erase(method);
   std::vector<std::string> sentences;
   if (!phase.empty()) {
-    sentences.push_back(fmt::format(
-        "The error of {} in the body is one of phase alone: the momentum stays on its polhode and is early or late there.",
-        some(phase)));
+    sentences.push_back(
+        fmt::format("The error of {} in the body is one of phase alone: the momentum stays on its polhode and is early "
+                    "or late there.",
+                    some(phase)));
   }
   if (!both.empty()) {
     sentences.push_back(fmt::format("{} {} the polhode too, since energy or |L| change.", some(both),

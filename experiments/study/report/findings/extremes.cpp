@@ -135,8 +135,9 @@ std::string least_and_most(const Ranking& r, const Quantity& quantity) {
   if (!r.at_round_off.empty())
     return fmt::format("{} has the most ({})", most.method, number(most.value) + quantity.unit);
   return fmt::format("{} has the least {} ({}{}) and {} the most ({})", least.method, quantity.words,
-                     number(least.value) + quantity.unit, least.off_the_motion ? ", but does not follow the motion" : "",
-                     most.method, number(most.value) + quantity.unit);
+                     number(least.value) + quantity.unit,
+                     least.off_the_motion ? ", but does not follow the motion" : "", most.method,
+                     number(most.value) + quantity.unit);
 }
 
 /// "no run follows the motion: the attitude of rk4 and heun is off by more than a radian".
@@ -144,9 +145,10 @@ std::string lost_ones(const Ranking& r, const Quantity& quantity) {
   const bool none_left = r.above.empty() && r.at_round_off.empty();
   if (!is_error(quantity)) {
     if (!none_left) return "";  // the most of them is named
-    return fmt::format("no run keeps it: the {} of {} is {}{}", quantity.words, methods_in(r.lost), lost_words(quantity),
-                       r.lost.size() > 1 ? fmt::format(", of {} the most ({})", r.lost.back().method, number(r.lost.back().value))
-                                         : fmt::format(" ({})", number(r.lost.back().value)));
+    return fmt::format(
+        "no run keeps it: the {} of {} is {}{}", quantity.words, methods_in(r.lost), lost_words(quantity),
+        r.lost.size() > 1 ? fmt::format(", of {} the most ({})", r.lost.back().method, number(r.lost.back().value))
+                          : fmt::format(" ({})", number(r.lost.back().value)));
   }
   return fmt::format("{}the {} of {} is {}", none_left ? "no run follows the motion: " : "",
                      quantity.unit == " rad" ? "attitude" : "position", methods_in(r.lost), lost_words(quantity));
@@ -264,10 +266,8 @@ std::vector<std::string> table_row(const Grouping& grouping, const Group& group,
     least = fmt::format("{} ({}, off the motion)", r.above.front().method, number(r.above.front().value));
   }
   std::string most;
-  if (compares)
-    most = entry(r.lost.back());
-  else if (!r.above.empty() && several)
-    most = entry(r.above.back());
+  if (compares) most = entry(r.lost.back());
+  else if (!r.above.empty() && several) most = entry(r.above.back());
   if (!r.at_round_off.empty()) {
     least = fmt::format("{} (round-off)", methods_in(r.at_round_off));
   } else if (several && !compares && alike(r)) {
@@ -304,8 +304,8 @@ Table table_of(const Grouping& grouping, const std::vector<Group>& groups, const
         table.caption += fmt::format("; the first {} rows", most_table_rows);
         return without_empty_columns(std::move(table));
       }
-      table.rows.push_back(
-          table_row(grouping, group, quantity, ranking(grouping, group, quantity, largest ? *steps.rbegin() : *steps.begin())));
+      table.rows.push_back(table_row(grouping, group, quantity,
+                                     ranking(grouping, group, quantity, largest ? *steps.rbegin() : *steps.begin())));
     }
   }
   return without_empty_columns(std::move(table));

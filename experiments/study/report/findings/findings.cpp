@@ -12,13 +12,13 @@
 #include <utility>
 
 #include "experiments/study/curves/declared_order.hpp"
-#include "experiments/study/report/findings/drift_words.hpp"
 #include "experiments/study/curves/error_ladder.hpp"
+#include "experiments/study/curves/reference_words.hpp"
+#include "experiments/study/report/findings/drift_words.hpp"
 #include "experiments/study/report/findings/extremes.hpp"
 #include "experiments/study/report/findings/gyroscopic.hpp"
 #include "experiments/study/report/findings/method_table.hpp"
 #include "experiments/study/text/notation.hpp"
-#include "experiments/study/curves/reference_words.hpp"
 #include "integrators/catalogue.hpp"
 
 namespace polhode::study::report {
@@ -54,7 +54,8 @@ std::string drift_phrase(const RunRecord& run) {
     text += fmt::format(" (of an initial energy of {} J)", number(*run.result.energy_initial, 6));
   const auto trend = energy_trend(run);
   if (trend == "gains" || trend == "loses") text += fmt::format("; the run {} energy", trend);
-  if (trend == "comes back" && run.result.drift_class != "bounded") text += "; at the end the drift is back below a tenth of that";
+  if (trend == "comes back" && run.result.drift_class != "bounded")
+    text += "; at the end the drift is back below a tenth of that";
   if (trend == "round-off") text += ", which is round-off";
   if (!run.result.drift_class.empty() && trend != "round-off")
     text += fmt::format("; the drift's class is {}", growth_words(run.result));
@@ -73,9 +74,9 @@ std::string run_sentence(const Grouping& grouping, const Curve& curve, const Run
       parts.push_back(fmt::format("the {} is {}", quantity.words, number(*found)));
   }
   if (const auto found = value(run, quantity::attitude_error())) {
-    parts.push_back(fmt::format("the attitude is off the {} one by up to {} rad{}",
-                                run.result.attitude_reference ? "reference" : "exact", number(*found),
-                                follows(run, curve, quantity::attitude_error()) ? "" : ": the run does not follow the motion"));
+    parts.push_back(fmt::format(
+        "the attitude is off the {} one by up to {} rad{}", run.result.attitude_reference ? "reference" : "exact",
+        number(*found), follows(run, curve, quantity::attitude_error()) ? "" : ": the run does not follow the motion"));
   }
   if (const auto found = value(run, quantity::position_error())) {
     parts.push_back(fmt::format("the position by up to {} m", number(*found)));
@@ -98,7 +99,8 @@ constexpr std::array<std::pair<const char*, const char*>, 6> trend_words = {
     {{"gains", "gained"},
      {"loses", "lost"},
      {"gains or loses", "gained or lost, depending on the step,"},
-     {"comes back", "neither gained nor lost for good (the drift is bounded, or back below a tenth of its largest value)"},
+     {"comes back",
+      "neither gained nor lost for good (the drift is bounded, or back below a tenth of its largest value)"},
      {"undecided", "not told from an oscillation"},
      {"round-off", "kept to round-off"}}};
 
@@ -145,8 +147,8 @@ std::string first_few(std::vector<std::string> items) {
   return words(items);
 }
 
-/// Methods whose quantity falls more slowly than their order, or a sentence that there is none; and those whose order the
-/// data do not tell.
+/// Methods whose quantity falls more slowly than their order, or a sentence that there is none; and those whose order
+/// the data do not tell.
 std::vector<std::string> slope_sentences(const Grouping& grouping, const Quantity& quantity) {
   constexpr std::size_t wanted_runs = 3;
   std::vector<std::string> slower, sentences;
@@ -183,8 +185,8 @@ std::vector<std::string> slope_sentences(const Grouping& grouping, const Quantit
         quantity.words, count(compared, "curve")));
   }
   for (const auto& [reason, labels] : not_told) {
-    sentences.push_back(fmt::format("The data do not tell the order of the {} of {}: {}.", quantity.words,
-                                    first_few(labels), reason));
+    sentences.push_back(
+        fmt::format("The data do not tell the order of the {} of {}: {}.", quantity.words, first_few(labels), reason));
   }
   return sentences;
 }
@@ -267,9 +269,8 @@ Topic errors(const StudyView& study, const Grouping& grouping) {
   append(topic.sentences, reference_sentences(study));
   std::vector<std::string> without;
   const auto by_reference = [&](const std::string& name) {
-    return std::any_of(study.runs.begin(), study.runs.end(), [&](const RunRecord& run) {
-      return run.config.scenario == name && used_reference(run);
-    });
+    return std::any_of(study.runs.begin(), study.runs.end(),
+                       [&](const RunRecord& run) { return run.config.scenario == name && used_reference(run); });
   };
   const auto no_position = undefined_in(study, quantity::position_error());
   for (const auto& name : undefined_in(study, quantity::attitude_error())) {
@@ -399,7 +400,8 @@ std::vector<std::string> unfollowed(const Grouping& grouping) {
     const auto [all, off] = counts;
     if (off < all) continue;
     sentences.push_back(fmt::format(
-        "No run follows the motion of {}: {} off by more than a radian, or by more than the motion goes. Which of them is "
+        "No run follows the motion of {}: {} off by more than a radian, or by more than the motion goes. Which of them "
+        "is "
         "nearest is chance, and what they keep is kept of another motion.",
         grouping.cases[index].label(), all == 1 ? "the one that ended is" : fmt::format("all {} that ended are", all)));
   }

@@ -129,7 +129,8 @@ std::vector<std::string> gyroscopic_not_checked(const Grouping& grouping) {
 auto comparison_key(const Curve& curve) {
   const auto& c = curve.runs.front()->config;
   return std::tuple(curve.case_index, curve.method_index, curve.adaptive, c.formulation.orientation,
-                    c.formulation.angular_state, c.formulation.rotation_from, c.normalise, c.precision, c.order, c.summation);
+                    c.formulation.angular_state, c.formulation.rotation_from, c.normalise, c.precision, c.order,
+                    c.summation);
 }
 
 /// The runs of both at the smallest step that both completed.

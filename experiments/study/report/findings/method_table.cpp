@@ -16,7 +16,8 @@ namespace polhode::study::report {
 
 namespace {
 
-/// For the motion at hand: "4"; "2 (attitude: exact)" where the attitude of a free top under gravity has an order of its own.
+/// For the motion at hand: "4"; "2 (attitude: exact)" where the attitude of a free top under gravity has an order of
+/// its own.
 std::string declared_text(const Curve& curve) {
   const RunRecord& run = *curve.runs.front();
   const auto* entry = find_integrator(run.config.integrator);
@@ -88,9 +89,12 @@ std::string energy_trend(const Curve& curve) {
 Table method_table(const Grouping& grouping) {
   using Kind = Column::Kind;
   Table table{
-      .caption = "In brackets: the number of points behind a slope. In its place where the data do not tell it: round-off, errors "
-                 "at round-off; lost, steps too large (an attitude off by more than half a radian, a drift above 0.5, or a "
-                 "run that did not end); uncertain, points on no line or too few of them. The energy column says what becomes of the energy",
+      .caption =
+          "In brackets: the number of points behind a slope. In its place where the data do not tell it: round-off, "
+          "errors "
+          "at round-off; lost, steps too large (an attitude off by more than half a radian, a drift above 0.5, or a "
+          "run that did not end); uncertain, points on no line or too few of them. The energy column says what becomes "
+          "of the energy",
       .columns = {{"method", "", Kind::name},
                   {"motion", "", Kind::text},
                   {"formulation", "", Kind::text},
@@ -108,12 +112,12 @@ Table method_table(const Grouping& grouping) {
     const auto& method = grouping.methods[curve.method_index];
     const auto energy = quantity::energy_drift();
     const bool several = curve.runs.size() > 1;
-    table.rows.push_back(
-        {method, grouping.cases.size() > 1 ? grouping.cases[curve.case_index].label() : "",
-         grouping.variants[curve.variant_index], range_of_steps(curve), printed(*curve.runs.front(), energy),
-         several ? printed(*curve.runs.back(), energy) : "", slope_text(curve, energy),
-         slope_text(curve, quantity::attitude_error()), declared_text(curve), energy_trend(curve),
-         largest(curve, quantity::angular_momentum_drift()), largest(curve, quantity::orientation_defect())});
+    table.rows.push_back({method, grouping.cases.size() > 1 ? grouping.cases[curve.case_index].label() : "",
+                          grouping.variants[curve.variant_index], range_of_steps(curve),
+                          printed(*curve.runs.front(), energy), several ? printed(*curve.runs.back(), energy) : "",
+                          slope_text(curve, energy), slope_text(curve, quantity::attitude_error()),
+                          declared_text(curve), energy_trend(curve), largest(curve, quantity::angular_momentum_drift()),
+                          largest(curve, quantity::orientation_defect())});
   }
   return without_empty_columns(std::move(table));
 }

@@ -8,18 +8,18 @@
 #include <string>
 #include <vector>
 
-#include "experiments/study/text/build_info.hpp"
-#include "experiments/study/report/findings/findings.hpp"
 #include "experiments/study/plot/gnuplot_figure.hpp"
-#include "experiments/study/report/page/how_to_read.hpp"
+#include "experiments/study/record/study_view.hpp"
+#include "experiments/study/report/figures/study_figures.hpp"
+#include "experiments/study/report/findings/findings.hpp"
 #include "experiments/study/report/findings/method_table.hpp"
-#include "experiments/study/text/notation.hpp"
+#include "experiments/study/report/page/how_to_read.hpp"
 #include "experiments/study/report/page/page_style.hpp"
-#include "experiments/study/text/read_file.hpp"
 #include "experiments/study/report/page/replay_link.hpp"
 #include "experiments/study/report/tables/run_table.hpp"
-#include "experiments/study/report/figures/study_figures.hpp"
-#include "experiments/study/record/study_view.hpp"
+#include "experiments/study/text/build_info.hpp"
+#include "experiments/study/text/notation.hpp"
+#include "experiments/study/text/read_file.hpp"
 #include "experiments/study/text/text_file.hpp"
 #include "integrators/catalogue.hpp"
 
@@ -80,7 +80,8 @@ std::string head(const StudyView& study, std::string_view contents) {
 }
 
 std::string head(const StudyView& study) {
-  constexpr const char* of_curves = "<li><a href=\"#figures\">Figures</a></li><li><a href=\"#methods\">Method by method</a></li>";
+  constexpr const char* of_curves =
+      "<li><a href=\"#figures\">Figures</a></li><li><a href=\"#methods\">Method by method</a></li>";
   constexpr const char* of_runs = "<li><a href=\"#run\">What was run</a></li><li><a href=\"#runs\">All runs</a></li>";
   return head(study, std::string(alone(study) ? "" : of_curves) + of_runs);
 }
@@ -90,9 +91,10 @@ std::string analysis_html(const Analysis& analysis) {
   std::string out = fmt::format("<h3>{}</h3>\n", html(analysis.heading));
   if (!analysis.sentences.empty()) out += list(analysis.sentences);
   for (const auto& [name, table] : analysis.tables) {
-    out += table.rows.size() > open_rows_of_analysis ? folded(table.caption, html(table, Caption::spoken), false) : html(table);
-    out += fmt::format("<p>For a text: <a href=\"tables/{0}.tex\">LaTeX</a>, <a href=\"tables/{0}.md\">Markdown</a>.</p>\n",
-                       name);
+    out += table.rows.size() > open_rows_of_analysis ? folded(table.caption, html(table, Caption::spoken), false)
+                                                     : html(table);
+    out += fmt::format(
+        "<p>For a text: <a href=\"tables/{0}.tex\">LaTeX</a>, <a href=\"tables/{0}.md\">Markdown</a>.</p>\n", name);
   }
   for (const auto& sentence : analysis.method) out += paragraph(sentence);
   std::vector<std::string> links;
@@ -322,9 +324,8 @@ std::string options_html(const StudyView& study) {
 }
 
 std::string what_was_run(const StudyView& study, const Grouping& grouping) {
-  return fmt::format(
-      "<section id=\"run\">\n<h2>What was run</h2>\n{}<h3>Methods</h3>\n{}{}{}</section>\n", scenarios(study),
-      catalogue_table(grouping), options_html(study), command_html(study));
+  return fmt::format("<section id=\"run\">\n<h2>What was run</h2>\n{}<h3>Methods</h3>\n{}{}{}</section>\n",
+                     scenarios(study), catalogue_table(grouping), options_html(study), command_html(study));
 }
 
 std::string all_runs(const StudyView& study) {

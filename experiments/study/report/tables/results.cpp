@@ -11,10 +11,10 @@
 #include <set>
 #include <thread>
 
-#include "experiments/study/text/value_lists.hpp"
 #include "experiments/study/text/build_info.hpp"
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/text_file.hpp"
+#include "experiments/study/text/value_lists.hpp"
 
 namespace polhode::study {
 namespace {
@@ -24,7 +24,8 @@ bool has_references(const StudyView& study) {
 }
 
 bool has_contact(const StudyView& study) {
-  return std::any_of(study.runs.begin(), study.runs.end(), [](const RunRecord& run) { return run.config.contact.has_value(); });
+  return std::any_of(study.runs.begin(), study.runs.end(),
+                     [](const RunRecord& run) { return run.config.contact.has_value(); });
 }
 
 /// How uncertain each reference is, once for each variant of a scenario and each duration.
@@ -67,21 +68,22 @@ void write_runs_csv(const StudyView& study) {
     row.insert(row.end(), cells.begin(), cells.end());
   };
   add(header, config_columns(study.varied_keys, study.named));
-  add(header, {"status", "message", "steps", "rhs_evaluations", "energy_initial_J", "energy_scale_J", "energy_drift_max_J",
-               "energy_round_off_J", "energy_drift_max_rel",
-               "energy_drift_final_rel", "energy_drift_rate_W", "drift_class", "energy_drift_rate_ci_W", "drift_exponent",
-               "drift_exponent_low", "drift_exponent_high", "drift_decided_after_s", "linear_momentum_drift_max_rel",
-               "angular_momentum_drift_max_rel"});
+  add(header,
+      {"status", "message", "steps", "rhs_evaluations", "energy_initial_J", "energy_scale_J", "energy_drift_max_J",
+       "energy_round_off_J", "energy_drift_max_rel", "energy_drift_final_rel", "energy_drift_rate_W", "drift_class",
+       "energy_drift_rate_ci_W", "drift_exponent", "drift_exponent_low", "drift_exponent_high", "drift_decided_after_s",
+       "linear_momentum_drift_max_rel", "angular_momentum_drift_max_rel"});
   for (const std::string& invariant : study.invariants) header.push_back(invariant + "_drift_max_rel");
-  add(header, {"orientation_defect_max", "position_error_max_m", "attitude_error_max_rad",
-               "angular_velocity_error_max_rel", "polhode_phase_error_max_s", "polhode_phase_error_max_rad",
-               "polhode_off_error_max_rel"});
+  add(header,
+      {"orientation_defect_max", "position_error_max_m", "attitude_error_max_rad", "angular_velocity_error_max_rel",
+       "polhode_phase_error_max_s", "polhode_phase_error_max_rad", "polhode_off_error_max_rel"});
   const bool references = has_references(study);
   if (references) add(header, {"position_reference_m", "attitude_reference_rad", "angular_velocity_reference_rel"});
   const bool contact = has_contact(study);
   if (contact) {
-    add(header, {"first_impact_s", "impact_loss_J", "friction_loss_J", "penetration_J", "energy_rise_max_J", "energy_change_max_J",
-                 "penetration_max_m", "penetration_end_m", "displacement_after_2s_max_m", "left_place_s"});
+    add(header, {"first_impact_s", "impact_loss_J", "friction_loss_J", "penetration_J", "energy_rise_max_J",
+                 "energy_change_max_J", "penetration_max_m", "penetration_end_m", "displacement_after_2s_max_m",
+                 "left_place_s"});
   }
   std::string text = csv_row(header);
   for (const RunRecord& run : study.runs) {
@@ -102,14 +104,15 @@ void write_runs_csv(const StudyView& study) {
               csv_cell(r.angular_velocity_error_max_rel), csv_cell(r.polhode_phase_error_max),
               csv_cell(r.polhode_phase_error_max_rad), csv_cell(r.polhode_off_error_max_rel)});
     if (references) {
-      add(row, {csv_cell(r.position_reference), csv_cell(r.attitude_reference),
-                csv_cell(r.angular_velocity_reference_rel)});
+      add(row,
+          {csv_cell(r.position_reference), csv_cell(r.attitude_reference), csv_cell(r.angular_velocity_reference_rel)});
     }
     if (contact) {
       const ContactMeasures& c = r.contact;
-      add(row, {csv_cell(c.first_impact), csv_cell(c.impact_loss), csv_cell(c.friction_loss), csv_cell(c.penetration_energy),
-                csv_cell(c.energy_rise_max), csv_cell(c.energy_change_max), csv_cell(c.penetration_max),
-                csv_cell(c.penetration_end), csv_cell(c.displacement_max), csv_cell(c.left_place)});
+      add(row,
+          {csv_cell(c.first_impact), csv_cell(c.impact_loss), csv_cell(c.friction_loss), csv_cell(c.penetration_energy),
+           csv_cell(c.energy_rise_max), csv_cell(c.energy_change_max), csv_cell(c.penetration_max),
+           csv_cell(c.penetration_end), csv_cell(c.displacement_max), csv_cell(c.left_place)});
     }
     text += csv_row(row);
   }
@@ -138,27 +141,25 @@ void write_manifest(const StudyView& study, const Options& options, const Plan& 
   Json scenarios = Json::object();
   for (const Scenario& s : study.scenarios) scenarios[s.name] = {{"title", s.title}, {"resolved", s.canonical}};
   const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
-  Json manifest = {
-      {"experiment", study.experiment},
-      {"command", study.command},
-      {"study", plan.identity},
-      {"runs", study.runs.size()},
-      {"seed", options.seed},
-      {"axes", axes},
-      {"vary", vary},
-      {"scenarios", scenarios},
-      {"written_at_unix_s", now.time_since_epoch().count()},
-      {"polhode", {{"version", build.version}, {"commit", build.commit}}},
-      {"compiler", build.compiler},
-      {"flags", build.flags},
-      {"build_type", build.build_type},
-      {"libraries", {{"Eigen", build.eigen}, {"SUNDIALS", build.sundials}, {"Boost", build.boost}}},
-      {"processor", processor()},
-      {"cores", std::thread::hardware_concurrency()}};
+  Json manifest = {{"experiment", study.experiment},
+                   {"command", study.command},
+                   {"study", plan.identity},
+                   {"runs", study.runs.size()},
+                   {"seed", options.seed},
+                   {"axes", axes},
+                   {"vary", vary},
+                   {"scenarios", scenarios},
+                   {"written_at_unix_s", now.time_since_epoch().count()},
+                   {"polhode", {{"version", build.version}, {"commit", build.commit}}},
+                   {"compiler", build.compiler},
+                   {"flags", build.flags},
+                   {"build_type", build.build_type},
+                   {"libraries", {{"Eigen", build.eigen}, {"SUNDIALS", build.sundials}, {"Boost", build.boost}}},
+                   {"processor", processor()},
+                   {"cores", std::thread::hardware_concurrency()}};
   if (!plan.further_axes.empty()) manifest["further_axes"] = plan.further_axes;
   if (has_references(study)) manifest["references"] = references_of(study);
-  write_text(study.folder / "manifest.json",
-             manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_text(study.folder / "manifest.json", manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace polhode::study

@@ -59,7 +59,8 @@ std::vector<Field> configuration(const StudyView& study) {
          [](const RunConfig& c) { return std::string(name(c.formulation.rotation_from)); });
   option("precision", "", Kind::text, [](const RunConfig& c) { return std::string(name(c.precision)); });
   const auto contact = [&](const char* header, std::string ContactConfig::*member) {
-    option(header, "", Kind::text, [member](const RunConfig& c) { return c.contact ? *c.contact.*member : std::string(); });
+    option(header, "", Kind::text,
+           [member](const RunConfig& c) { return c.contact ? *c.contact.*member : std::string(); });
   };
   contact("broad phase", &ContactConfig::broad_phase);
   contact("narrow phase", &ContactConfig::narrow_phase);
@@ -121,7 +122,8 @@ std::vector<Field> results(const StudyView& study) {
   add("along the polhode", "s", &RunResult::polhode_phase_error_max, false);
   add("off the polhode", "relative", &RunResult::polhode_off_error_max_rel, false);
   const auto add_contact = [&](const char* header, const char* unit, std::optional<double> ContactMeasures::*member) {
-    fields.push_back({{header, unit}, [member](const RunRecord& r) { return measured(r.result.contact.*member); }, false, false});
+    fields.push_back(
+        {{header, unit}, [member](const RunRecord& r) { return measured(r.result.contact.*member); }, false, false});
   };
   add_contact("first impact", "s", &ContactMeasures::first_impact);
   add_contact("lost to impacts", "J", &ContactMeasures::impact_loss);

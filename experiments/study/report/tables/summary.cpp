@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "experiments/study/text/value_lists.hpp"
 #include "experiments/study/plan/plan.hpp"
 #include "experiments/study/text/notation.hpp"
+#include "experiments/study/text/value_lists.hpp"
 
 namespace polhode::study {
 namespace {
@@ -42,7 +42,8 @@ std::vector<std::size_t> shown_rows(std::size_t n) {
 /// "(40 of 120 runs, evenly spread; the other 80 are in runs.csv)", or nothing where all are shown.
 std::string left_out(std::size_t n, const char* what, const std::string& where) {
   if (n <= most_rows) return {};
-  return fmt::format("({} of {} {}, evenly spread; the other {} are in {})\n", rows_of_more, n, what, n - rows_of_more, where);
+  return fmt::format("({} of {} {}, evenly spread; the other {} are in {})\n", rows_of_more, n, what, n - rows_of_more,
+                     where);
 }
 
 /// Columns of equal width, on the left or on the right.
@@ -83,7 +84,8 @@ std::string plain(const report::Table& table) {
 std::string reasons_of(const StudyView& study) {
   std::vector<Unfinished> runs;
   for (const RunRecord& run : study.runs) {
-    if (run.result.status == "refused" || run.result.status == "failed") runs.push_back({run.result.status, run.result.message});
+    if (run.result.status == "refused" || run.result.status == "failed")
+      runs.push_back({run.result.status, run.result.message});
   }
   const std::string text = reasons(runs);
   return text.empty() ? "" : "\n" + text;
@@ -114,7 +116,8 @@ std::string summary_table(const StudyView& study) {
   const auto columns = shown_columns(cells, names);
   std::vector<std::vector<std::string>> table(1);
   for (const std::size_t k : columns) table[0].push_back(names[k]);
-  for (const char* h : {"status", "energy drift", "its class", "ang. momentum", "defect", "attitude rad"}) table[0].emplace_back(h);
+  for (const char* h : {"status", "energy drift", "its class", "ang. momentum", "defect", "attitude rad"})
+    table[0].emplace_back(h);
   const auto rows = shown_rows(study.runs.size());
   for (const std::size_t i : rows) {
     const RunResult& r = study.runs[i].result;
@@ -122,9 +125,10 @@ std::string summary_table(const StudyView& study) {
     for (const std::size_t k : columns) row.push_back(report::rounded(cells[i][k]));
     row.push_back(r.status);
     row.push_back(number(r.energy_drift_max_rel));
-    row.push_back(r.drift_class.empty()     ? "-"
-                  : r.drift_decided_after ? fmt::format("{} (try {} s)", r.drift_class, report::number(*r.drift_decided_after, 2))
-                                          : r.drift_class);
+    row.push_back(r.drift_class.empty() ? "-"
+                  : r.drift_decided_after
+                      ? fmt::format("{} (try {} s)", r.drift_class, report::number(*r.drift_decided_after, 2))
+                      : r.drift_class);
     for (const auto& x : {r.angular_momentum_drift_max_rel, r.orientation_defect_max, r.attitude_error_max}) {
       row.push_back(number(x));
     }
@@ -149,7 +153,8 @@ std::string reasons(const std::vector<Unfinished>& runs) {
   }
   std::string text;
   for (std::size_t i = 0; i < std::min(found.size(), most_reasons); ++i) {
-    text += fmt::format("{} {}: {}\n", report::count(found[i].second, "run"), found[i].first.status, found[i].first.message);
+    text += fmt::format("{} {}: {}\n", report::count(found[i].second, "run"), found[i].first.status,
+                        found[i].first.message);
   }
   if (found.size() > most_reasons) {
     text += fmt::format("… and {} more; all are in the column message of runs.csv\n",

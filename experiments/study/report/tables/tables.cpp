@@ -4,10 +4,10 @@
 
 #include <limits>
 
-#include "experiments/study/text/notation.hpp"
+#include "experiments/study/record/study_view.hpp"
 #include "experiments/study/report/tables/run_table.hpp"
 #include "experiments/study/report/tables/tex_values.hpp"
-#include "experiments/study/record/study_view.hpp"
+#include "experiments/study/text/notation.hpp"
 #include "experiments/study/text/text_file.hpp"
 
 namespace polhode::study {
@@ -16,7 +16,9 @@ namespace {
 
 using namespace report;
 
-std::string title_of(const StudyView& study) { return one_line(fmt::format("{}: {}", study.experiment, study.question)); }
+std::string title_of(const StudyView& study) {
+  return one_line(fmt::format("{}: {}", study.experiment, study.question));
+}
 
 void write_tables_of_runs(const StudyView& study, const std::filesystem::path& folder) {
   const auto table = run_table(study, Extent::summary, std::numeric_limits<std::size_t>::max());
@@ -40,9 +42,10 @@ void write_tables(const StudyView& study) {
   if (!study.runs.empty()) write_tables_of_runs(study, folder);
   if (!study.analysis) return;
   for (const auto& [name, own] : study.analysis->tables) {
-    write_text(folder / (name + ".tex"),
-               fmt::format("% {}: {}\n% The preamble needs \\usepackage[T1]{{fontenc}}\\usepackage{{booktabs,longtable}}.\n{}",
-                           title_of(study), one_line(own.caption), latex(own)));
+    write_text(
+        folder / (name + ".tex"),
+        fmt::format("% {}: {}\n% The preamble needs \\usepackage[T1]{{fontenc}}\\usepackage{{booktabs,longtable}}.\n{}",
+                    title_of(study), one_line(own.caption), latex(own)));
     write_text(folder / (name + ".md"), fmt::format("# {}\n\n{}\n\n{}", markdown(study.analysis->heading),
                                                     markdown(own.caption), markdown(own)));
   }

@@ -36,14 +36,10 @@ std::string spelt(std::string_view text) {
   std::string out;
   bool begins_word = true;
   for (const char c : text) {
-    if (c >= '0' && c <= '9')
-      out += digits[static_cast<std::size_t>(c - '0')];
-    else if (c == '.')
-      out += "Point";
-    else if (c == '-')
-      out += "Minus";
-    else if (c == ',')
-      out += "And";
+    if (c >= '0' && c <= '9') out += digits[static_cast<std::size_t>(c - '0')];
+    else if (c == '.') out += "Point";
+    else if (c == '-') out += "Minus";
+    else if (c == ',') out += "And";
     else if (std::isalpha(static_cast<unsigned char>(c)) != 0) {
       out += begins_word ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
       begins_word = false;

@@ -55,15 +55,13 @@ struct Drift {
 std::function<double(double)> oscillation(Chance& chance, double periods) {
   const double phase = chance.uniform(0, 2 * pi), sharp = chance.logarithmic(2, 30), other = chance.uniform(0, 2 * pi);
   switch (chance.below(3)) {
-    case 0:
-      return [=](double s) { return std::sin(2 * pi * periods * s + phase); };
+    case 0: return [=](double s) { return std::sin(2 * pi * periods * s + phase); };
     case 1:
       return [=](double s) {
         const double u = 2 * pi * periods * s + phase;
         return 0.8 * std::sin(u) + 0.3 * std::sin(2 * u + other);
       };
-    default:
-      return [=](double s) { return std::exp(sharp * (std::cos(2 * pi * periods * s + phase) - 1)); };
+    default: return [=](double s) { return std::exp(sharp * (std::cos(2 * pi * periods * s + phase) - 1)); };
   }
 }
 

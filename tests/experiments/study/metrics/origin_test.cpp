@@ -11,12 +11,12 @@
 
 #include "core/math/quaternion.hpp"
 #include "core/run/simulate.hpp"
-#include "experiments/study/scenario/builtin_scenarios.hpp"
 #include "experiments/study/metrics/drift_meter.hpp"
-#include "experiments/study/scenario/narrow_phase_choice.hpp"
 #include "experiments/study/run/run.hpp"
-#include "experiments/study/setup/run_setup.hpp"
+#include "experiments/study/scenario/builtin_scenarios.hpp"
+#include "experiments/study/scenario/narrow_phase_choice.hpp"
 #include "experiments/study/scenario/scenario.hpp"
+#include "experiments/study/setup/run_setup.hpp"
 
 namespace polhode::study {
 
@@ -41,13 +41,14 @@ Scenario retold(Scenario scenario, const Vector& shift, const Quaternion<double>
     if (force.kind == "uniform_gravity") turned("acceleration");
     if (force.kind == "constant_force" && force.text("frame") == "world") turned("force");
     if (force.kind == "constant_torque" && force.text("frame") == "world") turned("torque");
-    if (force.values.contains("anchor_world")) force.values.at("anchor_world") = Vector(r * force.vector("anchor_world") + shift);
+    if (force.values.contains("anchor_world"))
+      force.values.at("anchor_world") = Vector(r * force.vector("anchor_world") + shift);
   }
   return scenario;
 }
 
-/// s: while a rounding of the start stays a rounding. Impacts magnify it, the box on a spring is chaotic, and the pendulum swings
-/// about its middle axis, which is unstable.
+/// s: while a rounding of the start stays a rounding. Impacts magnify it, the box on a spring is chaotic, and the
+/// pendulum swings about its middle axis, which is unstable.
 double foreseeable(const Scenario& scenario) {
   if (!scenario.colliders.empty()) return 0.5;
   return scenario.name == "physical_pendulum" || scenario.name == "spring_box" ? 4 : scenario.t_end;
@@ -95,7 +96,8 @@ TEST_P(Origin, ChangesNothing) {
       if (!here.energy_scale) continue;
       EXPECT_NEAR(*there.energy_scale / *here.energy_scale, 1, close);
       const double rounding = shaking + (*here.energy_round_off + *there.energy_round_off) / *here.energy_scale;
-      const auto agree = [&](const std::optional<double>& a, const std::optional<double>& b, double floor, const char* what) {
+      const auto agree = [&](const std::optional<double>& a, const std::optional<double>& b, double floor,
+                             const char* what) {
         ASSERT_EQ(a.has_value(), b.has_value()) << what;
         if (!a) return;
         const double size = std::max(std::abs(*a), std::abs(*b)), lost = 1;
@@ -116,9 +118,11 @@ TEST_P(Origin, ChangesNothing) {
         agree(drift, there.invariant_drift_max_rel.at(name), small, name.c_str());
       }
       // Far away the drift itself can be below the rounding of positions.
-      if (there.drift_class == "round-off" || *here.energy_drift_max_rel <= shaking) EXPECT_LE(*here.energy_drift_max_rel, rounding);
-      else EXPECT_EQ(there.drift_class, here.drift_class)
-          << *here.energy_drift_max_rel << " " << *there.energy_drift_max_rel << ", rounding " << rounding;
+      if (there.drift_class == "round-off" || *here.energy_drift_max_rel <= shaking)
+        EXPECT_LE(*here.energy_drift_max_rel, rounding);
+      else
+        EXPECT_EQ(there.drift_class, here.drift_class)
+            << *here.energy_drift_max_rel << " " << *there.energy_drift_max_rel << ", rounding " << rounding;
     }
   }
 }
@@ -177,7 +181,8 @@ TEST(Potential, ZeroChangesNothing) {
   }
 }
 
-/// A method that loses linear momentum too: the angular one is about the mass centre at the start, not the world's origin.
+/// A method that loses linear momentum too: the angular one is about the mass centre at the start, not the world's
+/// origin.
 TEST(Origin, AngularMomentumOfSeveralBodiesIsAboutTheirMassCentre) {
   const Scenario scenario = ScenarioSource::open("two_bodies").resolve();
   std::vector<double> drifts;
@@ -205,13 +210,13 @@ TEST(Origin, AngularMomentumOfSeveralBodiesIsAboutTheirMassCentre) {
 
 /// A rod that hangs from its end, let go horizontally: the energies at the start cancel to round-off.
 TEST(Origin, ARodLetGoHorizontallyIsNotDiverged) {
-  const Scenario scenario =
-      ScenarioSource::parse("gravity = [0, 0, -9.81]\nt_end = 10\n[[body]]\nmass = 1.5\n"
-                            "inertia = [1.1666667, 1.1666667, 0.001]\npinned = true\n"
-                            "center_of_mass = [0, 0, -0.8333333333]\n"
-                            "orientation = [0.7071067811865476, 0.7071067811865475, 0, 0]\n",
-                            "rod.toml")
-          .resolve();
+  const Scenario scenario = ScenarioSource::parse(
+                                "gravity = [0, 0, -9.81]\nt_end = 10\n[[body]]\nmass = 1.5\n"
+                                "inertia = [1.1666667, 1.1666667, 0.001]\npinned = true\n"
+                                "center_of_mass = [0, 0, -0.8333333333]\n"
+                                "orientation = [0.7071067811865476, 0.7071067811865475, 0, 0]\n",
+                                "rod.toml")
+                                .resolve();
   for (const char* method : {"rk4", "gauss4", "lie_midpoint"}) {
     RunConfig config = configured(scenario, method);
     config.dt = 0.01;
@@ -225,7 +230,8 @@ TEST(Origin, ARodLetGoHorizontallyIsNotDiverged) {
 /// Where nothing moves there is nothing that a drift could be relative to.
 TEST(Origin, ABodyAtRestHasNoRelativeDrift) {
   const Scenario scenario =
-      ScenarioSource::parse("t_end = 1\n[[body]]\nmass = 1\ninertia = [1, 2, 3]\nposition = [1, 2, 3]\n", "rest.toml").resolve();
+      ScenarioSource::parse("t_end = 1\n[[body]]\nmass = 1\ninertia = [1, 2, 3]\nposition = [1, 2, 3]\n", "rest.toml")
+          .resolve();
   const RunResult result = carry_out(configured(scenario, "rk4"), scenario, {}, nullptr);
   EXPECT_EQ(result.status, "ok");
   EXPECT_FALSE(result.energy_scale || result.energy_drift_max_rel || result.linear_momentum_drift_max_rel);
@@ -234,7 +240,8 @@ TEST(Origin, ABodyAtRestHasNoRelativeDrift) {
 
 /// Given by the scenario, it stands for the motion's own.
 TEST(Origin, AScaleThatIsGivenIsTaken) {
-  const char* text = "t_end = 1\nenergy_scale = 7\n[[body]]\nmass = 1\ninertia = [1, 2, 3]\nangular_velocity = [1, 0.1, 2]\n";
+  const char* text =
+      "t_end = 1\nenergy_scale = 7\n[[body]]\nmass = 1\ninertia = [1, 2, 3]\nangular_velocity = [1, 0.1, 2]\n";
   const Scenario scenario = ScenarioSource::parse(text, "scale.toml").resolve();
   const RunResult result = carry_out(configured(scenario, "explicit_euler"), scenario, {}, nullptr);
   EXPECT_EQ(result.energy_scale, 7.0);

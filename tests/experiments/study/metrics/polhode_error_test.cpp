@@ -31,10 +31,10 @@ BodySnapshot<double> shifted(const Problem& problem, double t, double shift, dou
 }
 
 const std::vector<Problem>& tops() {
-  static const std::vector<Problem> all = {
-      top({0.6, 0.8, 1.0}, {3, 0.5, -0.9}), top({2, 3, 1}, {0, std::sqrt(0.51), std::sqrt(3)}),
-      top({3, 5, 9}, {0, 0.4, 0.01 / 9}),  // near the separatrix
-      top({2, 2, 1}, {1, 0, 3})};
+  static const std::vector<Problem> all = {top({0.6, 0.8, 1.0}, {3, 0.5, -0.9}),
+                                           top({2, 3, 1}, {0, std::sqrt(0.51), std::sqrt(3)}),
+                                           top({3, 5, 9}, {0, 0.4, 0.01 / 9}),  // near the separatrix
+                                           top({2, 2, 1}, {1, 0, 3})};
   return all;
 }
 

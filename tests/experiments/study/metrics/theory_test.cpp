@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is said of free bodies is what theory says of the methods: who keeps the energy, who loses it, who gains it, and how
-// rounding walks.
+// What is said of free bodies is what theory says of the methods: who keeps the energy, who loses it, who gains it, and
+// how rounding walks.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/exact/exact_motion.hpp"
-#include "experiments/study/scenario/builtin_scenarios.hpp"
 #include "experiments/precision/growth_estimate.hpp"
 #include "experiments/study/run/run.hpp"
+#include "experiments/study/scenario/builtin_scenarios.hpp"
 #include "experiments/study/scenario/scenario.hpp"
 
 namespace polhode::study {
@@ -42,10 +42,12 @@ double fastest(const Scenario& scenario) {
 bool tumbles(const Scenario& scenario) {
   const Body& body = scenario.problem.bodies.front();
   const BodyStart& start = scenario.problem.starts.front();
-  const Vector3<double> w = start.angular_velocity_in_body
-                                ? start.angular_velocity
-                                : Vector3<double>(rotation_matrix(start.orientation).transpose() * start.angular_velocity);
-  return scenario.problem.moving() == 1 && w.cross(body.inertia * w).norm() > 1e-3 * w.squaredNorm() * body.inertia.norm();
+  const Vector3<double> w =
+      start.angular_velocity_in_body
+          ? start.angular_velocity
+          : Vector3<double>(rotation_matrix(start.orientation).transpose() * start.angular_velocity);
+  return scenario.problem.moving() == 1 &&
+         w.cross(body.inertia * w).norm() > 1e-3 * w.squaredNorm() * body.inertia.norm();
 }
 
 RunConfig configured(const Scenario& scenario, const std::string& method, double phase) {
@@ -60,7 +62,8 @@ RunConfig configured(const Scenario& scenario, const std::string& method, double
 
 std::string said(const RunResult& r) {
   return r.status + ", " + r.drift_class + ", final " + std::to_string(r.energy_drift_final_rel.value_or(NAN) * 1e9) +
-         "e-9, rounding " + std::to_string(r.energy_round_off.value_or(NAN) / r.energy_scale.value_or(NAN) * 1e9) + "e-9";
+         "e-9, rounding " + std::to_string(r.energy_round_off.value_or(NAN) / r.energy_scale.value_or(NAN) * 1e9) +
+         "e-9";
 }
 
 TEST(Theory, ThereAreFreeScenarios) { EXPECT_GE(free_scenarios().size(), 7u); }
@@ -79,8 +82,8 @@ TEST(Theory, ConservingMethodsKeepTheEnergyOfFreeBodies) {
   }
 }
 
-/// RK4 loses at the rate h⁵ on average, explicit Euler gains at the rate h: Hairer, Lubich & Wanner, Geometric Numerical
-/// Integration, 2nd ed., chapter IX.
+/// RK4 loses at the rate h⁵ on average, explicit Euler gains at the rate h: Hairer, Lubich & Wanner, Geometric
+/// Numerical Integration, 2nd ed., chapter IX.
 TEST(Theory, TextbookMethodsLoseAndGain) {
   int lost = 0, gained = 0;
   for (const Scenario& scenario : free_scenarios()) {
@@ -95,14 +98,16 @@ TEST(Theory, TextbookMethodsLoseAndGain) {
     }
     const RunResult euler = carry_out(configured(scenario, "explicit_euler", 0.01), scenario, {}, nullptr);
     EXPECT_GT(*euler.energy_drift_final_rel, 0) << scenario.name;
-    for (const char* no_gain : {"round-off", "bounded", "random walk"}) EXPECT_NE(euler.drift_class, no_gain) << scenario.name;
+    for (const char* no_gain : {"round-off", "bounded", "random walk"})
+      EXPECT_NE(euler.drift_class, no_gain) << scenario.name;
     gained += euler.drift_class == "linear" || euler.drift_class == "quadratic" || euler.drift_class == "faster";
   }
   EXPECT_GE(lost, 2);
   EXPECT_GE(gained, 2);
 }
 
-/// 10⁷ steps of RK4 whose truncation is far below rounding: the energy walks as √t (Brouwer 1937), and no growth is claimed.
+/// 10⁷ steps of RK4 whose truncation is far below rounding: the energy walks as √t (Brouwer 1937), and no growth is
+/// claimed.
 TEST(Theory, SlowPlainSummationWalksAtRandom) {
   constexpr int runs = 8;
   constexpr double steps = 1e7;

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "experiments/study/text/csv.hpp"
 #include "experiments/study/metrics/drift_meter.hpp"
 #include "experiments/study/record/result_numbers.hpp"
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/scenario/scenario.hpp"
+#include "experiments/study/text/csv.hpp"
 
 namespace polhode::study {
 namespace {
@@ -87,7 +87,8 @@ TEST(ResultNumbers, AreFiniteAndZeroHasNoSign) {
   }
   for (const auto member : drift_members) EXPECT_FALSE((r.*member).has_value());
   for (const auto member : energy_members) EXPECT_FALSE((r.*member).has_value());
-  for (const auto member : contact_members) EXPECT_EQ((r.contact.*member).has_value(), member == &ContactMeasures::friction_loss);
+  for (const auto member : contact_members)
+    EXPECT_EQ((r.contact.*member).has_value(), member == &ContactMeasures::friction_loss);
   EXPECT_EQ(csv_cell(r.contact.friction_loss), "0");
   EXPECT_EQ(csv_cell(r.energy_drift_final_rel), "0");
   EXPECT_EQ(r.energy_initial, -1.5);

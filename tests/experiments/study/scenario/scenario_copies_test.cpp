@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "core/math/quaternion.hpp"
-#include "experiments/study/text/input_error.hpp"
 #include "experiments/study/scenario/scenario.hpp"
+#include "experiments/study/text/input_error.hpp"
 
 namespace polhode::study {
 namespace {
@@ -18,13 +18,18 @@ using Vector = Vector3<double>;
 
 /// One body by itself, and one with these keys.
 Scenario resolved(const std::string& keys) {
-  return ScenarioSource::parse("t_end = 1\n[[body]]\nmass = 1\ninertia = [1, 1, 1]\n"
-                               "[[body]]\nname = \"ball\"\nmass = 1\ninertia = [1, 1, 1]\n" + keys, "test.toml").resolve();
+  return ScenarioSource::parse(
+             "t_end = 1\n[[body]]\nmass = 1\ninertia = [1, 1, 1]\n"
+             "[[body]]\nname = \"ball\"\nmass = 1\ninertia = [1, 1, 1]\n" +
+                 keys,
+             "test.toml")
+      .resolve();
 }
 
 TEST(ScenarioCopies, StandOnAGrid) {
-  const Scenario s = resolved("position = [5, 0, 1]\nrepeat = [2, 3, 1]\nspacing = [1, 2, 0]\n"
-                              "[[force]]\nkind = \"constant_torque\"\nbodies = [\"ball_5\"]\ntorque = [0, 0, 1]\n");
+  const Scenario s = resolved(
+      "position = [5, 0, 1]\nrepeat = [2, 3, 1]\nspacing = [1, 2, 0]\n"
+      "[[force]]\nkind = \"constant_torque\"\nbodies = [\"ball_5\"]\ntorque = [0, 0, 1]\n");
   ASSERT_EQ(s.problem.bodies.size(), 7u);
   EXPECT_EQ(s.problem.bodies[1].name, "ball_0");
   EXPECT_EQ(s.problem.bodies[6].name, "ball_5");
@@ -35,7 +40,8 @@ TEST(ScenarioCopies, StandOnAGrid) {
 }
 
 TEST(ScenarioCopies, AreOffTheGridAsFarAsTheyMay) {
-  const std::string keys = "orientation = [0, 1, 0, 0]\nrepeat = [10, 10, 1]\nspacing = [1, 1, 0]\njitter = 0.25\njitter_angle = 0.5\n";
+  const std::string keys =
+      "orientation = [0, 1, 0, 0]\nrepeat = [10, 10, 1]\nspacing = [1, 1, 0]\njitter = 0.25\njitter_angle = 0.5\n";
   const Scenario s = resolved(keys), again = resolved(keys);
   EXPECT_EQ(s.canonical, again.canonical);
   double most = 0, most_angle = 0;
@@ -68,8 +74,10 @@ TEST(ScenarioCopies, ErrorsSayWhatWouldDo) {
   EXPECT_THAT(error("repeat = [1, 0, 1]"), HasSubstr("body.1.repeat: "));
   EXPECT_THAT(error("repeat = [2, 2]"), HasSubstr("a list of 2"));
   EXPECT_THAT(error("repeat = [100, 100, 100]"), HasSubstr("asks for 1e+06 copies; it must be at most 10000"));
-  EXPECT_THAT(error("repeat = [1, 4, 1]\nspacing = [1, 0, 1]"), HasSubstr("body.1.spacing: is 0 along y, where there are 4 copies; give"));
-  EXPECT_THAT(error("jitter = 0.1"), HasSubstr("body.1.jitter: is of the copies of a body; give repeat = [nx, ny, nz] too"));
+  EXPECT_THAT(error("repeat = [1, 4, 1]\nspacing = [1, 0, 1]"),
+              HasSubstr("body.1.spacing: is 0 along y, where there are 4 copies; give"));
+  EXPECT_THAT(error("jitter = 0.1"),
+              HasSubstr("body.1.jitter: is of the copies of a body; give repeat = [nx, ny, nz] too"));
   EXPECT_THAT(error("repeat = [1, 1, 1]\njitter = -1"), HasSubstr("body.1.jitter: -1 is not"));
 }
 

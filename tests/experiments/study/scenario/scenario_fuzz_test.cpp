@@ -12,8 +12,8 @@
 #include "core/problem/inertia.hpp"
 #include "core/system/system.hpp"
 #include "experiments/study/scenario/builtin_scenarios.hpp"
-#include "experiments/study/text/input_error.hpp"
 #include "experiments/study/scenario/scenario.hpp"
+#include "experiments/study/text/input_error.hpp"
 
 namespace polhode::study {
 namespace {
@@ -82,15 +82,9 @@ std::string joined(const std::vector<std::string>& all) {
 void mutate_bytes(std::string& text, Dice& dice) {
   const std::size_t at = dice.below(text.size() + 1);
   switch (dice.below(4)) {
-    case 0:
-      text.insert(at, dice.of(snippets));
-      break;
-    case 1:
-      text.insert(at, 1, static_cast<char>(dice.below(256)));
-      break;
-    case 2:
-      text.erase(at, 1 + dice.below(8));
-      break;
+    case 0: text.insert(at, dice.of(snippets)); break;
+    case 1: text.insert(at, 1, static_cast<char>(dice.below(256))); break;
+    case 2: text.erase(at, 1 + dice.below(8)); break;
     default:
       if (at < text.size()) text[at] = static_cast<char>(dice.below(256));
   }
@@ -100,19 +94,14 @@ void mutate_lines(std::string& text, Dice& dice) {
   std::vector<std::string> all = split(text);
   const auto at = [&] { return all.begin() + static_cast<std::ptrdiff_t>(dice.below(all.size())); };
   switch (dice.below(4)) {
-    case 0:
-      all.erase(at());
-      break;
-    case 1:
-      std::swap(*at(), *at());
-      break;
+    case 0: all.erase(at()); break;
+    case 1: std::swap(*at(), *at()); break;
     case 2: {
       const std::string line = dice.of(all);
       all.insert(at(), line);
       break;
     }
-    default:
-      all.insert(at(), dice.of(lines) + '\n');
+    default: all.insert(at(), dice.of(lines) + '\n');
   }
   text = joined(all);
 }
@@ -180,14 +169,9 @@ TEST(ScenarioFuzz, MutatedTextsAreReadOrRefused) {
       const std::size_t mutations = 1 + dice.below(3);
       for (std::size_t m = 0; m < mutations; ++m) {
         switch (dice.below(3)) {
-          case 0:
-            mutate_bytes(text, dice);
-            break;
-          case 1:
-            mutate_lines(text, dice);
-            break;
-          default:
-            mutate_number(text, dice);
+          case 0: mutate_bytes(text, dice); break;
+          case 1: mutate_lines(text, dice); break;
+          default: mutate_number(text, dice);
         }
       }
       SCOPED_TRACE(text);
@@ -201,7 +185,8 @@ TEST(ScenarioFuzz, MutatedTextsAreReadOrRefused) {
 
 /// Keys of 10⁵ parts and as many brackets anywhere, which overflow the stack of whoever follows them down.
 TEST(ScenarioFuzz, EndlessNestingIsRefused) {
-  const std::vector<std::string> openings = {"a.", "a . ", "\"a\".", "'='.", "\",\".", "[", "[[", "{a=", "[{a.b=", "a = [\n", "x={"};
+  const std::vector<std::string> openings = {"a.", "a . ", "\"a\".", "'='.",    "\",\".", "[",
+                                             "[[", "{a=",  "[{a.b=", "a = [\n", "x={"};
   Dice dice(11);
   for (int i = 0; i < 30 && !testing::Test::HasFailure(); ++i) {
     std::vector<std::string> text = split(std::string(builtin_scenarios()[dice.below(8)].text));

@@ -13,14 +13,14 @@
 #include <map>
 #include <sstream>
 
+#include "collision/shapes/shape_inertia.hpp"
 #include "core/forces/catalogue.hpp"
 #include "core/problem/inertia.hpp"
 #include "core/system/invariants.hpp"
-#include "collision/shapes/shape_inertia.hpp"
 #include "core/system/system.hpp"
 #include "experiments/study/scenario/builtin_scenarios.hpp"
-#include "experiments/study/text/input_error.hpp"
 #include "experiments/study/scenario/scenario_keys.hpp"
+#include "experiments/study/text/input_error.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace polhode::study {
@@ -203,10 +203,12 @@ TEST(ScenarioErrors, Syntax) {
                    {"title = \"Test\"", "title = Test", "1:9: ", "Error while parsing"},
                    {"[0.0, 0.0, -9.81]", "[0.0, 0.0, 1e999]", "2:", "1e999"},
                    {"static = true", "static = true\n[[bod y]]", "15:", ""}});
-  EXPECT_THAT(error_of("a." + std::string(100000, '.') + "a=1"), AllOf(StartsWith("test.toml:1:"), HasSubstr("nested more than")));
+  EXPECT_THAT(error_of("a." + std::string(100000, '.') + "a=1"),
+              AllOf(StartsWith("test.toml:1:"), HasSubstr("nested more than")));
   std::string deep = "a";
   for (int i = 0; i < 100000; ++i) deep += ".a";
-  EXPECT_THAT(error_of(deep + "=1"), AllOf(StartsWith("test.toml:1:"), HasSubstr("nested more than"))) << "would overflow the stack";
+  EXPECT_THAT(error_of(deep + "=1"), AllOf(StartsWith("test.toml:1:"), HasSubstr("nested more than")))
+      << "would overflow the stack";
   EXPECT_THAT(error_of("a=" + std::string(100000, '[')), StartsWith("test.toml:1:"));
   EXPECT_THAT(error_of("title = \"\xff\""), StartsWith("test.toml:1:"));
 }
@@ -483,21 +485,24 @@ TEST(ScenarioOverrides, ErrorsOfValues) {
 
 TEST(ScenarioOverrides, AreBlamedForWhatTheyMakeOfTheRest) {
   const std::string error = error_of(base, {{"gravity.2", "-1"}, {"force.0.kind", "\"damper\""}});
-  EXPECT_THAT(error, StartsWith("--vary gravity.2, --vary force.0.kind: test.toml:23:1: force.0.stiffness: there is no such"));
+  EXPECT_THAT(error,
+              StartsWith("--vary gravity.2, --vary force.0.kind: test.toml:23:1: force.0.stiffness: there is no such"));
   const std::string of_file = error_of(changed("mass = 2.0", "mass = -2.0"), {{"gravity.2", "-1"}});
   EXPECT_THAT(of_file, StartsWith("test.toml:7:8: body.0.mass: -2")) << "the file is wrong by itself";
 }
 
 TEST(ScenarioOverrides, SurfacesDecideWhereThereIsContact) {
-  const std::string text = "t_end = 1\ncontact = true\n[[body]]\nmass = 1\nrestitution = 0.5\ninertia = [1, 1, 1]\n"
-                           "shape = { kind = \"sphere\", radius = 0.5 }\n[[body]]\nstatic = true\n"
-                           "shape = { kind = \"half_space\", normal = [0, 0, 1] }\n";
+  const std::string text =
+      "t_end = 1\ncontact = true\n[[body]]\nmass = 1\nrestitution = 0.5\ninertia = [1, 1, 1]\n"
+      "shape = { kind = \"sphere\", radius = 0.5 }\n[[body]]\nstatic = true\n"
+      "shape = { kind = \"half_space\", normal = [0, 0, 1] }\n";
   EXPECT_EQ(resolved(text, {{"body.0.restitution", "0.25"}}).colliders[0].restitution, 0.25);
   EXPECT_EQ(resolved(text, {{"body.1.friction", "0.5"}}).colliders[1].friction, 0.5);
   EXPECT_NE(resolved(text, {{"body.0.shape.radius", "0.25"}}).canonical, resolved(text).canonical);
   EXPECT_TRUE(resolved(text, {{"end_at_contact", "true"}}).end_at_contact);
   EXPECT_NE(resolved(text, {{"end_at_contact", "true"}}).canonical, resolved(text).canonical);
-  EXPECT_EQ(error_of(base, {{"body.0.friction", "0.5"}}), "--vary body.0.friction: the friction decides nothing about a run without contact = true");
+  EXPECT_EQ(error_of(base, {{"body.0.friction", "0.5"}}),
+            "--vary body.0.friction: the friction decides nothing about a run without contact = true");
   EXPECT_THAT(error_of("end_at_contact = true\n" + base), HasSubstr("end_at_contact: needs contact = true"));
 }
 
@@ -588,7 +593,8 @@ pinned = true)");
       beside = {{"body.1.repeat", "[1, 2, 1]"}, {"body.1.spacing", "[0, 1, 0]"}};
       overrides.insert(overrides.begin(), beside.begin(), beside.end());
     }
-    EXPECT_NE(resolved(text, overrides).canonical, beside.empty() ? canonical : resolved(text, beside).canonical) << key.name;
+    EXPECT_NE(resolved(text, overrides).canonical, beside.empty() ? canonical : resolved(text, beside).canonical)
+        << key.name;
   }
   EXPECT_NE(resolved(text, {{"gravity", "[0, 0, 1]"}}).canonical, canonical);
   EXPECT_NE(resolved(text, {{"gravity", "[0, 0, 0]"}}).canonical, canonical);

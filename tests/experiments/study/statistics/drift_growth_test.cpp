@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drifts whose law is known: hardly a decided class is wrong, most are decided, and the intervals hold the truth about as
-// often as they say.
+// Drifts whose law is known: hardly a decided class is wrong, most are decided, and the intervals hold the truth about
+// as often as they say.
 #include "experiments/study/statistics/drift_growth.hpp"
 
 #include <gtest/gtest.h>
@@ -28,10 +28,10 @@ struct Law {
   const char* expected;
   double exponent;
   std::function<double(double)> trend;
-  double slope;                   ///< of the least-squares line, per t_end
-  double amplitude = 0;           ///< of the oscillation, with a second harmonic
+  double slope;                      ///< of the least-squares line, per t_end
+  double amplitude = 0;              ///< of the oscillation, with a second harmonic
   double shortest = 1, longest = 5;  ///< period, s
-  double walk = 0;                ///< standard deviation at the end
+  double walk = 0;                   ///< standard deviation at the end
   double noise = 0;
   double least_decided = 0.95;
 };
@@ -67,8 +67,14 @@ void run(const Law& law, int seed, Counts& counts) {
   ASSERT_TRUE(growth);
   EXPECT_LE(growth->low, growth->exponent);
   EXPECT_LE(growth->exponent, growth->high);
-  const DriftClass c = classify({.blocks = blocks.finish(), .largest = largest, .largest_early = largest, .round_off = 1e-12,
-                                 .scale = 1e6, .samples = samples + 1, .t_end = t_end, .impacts = {}});
+  const DriftClass c = classify({.blocks = blocks.finish(),
+                                 .largest = largest,
+                                 .largest_early = largest,
+                                 .round_off = 1e-12,
+                                 .scale = 1e6,
+                                 .samples = samples + 1,
+                                 .t_end = t_end,
+                                 .impacts = {}});
   counts.decided += c.name != "undecided";
   counts.right += c.name == law.expected;
   // Of what stays bounded the exponent is that of its noise, below 0.
@@ -106,13 +112,16 @@ TEST_P(Drifts, HaveTheirClassAndTheirIntervals) {
   EXPECT_LE(counts.width, 0.3);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Laws, Drifts,
-    testing::Values(Law{"bounded", 0, none, 0, 1}, Law{"bounded", 0, none, 0, 1, 0.3, 0.7},
-                    Law{"bounded", 0, none, 0, 1, 1, 5, 0, 0.3}, Law{"bounded", 0, none, 0, 0, 1, 5, 0, 1},
-                    Law{"linear", 1, linear, 1, 1, 1, 5, 0, 0.05}, Law{"linear", 1, linear, 1, 5, 1, 2, 0, 0.05, 0.8},
-                    Law{"linear", 1, linear, 1, 0, 1, 5, 0.1, 0, 0.35}, Law{"quadratic", 2, quadratic, 1, 2, 1, 5, 0, 0.05},
-                    Law{"random walk", 0.5, none, 0, 0, 1, 5, 1, 0, 0.6}, Law{"random walk", 0.5, none, 0, 0, 1, 5, 1, 0.1, 0.4}));
+INSTANTIATE_TEST_SUITE_P(Laws, Drifts,
+                         testing::Values(Law{"bounded", 0, none, 0, 1}, Law{"bounded", 0, none, 0, 1, 0.3, 0.7},
+                                         Law{"bounded", 0, none, 0, 1, 1, 5, 0, 0.3},
+                                         Law{"bounded", 0, none, 0, 0, 1, 5, 0, 1},
+                                         Law{"linear", 1, linear, 1, 1, 1, 5, 0, 0.05},
+                                         Law{"linear", 1, linear, 1, 5, 1, 2, 0, 0.05, 0.8},
+                                         Law{"linear", 1, linear, 1, 0, 1, 5, 0.1, 0, 0.35},
+                                         Law{"quadratic", 2, quadratic, 1, 2, 1, 5, 0, 0.05},
+                                         Law{"random walk", 0.5, none, 0, 0, 1, 5, 1, 0, 0.6},
+                                         Law{"random walk", 0.5, none, 0, 0, 1, 5, 1, 0.1, 0.4}));
 
 TEST(Drift, OfAFewOscillationsIsLeftUndecided) {
   const Law law{"bounded", 0, none, 0, 1, 30, 45};

@@ -99,7 +99,8 @@ TEST(OrderEstimate, KnowsRoundingThatGoesUpAndDown) {
   EXPECT_EQ(e.at_round_off, 4U);
   EXPECT_GE(e.floor, 1.2e-10);
   // exact_rotor on peters_hsu: the floor of an unstable motion, which is no order.
-  const auto none = estimate_order(measured({6.9e-10, 8.3e-11, 2.5e-10, 1.2e-10, 6.0e-11, 1.6e-11, 2.1e-11, 2.1e-11, 2.3e-11}));
+  const auto none =
+      estimate_order(measured({6.9e-10, 8.3e-11, 2.5e-10, 1.2e-10, 6.0e-11, 1.6e-11, 2.1e-11, 2.1e-11, 2.3e-11}));
   EXPECT_FALSE(none.line);
   EXPECT_EQ(none.at_round_off, 9U);
 }

@@ -45,7 +45,8 @@ class InputFiles : public testing::Test {
 };
 
 TEST(Legible, KeepsWhatIsLegible) {
-  for (const std::string text : {"", " ", "a.toml:1:2: mass: -1 kg m² is not…", "two  blanks ", "\U0001F600 \u65e5\u672c"}) {
+  for (const std::string text :
+       {"", " ", "a.toml:1:2: mass: -1 kg m² is not…", "two  blanks ", "\U0001F600 \u65e5\u672c"}) {
     EXPECT_EQ(legible(text), text);
     EXPECT_EQ(shortened(text), text);
   }
@@ -137,11 +138,14 @@ TEST_F(InputFiles, ATableHasAnEnd) {
   };
   const std::string rows = "a,b\n1,2\n3,4";
   EXPECT_NO_THROW(read(file(rows), rows.size()));
-  EXPECT_THAT(refusal_of([&] { read(file(rows), rows.size() - 1); }), HasSubstr("file:3:1: the file is larger than 10 bytes"));
+  EXPECT_THAT(refusal_of([&] { read(file(rows), rows.size() - 1); }),
+              HasSubstr("file:3:1: the file is larger than 10 bytes"));
   EXPECT_THAT(refusal_of([&] { read(file("a,b\n1,2\n" + std::string(2 * mebibyte, '1')), 4 * mebibyte); }),
               HasSubstr("file:3:1: a line of more than 1 MiB"));
-  EXPECT_THAT(refusal_of([&] { read(file(std::string("a,b\n1,2\0\n", 9)), mebibyte); }), HasSubstr("file:2:1: a zero byte"));
-  EXPECT_THAT(refusal_of([&] { read(file(std::string("a,b\n1,2\0", 8)), mebibyte); }), HasSubstr("file:2:1: a zero byte"));
+  EXPECT_THAT(refusal_of([&] { read(file(std::string("a,b\n1,2\0\n", 9)), mebibyte); }),
+              HasSubstr("file:2:1: a zero byte"));
+  EXPECT_THAT(refusal_of([&] { read(file(std::string("a,b\n1,2\0", 8)), mebibyte); }),
+              HasSubstr("file:2:1: a zero byte"));
   EXPECT_THAT(refusal_of([&] { read("/dev/zero", mebibyte); }), HasSubstr("/dev/zero:1:1: a zero byte"));
 }
 
@@ -162,8 +166,9 @@ std::string times(std::size_t n, const std::string& part) {
 TEST(TomlNesting, WhatIsTooDeepIsRefusedWithItsPlace) {
   constexpr std::size_t n = 100'000;
   for (const std::string& text :
-       {"x = 1\n" + times(n, "a.") + "a = 1", "x = 1\n" + times(n, "a . ") + "a = 1", "x = 1\n[" + times(n, "a.") + "a]",
-        "x = 1\n[[" + times(n, "a.") + "a]]", "x = 1\n" + times(n, "\"=\".") + "a = 1", "x = 1\n" + times(n, "',\"'.") + "a = 1",
+       {"x = 1\n" + times(n, "a.") + "a = 1", "x = 1\n" + times(n, "a . ") + "a = 1",
+        "x = 1\n[" + times(n, "a.") + "a]", "x = 1\n[[" + times(n, "a.") + "a]]",
+        "x = 1\n" + times(n, "\"=\".") + "a = 1", "x = 1\n" + times(n, "',\"'.") + "a = 1",
         "x = 1\na = " + times(n, "[") + times(n, "]"), "x = 1\n" + times(n, "a = {") + "b = 1" + times(n, "}"),
         "x = 1\na = " + times(60, "{" + times(60, "a.") + "a = ") + "1" + times(60, "}"),
         "x = 1\na = [\n" + times(n, "{a.a = [ # no\n")}) {
@@ -178,11 +183,11 @@ TEST(TomlNesting, WhatIsTooDeepIsRefusedWithItsPlace) {
 }
 
 TEST(TomlNesting, DotsElsewhereAreNotNesting) {
-  for (const std::string& text :
-       {"title = \"" + times(1000, ".") + "\"", "title = '" + times(1000, ".") + "'", "# " + times(1000, ".") + "\nx = 1",
-        "title = \"\"\"" + times(1000, ".\n") + "\"\"\"", "title = '''" + times(1000, ".\n\"[") + "'''",
-        "x = [" + times(1000, "1.5, ") + "2.5]", "x = [" + times(1000, "[1.5, 2.5],\n") + "]", "x = \"\\\"" + times(1000, ".") + "\"",
-        "x = " + times(90, "[") + times(90, "]")}) {
+  for (const std::string& text : {"title = \"" + times(1000, ".") + "\"", "title = '" + times(1000, ".") + "'",
+                                  "# " + times(1000, ".") + "\nx = 1", "title = \"\"\"" + times(1000, ".\n") + "\"\"\"",
+                                  "title = '''" + times(1000, ".\n\"[") + "'''",
+                                  "x = [" + times(1000, "1.5, ") + "2.5]", "x = [" + times(1000, "[1.5, 2.5],\n") + "]",
+                                  "x = \"\\\"" + times(1000, ".") + "\"", "x = " + times(90, "[") + times(90, "]")}) {
     EXPECT_NO_THROW(parse_toml(text)) << text.substr(0, 40);
   }
 }

@@ -10,9 +10,9 @@
 #include <cmath>
 #include <random>
 
-#include "experiments/study/text/input_error.hpp"
-#include "experiments/study/run/run.hpp"
 #include "experiments/judge/trajectory_score.hpp"
+#include "experiments/study/run/run.hpp"
+#include "experiments/study/text/input_error.hpp"
 
 namespace polhode::study {
 namespace {
@@ -40,8 +40,8 @@ const std::string head = "t_s,qw,qx,qy,qz,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s
 
 TEST(TrajectoryReader, TakesColumnsByNameInAnyOrder) {
   const Trajectory t = parse_trajectory(
-      "\xEF\xBB\xBF# an engine\r\nqz, \"t_s\",mood,qw,qx,qy\r\n0,0,fine,1,0,0\r\n\r\n.6, +0.5,bad,-8e-1,0,0\r\n", "x.csv",
-      bodies(1));
+      "\xEF\xBB\xBF# an engine\r\nqz, \"t_s\",mood,qw,qx,qy\r\n0,0,fine,1,0,0\r\n\r\n.6, +0.5,bad,-8e-1,0,0\r\n",
+      "x.csv", bodies(1));
   ASSERT_EQ(t.times.size(), 2u);
   EXPECT_EQ(t.times[1], 0.5);
   EXPECT_EQ(t.bodies[1].orientation, (Quaternion<double>(-0.8, 0, 0, 0.6)));
@@ -50,8 +50,8 @@ TEST(TrajectoryReader, TakesColumnsByNameInAnyOrder) {
 
 TEST(TrajectoryReader, TakesTheMatrixAndBodiesInAnyOrder) {
   const std::string names = "body,t_s,energy_J,r11,r12,r13,r21,r22,r23,r31,r32,r33\n", turn = ",0,-1,0,1,0,0,0,0,1\n";
-  const Trajectory t = parse_trajectory(names + "1,0,7" + turn + "0,0,7,1,0,0,0,1,0,0,0,1\n0,1,8" + turn + "1,1,8" + turn,
-                                        "x.csv", bodies(2));
+  const Trajectory t = parse_trajectory(
+      names + "1,0,7" + turn + "0,0,7,1,0,0,0,1,0,0,0,1\n0,1,8" + turn + "1,1,8" + turn, "x.csv", bodies(2));
   ASSERT_TRUE(t.has_matrix && t.has_energy);
   EXPECT_EQ(t.bodies[0].rotation, (Matrix3<double>::Identity()));
   EXPECT_EQ(t.bodies[1].rotation(0, 1), -1);
@@ -68,7 +68,8 @@ TEST(TrajectoryReader, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(complaint("t_s,qw,qx,qy\n"), HasSubstr("lacks the column qz"));
   EXPECT_THAT(complaint("t_s,qw,qw,qx,qy,qz\n"), HasSubstr("x.csv:1:8: the column qw stands twice"));
   EXPECT_THAT(complaint(head, 2), HasSubstr("no column body"));
-  EXPECT_THAT(complaint(head + good + "1,1,0,0,abc,0,0,1\n"), HasSubstr("x.csv:3:9: qz is 'abc', which is not a number"));
+  EXPECT_THAT(complaint(head + good + "1,1,0,0,abc,0,0,1\n"),
+              HasSubstr("x.csv:3:9: qz is 'abc', which is not a number"));
   EXPECT_THAT(complaint(head + good + "1,1,0,0,,0,0,1\n"), HasSubstr("x.csv:3:9: qz is empty"));
   EXPECT_THAT(complaint(head + good + "1,1,0,0,0,nan,0,1\n"), HasSubstr("x.csv:3:11: wx_rad_per_s is 'nan'"));
   EXPECT_THAT(complaint(head + good + "1,1,0,0,0,-inf,0,1\n"), HasSubstr("cut the file"));
@@ -79,9 +80,11 @@ TEST(TrajectoryReader, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(complaint(head + good + good), HasSubstr("body 0 stands twice at t_s = 0"));
   EXPECT_THAT(complaint(head + "0,2,0,0,0,0,0,1\n"), HasSubstr("a quaternion of length 2 at the start"));
   EXPECT_THAT(complaint(head + good + "1,0,0,0,0,0,0,1\n"), HasSubstr("no orientation"));
-  EXPECT_THAT(complaint("body," + head + "3," + good), HasSubstr("body is 3; the scenario's moving bodies are numbered 0 to 0"));
+  EXPECT_THAT(complaint("body," + head + "3," + good),
+              HasSubstr("body is 3; the scenario's moving bodies are numbered 0 to 0"));
   EXPECT_THAT(complaint("body," + head + "0.5," + good), HasSubstr("body is 0.5"));
-  EXPECT_THAT(complaint("body," + head + "0," + good + "0,1,1,0,0,0,0,0,1\n", 2), HasSubstr("body 1 ('b1') has no row at t_s = 0"));
+  EXPECT_THAT(complaint("body," + head + "0," + good + "0,1,1,0,0,0,0,0,1\n", 2),
+              HasSubstr("body 1 ('b1') has no row at t_s = 0"));
   EXPECT_THAT(complaint("t_s,r11,r12,r13,r21,r22,r23,r31,r32,r33\n0,-1,0,0,0,1,0,0,0,1\n"), HasSubstr("det R = -1"));
   EXPECT_EQ(complaint(head + "0,0.999,0,0,0,0,0,1\n3,0.5,0,0,0,0,0,1\n"), "none");  // few digits, and a drifting length
 }
@@ -102,7 +105,8 @@ TEST(TrajectoryReader, NeverFallsOver) {
         case 0: text.insert(at(), 1, alphabet[random() % alphabet.size()]); break;
         case 1: text.erase(at(), random() % 8); break;
         case 2: text.insert(at(), text.substr(at(), random() % 40)); break;
-        default: if (const auto k = at(); k < text.size()) text[k] = static_cast<char>(random() % 256);
+        default:
+          if (const auto k = at(); k < text.size()) text[k] = static_cast<char>(random() % 256);
       }
     }
     try {
@@ -117,7 +121,7 @@ TEST(TrajectoryReader, NeverFallsOver) {
       ASSERT_EQ(std::string(error.what()).find('\n'), std::string::npos);
     }
   }
-  EXPECT_GT(read, 1000);   // the valid part of the space is seen too
+  EXPECT_GT(read, 1000);  // the valid part of the space is seen too
   EXPECT_LT(read, 19000);
 }
 
@@ -162,7 +166,8 @@ TEST(TrajectoryScore, DerivesWhatIsMissingOrLeavesItEmpty) {
   EXPECT_FALSE(rotation_only.notes.empty());
   t.has_angular_velocity = false;
   const auto attitude_only = score(t, scenario, {});
-  EXPECT_FALSE(attitude_only.record.result.energy_drift_max_rel || attitude_only.record.result.polhode_off_error_max_rel);
+  EXPECT_FALSE(attitude_only.record.result.energy_drift_max_rel ||
+               attitude_only.record.result.polhode_off_error_max_rel);
   EXPECT_LE(*attitude_only.record.result.attitude_error_max, 1e-14);
   t.has_angular_momentum = true;
   for (TrajectoryBody& b : t.bodies) {
@@ -184,8 +189,8 @@ TEST(TrajectoryScore, SaysWhereTheStartIsAnother) {
   ASSERT_EQ(s.notes.size(), 1u);
   EXPECT_THAT(s.notes[0], HasSubstr("a position 0.25 m away"));
   EXPECT_NEAR(*s.record.result.position_error_max, 0.25, 1e-12);
-  EXPECT_NEAR(*s.energy_column_difference_max_rel, (1e3 - *s.record.result.energy_initial) / *s.record.result.energy_initial,
-              1e-9);
+  EXPECT_NEAR(*s.energy_column_difference_max_rel,
+              (1e3 - *s.record.result.energy_initial) / *s.record.result.energy_initial, 1e-9);
 }
 
 }  // namespace

@@ -16,14 +16,14 @@
 #include <string>
 #include <vector>
 
-#include "experiments/study/plot/axis.hpp"
 #include "experiments/study/curves/curves.hpp"
 #include "experiments/study/curves/error_ladder.hpp"
-#include "experiments/study/report/findings/findings.hpp"
-#include "experiments/study/text/notation.hpp"
-#include "experiments/study/report/figures/study_figures.hpp"
-#include "experiments/study/report/tables/tex_values.hpp"
+#include "experiments/study/plot/axis.hpp"
 #include "experiments/study/record/study_view.hpp"
+#include "experiments/study/report/figures/study_figures.hpp"
+#include "experiments/study/report/findings/findings.hpp"
+#include "experiments/study/report/tables/tex_values.hpp"
+#include "experiments/study/text/notation.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace polhode::study {
@@ -288,7 +288,8 @@ TEST(ReportCurves, LeaveOutOfASlopeWhatIsRoundOffSaturatedOrDiverged) {
   EXPECT_NEAR(order.line->order, 4, 1e-3);
 }
 
-/// One method at 1/1280 s, 1/640 s, … with these attitude errors, smallest step first; where they are negative it diverged.
+/// One method at 1/1280 s, 1/640 s, … with these attitude errors, smallest step first; where they are negative it
+/// diverged.
 StudyView with_attitude_errors(const std::string& method, const std::vector<double>& errors) {
   auto study = empty_study("unused");
   study.scenarios.push_back(fake_scenario("top"));
@@ -310,7 +311,8 @@ std::optional<OrderEstimate::Line> attitude_line(const StudyView& study) {
 // As they were measured on peters_hsu.
 const std::vector<double> of_heun = {6.29e-3, 4.97e-2, 0.351, 0.600, 2.24, 2.61, 2.78, 0.971, 2.28};
 const std::vector<double> of_crouch_grossman3 = {1.6e-3, 1.3e-2, 9.9e-2, 0.59, 3.0, 0.77, 2.2, 1.7, -1};
-const std::vector<double> of_exact_rotor = {6.9e-10, 8.3e-11, 2.5e-10, 1.2e-10, 6.0e-11, 1.6e-11, 2.1e-11, 2.1e-11, 2.3e-11};
+const std::vector<double> of_exact_rotor = {6.9e-10, 8.3e-11, 2.5e-10, 1.2e-10, 6.0e-11,
+                                            1.6e-11, 2.1e-11, 2.1e-11, 2.3e-11};
 const std::vector<double> of_recipe_bullet = {0.26, 0.52, 1.0, 2.0, 2.5, 0.61, 0.83, 0.75, 0.85};
 
 TEST(ReportCurves, FitNoOrderToWrappedAngles) {
@@ -323,7 +325,9 @@ TEST(ReportCurves, FitNoOrderToWrappedAngles) {
   EXPECT_FALSE(attitude_line(with_attitude_errors("rk4", {0.2, 0.4, 2.1, 0.02, 0.2, 0.3})));
 }
 
-TEST(ReportCurves, FitNoOrderToRounding) { EXPECT_FALSE(attitude_line(with_attitude_errors("exact_rotor", of_exact_rotor))); }
+TEST(ReportCurves, FitNoOrderToRounding) {
+  EXPECT_FALSE(attitude_line(with_attitude_errors("exact_rotor", of_exact_rotor)));
+}
 
 TEST(ReportFindings, SayWhyTheDataDoNotTellAnOrder) {
   const auto about = [](const std::string& method, const std::vector<double>& errors) {
@@ -333,20 +337,26 @@ TEST(ReportFindings, SayWhyTheDataDoNotTellAnOrder) {
                 .find("The data do not tell the order of the attitude error of exact_rotor: errors at round-off."),
             std::string::npos);
   EXPECT_NE(about("recipe_bullet", of_recipe_bullet)
-                .find("The data do not tell the order of the attitude error of recipe_bullet: steps too large: the attitude is off by "
+                .find("The data do not tell the order of the attitude error of recipe_bullet: steps too large: the "
+                      "attitude is off by "
                       "more than half a radian."),
             std::string::npos)
       << about("recipe_bullet", of_recipe_bullet);
-  EXPECT_NE(about("heun", of_heun).find("order of the attitude error of heun: too few points for a line within ±0.5."), std::string::npos)
+  EXPECT_NE(about("heun", of_heun).find("order of the attitude error of heun: too few points for a line within ±0.5."),
+            std::string::npos)
       << about("heun", of_heun);
-  EXPECT_NE(about("crouch_grossman3", of_crouch_grossman3).find("the attitude error falls at least as fast as the declared order"),
+  EXPECT_NE(about("crouch_grossman3", of_crouch_grossman3)
+                .find("the attitude error falls at least as fast as the declared order"),
             std::string::npos);
-  for (const auto& [method, errors] : {std::pair("exact_rotor", of_exact_rotor), std::pair("recipe_bullet", of_recipe_bullet),
-                                       std::pair("heun", of_heun), std::pair("crouch_grossman3", of_crouch_grossman3)}) {
-    EXPECT_EQ(about(method, errors).find("the attitude error falls more slowly"), std::string::npos) << about(method, errors);
+  for (const auto& [method, errors] :
+       {std::pair("exact_rotor", of_exact_rotor), std::pair("recipe_bullet", of_recipe_bullet),
+        std::pair("heun", of_heun), std::pair("crouch_grossman3", of_crouch_grossman3)}) {
+    EXPECT_EQ(about(method, errors).find("the attitude error falls more slowly"), std::string::npos)
+        << about(method, errors);
   }
   // Of what does fall more slowly it is still said.
-  EXPECT_NE(about("rk4", {1e-6, 4e-6, 1.6e-5, 6.4e-5, 2.56e-4}).find("falls more slowly than the declared order for rk4 (2.00 over 5 points"),
+  EXPECT_NE(about("rk4", {1e-6, 4e-6, 1.6e-5, 6.4e-5, 2.56e-4})
+                .find("falls more slowly than the declared order for rk4 (2.00 over 5 points"),
             std::string::npos);
 }
 
@@ -355,8 +365,12 @@ TEST(ReportFindings, NameNoLeastAmongRunsThatDoNotFollowTheMotion) {
   for (const auto& run : with_attitude_errors("heun", {3.1, 2.9, 1.2}).runs) study.runs.push_back(run);
   auto text = findings_text(study);
   EXPECT_EQ(text.find("least attitude error"), std::string::npos) << text;
-  EXPECT_NE(text.find("no run follows the motion: the attitude of rk4 and heun is off by more than a radian"), std::string::npos) << text;
-  EXPECT_NE(text.find("No run follows the motion of top: all 6 that ended are off by more than a radian"), std::string::npos) << text;
+  EXPECT_NE(text.find("no run follows the motion: the attitude of rk4 and heun is off by more than a radian"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("No run follows the motion of top: all 6 that ended are off by more than a radian"),
+            std::string::npos)
+      << text;
   EXPECT_EQ(text.find("follows the motion"), text.find("follows the motion of top")) << "the caution comes first";
 
   // One that follows is the least, and those that do not are named, not ranked.
@@ -364,7 +378,8 @@ TEST(ReportFindings, NameNoLeastAmongRunsThatDoNotFollowTheMotion) {
   for (const auto& run : with_attitude_errors("gauss4", {0.3, 0.4, 0.7}).runs) study.runs.push_back(run);
   text = findings_text(study);
   EXPECT_EQ(text.find("No run follows"), std::string::npos) << text;
-  EXPECT_NE(text.find("explicit_midpoint has the least attitude error (0.1 rad) and gauss4 the most (0.3 rad); the attitude of rk4 and "
+  EXPECT_NE(text.find("explicit_midpoint has the least attitude error (0.1 rad) and gauss4 the most (0.3 rad); the "
+                      "attitude of rk4 and "
                       "heun is off by more than a radian."),
             std::string::npos)
       << text;
@@ -378,17 +393,22 @@ TEST(ReportFindings, PraiseNoDriftOfARunThatDoesNotFollowTheMotion) {
     if (run.config.integrator == "heun") run.result.energy_drift_max_rel = 1e-3;
   }
   const auto text = findings_text(study);
-  EXPECT_NE(text.find("rk4 has the least energy drift (1e-6, but does not follow the motion) and heun the most (0.001)"), std::string::npos)
+  EXPECT_NE(
+      text.find("rk4 has the least energy drift (1e-6, but does not follow the motion) and heun the most (0.001)"),
+      std::string::npos)
       << text;
   for (auto& run : study.runs) run.result.energy_drift_max_rel = run.config.integrator == "rk4" ? 7 : 5;
   const auto lost = findings_text(study);
   EXPECT_EQ(lost.find("least energy drift"), std::string::npos) << lost;
-  EXPECT_NE(lost.find("no run keeps it: the energy drift of heun and rk4 is 1 or more, of rk4 the most (7)"), std::string::npos) << lost;
+  EXPECT_NE(lost.find("no run keeps it: the energy drift of heun and rk4 is 1 or more, of rk4 the most (7)"),
+            std::string::npos)
+      << lost;
 }
 
 TEST(ReportCurves, LeaveOutOfASlopeTheFloorThatRoundingMakes) {
   auto study = empty_study("unused");
-  const std::vector<double> drifts = {1.3e-6, 4.64e-8, 1.64e-9, 6.36e-11, 1.5e-11, 1.66e-11, 6.19e-11};  // rk4 on a thrown box
+  const std::vector<double> drifts = {1.3e-6,  4.64e-8,  1.64e-9, 6.36e-11,
+                                      1.5e-11, 1.66e-11, 6.19e-11};  // rk4 on a thrown box
   const std::vector<double> steps = {0.04, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005};
   for (std::size_t i = 0; i < steps.size(); ++i) {
     study.runs.push_back(fake_run({.method = "rk4"}, "top", steps[i]));
