@@ -12,7 +12,7 @@
 
 #include "collision/shape.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 struct BodyPair {
   std::uint32_t a = 0, b = 0;  ///< a < b

@@ -8,7 +8,7 @@
 
 #include "core/math/linear_algebra.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// Which parts of two shapes touch. The numbers are those of the shapes' own faces, edges and vertices, and stay the
 /// same while the contact does: warm starting knows a contact by them.

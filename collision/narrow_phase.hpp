@@ -13,7 +13,7 @@
 #include "collision/contact.hpp"
 #include "collision/shape.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// What a pair remembers from one question to the next, to start warm; empty at first, and never needed for the answer
 /// to be right.

@@ -5,7 +5,7 @@
 #include "core/math/linear_algebra.hpp"
 #include "core/math/quaternion.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// x in the world = position + rotation · x in the shape's axes.
 struct Pose {

@@ -18,6 +18,10 @@ template <class S>
 class System;
 template <class S>
 class ForceModel;
+}  // namespace polhode
+
+namespace polhode::inline collision {
+
 class ContactScene;
 
 /// A body as impulses see it, world axes. What cannot move has no inverse mass and no inverse inertia.

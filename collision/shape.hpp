@@ -10,7 +10,7 @@
 
 #include "collision/pose.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 using Bounds = Eigen::AlignedBox3d;  ///< m, closed, axis-aligned in the world
 

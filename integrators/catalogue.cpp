@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "core/problem/catalogue.hpp"
+
 #include "integrators/catalogue.hpp"
 
-#include <algorithm>
-
-// One line lists a method: the function of its name, in the file of its name, declares it.
+// One line for each method. The function with the name of the method declares it, in the file with that name.
 #define POLHODE_INTEGRATORS(METHOD) \
   METHOD(explicit_euler) \
   METHOD(semi_implicit_euler) \
@@ -51,7 +51,7 @@
   METHOD(odeint_bulirsch_stoer) \
   METHOD(odeint_rosenbrock4)
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 #define POLHODE_DECLARE(name) IntegratorEntry name();
 POLHODE_INTEGRATORS(POLHODE_DECLARE)
@@ -63,9 +63,7 @@ const std::vector<IntegratorEntry>& integrator_catalogue() {
 }
 
 const IntegratorEntry* find_integrator(std::string_view name) {
-  const auto& all = integrator_catalogue();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.declaration.name == name; });
-  return found == all.end() ? nullptr : &*found;
+  return find_entry(integrator_catalogue(), name, [](const auto& entry) { return entry.declaration.name; });
 }
 
 }  // namespace polhode

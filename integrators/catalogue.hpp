@@ -6,16 +6,21 @@
 #include <functional>
 #include <memory>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "core/run/integrator.hpp"
+#include "integrators/shifted_system.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class S>
 using IntegratorPointer = std::unique_ptr<Integrator<S>>;
 template <class S>
 using IntegratorMaker = std::function<IntegratorPointer<S>(const System<S>&, const IntegratorSettings&)>;
+/// Builds a fixed-step method for the ODE of the change of the state (ShiftedSystem).
+template <class S>
+using IncrementMaker = std::function<IntegratorPointer<S>(const ShiftedSystem<S>&)>;
 
 /// A method with its builders, one for each scalar that it works in; an empty one means that it does not.
 /// The system must outlive the integrator.
@@ -27,6 +32,14 @@ struct IntegratorEntry {
   IntegratorMaker<Lanes> make_lanes{};  ///< in the lanes of an ensemble
   /// Why it makes no sense with this problem in this formulation; empty, or an empty answer: it does.
   std::function<std::string(const Problem&, const Formulation&)> refusal{};
+
+  /// Builders of an additive method for the change of the state (integrators/compensated.hpp); empty for other methods.
+  std::tuple<IncrementMaker<float>, IncrementMaker<double>, IncrementMaker<long double>> increments{};
+
+  template <class S>
+  const IncrementMaker<S>& increment() const {
+    return std::get<IncrementMaker<S>>(increments);
+  }
 
   template <class S>
   const IntegratorMaker<S>& maker() const {

@@ -5,7 +5,7 @@
 
 #include "integrators/shifted_system.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 namespace {
 
 /// sum ← fl(sum + carried + addend); carried ← what is missing there.
@@ -21,10 +21,8 @@ void add(S& sum, S& carried, S addend) {
 template <class S>
 class Compensated final : public Integrator<S> {
  public:
-  Compensated(const IntegratorEntry& entry, const System<S>& system, const IntegratorSettings& settings)
-      : shifted_(system), increment_(shifted_.start()), carried_(increment_.y) {
-    method_ = entry.maker<S>()(shifted_, settings);
-  }
+  Compensated(const IncrementMaker<S>& make, const System<S>& system)
+      : shifted_(system), increment_{0, shifted_.zero()}, carried_(shifted_.zero()), method_(make(shifted_)) {}
 
   void begin(const State<S>& state) override {
     carried_.setZero();
@@ -65,17 +63,13 @@ class Compensated final : public Integrator<S> {
 }  // namespace
 
 template <class S>
-IntegratorPointer<S> make_compensated(const IntegratorEntry& entry, const System<S>& system,
-                                      const IntegratorSettings& settings) {
+IntegratorPointer<S> make_compensated(const IntegratorEntry& entry, const System<S>& system) {
   if (!entry.declaration.additive) throw std::invalid_argument(entry.declaration.name + " is not additive");
-  return std::make_unique<Compensated<S>>(entry, system, settings);
+  return std::make_unique<Compensated<S>>(entry.increment<S>(), system);
 }
 
-template IntegratorPointer<float> make_compensated(const IntegratorEntry&, const System<float>&,
-                                                   const IntegratorSettings&);
-template IntegratorPointer<double> make_compensated(const IntegratorEntry&, const System<double>&,
-                                                    const IntegratorSettings&);
-template IntegratorPointer<long double> make_compensated(const IntegratorEntry&, const System<long double>&,
-                                                         const IntegratorSettings&);
+template IntegratorPointer<float> make_compensated(const IntegratorEntry&, const System<float>&);
+template IntegratorPointer<double> make_compensated(const IntegratorEntry&, const System<double>&);
+template IntegratorPointer<long double> make_compensated(const IntegratorEntry&, const System<long double>&);
 
 }  // namespace polhode

@@ -13,13 +13,12 @@
 
 #include "integrators/catalogue.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 /// The method of this entry with its sums compensated. A projection discards the error that is carried, for it belongs
 /// to the state before it. Throws std::invalid_argument for a method that is not additive. One for each of float,
 /// double and long double; the system must outlive it.
 template <class S>
-IntegratorPointer<S> make_compensated(const IntegratorEntry& entry, const System<S>& system,
-                                      const IntegratorSettings& settings);
+IntegratorPointer<S> make_compensated(const IntegratorEntry& entry, const System<S>& system);
 
 }  // namespace polhode

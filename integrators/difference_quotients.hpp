@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 /// The step over which to take the quotient in a number near x: eps^(1/3) max(|x|, 1), such that x + step is exact.
 inline double quotient_step(double x) {

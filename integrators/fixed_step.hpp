@@ -16,9 +16,10 @@
 #include "core/system/rigid_bodies.hpp"
 #include "integrators/catalogue.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
-template <template <class> class Method, MechanicalSystem System>
+/// The integrator of a fixed-step method for a concrete system.
+template <class Method, FlatOde System>
 class FixedStep final : public Integrator<typename System::Scalar> {
  public:
   using S = typename System::Scalar;
@@ -29,7 +30,7 @@ class FixedStep final : public Integrator<typename System::Scalar> {
 
   void begin(const State<S>&) override {
     steps_ = 0;
-    method_ = Method<System>(system_);
+    method_ = Method(system_);
   }
   StepResult step(State<S>& state, double h) override {
     if constexpr (can_fail) {
@@ -44,20 +45,20 @@ class FixedStep final : public Integrator<typename System::Scalar> {
     }
   }
 
-  bool takes_stretches() const override { return measures && !can_fail; }
+  bool takes_batches() const override { return measures && !can_fail; }
 
   using Integrator<S>::advance;
 
-  StepResult advance(State<S>& state, const Stretch& stretch) override {
+  StepResult advance(State<S>& state, const StepBatch& batch) override {
     if constexpr (can_fail) {
-      return Integrator<S>::advance(state, stretch);
+      return Integrator<S>::advance(state, batch);
     } else if constexpr (measures) {
-      take_inlined(state, stretch);
+      take_inlined(state, batch);
     } else {
-      take([this]() -> Method<System>& { return method_; }, stretch, state.y);
+      take([this]() -> Method& { return method_; }, batch, state.y);
     }
-    state.t = stretch.time(stretch.count);
-    steps_ += stretch.count;
+    state.t = batch.time(batch.count);
+    steps_ += batch.count;
     return {};
   }
 
@@ -68,54 +69,54 @@ class FixedStep final : public Integrator<typename System::Scalar> {
 
  private:
   static constexpr bool can_fail =
-      std::is_same_v<const char*, decltype(std::declval<Method<System>&>().step(std::declval<const System&>(), S(), S(),
-                                                                                std::declval<Flat&>()))>;
+      std::is_same_v<const char*, decltype(std::declval<Method&>().step(std::declval<const System&>(), S(), S(),
+                                                                        std::declval<Flat&>()))>;
 
-  // Flattened: without it the compiler leaves calls between the stages, which doubles the cost of a step of one body.
-  // Not for float and long double, whose steps nobody waits for: it would be a third of the time to compile a method.
-  POLHODE_FLATTEN void take_inlined(State<S>& state, const Stretch& stretch) {
+  // Flattening inlines the calls between the stages, which would otherwise double the cost of a step of one body. Float
+  // and long double are not flattened: that would add a third to the compile time of a method.
+  POLHODE_FLATTEN void take_inlined(State<S>& state, const StepBatch& batch) {
     if constexpr (System::is_one) {
       // Local copies, which the compiler can keep in registers.
       Flat y = Eigen::Map<const Flat>(state.y.data());
-      if constexpr (requires { Method<System>::remembers_nothing; }) {
-        take([this] { return Method<System>(system_); }, stretch, y);
+      if constexpr (requires { Method::remembers_nothing; }) {
+        take([this] { return Method(system_); }, batch, y);
       } else {
-        Method<System> method = method_;
-        take([&method]() -> Method<System>& { return method; }, stretch, y);
+        Method method = method_;
+        take([&method]() -> Method& { return method; }, batch, y);
         method_ = method;
       }
       Eigen::Map<Flat>{state.y.data()} = y;
     } else {
-      take([this]() -> Method<System>& { return method_; }, stretch, state.y);
+      take([this]() -> Method& { return method_; }, batch, state.y);
     }
   }
 
   template <class MethodOfStep>
-  void take(const MethodOfStep& method, const Stretch& stretch, Flat& y) const {
-    for (std::int64_t k = 1; k <= stretch.count; ++k) {
-      method().step(system_, S(stretch.time(k - 1)), S(stretch.h), y);
-      if constexpr (measures) finish_step(stretch, k, y);
+  void take(const MethodOfStep& method, const StepBatch& batch, Flat& y) const {
+    for (std::int64_t k = 1; k <= batch.count; ++k) {
+      method().step(system_, S(batch.time(k - 1)), S(batch.h), y);
+      if constexpr (measures) finish_step(batch, k, y);
     }
   }
 
-  static constexpr bool measures = std::is_same_v<S, double> || is_lanes<S>;
+  static constexpr bool measures = Measurable<System> && (std::is_same_v<S, double> || is_lanes<S>);
 
-  /// Projection and measurement, as the driver does them for methods that take no stretches.
-  void finish_step(const Stretch& stretch, std::int64_t k, Flat& y) const {
+  /// Projects and measures after step k, like the simulation loop does for methods without batches of steps.
+  void finish_step(const StepBatch& batch, std::int64_t k, Flat& y) const {
     S injected = 0;
-    if (stretch.project) {
-      const bool account = stretch.samples && system_.projection_changes_energy();
+    if (batch.project) {
+      const bool account = batch.samples && system_.projection_changes_energy();
       const S before = account ? energy(y) : S(0);
       system_.project_flat(y.data());
       if (account) injected = energy(y) - before;
     }
-    if (!stretch.samples) return;
+    if (!batch.samples) return;
     const Measurement<S> m = system_.measure_flat(y.data());
     if constexpr (is_lanes<S>) {
       const S work = y[y.size() - 1];
-      for (int i = 0; i < stretch.lanes; ++i) {
-        Sample& to = stretch.samples[i * stretch.lane_stride + k - 1];
-        to.t = stretch.time(k);
+      for (int i = 0; i < batch.lanes; ++i) {
+        Sample& to = batch.samples[i * batch.lane_stride + k - 1];
+        to.t = batch.time(k);
         to.seen.kinetic = m.kinetic[i];
         to.seen.potential = m.potential[i];
         for (int j = 0; j < 3; ++j) to.seen.linear_momentum[j] = m.linear_momentum[j][i];
@@ -125,7 +126,7 @@ class FixedStep final : public Integrator<typename System::Scalar> {
         to.projection = injected[i];
       }
     } else {
-      stretch.samples[k - 1] = {stretch.time(k), m, y[y.size() - 1], injected};
+      batch.samples[k - 1] = {batch.time(k), m, y[y.size() - 1], injected};
     }
   }
 
@@ -133,7 +134,7 @@ class FixedStep final : public Integrator<typename System::Scalar> {
   [[gnu::noinline]] S energy(Flat y) const { return system_.measure_flat(y.data()).energy(); }
 
   const System& system_;
-  Method<System> method_;
+  Method method_;
   int evaluations_per_step_;
   std::int64_t steps_ = 0;
 };
@@ -145,7 +146,7 @@ IntegratorEntry fixed_step(Declaration declaration) {
   const int evaluations = declaration.evaluations_per_step;
   const auto maker = [evaluations]<class S>(const System<S>& system) -> IntegratorPointer<S> {
     return visit_system(system, [&]<class Concrete>(const Concrete& concrete) -> IntegratorPointer<S> {
-      return std::make_unique<FixedStep<Method, Concrete>>(concrete, evaluations);
+      return std::make_unique<FixedStep<Method<Concrete>, Concrete>>(concrete, evaluations);
     });
   };
   IntegratorMaker<Lanes> lanes;
@@ -157,4 +158,20 @@ IntegratorEntry fixed_step(Declaration declaration) {
           .make_lanes = std::move(lanes)};
 }
 
-}  // namespace polhode
+/// Builds the catalogue entry of an additive method. Its step adds an increment to the flat state and uses only a
+/// FlatOde or a PartitionedOde, so that compensated summation applies.
+template <template <class> class Method, bool with_lanes = false>
+IntegratorEntry additive_step(Declaration declaration) {
+  declaration.additive = true;
+  IntegratorEntry entry = fixed_step<Method, with_lanes>(std::move(declaration));
+  const auto maker = [evaluations = entry.declaration.evaluations_per_step]<class S>(const ShiftedSystem<S>& change) {
+    using Change = ShiftedSystem<S>;
+    return IntegratorPointer<S>(std::make_unique<FixedStep<Method<Change>, Change>>(change, evaluations));
+  };
+  entry.increments = {[maker](const ShiftedSystem<float>& s) { return maker(s); },
+                      [maker](const ShiftedSystem<double>& s) { return maker(s); },
+                      [maker](const ShiftedSystem<long double>& s) { return maker(s); }};
+  return entry;
+}
+
+}  // namespace polhode::integrators

@@ -8,7 +8,7 @@
 #include "collision/broad/pair_list.hpp"
 #include "collision/broad_phase.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 class AllPairs final : public BroadPhase {
@@ -23,7 +23,7 @@ class AllPairs final : public BroadPhase {
     pairs_.clear();
     const auto n = static_cast<std::uint32_t>(boxes_.size());
     for (std::uint32_t a = 0; a < n; ++a) {
-      const broad::Box box = boxes_[a];
+      const broad::PlainBox box = boxes_[a];
       for (std::uint32_t b = a + 1; b < n; ++b) {
         if (!overlap(box, boxes_[b])) continue;
         if (pairs_.size() == broad::most_pairs) broad::too_many_pairs();
@@ -36,7 +36,7 @@ class AllPairs final : public BroadPhase {
   }
 
  private:
-  std::vector<broad::Box> boxes_;
+  std::vector<broad::PlainBox> boxes_;
   std::vector<BodyPair> pairs_;  // sorted as they come
   bool stale_ = false;
 };

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace polhode::broad {
+namespace polhode::inline collision::broad {
 namespace {
 
 bool good(const Bounds& b) {
@@ -30,7 +30,7 @@ void check(std::span<const Bounds> bounds) {
   }
 }
 
-void take(std::span<const Bounds> bounds, std::vector<Box>& boxes) {
+void take(std::span<const Bounds> bounds, std::vector<PlainBox>& boxes) {
   check(bounds);
   boxes.resize(bounds.size());
   for (std::size_t i = 0; i < bounds.size(); ++i) boxes[i] = box_of(bounds[i]);

@@ -12,17 +12,17 @@
 
 #include "collision/shape.hpp"
 
-namespace polhode::broad {
+namespace polhode::inline collision::broad {
 
-struct Box {
+struct PlainBox {
   std::array<double, 3> low, high;
 };
 
-inline Box box_of(const Bounds& b) {
+inline PlainBox box_of(const Bounds& b) {
   return {{b.min().x(), b.min().y(), b.min().z()}, {b.max().x(), b.max().y(), b.max().z()}};
 }
 
-inline Bounds bounds_of(const Box& b) {
+inline Bounds bounds_of(const PlainBox& b) {
   return {Vector3<double>(b.low[0], b.low[1], b.low[2]), Vector3<double>(b.high[0], b.high[1], b.high[2])};
 }
 
@@ -32,19 +32,20 @@ constexpr bool all(Truth... truths) {
   return (int(truths) & ...) != 0;
 }
 
-/// Closed intervals. Without branches: most pairs that are asked about are neither clearly near nor clearly far.
-inline bool overlap(const Box& a, const Box& b) {
+/// True if two closed boxes overlap. Without branches: most pairs that are tested are neither clearly near nor clearly
+/// far.
+inline bool overlap(const PlainBox& a, const PlainBox& b) {
   return all(a.low[0] <= b.high[0], b.low[0] <= a.high[0], a.low[1] <= b.high[1], b.low[1] <= a.high[1],
              a.low[2] <= b.high[2], b.low[2] <= a.high[2]);
 }
 
-inline bool contains(const Box& outer, const Box& inner) {
+inline bool contains(const PlainBox& outer, const PlainBox& inner) {
   return all(outer.low[0] <= inner.low[0], inner.high[0] <= outer.high[0], outer.low[1] <= inner.low[1],
              inner.high[1] <= outer.high[1], outer.low[2] <= inner.low[2], inner.high[2] <= outer.high[2]);
 }
 
-inline Box hull(const Box& a, const Box& b) {
-  Box h;
+inline PlainBox hull(const PlainBox& a, const PlainBox& b) {
+  PlainBox h;
   for (std::size_t k = 0; k < 3; ++k) {
     h.low[k] = std::min(a.low[k], b.low[k]);
     h.high[k] = std::max(a.high[k], b.high[k]);
@@ -52,13 +53,14 @@ inline Box hull(const Box& a, const Box& b) {
   return h;
 }
 
-/// The longest edge; infinite where an edge is.
-inline double size_of(const Box& b) {
+/// The longest edge (m); +inf if an edge is infinite.
+inline double size_of(const PlainBox& b) {
   return std::max({b.high[0] - b.low[0], b.high[1] - b.low[1], b.high[2] - b.low[2]});
 }
 
-/// Halved before the sum, which therefore stays finite for finite bounds; of a box without end on both sides, 0.
-inline double centre(const Box& b, std::size_t axis) {
+/// The centre. Each side is halved before the sum, so that the sum of finite bounds is finite. 0 for a box that is
+/// infinite on both sides.
+inline double centre(const PlainBox& b, std::size_t axis) {
   const double c = 0.5 * b.low[axis] + 0.5 * b.high[axis];
   return std::isnan(c) ? 0 : c;
 }
@@ -75,8 +77,8 @@ void fetch(const T& soon) {
 /// Throws std::invalid_argument where one has a NaN or ends before it begins.
 void check(std::span<const Bounds> bounds);
 
-/// Takes the bounds over, after a look at all of them: where check() throws, `boxes` are as they were.
-void take(std::span<const Bounds> bounds, std::vector<Box>& boxes);
+/// Checks all bounds, then copies them. If check() throws, `boxes` is unchanged.
+void take(std::span<const Bounds> bounds, std::vector<PlainBox>& boxes);
 
 /// Once a list is nearly full, room for twice of what is there: a scene that goes on as it began allocates no more.
 template <class T>

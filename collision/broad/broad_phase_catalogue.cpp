@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 
 #include "collision/broad_phase.hpp"
+#include "core/problem/catalogue.hpp"
 
 // One line lists a broad phase: the function of its name, in the file of its name in broad/, makes its entry.
 #define POLHODE_BROAD_PHASES(PHASE) \
@@ -13,7 +13,7 @@
   PHASE(bsp_tree) \
   PHASE(bvh)
 
-namespace polhode {
+namespace polhode::inline collision {
 
 #define POLHODE_DECLARE(name) BroadPhaseEntry name();
 POLHODE_BROAD_PHASES(POLHODE_DECLARE)
@@ -24,10 +24,6 @@ const std::vector<BroadPhaseEntry>& broad_phase_catalogue() {
   return entries;
 }
 
-const BroadPhaseEntry* find_broad_phase(std::string_view name) {
-  const auto& all = broad_phase_catalogue();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.name == name; });
-  return found == all.end() ? nullptr : &*found;
-}
+const BroadPhaseEntry* find_broad_phase(std::string_view name) { return find_entry(broad_phase_catalogue(), name); }
 
 }  // namespace polhode

@@ -21,10 +21,10 @@
 #include "collision/broad/kept_pairs.hpp"
 #include "collision/broad_phase.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
-using broad::Box;
+using broad::PlainBox;
 using broad::cells::lanes;
 using broad::cells::Limits;
 using broad::cells::Reach;
@@ -54,14 +54,14 @@ struct Frame {
   float per_metre = 0;
 
   Frame() = default;
-  explicit Frame(const Box& b) : per_metre(static_cast<float>((units - 2) / size_of(b))) {
+  explicit Frame(const PlainBox& b) : per_metre(static_cast<float>((units - 2) / size_of(b))) {
     for (std::size_t k = 0; k < 3; ++k) origin[k] = static_cast<float>(b.low[k]);
   }
   std::int64_t side(double x, std::size_t k) const {
     const double u = (x - double(origin[k])) * double(per_metre);
     return u > 0 ? 1 + static_cast<std::int64_t>(std::min(u, double(units - 1))) : 1;  // 1 also where u is no number
   }
-  Reach reach(const Box& b) const {
+  Reach reach(const PlainBox& b) const {
     Reach r;
     for (std::size_t k = 0; k < 3; ++k) {
       r.low[k] = side(b.low[k], k);
@@ -115,13 +115,13 @@ class BspTree final : public BroadPhase {
   }
 
  private:
-  void cells_below(Index v, const Box& part, std::vector<Bounds>& all) const {
+  void cells_below(Index v, const PlainBox& part, std::vector<Bounds>& all) const {
     const Node& node = nodes_[v];
     if (node.child == none) {
       all.push_back(broad::bounds_of(part));
       return;
     }
-    Box below = part, above = part;
+    PlainBox below = part, above = part;
     below.high[node.axis] = above.low[node.axis] = std::clamp(node.plane, part.low[node.axis], part.high[node.axis]);
     cells_below(node.child, below, all);
     cells_below(node.child + 1, above, all);
@@ -185,7 +185,7 @@ class BspTree final : public BroadPhase {
   }
 
   /// Notes the leaves at and below v that the box before or now reaches; the visit says which of them reach v.
-  void visit(Index v, Visit at, const Box& before, const Box& now) {
+  void visit(Index v, Visit at, const PlainBox& before, const PlainBox& now) {
     while (nodes_[v].child != none) {
       const Node node = nodes_[v];
       Visit above = at;
@@ -232,8 +232,8 @@ class BspTree final : public BroadPhase {
     question_ = 1;
   }
 
-  static bool reaches_below(const Node& n, const Box& b) { return b.low[n.axis] < n.plane; }
-  static bool reaches_above(const Node& n, const Box& b) { return b.high[n.axis] >= n.plane; }
+  static bool reaches_below(const Node& n, const PlainBox& b) { return b.low[n.axis] < n.plane; }
+  static bool reaches_above(const Node& n, const PlainBox& b) { return b.high[n.axis] >= n.plane; }
 
   void link(Index v, Index body) {
     Index head = leaves_[v].head;
@@ -351,7 +351,7 @@ class BspTree final : public BroadPhase {
       if (!std::isfinite(trial.plane)) continue;
       double below = 0, above = 0;
       for_entries(leaves_[v].head, [&](Index body) {
-        const Box& box = fat_.fat(body);
+        const PlainBox& box = fat_.fat(body);
         below += reaches_below(trial, box);
         above += reaches_above(trial, box);
       });
@@ -381,7 +381,7 @@ class BspTree final : public BroadPhase {
     nodes_[first] = nodes_[first + 1] = Node{};
     Around below, above;
     for_entries(leaves_[v].head, [&](Index body) {
-      const Box& box = fat_.fat(body);
+      const PlainBox& box = fat_.fat(body);
       if (reaches_below(nodes_[v], box)) below.add(box);
       if (reaches_above(nodes_[v], box)) above.add(box);
     });
@@ -397,7 +397,7 @@ class BspTree final : public BroadPhase {
       std::copy_n(&bodies_in_[lanes * c], lanes, bodies.begin());
       c = release(c);
       for (std::size_t k = 0; k < count; ++k) {
-        const Box& box = fat_.fat(bodies[k]);
+        const PlainBox& box = fat_.fat(bodies[k]);
         if (reaches_below(nodes_[v], box)) link(first, bodies[k]);
         if (reaches_above(nodes_[v], box)) link(first + 1, bodies[k]);
       }
@@ -416,7 +416,7 @@ class BspTree final : public BroadPhase {
 
   /// At and below v the pairs of a body that left its fat box: with bodies that did not, and before it.
   void search(Index v, Index body) {
-    const Box& box = fat_.fat(body);
+    const PlainBox& box = fat_.fat(body);
     while (nodes_[v].child != none) {
       const Node& node = nodes_[v];
       const bool below = reaches_below(node, box), above = reaches_above(node, box);
@@ -452,9 +452,9 @@ class BspTree final : public BroadPhase {
 
   /// The box around boxes, as far as it has bounds.
   struct Around {
-    Box box{};
+    PlainBox box{};
     bool any = false;
-    void add(const Box& b) {
+    void add(const PlainBox& b) {
       if (broad::FatBoxes::too_large(b)) return;
       box = any ? hull(box, b) : b;
       any = true;

@@ -16,22 +16,22 @@
 #include "collision/broad/kept_pairs.hpp"
 #include "collision/broad_phase.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
-using broad::Box;
 using broad::FatBoxes;
+using broad::PlainBox;
 
 using Index = std::uint32_t;
 constexpr Index none = ~Index(0);
 
-double area(const Box& b) {
+double area(const PlainBox& b) {
   const double x = b.high[0] - b.low[0], y = b.high[1] - b.low[1], z = b.high[2] - b.low[2];
   return x * y + y * z + z * x;
 }
 
 struct Node {
-  Box box;
+  PlainBox box;
   Index parent = none, left = none, right = none;  // right: of a leaf its body, left none
   bool changed = false;                            // it, or something below it, since pairs were last looked for
   bool leaf() const { return left == none; }
@@ -147,7 +147,7 @@ class Bvh final : public BroadPhase {
 
   /// A body that left its fat box.
   void follow(Index body) {
-    const Box& box = fat_.fat(body);
+    const PlainBox& box = fat_.fat(body);
     const bool fits = !FatBoxes::too_large(box);
     const Index leaf = leaf_[body];
     if (leaf == none && !fits) return;
@@ -199,7 +199,7 @@ class Bvh final : public BroadPhase {
 
   /// Down to where it adds the least area.
   void insert(Index body) {
-    const Box box = fat_.fat(body);
+    const PlainBox box = fat_.fat(body);
     const Index leaf = new_node();
     nodes_[leaf].box = box;
     nodes_[leaf].right = body;
@@ -214,7 +214,7 @@ class Bvh final : public BroadPhase {
       const double own = area(nodes_[v].box), with = area(hull(nodes_[v].box, box));
       const double inherited = with - own;
       const auto below = [&](Index child) {
-        const Box& c = nodes_[child].box;
+        const PlainBox& c = nodes_[child].box;
         const double joined = area(hull(c, box));
         return inherited + (nodes_[child].leaf() ? joined : joined - area(c));
       };

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-namespace polhode::broad {
+namespace polhode::inline collision::broad {
 namespace {
 
 constexpr double fewest_ahead = 20, most_ahead = 32;  // steps that the room is for
@@ -40,7 +40,7 @@ bool FatBoxes::update(std::span<const Bounds> bounds) {
     const std::size_t soon = std::min(i + boxes_ahead, n - 1);
     fetch(bounds[soon]);
     fetch(fat_[soon]);
-    const Box now = box_of(bounds[i]);
+    const PlainBox now = box_of(bounds[i]);
     good &= all(now.low[0] <= now.high[0], now.low[1] <= now.high[1], now.low[2] <= now.high[2]);
     if (contains(fat_[i], now)) continue;
     left_[count] = static_cast<std::uint32_t>(i);
@@ -74,16 +74,16 @@ void FatBoxes::begin_scene(std::span<const Bounds> bounds) {
   std::iota(left_.begin(), left_.end(), std::uint32_t(0));
   has_left_.assign(n, 1);
   for (const std::uint32_t body : left_) {
-    const Box now = box_of(bounds[body]);
+    const PlainBox now = box_of(bounds[body]);
     origin_[body] = {now, step_};
     renew(body, now, 1);
   }
 }
 
-void FatBoxes::renew(std::uint32_t body, const Box& now, double fewest_steps) {
+void FatBoxes::renew(std::uint32_t body, const PlainBox& now, double fewest_steps) {
   const Origin last = origin_[body];
   origin_[body] = {now, step_};
-  Box& fat = fat_[body];
+  PlainBox& fat = fat_[body];
   fat = now;
   if (too_large(now) || too_large(last.box)) return;
   const double size = size_of(now), per_step = 1.0 / std::max(step_ - last.step, 1u);

@@ -11,7 +11,7 @@
 
 #include "collision/broad/boxes.hpp"
 
-namespace polhode::broad {
+namespace polhode::inline collision::broad {
 
 class FatBoxes {
  public:
@@ -21,15 +21,15 @@ class FatBoxes {
   bool update(std::span<const Bounds> bounds);
 
   std::size_t size() const { return fat_.size(); }
-  const Box& fat(std::uint32_t body) const { return fat_[body]; }
-  const Box& before(std::size_t k) const {
+  const PlainBox& fat(std::uint32_t body) const { return fat_[body]; }
+  const PlainBox& before(std::size_t k) const {
     return before_[k];
   }  ///< the fat box that left()[k] had; of a new scene none
   std::span<const std::uint32_t> left() const { return left_; }  ///< in order
   bool has_left(std::uint32_t body) const { return has_left_[body] != 0; }
 
-  /// Without bounds, or so far out that a surface area is no finite number: not for a tree.
-  static bool too_large(const Box& b) {
+  /// True if the box is infinite, or so large that its surface area is not finite: such a body is kept out of trees.
+  static bool too_large(const PlainBox& b) {
     constexpr double most = 1e75;
     return !all(b.low[0] > -most, b.low[1] > -most, b.low[2] > -most, b.high[0] < most, b.high[1] < most,
                 b.high[2] < most);
@@ -38,14 +38,15 @@ class FatBoxes {
  private:
   /// Where a body was when it got its fat box.
   struct Origin {
-    Box box;
+    PlainBox box;
     std::uint32_t step;
   };
 
   void begin_scene(std::span<const Bounds> bounds);
-  void renew(std::uint32_t body, const Box& now, double fewest_steps);
+  void renew(std::uint32_t body, const PlainBox& now, double fewest_steps);
 
-  std::vector<Box> fat_, before_, now_;  // by number; of those that left: the fat box that they had, and the true one
+  std::vector<PlainBox> fat_, before_,
+      now_;  // by number; of those that left: the fat box that they had, and the true one
   std::vector<Origin> origin_;
   std::vector<std::uint32_t> left_;
   std::vector<std::uint8_t> has_left_;

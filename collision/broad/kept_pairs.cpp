@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace polhode::broad {
+namespace polhode::inline collision::broad {
 namespace {
 
 // When memory is asked for bounds, those of pairs that were kept and those of fresh ones.

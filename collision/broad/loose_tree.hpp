@@ -23,7 +23,7 @@
 #include "collision/broad/pair_list.hpp"
 #include "collision/broad_phase.hpp"
 
-namespace polhode::broad {
+namespace polhode::inline collision::broad {
 
 template <std::size_t Dim>
 class LooseTree final : public BroadPhase {
@@ -63,7 +63,7 @@ class LooseTree final : public BroadPhase {
   void cells(std::vector<Bounds>& all) const override {
     if (nodes_.empty()) return;
     Extent heights;
-    for (const Box& b : boxes_) heights.add(b, 2);
+    for (const PlainBox& b : boxes_) heights.add(b, 2);
     cells_below(0, heights, all);
   }
 
@@ -81,8 +81,8 @@ class LooseTree final : public BroadPhase {
     Index parent = none, child = none;  // the first of its children, which stand side by side
     Index head = none;                  // the list of its bodies
     Index count = 0;
-    Index begin = 0, own_end = 0;  // in the layout: its own bodies
-    Box box{};                     // around all, itself and below
+    Index begin = 0, own_end = 0;  // range of its own bodies in the layout
+    PlainBox box{};                // bounding box of its bodies and of everything below
     bool empty = true;
   };
 
@@ -91,7 +91,7 @@ class LooseTree final : public BroadPhase {
     std::array<double, Dim> low, high;
     low.fill(far);
     high.fill(-far);
-    for (const Box& b : boxes_) {
+    for (const PlainBox& b : boxes_) {
       for (std::size_t k = 0; k < Dim; ++k) {
         const double c = std::clamp(centre(b, k), -far, far);
         if (std::abs(c) == far) continue;
@@ -116,16 +116,18 @@ class LooseTree final : public BroadPhase {
     bodies_.reserve(boxes_.size());
   }
 
-  bool within(const Box& b, const Node& node) const {
+  bool within(const PlainBox& b, const Node& node) const {
     for (std::size_t k = 0; k < Dim; ++k) {
       if (!(std::abs(centre(b, k) - node.middle[k]) <= node.half)) return false;
     }
     return true;
   }
-  bool in_root(const Box& b) const { return within(b, nodes_[0]); }
+  bool in_root(const PlainBox& b) const { return within(b, nodes_[0]); }
 
-  /// A body is as wide as a child's cell at most where it may stand in a child.
-  static bool fits_below(const Box& b, const Node& node) { return size_of(b) <= node.half && node.depth < deepest; }
+  /// True if a body may be stored in a child: it is no wider than a child's cell.
+  static bool fits_below(const PlainBox& b, const Node& node) {
+    return size_of(b) <= node.half && node.depth < deepest;
+  }
 
   bool stays(Index i) const {
     const Node& node = nodes_[home_[i]];
@@ -134,7 +136,7 @@ class LooseTree final : public BroadPhase {
            (node.parent == none || (size_of(boxes_[i]) <= 2 * node.half && within(boxes_[i], node)));
   }
 
-  Index child_of(const Node& node, const Box& b) const {
+  Index child_of(const Node& node, const PlainBox& b) const {
     Index which = 0;
     for (std::size_t k = 0; k < Dim; ++k) which |= Index(centre(b, k) >= node.middle[k]) << k;
     return node.child + which;
@@ -202,7 +204,7 @@ class LooseTree final : public BroadPhase {
   /// Below a node, in the order of the tree. Returns how many bodies there are.
   Index lay_out(Index v) {
     const auto begin = static_cast<Index>(laid_.size());
-    Box box{};
+    PlainBox box{};
     for (Index i = nodes_[v].head; i != none; i = next_[i]) {
       box = laid_.size() == begin ? boxes_[i] : hull(box, boxes_[i]);
       laid_.push_back(boxes_[i]);
@@ -281,7 +283,7 @@ class LooseTree final : public BroadPhase {
   /// How far what is finite reaches along an axis.
   struct Extent {
     double low = far, high = -far;
-    void add(const Box& b, std::size_t axis) {
+    void add(const PlainBox& b, std::size_t axis) {
       if (!(b.low[axis] > -far && b.high[axis] < far)) return;
       low = std::min(low, b.low[axis]);
       high = std::max(high, b.high[axis]);
@@ -314,12 +316,12 @@ class LooseTree final : public BroadPhase {
 
   static constexpr double far = 1e150;
 
-  std::vector<Box> boxes_;
+  std::vector<PlainBox> boxes_;
   std::vector<Node> nodes_;                  // the root first
-  std::vector<Index> free_;                  // blocks of children that are not in use
-  std::vector<Index> home_, next_, before_;  // of each body: its node, and its neighbours in that one's list
-  std::size_t astray_ = 0;                   // bodies put in from outside the root's cell in the last step
-  std::vector<Box> laid_;                    // in the order of the tree
+  std::vector<Index> free_;                  // blocks of four or eight children that are not in use
+  std::vector<Index> home_, next_, before_;  // for each body: its node, and its neighbours in the list of that node
+  std::size_t astray_ = 0;                   // bodies inserted in the last step that lie outside the root cell
+  std::vector<PlainBox> laid_;               // boxes of the bodies in the order of the tree
   std::vector<Index> bodies_;
   PairList found_;
   std::span<const BodyPair> sorted_;

@@ -2,7 +2,7 @@
 // The loose octree. See loose_tree.hpp; Meagher, "Octree Encoding" (1980), made loose after Ulrich (2000).
 #include "collision/broad/loose_tree.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 BroadPhaseEntry octree() {
   return {"octree", "a loose tree of cubes, large boxes in its inner nodes",

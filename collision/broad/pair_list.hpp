@@ -11,7 +11,7 @@
 
 #include "collision/broad_phase.hpp"
 
-namespace polhode::broad {
+namespace polhode::inline collision::broad {
 
 /// Their number grows with the square of the bodies in one place: more than so many would end in want of memory.
 inline constexpr std::size_t most_pairs = 50'000'000;

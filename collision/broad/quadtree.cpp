@@ -3,7 +3,7 @@
 // "Quad Trees" (1974), made loose after Ulrich (2000).
 #include "collision/broad/loose_tree.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 BroadPhaseEntry quadtree() {
   return {

@@ -9,7 +9,7 @@
 
 #include "collision/broad/boxes.hpp"
 
-namespace polhode::broad {
+namespace polhode::inline collision::broad {
 
 /// To the nearest; beyond single precision, its largest number.
 inline float rounded(double x) {
@@ -19,7 +19,7 @@ inline float rounded(double x) {
 
 struct RoundedBox {
   RoundedBox() = default;
-  explicit RoundedBox(const Box& b)
+  explicit RoundedBox(const PlainBox& b)
       : low{rounded(b.low[0]), rounded(b.low[1]), rounded(b.low[2])},
         high{rounded(b.high[0]), rounded(b.high[1]), rounded(b.high[2])} {}
   std::array<float, 3> low{}, high{};

@@ -20,10 +20,10 @@
 #include "collision/broad/rounded_box.hpp"
 #include "collision/broad_phase.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
-using broad::Box;
+using broad::PlainBox;
 
 constexpr std::size_t block = 16;           // boxes compared at a time
 constexpr std::size_t moves_per_body = 32;  // by insertion, before sorting anew is cheaper
@@ -62,10 +62,10 @@ class SweepAndPrune final : public BroadPhase {
   bool choose_axis() {
     std::array<double, 3> mean{}, spread{};
     const double weight = 1.0 / static_cast<double>(std::max<std::size_t>(boxes_.size(), 1));
-    for (const Box& b : boxes_) {
+    for (const PlainBox& b : boxes_) {
       for (std::size_t k = 0; k < 3; ++k) mean[k] += weight * clamped(centre(b, k));
     }
-    for (const Box& b : boxes_) {
+    for (const PlainBox& b : boxes_) {
       for (std::size_t k = 0; k < 3; ++k) spread[k] += weight * std::abs(clamped(centre(b, k)) - mean[k]);
     }
     const auto widest = static_cast<std::size_t>(std::max_element(spread.begin(), spread.end()) - spread.begin());
@@ -105,7 +105,7 @@ class SweepAndPrune final : public BroadPhase {
     for (auto* side : {&low1_, &low2_, &high2_, &low3_, &high3_}) side->assign(n + block, never);
     swept_.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
-      const Box& b = boxes_[order_[k]];
+      const PlainBox& b = boxes_[order_[k]];
       swept_[k] = b;
       low1_[k] = broad::rounded(b.low[axis_]);
       low2_[k] = broad::rounded(b.low[second]);
@@ -116,7 +116,7 @@ class SweepAndPrune final : public BroadPhase {
   }
 
   void sweep(std::size_t i) {
-    const Box& box = swept_[i];
+    const PlainBox& box = swept_[i];
     const float high1 = broad::rounded(box.high[axis_]), low2 = low2_[i], high2 = high2_[i], low3 = low3_[i],
                 high3 = high3_[i];
     for (std::size_t j = i + 1; low1_[j] <= high1; j += block) {
@@ -154,8 +154,8 @@ class SweepAndPrune final : public BroadPhase {
   }
 
   std::size_t axis_ = 0;
-  std::vector<Box> boxes_, swept_;    // by number; by where they begin
-  std::vector<std::uint32_t> order_;  // the bodies by where they begin
+  std::vector<PlainBox> boxes_, swept_;  // by number; by where they begin
+  std::vector<std::uint32_t> order_;     // the bodies by where they begin
   std::vector<Begin> begins_;
   std::vector<float> low1_, low2_, high2_, low3_, high3_;
   broad::PairList found_;

@@ -23,12 +23,12 @@
 #include "collision/broad/kept_pairs.hpp"
 #include "collision/broad_phase.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 using namespace broad::cells;
-using broad::Box;
 using broad::FatBoxes;
+using broad::PlainBox;
 
 constexpr Index none = ~Index(0), on_no_level = none - 1;
 constexpr std::size_t most_levels = 16;
@@ -137,7 +137,7 @@ class UniformGrid final : public BroadPhase {
     sample_.reserve(most_samples + 1);
     const std::size_t stride = fat_.size() / most_samples + 1;
     for (std::size_t i = 0; i < fat_.size(); i += stride) {
-      const Box& b = fat_.fat(static_cast<Index>(i));
+      const PlainBox& b = fat_.fat(static_cast<Index>(i));
       if (!FatBoxes::too_large(b)) sample_.push_back(size_of(b));
     }
     if (sample_.empty()) return -1;
@@ -162,7 +162,7 @@ class UniformGrid final : public BroadPhase {
     return static_cast<std::int64_t>(std::floor(std::clamp(x * per_metre, -most, most)));
   }
 
-  Reach reach(const Box& b, std::size_t level) const {
+  Reach reach(const PlainBox& b, std::size_t level) const {
     const double per_metre = per_metre_[level];
     Reach r;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -178,7 +178,7 @@ class UniformGrid final : public BroadPhase {
     Reach reach{};
   };
 
-  Home home_of(const Box& box) const {
+  Home home_of(const PlainBox& box) const {
     Home home;
     if (FatBoxes::too_large(box)) return home;
     for (std::size_t level = 0; level < most_levels; ++level) {

@@ -4,7 +4,7 @@
 
 #include "collision/shape.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// The shape of a body and its surface; without a shape the body touches nothing.
 struct Collider {

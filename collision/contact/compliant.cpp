@@ -7,7 +7,7 @@
 #include <memory>
 #include <numbers>
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 constexpr double duration = 5e-3;  // s, of an elastic impact, where no stiffness is given

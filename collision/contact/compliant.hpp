@@ -35,7 +35,7 @@
 #include "collision/contact/contact_scene.hpp"
 #include "core/problem/force.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 class Compliant final : public ForceModel<double> {
  public:

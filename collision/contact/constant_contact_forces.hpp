@@ -11,12 +11,12 @@
 #include "collision/response.hpp"
 #include "core/problem/force.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
-class HeldImpulses final : public ForceModel<double> {
+class ConstantContactForces final : public ForceModel<double> {
  public:
-  /// `internal`: every body that can touch moves freely, so that total momenta are conserved.
-  explicit HeldImpulses(bool internal) : internal_(internal) {}
+  /// `internal`: every body with a shape moves freely, so that total momenta are conserved.
+  explicit ConstantContactForces(bool internal) : internal_(internal) {}
 
   void release() { pairs_.clear(); }
 

@@ -8,7 +8,7 @@
 #include "collision/response.hpp"
 #include "core/run/contact_model.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// Of A's position in the point that the line of a held impulse goes with: the mass centre of the two, or that which
 /// can move.

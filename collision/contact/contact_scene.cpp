@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 template <class Entry>

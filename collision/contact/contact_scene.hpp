@@ -14,7 +14,7 @@
 #include "collision/response.hpp"
 #include "core/system/system.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 class ContactScene {
  public:

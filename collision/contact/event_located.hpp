@@ -16,11 +16,15 @@
 #pragma once
 
 #include "collision/contact/constant_contact_forces.hpp"
+#include "collision/contact/contact_kinematics.hpp"
 #include "collision/contact/contact_scene.hpp"
+#include "collision/contact/flight_phase.hpp"
 #include "collision/contact/guards.hpp"
+#include "collision/contact/impact_search.hpp"
+#include "collision/contact/resting_contacts.hpp"
 #include "core/run/contact_model.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 class EventLocated final : public ContactModel {
  public:
@@ -35,66 +39,31 @@ class EventLocated final : public ContactModel {
 
  private:
   struct Flight {
-    double length = 0;    ///< s
-    bool impact = false;  ///< ends where two bodies meet
-  };
-
-  /// A contact that slides where a hold begins.
-  struct Slide {
-    std::size_t contact;    ///< its number among those that rest
-    double slip;            ///< m/s
-    Vector3<double> along;  ///< unit: its direction
-    double mobility;        ///< 1/kg: how fast it gives way along that
+    double length = 0;    ///< duration, s
+    bool impact = false;  ///< true: the flight ends with an impact
   };
 
   std::span<ImpulseContact> touching(const State<double>& state);
   bool take_impacts(Integrator<double>& method, State<double>& state);
-  bool hold_resting(Integrator<double>& method, const State<double>& state, double h);
-  bool resolve_hold(Integrator<double>& method, const State<double>& state, double h);
-  double first_transition(Integrator<double>& method, const State<double>& state, double h);
-  double slip_left(std::span<const Slide> pair) const;
-  template <class F>
-  void for_sliding_pairs(const F& f) const;
-  double least_slip_left() const;
-  bool stops(std::span<const Slide> pair) const;
-  bool some_stop() const;
-  void note_transitions(double t);
-  void note_stuck();
-  void measure_accelerations(const State<double>& state);
-  double normal_acceleration(const ImpulseContact& c) const;
-  double slow(const ImpulseContact& c) const;
-  StepResult fly(Integrator<double>& method, State<double>& state, double h, Flight& flight);
-  void foresee(const State<double>& state, double h);
-  void watch(const State<double>& from, const State<double>& to);
-  bool go_to(Integrator<double>& method, const State<double>& start, double s, State<double>& there);
-  double first_below(Integrator<double>& method, const State<double>& start, double from, const Guards::Look& at_from,
-                     double to, const Guards::Look& at_to, int depth);
-  void account_held(const State<double>& end);
+  StepResult fly(Integrator<double>& method, State<double>& state, double h, bool sinks, Flight& flight);
+  void watch_ahead(const State<double>& state, double h, double deeper);
 
   System<double>& system_;
-  ContactScene& scene_;
   std::unique_ptr<Response> response_;
-  HeldImpulses* held_;
+  ConstantContactForces* contact_forces_;
   ContactLosses losses_;
   std::vector<Impact> impacts_;
   std::vector<Transition> transitions_;
   ContactLengths lengths_;
   Guards guards_;
-  std::vector<Guards::Look> looks_;  ///< of each halving of a flight, and of its ends
-  bool no_bounce_ = false;           ///< the impacts at this instant were tried, and did not lead apart
-  bool all_rest_ = false;            ///< what touches did not come apart in the flight before
-  bool sinking_ = false;             ///< a held pair reached its allowance, and it was no impact
-  bool one_step_ = true;             ///< the flight is a step of the method, not several that hold contacts
-  bool searched_ = false;            ///< the method was stepped elsewhere than along the flight
-  std::vector<Pose> poses_;
-  std::vector<ImpulseBody> bodies_, later_, end_;
-  std::vector<ImpulseContact> resting_, rested_;  ///< held now, and in the flight before
-  std::vector<Slide> slides_;
-  std::vector<BodyPair> stuck_;  ///< at the end of the last hold; sorted
+  ContactKinematics kinematics_;
+  RestingContacts resting_;
+  ImpactSearch search_;
+  FlightPhase phase_;
+  std::vector<ImpulseBody> after_impacts_;
   std::vector<double> rests_from_;
   VectorX<double> rate_;
-  State<double> free_, start_, there_, whole_start_, before_impacts_;
-  double whole_ = 0;  ///< s, of the flight that is searched
+  State<double> ahead_, start_, at_impact_, step_start_, before_impacts_;
 };
 
 }  // namespace polhode

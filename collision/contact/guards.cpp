@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 double largest_radius(const ContactScene& scene) {
@@ -23,10 +23,10 @@ double reach(const Shape& shape, const Pose& pose, const Vector3<double>& n) {
 
 ContactLengths::ContactLengths(const ContactScene& scene) {
   const double largest = largest_radius(scene);
-  touch = 1e-9 * largest;
-  sink = 1e-7 * largest;
-  hop = 1e-11 * largest;
-  met = 0.1 * hop;
+  contact_tolerance = 1e-9 * largest;
+  allowed_penetration = 1e-7 * largest;
+  minimum_bounce_height = 1e-11 * largest;
+  met = 0.1 * minimum_bounce_height;
 }
 
 Guards::Guards(const System<double>& system, ContactScene& scene)
@@ -62,7 +62,8 @@ void Guards::watch(const State<double>& from, const State<double>& to, std::span
     // Twice the mean change, and by how much that of a free body's turning may differ within the flight.
     p.steady = 2 * change / length + p.radius * (2 * p.turned / length + p.rate * p.rate * p.rate * length);
   }
-  const std::span<const BodyPair> pairs = scene_.near_pairs(poses_, end_poses_, bulge_, lengths_.touch + lengths_.sink);
+  const std::span<const BodyPair> pairs =
+      scene_.near_pairs(poses_, end_poses_, bulge_, lengths_.contact_tolerance + lengths_.allowed_penetration);
   guards_.assign(pairs.size(), {});
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const double distance = scene_.distance(k, poses_).distance;
@@ -74,9 +75,9 @@ void Guards::watch(const State<double>& from, const State<double>& to, std::span
     if (held) {
       // As deep as it is, and no deeper: sinking from one bounce to the next would feed them. A body that rolls may
       // sink on.
-      g.allowance = std::max(lengths_.sink, deeper - distance);
+      g.allowance = std::max(lengths_.allowed_penetration, deeper - distance);
       g.speed = 0;
-      g.leaving = g.allowance > lengths_.sink;
+      g.leaving = g.allowance > lengths_.allowed_penetration;
     } else if (distance <= lengths_.met) {
       g.leaving = true;  // it was no impact, so it comes apart
     }

@@ -15,15 +15,15 @@
 
 #include "collision/contact/contact_scene.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// m: what counts as near, from coarse to fine.
 struct ContactLengths {
   explicit ContactLengths(const ContactScene& scene);
-  double touch;  ///< surfaces so near touch
-  double sink;   ///< a resting pair may sink so far before it is looked at as an impact
-  double hop;    ///< a bounce that rises less is not flown
-  double met;    ///< a dip that is no deeper is none
+  double contact_tolerance;      ///< surfaces closer than this touch
+  double allowed_penetration;    ///< a resting pair may sink by this much before it is treated as an impact
+  double minimum_bounce_height;  ///< a lower bounce is not simulated
+  double met;                    ///< a penetration no deeper than this is ignored
 };
 
 class Guards {

@@ -5,8 +5,9 @@
 
 #include "collision/contact/event_located.hpp"
 #include "collision/contact/time_stepping.hpp"
+#include "core/problem/catalogue.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 template <Reflected reflected>
@@ -32,9 +33,7 @@ const std::vector<ImpactTimingEntry>& impact_timing_catalogue() {
 }
 
 const ImpactTimingEntry* find_impact_timing(std::string_view name) {
-  const auto& all = impact_timing_catalogue();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.name == name; });
-  return found == all.end() ? nullptr : &*found;
+  return find_entry(impact_timing_catalogue(), name);
 }
 
 }  // namespace polhode

@@ -10,7 +10,7 @@
 #include "collision/contact/contact_scene.hpp"
 #include "core/run/contact_model.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 struct ImpactTimingEntry {
   std::string name;

@@ -6,19 +6,19 @@
 
 #include "collision/contact/contact_losses.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 TimeStepping::TimeStepping(System<double>& system, ContactScene& scene, std::unique_ptr<Response> response,
                            Reflected reflected)
     : system_(system), scene_(scene), response_(std::move(response)), reflected_(reflected) {
-  auto held = std::make_unique<HeldImpulses>(scene.all_free());
-  held_ = held.get();
-  system.add_force(std::move(held));
+  auto forces = std::make_unique<ConstantContactForces>(scene.all_free());
+  contact_forces_ = forces.get();
+  system.add_force(std::move(forces));
 }
 
 void TimeStepping::begin(Integrator<double>&, const State<double>&) {
   response_->forget();
-  held_->release();
+  contact_forces_->release();
   losses_ = {};
   impacts_.clear();
 }
@@ -57,7 +57,7 @@ std::span<ImpulseContact> TimeStepping::find_contacts(const State<double>& start
 
 StepResult TimeStepping::step(Integrator<double>& method, State<double>& state, double h) {
   impacts_.clear();
-  held_->release();
+  contact_forces_->release();
   free_ = state;
   StepResult result = method.step(free_, h);
   if (!result.ok()) return result;
@@ -77,11 +77,11 @@ StepResult TimeStepping::step(Integrator<double>& method, State<double>& state, 
     return result;
   }
   response_->resolve(bodies_, contacts, h);
-  held_->hold(contacts, start_, h);
+  contact_forces_->hold(contacts, start_, h);
   before_ = state;
   method.discard_history(state);
   result = method.step(state, h);
-  held_->release();
+  contact_forces_->release();
   if (!result.ok()) {
     state = before_;
     return result;

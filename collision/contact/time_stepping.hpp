@@ -10,7 +10,7 @@
 #include "collision/contact/contact_scene.hpp"
 #include "core/run/contact_model.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// Which velocity restitution reflects: that at the start of the step, or that which its end would have without
 /// contact. A bouncing ball keeps the modified energy of semi-implicit Euler with the first; the second adds a step of
@@ -37,7 +37,7 @@ class TimeStepping final : public ContactModel {
   ContactScene& scene_;
   std::unique_ptr<Response> response_;
   Reflected reflected_;
-  HeldImpulses* held_;
+  ConstantContactForces* contact_forces_;
   ContactLosses losses_;
   std::vector<Impact> impacts_;
   std::vector<Pose> poses_;

@@ -8,7 +8,7 @@
 #include "collision/narrow/four.hpp"
 #include "collision/narrow/patch.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 // The corners of a face lie at (−, −), (+, −), (−, +), (+, +) along its two axes, and its sides go from corner 0 to 1,

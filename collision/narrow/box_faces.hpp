@@ -10,7 +10,7 @@
 #include "collision/contact.hpp"
 #include "collision/pose.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// Number of a box's edge that starts at a vertex along an axis upwards: edges are sorted by their two vertices.
 inline constexpr std::uint32_t edge_from[8][3] = {{0, 1, 2}, {0, 3, 4},  {5, 1, 6},  {5, 3, 7},

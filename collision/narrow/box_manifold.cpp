@@ -7,7 +7,7 @@
 #include "collision/narrow/box_faces.hpp"
 #include "collision/narrow/patch.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 Vector3<double> corner(const Vector3<double>& half, std::uint32_t k) {

@@ -4,7 +4,7 @@
 
 #include "collision/narrow/box_sat.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// Empty where the boxes are further apart than `margin` (m). Two faces that are almost parallel (0.1 rad) meet as
 /// faces even where an edge axis has a little less depth. Throws std::invalid_argument if a pose is not finite.

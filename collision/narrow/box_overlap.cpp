@@ -20,7 +20,7 @@
 #include <immintrin.h>
 #endif
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 // In units of half extents and offset; a sum over all entries of the poses, so that a NaN in one of them decides

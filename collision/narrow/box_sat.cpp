@@ -8,7 +8,7 @@
 
 #include "collision/narrow/four.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 constexpr double round_off = 5e-16;    // of a separation, in units of RelativeBoxes::scale

@@ -17,7 +17,7 @@
 #include "collision/contact.hpp"
 #include "collision/pose.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// A box where it stands, by reference.
 struct BoxAt {

@@ -14,7 +14,7 @@
 #include "collision/shapes/compound.hpp"
 #include "collision/shapes/half_space.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 using Kind = SupportFeature::Kind;

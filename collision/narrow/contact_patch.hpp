@@ -10,7 +10,7 @@
 
 #include "collision/narrow_phase.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// Of shapes that are convex, or half-spaces; empty where they are further apart than `margin` (m). With A and B
 /// exchanged, and the distance mirrored, the manifold is mirrored to the last digit. Features are numbered as

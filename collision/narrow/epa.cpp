@@ -9,7 +9,7 @@
 #include "collision/narrow/epa_polytope.hpp"
 #include "collision/narrow/face_normals.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "collision/narrow/gjk_loop.hpp"
 #include "collision/narrow_phase.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// How far the shapes are apart along n (unit, from B to A, in A's axes): min over A of n·a − max over B of n·b. For
 /// every n this is at most the signed distance, and moving A by −separation along n parts the two: no n is wrong, one

@@ -5,7 +5,7 @@
 
 #include "collision/narrow/gjk_loop.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 EpaPolytope::Index EpaPolytope::add_corner(const MinkowskiCorner& c) {
   met(c.w.norm());

@@ -14,7 +14,7 @@
 #include "collision/narrow/simplex.hpp"
 #include "collision/narrow_phase.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 class EpaPolytope {
  public:

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace polhode {
+namespace polhode::inline collision {
 
 namespace {
 

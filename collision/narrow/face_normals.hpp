@@ -4,7 +4,7 @@
 
 #include "collision/narrow/minkowski_pair.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// a × b with each component right to the last bits, however nearly parallel a and b are (Kahan's difference of
 /// products; Jeannerod, Louvet & Muller, Mathematics of Computation 82, 2013).

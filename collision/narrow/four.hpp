@@ -15,7 +15,7 @@
 // Where the processor has narrower registers, GCC warns of how such numbers are passed. They pass within a file only.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 using Four [[gnu::vector_size(32)]] = double;
 using FourBits [[gnu::vector_size(32)]] = std::int64_t;

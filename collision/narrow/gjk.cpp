@@ -20,7 +20,7 @@
 #include "collision/shapes/compound.hpp"
 #include "collision/shapes/half_space.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 namespace {
 

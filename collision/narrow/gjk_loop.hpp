@@ -10,7 +10,7 @@
 
 #include "collision/narrow/simplex.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 struct GjkResult {
   enum class State {

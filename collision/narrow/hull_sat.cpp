@@ -16,7 +16,7 @@
 #include "collision/shapes/half_space.hpp"
 #include "collision/shapes/sphere.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 using Vector = Vector3<double>;

@@ -13,7 +13,7 @@
 #include "collision/contact.hpp"
 #include "collision/shape.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// True for spheres, capsules, boxes and hulls.
 bool has_separating_axes(const Shape& shape);

@@ -5,7 +5,7 @@
 #include "collision/shapes/capsule.hpp"
 #include "collision/shapes/sphere.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 ConvexCore::ConvexCore(const Shape& s) : shape(&s) {
   switch (s.tag()) {

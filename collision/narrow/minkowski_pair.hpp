@@ -9,7 +9,7 @@
 #include "collision/shape.hpp"
 #include "collision/shapes/convex_hull.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 struct ConvexCore {
   enum class Kind : std::uint8_t { point, segment, box, hull, smooth };

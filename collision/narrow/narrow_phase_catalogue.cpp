@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 
 #include "collision/narrow_phase.hpp"
+#include "core/problem/catalogue.hpp"
 
 // One line lists a narrow phase: the function of its name, in the file of its name in narrow/, declares it.
 #define POLHODE_NARROW_PHASES(METHOD) \
@@ -9,7 +9,7 @@
   METHOD(gjk) \
   METHOD(sat_course_report)
 
-namespace polhode {
+namespace polhode::inline collision {
 
 #define POLHODE_DECLARE(name) NarrowPhaseEntry name();
 POLHODE_NARROW_PHASES(POLHODE_DECLARE)
@@ -20,10 +20,6 @@ const std::vector<NarrowPhaseEntry>& narrow_phase_catalogue() {
   return entries;
 }
 
-const NarrowPhaseEntry* find_narrow_phase(std::string_view name) {
-  const auto& all = narrow_phase_catalogue();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.name == name; });
-  return found == all.end() ? nullptr : &*found;
-}
+const NarrowPhaseEntry* find_narrow_phase(std::string_view name) { return find_entry(narrow_phase_catalogue(), name); }
 
 }  // namespace polhode

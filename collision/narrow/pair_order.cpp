@@ -5,7 +5,7 @@
 
 #include "collision/shapes/half_space.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 namespace {
 

@@ -10,7 +10,7 @@
 
 #include "collision/narrow/four.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 constexpr double least_gain = 1.0 / 32;  // of the patch's area, for a point beside four others to matter

@@ -11,7 +11,7 @@
 
 #include "collision/contact.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// Faces at most this far from parallel meet as faces: 0.1 rad. Then the whole patch counts, also where it is apart, so
 /// that a body that rocks keeps its points.

@@ -14,7 +14,7 @@
 #include "collision/shapes/box.hpp"
 #include "collision/shapes/compound.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 bool both_boxes(const Shape& a, const Shape& b) { return a.tag() == ShapeTag::box && b.tag() == ShapeTag::box; }

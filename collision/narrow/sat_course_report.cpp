@@ -12,7 +12,7 @@
 #include "collision/narrow_phase.hpp"
 #include "collision/shapes/box.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 const Box& box(const Shape& shape) {

@@ -14,7 +14,7 @@
 
 #include "collision/narrow/minkowski_pair.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// Up to four corners in fixed places; a bit of `used` for each place, and its share λ of the nearest point Σ λ w.
 struct Simplex {

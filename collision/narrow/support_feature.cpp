@@ -12,7 +12,7 @@
 #include "collision/shapes/convex_hull.hpp"
 #include "collision/shapes/cylinder.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 using Kind = SupportFeature::Kind;

@@ -9,7 +9,7 @@
 
 #include "collision/shape.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// Numbers are those of the polytope of a box or a hull. A capsule's ends are vertices 0 (below) and 1, its side edge
 /// 0. A cylinder's ends are faces 0 (below) and 1 and edges as their corners, from 32 times the face on; its side is

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 /// Of a diagonal element: what is left of a column that depends on others.

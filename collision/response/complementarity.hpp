@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// By principal pivoting (Dantzig & Cottle, 1968; Cottle, Pang & Stone, 1992, section 4.3), in the order of Lawson &
 /// Hanson (1974): each pivot lowers ½ j·A j + b·j, so no set of positive impulses comes twice, and it ends. Of columns

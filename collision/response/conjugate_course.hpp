@@ -13,7 +13,7 @@
 
 #include "collision/response/contact_batches.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// The course of the motions, and β. Those of the impulses the solver keeps beside them.
 class ConjugateCourse {

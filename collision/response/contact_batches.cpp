@@ -6,7 +6,7 @@
 
 #include "collision/response/contact_frame.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 /// Points of a patch that share a batch; longer patches are cut.

@@ -15,7 +15,7 @@
 #include "collision/response.hpp"
 #include "core/math/lanes.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// A velocity, or a displacement: what a sweep changes of a body. One line of the cache.
 struct alignas(64) ImpulseMotion {

@@ -4,7 +4,7 @@
 
 #include "collision/response.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 struct ContactFrame {
   Vector3<double> normal, tangent, bitangent;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 Vector3<double> relative(std::span<const ImpulseBody> bodies, const ImpulseContact& c) {

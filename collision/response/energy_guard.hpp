@@ -10,7 +10,7 @@
 
 #include "collision/response/islands.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// The largest s in [0, 1] at which start + s slope + s² (end − start − slope), which is `end` at 1, is at most zero;
 /// start is not above zero.

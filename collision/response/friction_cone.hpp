@@ -7,7 +7,7 @@
 
 #include "core/math/lanes.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// The tangential impulse of one point, two components.
 template <class S>

@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-namespace polhode {
+namespace polhode::inline collision {
 
 constexpr std::uint32_t no_island = 0xffffffff;
 

@@ -8,7 +8,7 @@
 
 #include "collision/response.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 class Islands {
  public:

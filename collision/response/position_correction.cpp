@@ -3,20 +3,20 @@
 
 #include <algorithm>
 
-namespace polhode {
+namespace polhode::inline collision {
 
-void Penetration::undo(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts) {
+void PositionCorrection::undo(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts) {
   if (!too_deep(bodies, contacts)) return;
   own_.build(bodies, contacts);
   solve(bodies, contacts, own_);
 }
 
-void Penetration::undo(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts,
-                       const ContactBatches& batches) {
+void PositionCorrection::undo(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts,
+                              const ContactBatches& batches) {
   if (too_deep(bodies, contacts)) solve(bodies, contacts, batches);
 }
 
-bool Penetration::too_deep(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts) const {
+bool PositionCorrection::too_deep(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts) const {
   for (ImpulseBody& b : bodies) {
     b.shift.setZero();
     b.turn.setZero();
@@ -25,8 +25,8 @@ bool Penetration::too_deep(std::span<ImpulseBody> bodies, std::span<const Impuls
                      [&](const ImpulseContact& c) { return c.depth > settings_.slop; });
 }
 
-void Penetration::solve(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts,
-                        const ContactBatches& batches) {
+void PositionCorrection::solve(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts,
+                               const ContactBatches& batches) {
   points_.assign(batches.points().size(), Point{Lanes(0), Lanes(0), Lanes(0), Lanes(0)});
   motions_.assign(bodies.size() + 1, ImpulseMotion{});
   for (std::size_t k = 0; k < points_.size(); ++k) {
@@ -72,7 +72,7 @@ void Penetration::solve(std::span<ImpulseBody> bodies, std::span<const ImpulseCo
 }
 
 template <bool back>
-void Penetration::visit(const ContactBatches& batches, std::size_t number) {
+void PositionCorrection::visit(const ContactBatches& batches, std::size_t number) {
   const PatchBatch& patch = batches.patches()[number];
   PairMotion motion(patch, motions_.data());
   for (std::uint32_t n = 0; n < patch.point_count; ++n) {

@@ -10,18 +10,18 @@
 #include "collision/response/conjugate_course.hpp"
 #include "collision/response/contact_batches.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
-struct PenetrationSettings {
-  double slop = 1e-3;       ///< m of depth that stay, so that resting contacts last
-  double share = 0.5;       ///< of the depth beyond it that a step undoes
-  int iterations = 20;      ///< at most
-  double tolerance = 1e-2;  ///< of the largest displacement: when to stop
+struct PositionCorrectionSettings {
+  double slop = 1e-3;       ///< m, depth that is left, so that resting contacts persist
+  double share = 0.5;       ///< share of the depth beyond `slop` that one step undoes
+  int iterations = 20;      ///< limit
+  double tolerance = 1e-2;  ///< relative to the largest displacement: the iteration stops below it
 };
 
-class Penetration {
+class PositionCorrection {
  public:
-  explicit Penetration(const PenetrationSettings& settings = {}) : settings_(settings) {}
+  explicit PositionCorrection(const PositionCorrectionSettings& settings = {}) : settings_(settings) {}
 
   /// Sets shift and turn of all bodies.
   void undo(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts);
@@ -41,7 +41,7 @@ class Penetration {
     Lanes change, course;  ///< of a sweep, and conjugate
   };
 
-  PenetrationSettings settings_;
+  PositionCorrectionSettings settings_;
   ContactBatches own_;
   std::vector<Point> points_;
   std::vector<ImpulseMotion> motions_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 
 #include "collision/response.hpp"
+#include "core/problem/catalogue.hpp"
 
 // One line lists a response: the function of its name, in the file of its name in response/, declares it.
 #define POLHODE_RESPONSES(METHOD) \
@@ -10,7 +10,7 @@
   METHOD(simultaneous) \
   METHOD(compliant)
 
-namespace polhode {
+namespace polhode::inline collision {
 
 #define POLHODE_DECLARE(name) ResponseEntry name();
 POLHODE_RESPONSES(POLHODE_DECLARE)
@@ -21,11 +21,7 @@ const std::vector<ResponseEntry>& response_catalogue() {
   return entries;
 }
 
-const ResponseEntry* find_response(std::string_view name) {
-  const auto& all = response_catalogue();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.name == name; });
-  return found == all.end() ? nullptr : &*found;
-}
+const ResponseEntry* find_response(std::string_view name) { return find_entry(response_catalogue(), name); }
 
 std::vector<ResponseEntry> impulse_responses() {
   std::vector<ResponseEntry> some = response_catalogue();

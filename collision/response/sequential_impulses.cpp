@@ -18,7 +18,7 @@
 #include "collision/response/friction_cone.hpp"
 #include "collision/response/warm_start.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 Lanes larger(const Lanes& a, const Lanes& b) { return select(a > b, a, b); }
@@ -26,7 +26,7 @@ Lanes larger(const Lanes& a, const Lanes& b) { return select(a > b, a, b); }
 class SequentialImpulses final : public Response {
  public:
   explicit SequentialImpulses(const SequentialSettings& settings)
-      : settings_(settings), penetration_(settings.penetration) {}
+      : settings_(settings), position_correction_(settings.position_correction) {}
 
   void resolve(std::span<ImpulseBody> bodies, std::span<ImpulseContact> contacts, double step) override {
     const Stop stop = when_to_stop(bodies, contacts, step);
@@ -44,7 +44,7 @@ class SequentialImpulses final : public Response {
     finish(bodies, contacts, stop);
     if (step == 0) return;
     memory_.remember(bodies, contacts, step);
-    penetration_.undo(bodies, contacts, batches_);
+    position_correction_.undo(bodies, contacts, batches_);
   }
 
   void forget() override { memory_.forget(); }
@@ -304,7 +304,7 @@ class SequentialImpulses final : public Response {
   ConjugateCourse course_;
   EnergyGuard guard_;
   std::vector<Vector3<double>> others_;
-  Penetration penetration_;
+  PositionCorrection position_correction_;
 };
 
 }  // namespace

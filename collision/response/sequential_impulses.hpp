@@ -6,15 +6,15 @@
 #include "collision/response.hpp"
 #include "collision/response/position_correction.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 struct SequentialSettings {
-  int at_instant = 1000;             ///< iterations at most, of an impact at an instant
-  double instant_tolerance = 1e-14;  ///< of the largest impulse: when to stop
-  int in_step = 20;                  ///< iterations at most, of a step in which something strikes
-  int at_rest = 100;                 ///< and of one in which all rests, where a stack would lean by what is left over
-  double step_tolerance = 1e-6;      ///< of the largest impulse; what a step leaves, the next begins with
-  PenetrationSettings penetration{};
+  int at_instant = 1000;             ///< limit of iterations, for an impact at an instant
+  double instant_tolerance = 1e-14;  ///< relative to the largest impulse: the iteration stops below it
+  int in_step = 20;                  ///< limit of iterations, for a step in which bodies collide
+  int at_rest = 100;  ///< limit of iterations, for a step in which all contacts rest; too few make a stack lean
+  double step_tolerance = 1e-6;  ///< relative to the largest impulse; the next step starts from the rest
+  PositionCorrectionSettings position_correction{};
 };
 
 std::unique_ptr<Response> make_sequential_impulses(const SequentialSettings& settings);

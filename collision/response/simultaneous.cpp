@@ -25,7 +25,7 @@
 #include "collision/response/islands.hpp"
 #include "collision/response/position_correction.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 using Eigen::Index;
@@ -36,7 +36,7 @@ class Simultaneous final : public Response {
     for (ImpulseContact& c : contacts) c.impulse.setZero();
     islands_.build(bodies, contacts);
     for (std::size_t k = 0; k < islands_.count(); ++k) resolve_island(bodies, contacts, islands_.contacts(k));
-    if (step != 0) penetration_.undo(bodies, contacts);
+    if (step != 0) position_correction_.undo(bodies, contacts);
   }
 
  private:
@@ -236,7 +236,7 @@ class Simultaneous final : public Response {
   Eigen::VectorXd between_;   ///< m/s, between the phases
   Eigen::VectorXd change_, smooth_, constant_, last_;
   Complementarity normals_;
-  Penetration penetration_;
+  PositionCorrection position_correction_;
 };
 
 }  // namespace

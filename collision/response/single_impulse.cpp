@@ -16,7 +16,7 @@
 #include "collision/response/contact_frame.hpp"
 #include "collision/response/position_correction.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 namespace {
 
 class SingleImpulse final : public Response {
@@ -31,7 +31,7 @@ class SingleImpulse final : public Response {
     for (const Patch& p : patches_) {
       for (ImpulseContact& c : contacts.subspan(p.first, p.count)) c.impulse = p.impulse / double(p.count) * p.normal;
     }
-    if (step != 0) penetration_.undo(bodies, contacts);
+    if (step != 0) position_correction_.undo(bodies, contacts);
   }
 
  private:
@@ -91,7 +91,7 @@ class SingleImpulse final : public Response {
   }
 
   std::vector<Patch> patches_;
-  Penetration penetration_;
+  PositionCorrection position_correction_;
 };
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace polhode {
+namespace polhode::inline collision {
 
 void WarmStart::recall(std::span<const ImpulseBody> bodies, std::span<ImpulseContact> contacts, double step) {
   const auto same = [](const auto& c, const auto& d) { return c.a == d.a && c.b == d.b; };

@@ -5,7 +5,7 @@
 #include "collision/shapes/shape_inertia.hpp"
 #include "collision/shapes/size_checks.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 namespace {
 
@@ -35,8 +35,12 @@ MassProperties Box::mass_properties() const {
 }
 
 ShapeEntry box() {
-  return {"box", "a cuboid; its faces look along the body axes", sizes_of_core_shape("box"),
-          [](const ShapeParameters& p) -> ShapePointer { return std::make_shared<Box>(p.vector("size") / 2); }};
+  return {"box",
+          "a cuboid; its faces look along the body axes",
+          {lengths_parameter("size", "full edge lengths a, b, c")},
+          [](const ShapeParameters& p) -> ShapePointer { return std::make_shared<Box>(p.vector("size") / 2); },
+          [](double mass, const ShapeParameters& p) { return box_moments(mass, p.vector("size")); },
+          "I1 = m (b^2 + c^2)/12, ..."};
 }
 
 }  // namespace polhode

@@ -7,7 +7,7 @@
 #include "collision/shape.hpp"
 #include "collision/shapes/polytope.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 class Box final : public Shape {
  public:

@@ -7,7 +7,7 @@
 #include "collision/shapes/shape_inertia.hpp"
 #include "collision/shapes/size_checks.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 Capsule::Capsule(double radius, double length)
     : Shape(ShapeTag::capsule),
@@ -25,10 +25,17 @@ MassProperties Capsule::mass_properties() const {
 }
 
 ShapeEntry capsule() {
-  return {"capsule", "all points no further than the radius from a segment on body axis 3",
-          sizes_of_core_shape("capsule"), [](const ShapeParameters& p) -> ShapePointer {
+  return {"capsule",
+          "all points no further than the radius from a segment on body axis 3",
+          {length_parameter("radius", "r"),
+           length_parameter("length", "l, of the cylindrical part", Parameter::Range::non_negative)},
+          [](const ShapeParameters& p) -> ShapePointer {
             return std::make_shared<Capsule>(p.number("radius"), p.number("length"));
-          }};
+          },
+          [](double mass, const ShapeParameters& p) {
+            return capsule_moments(mass, p.number("radius"), p.number("length"));
+          },
+          "a cylinder between two half balls, as their sum; its axis is body axis 3"};
 }
 
 }  // namespace polhode

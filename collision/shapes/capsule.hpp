@@ -6,7 +6,7 @@
 
 #include "collision/shape.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 class Capsule final : public Shape {
  public:

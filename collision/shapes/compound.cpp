@@ -11,7 +11,7 @@
 #include "collision/shapes/size_checks.hpp"
 #include "core/problem/inertia.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include "collision/shapes/convex_hull.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 class Compound final : public Shape {
  public:

@@ -11,7 +11,7 @@
 #include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/size_checks.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "collision/shapes/polytope.hpp"
 #include "core/math/lanes.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 class ConvexHull final : public Shape {
  public:

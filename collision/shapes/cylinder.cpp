@@ -8,7 +8,7 @@
 #include "collision/shapes/shape_inertia.hpp"
 #include "collision/shapes/size_checks.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 Cylinder::Cylinder(double radius, double length)
     : Shape(ShapeTag::cylinder),
@@ -35,10 +35,16 @@ MassProperties Cylinder::mass_properties() const {
 }
 
 ShapeEntry cylinder() {
-  return {"cylinder", "a solid cylinder about body axis 3", sizes_of_core_shape("cylinder"),
+  return {"cylinder",
+          "a solid cylinder about body axis 3",
+          {length_parameter("radius", "r"), length_parameter("length", "l")},
           [](const ShapeParameters& p) -> ShapePointer {
             return std::make_shared<Cylinder>(p.number("radius"), p.number("length"));
-          }};
+          },
+          [](double mass, const ShapeParameters& p) {
+            return cylinder_moments(mass, p.number("radius"), p.number("length"));
+          },
+          "I1 = I2 = m (3 r^2 + l^2)/12, I3 = m r^2/2; its axis is body axis 3"};
 }
 
 }  // namespace polhode

@@ -7,7 +7,7 @@
 #include "collision/shapes/shape_inertia.hpp"
 #include "collision/shapes/size_checks.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 Ellipsoid::Ellipsoid(const Vector3<double>& semi_axes)
     : Shape(ShapeTag::ellipsoid), semi_axes_(positive_sizes("ellipsoid", "semi_axes", semi_axes)) {}
@@ -28,8 +28,12 @@ MassProperties Ellipsoid::mass_properties() const {
 }
 
 ShapeEntry ellipsoid() {
-  return {"ellipsoid", "a ball stretched along the body axes", sizes_of_core_shape("ellipsoid"),
-          [](const ShapeParameters& p) -> ShapePointer { return std::make_shared<Ellipsoid>(p.vector("semi_axes")); }};
+  return {"ellipsoid",
+          "a ball stretched along the body axes",
+          {lengths_parameter("semi_axes", "a, b, c")},
+          [](const ShapeParameters& p) -> ShapePointer { return std::make_shared<Ellipsoid>(p.vector("semi_axes")); },
+          [](double mass, const ShapeParameters& p) { return ellipsoid_moments(mass, p.vector("semi_axes")); },
+          "I1 = m (b^2 + c^2)/5, ..."};
 }
 
 }  // namespace polhode

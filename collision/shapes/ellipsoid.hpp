@@ -4,7 +4,7 @@
 
 #include "collision/shape.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 class Ellipsoid final : public Shape {
  public:

@@ -8,7 +8,7 @@
 #include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/size_checks.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 HalfSpace::HalfSpace(const Vector3<double>& normal, double offset) : Shape(ShapeTag::half_space) {
   const double length = normal.stableNorm();

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace polhode {
+namespace polhode::inline collision {
 
 namespace {
 

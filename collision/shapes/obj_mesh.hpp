@@ -9,7 +9,7 @@
 
 #include "core/math/linear_algebra.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 struct ObjMesh {
   struct Face {

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace polhode {
+namespace polhode::inline collision {
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "collision/shape.hpp"
 #include "collision/shapes/polytope.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 MassProperties polyhedron_mass(const Polytope& polytope);
 

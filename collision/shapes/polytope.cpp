@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace polhode {
+namespace polhode::inline collision {
 
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include "core/math/linear_algebra.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 struct Polytope {
   struct Face {

@@ -11,7 +11,7 @@ extern "C" {
 #include <libqhull_r/qhull_ra.h>
 }
 
-namespace polhode {
+namespace polhode::inline collision {
 
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include "core/math/linear_algebra.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// Loops of point numbers, counter-clockwise seen from outside. Coplanar facets are one loop, or with `triangulated`
 /// several triangles. Throws std::invalid_argument where qhull gives up.

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "collision/shapes/shape_catalogue.hpp"
 
-#include <algorithm>
-#include <stdexcept>
-
-#include "collision/shapes/shape_inertia.hpp"
+#include "core/problem/catalogue.hpp"
 
 // One line lists a shape: the function of its name, in the file of its name, declares it.
 #define POLHODE_SHAPES(SHAPE) \
@@ -17,27 +14,25 @@
   SHAPE(compound) \
   SHAPE(half_space)
 
-namespace polhode {
+namespace polhode::inline collision {
 
 #define POLHODE_DECLARE(name) ShapeEntry name();
 POLHODE_SHAPES(POLHODE_DECLARE)
 
-const std::vector<ShapeEntry>& collision_shape_catalogue() {
+const std::vector<ShapeEntry>& shape_catalogue() {
 #define POLHODE_ENTRY(name) name(),
   static const std::vector<ShapeEntry> entries = {POLHODE_SHAPES(POLHODE_ENTRY)};
   return entries;
 }
 
-const ShapeEntry* find_collision_shape(std::string_view name) {
-  const auto& all = collision_shape_catalogue();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const ShapeEntry& s) { return s.name == name; });
-  return found == all.end() ? nullptr : &*found;
+const ShapeEntry* find_shape(std::string_view name) { return find_entry(shape_catalogue(), name); }
+
+Parameter length_parameter(const char* key, const char* meaning, Parameter::Range range) {
+  return {key, 0.0, "m", meaning, Parameter::Need::required, range};
 }
 
-std::vector<Parameter> sizes_of_core_shape(std::string_view name) {
-  const ShapeKind* kind = find_shape(name);
-  if (!kind) throw std::logic_error("collision/shapes/shape_inertia.cpp has no " + std::string(name));
-  return kind->parameters;
+Parameter lengths_parameter(const char* key, const char* meaning) {
+  return {key, Vector3<double>(0, 0, 0), "m", meaning, Parameter::Need::required, Parameter::Range::positive};
 }
 
 }  // namespace polhode

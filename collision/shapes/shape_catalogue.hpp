@@ -10,7 +10,7 @@
 #include "collision/shape.hpp"
 #include "core/problem/force_kind.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// The values of a shape's sizes, every key of its entry present.
 struct ShapeParameters {
@@ -27,13 +27,19 @@ struct ShapeEntry {
   std::vector<Parameter> parameters;  ///< as a scenario gives them
   /// Throws std::invalid_argument with the reason.
   ShapePointer (*make)(const ShapeParameters&);
+
+  /// Principal moments (kg m²) about the mass centre from the mass (kg), also for sizes that `make` refuses. Null: the
+  /// inertia is that of the shape that `make` builds.
+  Vector3<double> (*moments)(double mass, const ShapeParameters&) = nullptr;
+  std::string moments_formula{};  ///< one line
 };
 
-const std::vector<ShapeEntry>& collision_shape_catalogue();
-const ShapeEntry* find_collision_shape(std::string_view name);
+const std::vector<ShapeEntry>& shape_catalogue();
+const ShapeEntry* find_shape(std::string_view name);
 
-/// The sizes of a shape whose moments are in collision/shapes/shape_inertia.hpp, so that its keys are written down
-/// once.
-std::vector<Parameter> sizes_of_core_shape(std::string_view name);
+/// A length (m) that a scenario must give.
+Parameter length_parameter(const char* key, const char* meaning, Parameter::Range range = Parameter::Range::positive);
+/// Three positive lengths (m) that a scenario must give.
+Parameter lengths_parameter(const char* key, const char* meaning);
 
 }  // namespace polhode

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace polhode {
+namespace polhode::inline collision {
 
 std::string in_words(double value) {
   std::ostringstream text;

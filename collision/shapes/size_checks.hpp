@@ -6,7 +6,7 @@
 
 #include "collision/shape.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 /// The sizes that are taken, m: products of five of them, and more, stay far from what double cannot hold.
 inline constexpr double smallest_size = 1e-50, largest_size = 1e50;

@@ -7,7 +7,7 @@
 #include "collision/shapes/shape_inertia.hpp"
 #include "collision/shapes/size_checks.hpp"
 
-namespace polhode {
+namespace polhode::inline collision {
 
 Sphere::Sphere(double radius) : Shape(ShapeTag::sphere), radius_(positive_size("sphere", "radius", radius)) {}
 
@@ -22,8 +22,12 @@ MassProperties Sphere::mass_properties() const {
 }
 
 ShapeEntry sphere() {
-  return {"sphere", "all points no further than the radius from the centre", sizes_of_core_shape("sphere"),
-          [](const ShapeParameters& p) -> ShapePointer { return std::make_shared<Sphere>(p.number("radius")); }};
+  return {"sphere",
+          "all points no further than the radius from the centre",
+          {length_parameter("radius", "r")},
+          [](const ShapeParameters& p) -> ShapePointer { return std::make_shared<Sphere>(p.number("radius")); },
+          [](double mass, const ShapeParameters& p) { return sphere_moments(mass, p.number("radius")); },
+          "I = 2 m r^2/5"};
 }
 
 }  // namespace polhode

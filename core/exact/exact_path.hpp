@@ -5,14 +5,12 @@
 
 #include <functional>
 
+#include "core/exact/motion_at.hpp"
 #include "core/system/system.hpp"
 
 namespace polhode {
 
-struct PathAt {
-  Vector3<double> position, velocity;  ///< m, m/s, world
-};
-/// Of the time in s.
+/// A path in world axes as a function of time (s).
 using ExactPath = std::function<PathAt(double)>;
 
 /// Of a body that is not pinned; empty if it has none that is known here:

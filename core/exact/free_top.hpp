@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/exact/motion_at.hpp"
 #include "core/math/elliptic.hpp"
 #include "core/math/linear_algebra.hpp"
 #include "core/math/quaternion.hpp"
@@ -33,10 +34,7 @@ class FreeTop {
   FreeTop(const Matrix3<double>& inertia_body, const Quaternion<double>& orientation,
           const Vector3<double>& angular_velocity_body);
 
-  struct Motion {
-    Quaternion<double> orientation;         ///< body to world; continuous in t, also in its sign
-    Vector3<double> angular_velocity_body;  ///< rad/s
-  };
+  using Motion = TopAt;
 
   /// The motion at t (s, of either sign), to a few units of round-off times 1 + (|ω| + |λ|) |t|. Costs about 0.15 µs.
   Motion at(double t) const;

@@ -4,6 +4,7 @@
 // Fundamentals of Celestial Mechanics, 2nd ed., section 6.9.
 #pragma once
 
+#include "core/exact/motion_at.hpp"
 #include "core/math/linear_algebra.hpp"
 
 namespace polhode {
@@ -19,10 +20,9 @@ class KeplerMotion {
   /// The numbers are taken as exact; costs about 0.2 ms. Throws std::invalid_argument.
   KeplerMotion(double mu, const Vector3<double>& position, const Vector3<double>& velocity);
 
-  struct Motion {
-    Vector3<double> position, velocity;
-  };
-  /// At t (s, of either sign). Costs about 2 µs: Kepler's equation is solved by bracketed Newton iteration.
+  using Motion = PathAt;
+  /// Position and velocity relative to the other body at t (s, of either sign). Costs about 2 µs: Kepler's equation is
+  /// solved by bracketed Newton iteration.
   Motion at(double t) const;
 
   double eccentricity() const { return static_cast<double>(eccentricity_); }

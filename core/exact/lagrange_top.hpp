@@ -5,6 +5,7 @@
 // quotients of theta functions); Whittaker, Analytical Dynamics, 4th ed., sections 71 to 73; core/exact/theta_zero.hpp.
 #pragma once
 
+#include "core/exact/motion_at.hpp"
 #include "core/exact/theta_zero.hpp"
 #include "core/math/elliptic.hpp"
 #include "core/math/linear_algebra.hpp"
@@ -37,10 +38,7 @@ class LagrangeTop {
                       const Vector3<double>& gravity, const Quaternion<double>& orientation,
                       const Vector3<double>& angular_velocity_body);
 
-  struct Motion {
-    Quaternion<double> orientation;         ///< body to world, of length 1, continuous in t
-    Vector3<double> angular_velocity_body;  ///< rad/s
-  };
+  using Motion = TopAt;
 
   /// The motion at t (s, of either sign), to a few units of round-off times 1 + (|ω| + λ) |t|. Costs about 0.2 µs.
   Motion at(double t) const;

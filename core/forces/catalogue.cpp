@@ -12,6 +12,7 @@
 #include "core/forces/point_gravity.hpp"
 #include "core/forces/spring.hpp"
 #include "core/forces/uniform_gravity.hpp"
+#include "core/problem/catalogue.hpp"
 
 namespace polhode {
 
@@ -25,9 +26,7 @@ const std::vector<ForceEntry>& force_catalogue() {
 }
 
 const ForceEntry* find_force(std::string_view name) {
-  const auto& all = force_catalogue();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const ForceEntry& e) { return e.kind.name == name; });
-  return found == all.end() ? nullptr : &*found;
+  return find_entry(force_catalogue(), name, [](const auto& entry) { return entry.kind.name; });
 }
 
 namespace {

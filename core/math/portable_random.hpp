@@ -11,11 +11,12 @@
 
 #include "core/math/quaternion.hpp"
 
-namespace polhode::study {
+namespace polhode {
 
-class Dice {
+/// A generator of the numbers of its seed.
+class PortableRandom {
  public:
-  explicit Dice(std::uint64_t seed) : engine_(seed) {}
+  explicit PortableRandom(std::uint64_t seed) : engine_(seed) {}
 
   double uniform(double low, double high) {
     return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);

@@ -71,20 +71,58 @@ struct Sample {
   double ledger(double lost_in_contact) const { return seen.energy() - work - projection + lost_in_contact; }
 };
 
-/// A stretch of steps of one size, taken in one call: the k-th ends at t = t0 + (first + k) h, k from 1 to count.
-struct Stretch {
-  double h = 0;  ///< s
-  std::int64_t count = 1;
-  double t0 = 0;  ///< s
-  std::int64_t first = 0;
-  bool project = false;          ///< back to the manifold after each step, and forget the history
-  Sample* samples = nullptr;     ///< one for each step to fill in, or null
-  int lanes = 0;                 ///< of an ensemble: the first so many lanes have samples
-  std::int64_t lane_stride = 0;  ///< the samples of lane i start at samples + i · lane_stride
+/// A batch of steps of equal size, taken in one call. Step k ends at t = t0 + (first + k) h, k = 1 … count.
+struct StepBatch {
+  double h = 0;                  ///< step size, s
+  std::int64_t count = 1;        ///< number of steps
+  double t0 = 0;                 ///< time origin, s
+  std::int64_t first = 0;        ///< number of steps between t0 and the start of the batch
+  bool project = false;          ///< project onto the manifold and discard the history after each step
+  Sample* samples = nullptr;     ///< output: one sample per step; null: none
+  int lanes = 0;                 ///< ensembles only: number of leading lanes that are sampled
+  std::int64_t lane_stride = 0;  ///< ensembles only: the samples of lane i start at samples + i · lane_stride
 
   double time(std::int64_t k) const { return t0 + static_cast<double>(first + k) * h; }
 };
 
+/// Ability of a method: dense output, the state within the last step.
+template <class S>
+class DenseOutput {
+ public:
+  /// Writes the state at time t (s). Returns false if t lies outside the last step; `state` is then unchanged.
+  virtual bool interpolate(double t, State<S>& state) const = 0;
+
+ protected:
+  ~DenseOutput() = default;
+};
+
+/// Ability of a method: native event location. A step ends at the root of an event function that changes sign.
+template <class S>
+class NativeRoots {
+ public:
+  /// Sets the event functions; to be called before begin(). An event function that is zero at the start of a run or
+  /// step is monitored again once it is nonzero.
+  virtual void set_events(std::vector<EventFunction<S>> events) = 0;
+  /// Sign change of each event function at the end of the last step: 1 rising, −1 falling, 0 none.
+  virtual std::span<const int> events() const = 0;
+
+ protected:
+  ~NativeRoots() = default;
+};
+
+/// Ability of a method: projection within its own steps, as requested by its settings. The loop then does not project.
+class NativeProjection {
+ public:
+  /// Energy (J) injected by the projections since begin(): the sum over all steps of the energy after the projection at
+  /// the end of the step minus the energy before it. The effect of a projection on the method's history, and so on
+  /// later steps, counts as integration error of those steps.
+  virtual double projection_energy() const = 0;
+
+ protected:
+  ~NativeProjection() = default;
+};
+
+/// Interface of a numerical method in the scalar S. One object serves one run.
 template <class S>
 class Integrator {
  public:
@@ -100,23 +138,23 @@ class Integrator {
   /// state.t is advanced alike.
   virtual StepResult step(State<S>& state, double h) = 0;
 
-  /// True for a method that projects and measures within advance(), where it all inlines; the driver does it for the
-  /// others, step by step, with the same digits.
-  virtual bool takes_stretches() const { return false; }
+  /// True for a method whose advance() projects and fills samples itself, which lets the compiler inline the whole
+  /// batch. For other methods the loop does both after each step, with bitwise equal results.
+  virtual bool takes_batches() const { return false; }
 
-  /// A stretch of steps in one call; fixed-step methods only.
-  virtual StepResult advance(State<S>& state, const Stretch& stretch) {
+  /// Takes a batch of steps in one call. Fixed-step methods only.
+  virtual StepResult advance(State<S>& state, const StepBatch& batch) {
     StepResult result;
-    for (std::int64_t k = 1; k <= stretch.count && result.ok(); ++k) {
-      result = step(state, stretch.h);
-      if (result.ok()) state.t = stretch.time(k);
+    for (std::int64_t k = 1; k <= batch.count && result.ok(); ++k) {
+      result = step(state, batch.h);
+      if (result.ok()) state.t = batch.time(k);
     }
     return result;
   }
 
   /// n steps of h, without looking at the state between them.
   StepResult advance(State<S>& state, double h, std::int64_t n) {
-    return advance(state, Stretch{.h = h, .count = n, .t0 = state.t});
+    return advance(state, StepBatch{.h = h, .count = n, .t0 = state.t});
   }
 
   /// Right-hand sides evaluated since begin().
@@ -125,23 +163,10 @@ class Integrator {
   /// The state was changed from outside (projection, impact): forget what was remembered of its past.
   virtual void discard_history(const State<S>&) {}
 
-  /// True where the method projects within its steps, since the settings ask for it; then the driver does not.
-  virtual bool projects_natively() const { return false; }
-  /// J, that these projections injected since begin(): the sum over the steps of the energy after the projection that a
-  /// step ended with minus that before it. What it does to the method's history, and so to later steps, is their error.
-  virtual double projection_energy() const { return 0; }
-
-  /// Native roots: a step ends where one of the events changes its sign. set_events() before begin(); an event that is
-  /// zero where a run or a step begins is looked at again when it has left zero.
-  virtual bool has_native_roots() const { return false; }
-  virtual void set_events(std::vector<EventFunction<S>>) {}
-  /// For each event: 1 where it rose through zero at the end of the last step, −1 where it fell, 0 where it did
-  /// neither.
-  virtual std::span<const int> events() const { return {}; }
-
-  /// Dense output: the state at t within the last step. False where t is outside it, or the method has none.
-  virtual bool has_dense_output() const { return false; }
-  virtual bool interpolate(double, State<S>&) const { return false; }
+  /// Abilities of the method in this run; null: the method does not have this one.
+  virtual const DenseOutput<S>* dense_output() const { return nullptr; }
+  virtual NativeRoots<S>* native_roots() { return nullptr; }
+  virtual const NativeProjection* native_projection() const { return nullptr; }
 };
 
 }  // namespace polhode

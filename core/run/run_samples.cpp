@@ -19,13 +19,13 @@ bool is_finite(const Sample& s) {
 TakenSamples hand_over(std::span<const Sample> samples, Observer& observer) {
   std::size_t finite = 0;
   while (finite < samples.size() && is_finite(samples[finite])) ++finite;
-  const std::size_t taken = observer.observe(samples.first(finite));
+  const std::size_t taken = observer.on_samples(samples.first(finite));
   if (taken == samples.size()) return {taken};
   return {taken, taken < finite ? "the energy grew beyond all bounds" : "the state ceased to be finite"};
 }
 
-std::int64_t step_of_next_look(const Observer& observer, double t0, double dt, std::int64_t k) {
-  const double at = std::ceil((observer.next_look() - t0) / dt);
+std::int64_t step_of_next_state(const Observer& observer, double t0, double dt, std::int64_t k) {
+  const double at = std::ceil((observer.next_state() - t0) / dt);
   if (!(at < 9e15)) return std::numeric_limits<std::int64_t>::max();
   return std::max(k + 1, static_cast<std::int64_t>(at));
 }

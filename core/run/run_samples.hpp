@@ -9,8 +9,8 @@
 
 namespace polhode {
 
-/// The longest stretch that is measured in one call.
-inline constexpr std::int64_t longest_stretch = 64;
+/// Largest number of steps in one batch that is sampled.
+inline constexpr std::int64_t longest_batch = 64;
 
 /// How many samples were taken: fewer than all when the run is to end as diverged at the next one, because of `why`.
 struct TakenSamples {
@@ -20,8 +20,9 @@ struct TakenSamples {
 /// Hands the finite ones to the observer.
 TakenSamples hand_over(std::span<const Sample> samples, Observer& observer);
 
-/// The first step of dt from t0 on, after the k-th, at whose end the observer wants to look.
-std::int64_t step_of_next_look(const Observer& observer, double t0, double dt, std::int64_t k);
+/// Index of the first step after step k at whose end the observer is due to receive the full state. Step n ends at
+/// t0 + n dt (s).
+std::int64_t step_of_next_state(const Observer& observer, double t0, double dt, std::int64_t k);
 
 /// "… at t = 1.25 s".
 std::string at_time(std::string what, double t);

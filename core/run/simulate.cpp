@@ -77,7 +77,7 @@ class Loop {
     }
     integrator_.begin(state_);
     const Sample start = measure(state_);
-    observer_.look(view_.of(state_), start);
+    observer_.on_start(view_.of(state_), start);
     if (take_samples({&start, 1}) && !interrupted()) {
       if (schedule_.adaptive) adaptive();
       else if (schedule_.next_step) given();
@@ -157,9 +157,9 @@ class Loop {
     const double before_step = state_.t;
     if (!done([&] { return step(h); })) return false;
     const bool ended = contact_ && contact_->ended();
-    if (t_after && !ended) state_.t = *t_after;  // t_k = k h, never accumulated
-    if (contact_ && !contact_->impacts().empty()) observer_.meet(contact_->impacts());
-    if (contact_ && !contact_->transitions().empty()) observer_.slides_end(contact_->transitions());
+    if (t_after && !ended) state_.t = *t_after;  // t_k = t0 + k h, without accumulated round-off
+    if (contact_ && !contact_->impacts().empty()) observer_.on_impacts(contact_->impacts());
+    if (contact_ && !contact_->transitions().empty()) observer_.on_slides_end(contact_->transitions());
     ++outcome_.steps;
     const bool progress =
         t_after || state_.t - before_step > least_progress * schedule_.t_end || state_.t >= schedule_.t_end;
@@ -172,8 +172,8 @@ class Loop {
       diverged("the state ceased to be finite");
       return false;
     }
-    if (integrator_.projects_natively()) {
-      projection_energy_ = integrator_.projection_energy();
+    if (const NativeProjection* native = integrator_.native_projection()) {
+      projection_energy_ = native->projection_energy();
     } else if (schedule_.normalise) {
       const double before = account_ ? energy() : 0.0;
       system_.project(state_.y);
@@ -193,10 +193,10 @@ class Loop {
   bool observe(const State<S>& state) {
     const Sample sample = measure(state);
     observed_ = sample.t;
-    if (contact_) observer_.account(contact_->losses());
+    if (contact_) observer_.on_contact_energy(contact_->losses());
     if (!take_samples({&sample, 1})) return false;
-    if (sample.t < observer_.next_look()) return true;
-    observer_.look(view_.of(state), sample);
+    if (sample.t < observer_.next_state()) return true;
+    observer_.on_state(view_.of(state), sample);
     return !interrupted();
   }
 
@@ -210,13 +210,13 @@ class Loop {
     const std::int64_t steps = plan.whole + (plan.last > 0 ? 1 : 0);
     const std::int64_t stride = schedule_.samples ? steps / *schedule_.samples : 1;
     std::int64_t k = 0;
-    // All whole steps but the last of the run go by stretches where the method takes them and every step is seen.
-    if (integrator_.takes_stretches() && stride == 1 && !contact_) {
+    // All steps before the last are taken in batches if the method supports them and every step is sampled.
+    if (integrator_.takes_batches() && stride == 1 && !contact_) {
       const std::int64_t until = plan.last > 0 ? plan.whole : plan.whole - 1;
       while (k < until) {
         const std::int64_t n =
-            std::min(longest_stretch, std::min(until, step_of_next_look(observer_, t0_, schedule_.dt, k)) - k);
-        if (!take_stretch(k, n)) return;
+            std::min(longest_batch, std::min(until, step_of_next_state(observer_, t0_, schedule_.dt, k)) - k);
+        if (!take_batch(k, n)) return;
         k += n;
       }
     }
@@ -232,14 +232,14 @@ class Loop {
     }
   }
 
-  bool take_stretch(std::int64_t k, std::int64_t n) {
-    const Stretch stretch{schedule_.dt, n, t0_, k, schedule_.normalise, samples_.data()};
-    if (!done([&] { return integrator_.advance(state_, stretch); })) return false;
+  bool take_batch(std::int64_t k, std::int64_t n) {
+    const StepBatch batch{schedule_.dt, n, t0_, k, schedule_.normalise, samples_.data()};
+    if (!done([&] { return integrator_.advance(state_, batch); })) return false;
     outcome_.steps += n;
     const std::span<Sample> samples(samples_.data(), static_cast<std::size_t>(n));
     for (Sample& s : samples) s.projection = projection_energy_ += s.projection;
     if (!take_samples(samples)) return false;
-    if (samples.back().t >= observer_.next_look()) observer_.look(view_.of(state_), samples.back());
+    if (samples.back().t >= observer_.next_state()) observer_.on_state(view_.of(state_), samples.back());
     return !interrupted();
   }
 
@@ -262,8 +262,9 @@ class Loop {
   void adaptive() {
     State<S> between = state_;
     std::int64_t next = 1;
-    // A method that is projected, or has no dense output, must end its steps on the samples themselves.
-    const bool shorten = schedule_.samples && (schedule_.normalise || contact_ || !integrator_.has_dense_output());
+    // Steps must end exactly at the sample times under projection or contact, or if the method has no dense output.
+    const DenseOutput<S>* dense = integrator_.dense_output();
+    const bool shorten = schedule_.samples && (schedule_.normalise || contact_ || !dense);
     while (state_.t < schedule_.t_end) {
       const double target = shorten ? sample_time(next) : schedule_.t_end;
       if (outcome_.steps >= schedule_.most_steps) return fail(too_many_steps());
@@ -275,7 +276,7 @@ class Loop {
       for (; next <= *schedule_.samples && sample_time(next) <= state_.t; ++next) {
         if (sample_time(next) == state_.t) {
           if (!observe_now()) return;
-        } else if (integrator_.interpolate(sample_time(next), between)) {
+        } else if (dense && dense->interpolate(sample_time(next), between)) {
           if (!observe(between)) return;
         } else {
           outcome_.status = RunStatus::failed;
@@ -307,7 +308,7 @@ class Loop {
   double projection_energy_ = 0;
   std::int64_t surplus_steps_ = 0;
   int steps_without_progress_ = 0;
-  std::array<Sample, longest_stretch> samples_;
+  std::array<Sample, longest_batch> samples_;
   RunOutcome outcome_;
 };
 

@@ -12,6 +12,7 @@
 
 #include "core/run/contact_model.hpp"
 #include "core/run/integrator.hpp"
+#include "core/run/observer.hpp"
 #include "core/system/system.hpp"
 
 namespace polhode {
@@ -47,26 +48,7 @@ struct RunOutcome {
   std::int64_t evaluations = 0;  ///< right-hand sides
 };
 
-/// Sees the start and every sample, in double whatever the scalar of the run.
-class Observer {
- public:
-  virtual ~Observer() = default;
-  /// Some samples in order, the first of all being the start; `projection` is summed over the run. Returns how many of
-  /// them it took: fewer than all call the run off as diverged at the next one.
-  virtual std::size_t observe(std::span<const Sample> samples) = 0;
-  /// The whole state at the sample seen last. Called for the start, before observe(), and for the first sample at or
-  /// after next_look().
-  virtual void look(const State<double>&, const Sample&) {}
-  /// The impacts of a step, its transitions, and what was lost in contacts up to a sample: before that sample, where
-  /// there is contact.
-  virtual void meet(std::span<const Impact>) {}
-  virtual void slides_end(std::span<const Transition>) {}
-  virtual void account(const ContactLosses&) {}
-  /// s; 0 for every sample. A method may take many steps in one call up to then.
-  virtual double next_look() const { return std::numeric_limits<double>::infinity(); }
-};
-
-/// The plan of fixed steps: n whole steps of dt, then one of `last` if it is not zero.
+/// Division of a run into fixed steps: `whole` steps of dt, then one step of `last` (s) unless that is 0.
 struct StepPlan {
   std::int64_t whole = 0;
   double last = 0;

@@ -19,7 +19,7 @@ class EnsembleLoop {
         stop_(stop),
         state_(system.start()),
         lanes_(runs.size()),
-        samples_(std::size_t(longest_stretch) * std::size_t(lane_count)) {}
+        samples_(std::size_t(longest_batch) * std::size_t(lane_count)) {}
 
   std::vector<RunOutcome> run() {
     integrator_.begin(state_);
@@ -27,7 +27,7 @@ class EnsembleLoop {
       Lane& lane = lanes_[i];
       lane.state = runs_[i].truth.start();
       const Sample start{0, runs_[i].truth.measure(lane.state.y), lane.state.y[lane.state.y.size() - 1], 0};
-      runs_[i].observer.look(lane.state, start);
+      runs_[i].observer.on_start(lane.state, start);
       take(i, {&start, 1}, 0);
     }
     all_steps();
@@ -57,26 +57,26 @@ class EnsembleLoop {
     const std::int64_t steps = plan.whole + (plan.last > 0 ? 1 : 0);
     std::int64_t k = 0;
     while (k < steps && any_running() && !interrupted()) {
-      // The last step ends at t_end itself and may be a shorter one.
-      Stretch stretch{schedule_.dt, 1, 0, k, schedule_.normalise};
+      // The last step ends exactly at t_end and may be shorter.
+      StepBatch batch{schedule_.dt, 1, 0, k, schedule_.normalise};
       if (k < steps - 1) {
-        stretch.count = std::min(longest_stretch, steps - 1 - k);
+        batch.count = std::min(longest_batch, steps - 1 - k);
         for (std::size_t i = 0; i < runs_.size(); ++i) {
           if (!lanes_[i].running) continue;
-          stretch.count = std::min(stretch.count, step_of_next_look(runs_[i].observer, 0, schedule_.dt, k) - k);
+          batch.count = std::min(batch.count, step_of_next_state(runs_[i].observer, 0, schedule_.dt, k) - k);
         }
       } else if (plan.last > 0) {
-        stretch = {plan.last, 1, static_cast<double>(k) * schedule_.dt, 0, schedule_.normalise};
+        batch = {plan.last, 1, static_cast<double>(k) * schedule_.dt, 0, schedule_.normalise};
       }
-      stretch.samples = samples_.data();
-      stretch.lanes = static_cast<int>(runs_.size());
-      stretch.lane_stride = longest_stretch;
-      integrator_.advance(state_, stretch);
-      taken_ += stretch.count;
-      k += stretch.count;
+      batch.samples = samples_.data();
+      batch.lanes = static_cast<int>(runs_.size());
+      batch.lane_stride = longest_batch;
+      integrator_.advance(state_, batch);
+      taken_ += batch.count;
+      k += batch.count;
       if (k == steps) state_.t = schedule_.t_end;
       for (std::size_t i = 0; i < runs_.size(); ++i) {
-        if (lanes_[i].running) show(i, stretch.count, k == steps);
+        if (lanes_[i].running) show(i, batch.count, k == steps);
       }
     }
   }
@@ -84,15 +84,14 @@ class EnsembleLoop {
   /// The samples of lane i in the stretch that was taken last.
   void show(std::size_t i, std::int64_t count, bool last) {
     Lane& lane = lanes_[i];
-    const std::span<Sample> samples(samples_.data() + i * std::size_t(longest_stretch),
-                                    static_cast<std::size_t>(count));
+    const std::span<Sample> samples(samples_.data() + i * std::size_t(longest_batch), static_cast<std::size_t>(count));
     for (Sample& s : samples) s.projection = lane.projection_energy += s.projection;
     if (last) samples.back().t = schedule_.t_end;
     if (!take(i, samples, count)) return;
-    if (samples.back().t < runs_[i].observer.next_look()) return;
+    if (samples.back().t < runs_[i].observer.next_state()) return;
     lane.state.t = samples.back().t;
     for (Eigen::Index n = 0; n < state_.y.size(); ++n) lane.state.y[n] = state_.y[n][static_cast<int>(i)];
-    runs_[i].observer.look(lane.state, samples.back());
+    runs_[i].observer.on_state(lane.state, samples.back());
   }
 
   /// False ends the run of the lane as diverged.

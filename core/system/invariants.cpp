@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/forces/catalogue.hpp"
+#include "core/problem/catalogue.hpp"
 
 namespace polhode {
 
@@ -143,10 +144,6 @@ const std::vector<InvariantKind>& invariant_catalogue() {
   return invariants;
 }
 
-const InvariantKind* find_invariant(std::string_view name) {
-  const auto& all = invariant_catalogue();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const InvariantKind& i) { return i.name == name; });
-  return found == all.end() ? nullptr : &*found;
-}
+const InvariantKind* find_invariant(std::string_view name) { return find_entry(invariant_catalogue(), name); }
 
 }  // namespace polhode

@@ -20,47 +20,13 @@
 #include <vector>
 
 #include "core/math/flatten.hpp"
+#include "core/system/concepts.hpp"
 #include "core/system/orientation_chart.hpp"
 #include "core/system/system.hpp"
 
 namespace polhode {
 
 enum class BodyCount { one, many };
-
-/// What a method may ask of a system. `rate` alone gives the flat ODE ẏ = f(t, y), the next two its halves; then the
-/// group step and what belongs to it; then the inertia map; then the two flows into which the motion splits. A Tangent
-/// has the layout of the velocity: for each body a linear part, unless it is pinned, and an angular one.
-template <class System>
-concept MechanicalSystem = requires(const System& system, typename System::Scalar t, typename System::Scalar h,
-                                    const typename System::Flat& y, typename System::Flat& dy,
-                                    const typename System::Tangent& theta, typename System::Tangent& xi) {
-  { system.zero() } -> std::same_as<typename System::Flat>;
-  { system.zero_tangent() } -> std::same_as<typename System::Tangent>;
-  system.rate(t, y, dy);                ///< dy = (N(q) v, v̇, power)
-  system.acceleration(t, y, dy);        ///< fills velocity_part(dy) = v̇(t, q, v)
-  system.configuration_rate(t, y, dy);  ///< fills configuration_part(dy) = N(q) v and work_part(dy)
-  system.configuration_part(dy);
-  system.velocity_part(dy);
-  system.work_part(dy);
-
-  system.twist(y, xi);     ///< ξ with q̇ = d/ds (q ⊕ s ξ) at s = 0: (velocity, ω in the formulation's frame)
-  system.retract(dy, xi);  ///< q ← q ⊕ ξ: p + ξ; exp(ξ) R in the world's frame, R exp(ξ) in the body's
-  system.dexp_inverse(theta, theta, xi);  ///< θ̇ where d/ds (q0 ⊕ θ) = η, from θ and η
-
-  system.wrench(t, y, xi);         ///< (f, τ about the reference point), world axes
-  system.momentum(y, xi);          ///< (m v, L about the reference point), world axes
-  system.set_momentum(theta, dy);  ///< the velocity that has this momentum at the configuration of y
-
-  system.body_twist(y, xi);                ///< the twist with ω in body axes, whatever the formulation: (velocity, Ω)
-  system.set_body_twist(theta, dy);        ///< the velocity that has this body twist at the configuration of y
-  system.body_acceleration(y, theta, xi);  ///< its rate under a wrench θ: (f/m, I⁻¹(Rᵀτ − Ω × IΩ))
-  system.retract_in_body(dy, xi);          ///< q ← (p + ξ, R exp(ξ)), whatever the formulation
-  system.bracket(theta, theta, xi);        ///< (0, a × b)
-  system.carry_momentum(theta, xi, dy);  ///< q ← (p + θ, R exp(θ)) and its momentum ← momentum + ξ, in the world
-
-  system.kick(t, h, dy);     ///< flow of the wrench alone over h, at rest in q, where v does not matter to it
-  system.kick(t, h, y, dy);  ///< adds h times the wrench and its power, both as they are in y
-};
 
 /// The constants of one body in the scalar S.
 template <class S>
@@ -244,10 +210,7 @@ class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<
   /// I I⁻¹ is 1 to round-off only, RᵀR to its defect, and over many steps such factors would be a drift. For the same
   /// reason R of a quaternion is here that of q/|q| always, the only one with R(q dq) = R(q) R(dq).
   template <class AnyRotor>
-  void free_flow(S h, Flat& y, AnyRotor&& rotor) const;
-  void free_flow(S h, Flat& y, const Rotor<S>& rotor) const {
-    if constexpr (!is_one) free_flow<const Rotor<S>&>(h, y, rotor);
-  }
+  requires(!is_lanes<S>) void free_flow(S h, Flat& y, AnyRotor&& rotor) const;
 
   // ---- the erased interface ----------------------------------------------------------------------------------------
 
@@ -302,8 +265,13 @@ class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<
   }
 
  private:
-  /// With one body a call per stage would cost as much as the work: its rates inline into every method. Those of many
-  /// bodies are compiled once, which keeps the build of a method short.
+  /// Override of the member of ManyBodies. For one body only the template above exists.
+  void free_flow(S h, Flat& y, const Rotor<S>& rotor) const {
+    if constexpr (!is_one) free_flow<const Rotor<S>&>(h, y, rotor);
+  }
+
+  /// True if the rates inline into every method. For one body a call per stage would cost as much as the rate itself.
+  /// For many bodies the rates are compiled once, which shortens the build of a method.
   static constexpr bool inlines = is_one;
 
   POLHODE_FLATTEN void full_rate(S t, const S* y, S* dy) const;

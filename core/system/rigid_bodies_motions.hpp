@@ -191,7 +191,7 @@ void RigidBodies<S, O, A, N>::kick(S t, S h, const Flat& seen, Flat& y) const {
 
 template <class S, Orientation O, AngularState A, BodyCount N>
 template <class AnyRotor>
-void RigidBodies<S, O, A, N>::free_flow(S h, Flat& y, AnyRotor&& rotor) const {
+requires(!is_lanes<S>) void RigidBodies<S, O, A, N>::free_flow(S h, Flat& y, AnyRotor&& rotor) const {
   for (std::size_t i = 0; i < count(); ++i) {
     const Layout::Slot s = slot(i);
     const Constants& b = body(i);

@@ -13,6 +13,7 @@
 #include "core/math/lanes.hpp"
 #include "core/problem/problem.hpp"
 #include "core/system/formulation.hpp"
+#include "core/system/ode.hpp"
 #include "core/system/state.hpp"
 
 namespace polhode {
@@ -42,19 +43,18 @@ struct BodySnapshot {
 };
 
 template <class S>
-class System {
+class System : public Ode<S> {
  public:
   using Scalar = S;
 
-  System(const System&) = delete;
-  System& operator=(const System&) = delete;
-  virtual ~System() = default;
-
+  /// The problem; in an ensemble the problem of lane 0.
   const Problem& problem() const { return problems_.front(); }
   /// One, or as many as a pack has lanes.
   const std::vector<Problem>& problems() const { return problems_; }
   const Formulation& formulation() const { return formulation_; }
   const Layout& layout() const { return layout_; }
+  int size() const final { return layout_.size(); }
+  /// Number of moving bodies.
   std::size_t moving() const { return layout_.slots.size(); }
   const std::vector<ForcePointer<S>>& forces() const { return forces_; }
   bool has_forces() const { return !forces_.empty(); }
@@ -76,9 +76,6 @@ class System {
 
   /// The state in which the problem starts, at t = 0.
   virtual State<S> start() const = 0;
-
-  /// The flat ODE ẏ = f(t, y), y and dy of layout().size() numbers: what SUNDIALS and Odeint see.
-  virtual void rate(S t, const S* y, S* dy) const = 0;
 
   virtual Measurement<S> measure(const VectorX<S>& y) const = 0;
   virtual BodySnapshot<S> snapshot(const VectorX<S>& y, std::size_t body) const = 0;

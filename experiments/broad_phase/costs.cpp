@@ -20,15 +20,18 @@
 #include "experiments/study/plot/figure_layout.hpp"
 #include "experiments/study/plot/table.hpp"
 #include "experiments/study/record/study_view.hpp"
+#include "experiments/study/report/figures/study_figures.hpp"
+#include "experiments/study/report/page/report.hpp"
 #include "experiments/study/report/tables/summary.hpp"
+#include "experiments/study/report/tables/tables.hpp"
+#include "experiments/study/statistics/line_fit.hpp"
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study {
+namespace polhode::study::broad_phase {
 namespace {
 
-using namespace report;
 using Clock = std::chrono::steady_clock;
 
 /// The mean is what a run pays: some broad phases do little in most steps and catch up in a few.
@@ -178,16 +181,11 @@ class Measurement {
 
   /// The slope of log cost of a step against log n, by least squares over the upper half of the numbers of bodies.
   static std::string growth(const std::map<std::size_t, Cost>& costs) {
-    std::vector<std::pair<double, double>> points;
-    for (const auto& [n, cost] : costs) points.emplace_back(std::log(double(n)), std::log(double(n) * cost.ns_per_box));
+    std::vector<LinePoint> points;
+    for (const auto& [n, cost] : costs) points.push_back({std::log(double(n)), std::log(double(n) * cost.ns_per_box)});
     if (points.size() < 2) return "";
-    points.erase(points.begin(),
-                 points.end() - static_cast<std::ptrdiff_t>(std::max<std::size_t>(2, (points.size() + 1) / 2)));
-    double x = 0, y = 0, xx = 0, xy = 0;
-    const auto m = static_cast<double>(points.size());
-    for (const auto& [u, v] : points) x += u / m, y += v / m;
-    for (const auto& [u, v] : points) xx += (u - x) * (u - x), xy += (u - x) * (v - y);
-    return number(xy / xx, 3);
+    const std::size_t upper = std::max<std::size_t>(2, (points.size() + 1) / 2);
+    return number(fit_line(std::span(points).last(upper)).slope, 3);
   }
 
   Table cost_table() const {
@@ -245,9 +243,8 @@ class Measurement {
       const auto known = costs_.find(entry);
       if (known == costs_.end()) continue;
       for (const auto& [n, cost] : known->second) {
-        csv += csv_row({entry->name, std::to_string(n), study::exact(cost.ns_per_box),
-                        study::exact(cost.median_ns_per_box), study::exact(cost.pairs_per_box),
-                        std::to_string(cost.steps)});
+        csv += csv_row({entry->name, std::to_string(n), exact(cost.ns_per_box), exact(cost.median_ns_per_box),
+                        exact(cost.pairs_per_box), std::to_string(cost.steps)});
       }
     }
     return csv;

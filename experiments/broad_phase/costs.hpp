@@ -4,7 +4,7 @@
 
 #include "experiments/broad_phase/options.hpp"
 
-namespace polhode::study {
+namespace polhode::study::broad_phase {
 
 /// Measures, writes cost.csv, tables/ and figures/, and prints the table. Returns the exit status: 1 where two broad
 /// phases do not report the same pairs.

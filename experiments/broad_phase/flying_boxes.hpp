@@ -12,22 +12,22 @@
 #include "collision/shape.hpp"
 #include "core/math/portable_random.hpp"
 
-namespace polhode::study {
+namespace polhode::study::broad_phase {
 
 class FlyingBoxes {
  public:
-  /// `filling` is the part of the cube that is within boxes, `motion` a step's mean path over the mean edge.
-  FlyingBoxes(std::size_t n, double filling, double motion, std::uint64_t seed) : dice_(seed), bounds_(n) {
+  /// filling: volume of the boxes over that of the cube; motion: mean path of a box in a step over the mean edge.
+  FlyingBoxes(std::size_t n, double filling, double motion, std::uint64_t seed) : random_(seed), bounds_(n) {
     double volume = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      half_.push_back(dice_.uniform_vector(0.25, 0.5));
+      half_.push_back(random_.uniform_vector(0.25, 0.5));
       volume += 8 * half_.back().prod();
     }
     edge_ = std::cbrt(volume / filling);
     for (std::size_t i = 0; i < n; ++i) {
-      centre_.push_back(dice_.uniform_vector(0, edge_));
-      const Vector3<double> way = dice_.uniform_vector(-1, 1);
-      path_.push_back(way * (dice_.uniform(0, 2) * mean_edge * motion / std::max(way.norm(), 1e-3)));
+      centre_.push_back(random_.uniform_vector(0, edge_));
+      const Vector3<double> way = random_.uniform_vector(-1, 1);
+      path_.push_back(way * (random_.uniform(0, 2) * mean_edge * motion / std::max(way.norm(), 1e-3)));
     }
     place();
   }
@@ -54,7 +54,7 @@ class FlyingBoxes {
     for (std::size_t i = 0; i < centre_.size(); ++i) bounds_[i] = Bounds(centre_[i] - half_[i], centre_[i] + half_[i]);
   }
 
-  Dice dice_;
+  PortableRandom random_;
   double edge_ = 0;
   std::vector<Vector3<double>> half_, centre_, path_;
   std::vector<Bounds> bounds_;

@@ -8,7 +8,7 @@
 #include "experiments/study/plan/listing.hpp"
 #include "experiments/study/text/program.hpp"
 
-namespace polhode::study {
+namespace polhode::study::broad_phase {
 namespace {
 
 int run_broad_phase(int argc, char** argv) {
@@ -30,5 +30,6 @@ int run_broad_phase(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace polhode::study;
+  using namespace polhode::study::broad_phase;
   return run_program("broad_phase", [&] { return run_broad_phase(argc, argv); });
 }

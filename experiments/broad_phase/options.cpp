@@ -9,7 +9,7 @@
 #include "experiments/study/text/suggestion.hpp"
 #include "experiments/study/text/value_lists.hpp"
 
-namespace polhode::study {
+namespace polhode::study::broad_phase {
 namespace {
 
 std::vector<const BroadPhaseEntry*> phases_of(const std::string& text) {
@@ -39,7 +39,7 @@ std::vector<std::size_t> counts_of(const std::string& text) {
   std::vector<std::size_t> counts;
   for (const double x : numbers(text, "--bodies")) {
     const double n = std::round(x);
-    if (!(n >= 1 && n <= 1e8)) throw InputError("--bodies: " + study::exact(x) + " bodies; take 1 to 1e8");
+    if (!(n >= 1 && n <= 1e8)) throw InputError("--bodies: " + exact(x) + " bodies; take 1 to 1e8");
     if (counts.empty() || counts.back() != static_cast<std::size_t>(n)) counts.push_back(static_cast<std::size_t>(n));
   }
   return counts;

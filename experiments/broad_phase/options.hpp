@@ -10,7 +10,7 @@
 
 #include "collision/broad_phase.hpp"
 
-namespace polhode::study {
+namespace polhode::study::broad_phase {
 
 inline constexpr const char* broad_phase_question =
     "What does each broad phase cost as the bodies become more, and do all report the same pairs?";

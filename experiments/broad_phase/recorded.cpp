@@ -14,7 +14,7 @@
 #include "experiments/study/text/notation.hpp"
 #include "experiments/study/text/text_file.hpp"
 
-namespace polhode::study {
+namespace polhode::study::broad_phase {
 namespace {
 
 struct Row {
@@ -82,14 +82,14 @@ void answer_recorded_motion(const std::vector<RecordedStep>& motion, const Broad
       fmt::format_to(std::back_inserter(text), "{},{},{}\n", step.step, step.ids[p.a], step.ids[p.b]);
     }
     fmt::format_to(std::back_inserter(times), "{},{},{},{}\n", step.step, step.boxes.size(), pairs.size(),
-                   report::number(seconds, 4));
+                   number(seconds, 4));
     boxes += step.boxes.size();
     total += seconds;
   }
   write_text(out, text);
   fmt::print("{}# {}: {} s per step, {} ns per box\n", times, entry.name,
-             report::number(total / static_cast<double>(std::max<std::size_t>(motion.size(), 1))),
-             report::number(1e9 * total / static_cast<double>(std::max<std::size_t>(boxes, 1))));
+             number(total / static_cast<double>(std::max<std::size_t>(motion.size(), 1))),
+             number(1e9 * total / static_cast<double>(std::max<std::size_t>(boxes, 1))));
 }
 
 }  // namespace polhode::study

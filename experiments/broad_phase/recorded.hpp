@@ -8,7 +8,7 @@
 
 #include "collision/broad_phase.hpp"
 
-namespace polhode::study {
+namespace polhode::study::broad_phase {
 
 struct RecordedStep {
   std::int64_t step = 0;

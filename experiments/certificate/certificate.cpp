@@ -13,10 +13,8 @@
 #include "experiments/certificate/run_traits.hpp"
 #include "experiments/study/curves/curves.hpp"
 
-namespace polhode::study {
+namespace polhode::study::certificate {
 namespace {
-
-using namespace report;
 
 constexpr int many_steps = 20;
 

@@ -11,7 +11,7 @@
 #include "experiments/certificate/step_traits.hpp"
 #include "experiments/study/record/study_view.hpp"
 
-namespace polhode::study {
+namespace polhode::study::certificate {
 
 struct Certificate {
   const IntegratorEntry* entry = nullptr;

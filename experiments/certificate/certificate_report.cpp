@@ -12,14 +12,12 @@
 #include <vector>
 
 #include "experiments/certificate/certificate.hpp"
-#include "experiments/study/plan/plan.hpp"
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study {
+namespace polhode::study::certificate {
 namespace {
-
-using namespace report;
 
 constexpr std::size_t most_items = 16;  // of a sentence
 
@@ -266,9 +264,9 @@ class Report {
     std::string text = csv_row(header);
     for (const Certificate& c : certificates_) {
       for (const Finding& f : c.findings) {
-        auto row = kept_cells(config_cells(c.config));
+        auto row = kept_cells(config_cells(c.config, {}));
         for (auto& cell : std::vector<std::string>{f.trait, f.declared, csv_cell(f.measured), f.measured ? f.unit : "",
-                                                   csv_cell(f.limit), study::text(f.verdict), f.on, f.note}) {
+                                                   csv_cell(f.limit), word_of(f.verdict), f.on, f.note}) {
           row.push_back(std::move(cell));
         }
         text += csv_row(row);
@@ -285,7 +283,7 @@ class Report {
     std::map<double, std::string> by_time;
     for (const Certificate& c : certificates_) {
       const double ns = nanoseconds_per_step({*c.entry, c.config.formulation}, measures_.stages, measures_.course);
-      auto row = kept_cells(config_cells(c.config));
+      auto row = kept_cells(config_cells(c.config, {}));
       const auto& asked = c.findings.back().measured;
       row.push_back(std::isfinite(ns) ? fmt::format("{:.1f}", ns) : "");
       row.push_back(csv_cell(asked));

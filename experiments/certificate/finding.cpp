@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace polhode::study {
+namespace polhode::study::certificate {
 namespace {
 
 int gravity_of(TraitVerdict verdict) {
@@ -27,7 +27,7 @@ bool worse(const Finding& a, const Finding& b) {
 
 }  // namespace
 
-std::string text(TraitVerdict verdict) {
+std::string word_of(TraitVerdict verdict) {
   switch (verdict) {
     case TraitVerdict::holds: return "holds";
     case TraitVerdict::does_not_hold: return "does not hold";

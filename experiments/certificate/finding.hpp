@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace polhode::study {
+namespace polhode::study::certificate {
 
 enum class TraitVerdict {
   holds,           ///< declared, and so it is
@@ -16,7 +16,7 @@ enum class TraitVerdict {
   undecided,       ///< the measurement says nothing either way
   not_applicable,  ///< it makes no sense of this method, or on these motions
 };
-std::string text(TraitVerdict verdict);
+std::string word_of(TraitVerdict verdict);
 
 struct Finding {
   std::string trait;               ///< one of trait_columns(): "symplecticity"

@@ -23,6 +23,6 @@ int main(int argc, char** argv) {
                               {"dt", "0.1"},
                               {"tolerance", "1e-8"},
                               {"t-end", "200"}}}},
-       .analysis = polhode::study::certificates},
+       .analysis = polhode::study::certificate::certificates},
       argc, argv);
 }

@@ -10,7 +10,7 @@
 
 #include "core/run/integrator.hpp"
 
-namespace polhode::study {
+namespace polhode::study::certificate {
 namespace {
 
 constexpr double order_margin = 0.25;
@@ -57,7 +57,7 @@ std::string note_of(const OrderEstimate& estimate, OrderVerdict seen) {
   std::string note;
   if (estimate.line) note = fmt::format("± {:.2f} over {} points", estimate.line->half_width_95, estimate.points);
   if (seen == OrderVerdict::as_declared) return note;
-  return note.empty() ? text(seen) : note + "; " + text(seen);
+  return note.empty() ? word_of(seen) : note + "; " + word_of(seen);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "experiments/certificate/finding.hpp"
 #include "experiments/study/statistics/order_estimate.hpp"
 
-namespace polhode::study {
+namespace polhode::study::certificate {
 
 /// Settings for the errors of one run after another; those of methods that choose their steps follow a line less
 /// closely, so that the whole ladder counts.

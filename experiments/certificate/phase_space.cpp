@@ -7,7 +7,7 @@
 
 #include "core/system/orientation_chart.hpp"
 
-namespace polhode::study {
+namespace polhode::study::certificate {
 namespace {
 
 template <class S>

@@ -16,7 +16,7 @@
 
 #include "core/system/system.hpp"
 
-namespace polhode::study {
+namespace polhode::study::certificate {
 
 template <class S>
 using MatrixX = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;

@@ -13,10 +13,8 @@
 #include "experiments/study/curves/declared_order.hpp"
 #include "experiments/study/curves/error_ladder.hpp"
 
-namespace polhode::study {
+namespace polhode::study::certificate {
 namespace {
-
-using namespace report;
 
 /// What one motion is measured on.
 struct Motion {

@@ -8,12 +8,13 @@
 #include "experiments/certificate/stage.hpp"
 #include "experiments/study/curves/curves.hpp"
 
-namespace polhode::study {
+namespace polhode::study::certificate {
 
-/// Of each motion the shortest curve with three steps or more shows the order; the motions that last longest show the
-/// drifts, at their largest step. `curves`: those of the subject, on motions of the stages. The findings are in the
-/// order of trait_columns(): order_free, order_forced, energy_free, energy_forced, angular_momentum, orientation.
-std::vector<Finding> run_traits(const Subject& subject, const std::vector<const report::Curve*>& curves,
+/// Findings on the traits order_free, order_forced, energy_free, energy_forced, angular_momentum and orientation, in
+/// this order, which is that of trait_columns(). The order is measured on the curve of shortest duration, among those
+/// with at least three steps, of each motion; drifts are measured on the motions of longest duration, at their largest
+/// step. curves: curves of the subject on motions of the stages.
+std::vector<Finding> run_traits(const Subject& subject, const std::vector<const Curve*>& curves,
                                 const std::vector<Stage>& stages, const std::vector<Scenario>& scenarios);
 
 }  // namespace polhode::study

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace polhode::study {
+namespace polhode::study::certificate {
 namespace {
 
 /// f = m (sin 4t, cos 3t, 2t) N and τ = tr(I)/3 (2 cos 5t, 1 − 3t, sin 3t − 1) N m on every moving body, m in kg, I in

@@ -10,7 +10,7 @@
 #include "experiments/study/scenario/scenario.hpp"
 #include "integrators/catalogue.hpp"
 
-namespace polhode::study {
+namespace polhode::study::certificate {
 
 /// What is measured: a method in a formulation.
 struct Subject {

@@ -13,7 +13,7 @@
 #include "experiments/certificate/symplecticity.hpp"
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study {
+namespace polhode::study::certificate {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -116,7 +116,7 @@ std::string follow(const Subject& subject, Integrator<double>& integrator, State
   for (std::int64_t k = 0; adaptive ? state.t < course.t_end : k < strides; ++k) {
     const StepResult result =
         adaptive ? integrator.step(state, course.t_end - state.t)
-                 : integrator.advance(state, Stretch{.h = course.step, .count = stride, .first = k * stride});
+                 : integrator.advance(state, StepBatch{.h = course.step, .count = stride, .first = k * stride});
     if (!result.ok()) return result.failure;
     if (!look(state)) return "";
   }
@@ -238,7 +238,7 @@ LadderPoint shaken_error(const Subject& subject, const System<double>& system,
     if (adaptive) {
       for (; state.t < end && result.ok(); ++taken) result = integrator->step(state, end - state.t);
     } else {
-      result = integrator->advance(state, Stretch{.h = h, .count = steps, .first = (k - 1) * steps});
+      result = integrator->advance(state, StepBatch{.h = h, .count = steps, .first = (k - 1) * steps});
       taken += steps;
     }
     state.t = end;

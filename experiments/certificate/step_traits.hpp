@@ -11,7 +11,7 @@
 #include "experiments/certificate/finding.hpp"
 #include "experiments/certificate/stage.hpp"
 
-namespace polhode::study {
+namespace polhode::study::certificate {
 
 /// A number that is conserved may be off by round-off, or by the tolerance to which a step is iterated.
 inline constexpr double kept_limit = 1e-11;

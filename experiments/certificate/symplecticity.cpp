@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-namespace polhode::study {
+namespace polhode::study::certificate {
 namespace {
 
 /// f′ ≈ Σ weight (f(k s) − f(−k s)) / s, of sixth order (Fornberg 1988, table 1).

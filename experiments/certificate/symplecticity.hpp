@@ -9,7 +9,7 @@
 
 #include "experiments/certificate/phase_space.hpp"
 
-namespace polhode::study {
+namespace polhode::study::certificate {
 
 /// Advances a flat state in place; false where it fails.
 template <class S>

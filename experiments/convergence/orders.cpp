@@ -10,16 +10,14 @@
 #include "experiments/study/curves/curves.hpp"
 #include "experiments/study/curves/declared_order.hpp"
 #include "experiments/study/curves/error_ladder.hpp"
-#include "experiments/study/plan/plan.hpp"
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/statistics/order_estimate.hpp"
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
 #include "integrators/catalogue.hpp"
 
-namespace polhode::study {
+namespace polhode::study::convergence {
 namespace {
-
-using namespace report;
 
 constexpr std::size_t most_items = 16;  // of a sentence
 
@@ -259,7 +257,7 @@ class Orders {
                             line               ? fmt::format("{:.2f}", line->order)
                             : o.estimate.exact ? "exact"
                                                : "",
-                            line ? fmt::format("{:.2f}", line->half_width_95) : "", text(o.verdict),
+                            line ? fmt::format("{:.2f}", line->half_width_95) : "", word_of(o.verdict),
                             std::to_string(o.estimate.points), range(o), dropped(o.estimate)});
     }
     return without_empty_columns(std::move(table));
@@ -283,7 +281,7 @@ class Orders {
     }
     std::string text = csv_row(header);
     for (const Order& o : orders_) {
-      auto row = kept(config_cells(o.curve->runs.front()->config));
+      auto row = kept(config_cells(o.curve->runs.front()->config, study_.named));
       const auto& e = o.estimate;
       const auto of_line = [&](auto number) { return e.line ? exact(number(*e.line)) : std::string(); };
       const bool step = !o.curve->adaptive, any = e.points > 0;
@@ -294,15 +292,13 @@ class Orders {
                of_line([](const auto& l) { return l.order + l.half_width_95; }), std::to_string(e.points),
                any && step ? exact(e.smallest) : "", any && step ? exact(e.largest) : "",
                any && !step ? exact(e.smallest) : "", any && !step ? exact(e.largest) : "", std::to_string(e.blown_up),
-               std::to_string(e.at_round_off), std::to_string(e.not_straight), study::text(o.verdict)}) {
+               std::to_string(e.at_round_off), std::to_string(e.not_straight), word_of(o.verdict)}) {
         row.push_back(std::move(cell));
       }
       text += csv_row(row);
     }
     return text;
   }
-
-  static std::string exact(double x) { return study::exact(x); }
 
   const StudyView& study_;
   Grouping grouping_;

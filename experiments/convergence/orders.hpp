@@ -4,7 +4,7 @@
 
 #include "experiments/study/record/study_view.hpp"
 
-namespace polhode::study {
+namespace polhode::study::convergence {
 
 /// Of fixed-step methods: the error against the step. Of adaptive ones: against the tolerance, to which it should be
 /// proportional.

@@ -11,13 +11,12 @@
 #include "experiments/study/curves/curves.hpp"
 #include "experiments/study/plot/plain_panel.hpp"
 #include "experiments/study/scenario/narrow_phase_choice.hpp"
+#include "experiments/study/statistics/line_fit.hpp"
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study {
+namespace polhode::study::impact {
 namespace {
-
-using namespace report;
 
 constexpr const char* exact_method = "odeint_fehlberg78";
 constexpr double exact_tolerance = 1e-13;
@@ -67,14 +66,14 @@ using Key = std::tuple<std::string, std::string, std::string, std::string>;
 
 /// The slope of log error against log step by least squares, above `floor`.
 std::optional<double> order(const std::vector<Errors>& all, std::optional<double> Errors::*error, double floor) {
-  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  std::vector<LinePoint> logs;
   for (const Errors& e : all) {
     if (!(e.*error) || !(*(e.*error) > floor)) continue;
-    const double u = std::log(e.step), v = std::log(*(e.*error));
-    n += 1, x += u, y += v, xx += u * u, xy += u * v;
+    logs.push_back({std::log(e.step), std::log(*(e.*error))});
   }
-  const double spread = n * xx - x * x;
-  return n >= 3 && spread > 0 ? std::optional((n * xy - x * y) / spread) : std::nullopt;
+  if (logs.size() < 3) return std::nullopt;
+  const double slope = fit_line(logs).slope;
+  return std::isfinite(slope) ? std::optional(slope) : std::nullopt;
 }
 
 class Impacts {
@@ -246,7 +245,7 @@ class Impacts {
     for (const auto& [key, errors] : curves_) {
       const auto& [where, method, response, timing] = key;
       const Errors& e = errors.front();
-      table.rows.push_back({method, where, timing, response, study::report::rounded(e.step), cell(e.time),
+      table.rows.push_back({method, where, timing, response, study::rounded(e.step), cell(e.time),
                             order_text(order(errors, &Errors::time, time_floor)), cell(e.energy),
                             order_text(order(errors, &Errors::energy, energy_floor)), cell(e.linear), cell(e.angular)});
     }

@@ -6,7 +6,7 @@
 
 #include "experiments/study/record/study_view.hpp"
 
-namespace polhode::study {
+namespace polhode::study::impact {
 
 /// For each motion a run that stands for the exact one up to its first impact: located impacts, a method of order 8 and
 /// a tolerance at round-off.

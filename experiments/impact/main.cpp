@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
                     {"t-end", "2"},
                     {"response", "single_impulse,sequential_impulses,simultaneous"},
                     {"impact-timing", "time_stepping,time_stepping_free_end,event_located"}},
-       .refine = polhode::study::exact_impacts,
-       .analysis = polhode::study::errors_of_impacts},
+       .refine = polhode::study::impact::exact_impacts,
+       .analysis = polhode::study::impact::errors_of_impacts},
       argc, argv);
 }

@@ -10,10 +10,8 @@
 
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 namespace {
-
-using report::number;
 
 /// The lowest point of a function between two places, by the golden section.
 template <class F>

@@ -6,7 +6,7 @@
 
 #include "experiments/judge/miss.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 
 /// Adds the shift that fits best to a hypothesis: the row at t_s shows the motion of another time. Empty where fewer
 /// than three of the first rows are compared or the motion cannot be followed to the last of them.

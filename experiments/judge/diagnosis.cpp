@@ -15,10 +15,8 @@
 #include "experiments/judge/step_fit.hpp"
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 namespace {
-
-using report::number;
 
 /// rad: what a program in double precision cannot do better is right.
 constexpr double flawless = 1e-7;

@@ -13,7 +13,7 @@
 #include "experiments/judge/reading.hpp"
 #include "experiments/judge/trajectory_score.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 
 /// How many times better a reading must fit than the plain one, and than every other one, to be named.
 inline constexpr double naming_factor = 10;

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace polhode::study {
+namespace polhode::study::judge {
 namespace {
 
 using Slot = Layout::Slot;
@@ -214,4 +214,4 @@ void FaultyMotion::step(double t, double h, const FirstOrderStep& by, VectorX<do
   }
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

@@ -10,7 +10,7 @@
 
 #include "core/system/system.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 
 /// What was made of I Ω̇ = Rᵀτ − Ω × I Ω and q̇ = ½ ω q.
 struct Equations {

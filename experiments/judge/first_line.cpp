@@ -9,7 +9,7 @@
 
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 namespace {
 
 /// rad and relative: what changes or errs by more is lost.
@@ -27,10 +27,9 @@ std::string invariants_words(const RunResult& r) {
   for (const auto& [name, drift] : r.invariant_drift_max_rel) add(name, drift);
   std::vector<std::string> holds, lost;
   for (const auto& [name, drift] : drifts) {
-    const std::string to = drift > 0 ? "to " + report::number(drift) : "exactly";
+    const std::string to = drift > 0 ? "to " + number(drift) : "exactly";
     if (drift <= held) holds.push_back(fmt::format("{}{} {}", name, holds.empty() ? " holds" : "", to));
-    else
-      lost.push_back(fmt::format("{} {} {} %", name, lost.empty() ? "is lost by" : "by", report::number(100 * drift)));
+    else lost.push_back(fmt::format("{} {} {} %", name, lost.empty() ? "is lost by" : "by", number(100 * drift)));
   }
   holds.insert(holds.end(), lost.begin(), lost.end());
   return fmt::format("{}", fmt::join(holds, ", "));
@@ -41,19 +40,19 @@ std::string errors_words(const RunResult& r) {
   std::vector<std::string> words;
   if (r.position_error_max == 0.0) words.emplace_back("position is exact");
   else if (r.position_error_max)
-    words.push_back(fmt::format("position is right to {} m", report::number(*r.position_error_max)));
+    words.push_back(fmt::format("position is right to {} m", number(*r.position_error_max)));
   if (r.attitude_error_max) {
     const bool right = *r.attitude_error_max <= held;
     if (*r.attitude_error_max == 0) words.emplace_back("attitude is exact");
     else
       words.push_back(
-          fmt::format("attitude is {} {} rad", right ? "right to" : "off by", report::number(*r.attitude_error_max)));
+          fmt::format("attitude is {} {} rad", right ? "right to" : "off by", number(*r.attitude_error_max)));
   }
   if (const auto& e = r.angular_velocity_error_max_rel) {
     if (*e == 0) words.emplace_back("angular velocity is exact");
     else
-      words.push_back(*e <= held ? fmt::format("angular velocity is right to {}", report::number(*e))
-                                 : fmt::format("angular velocity is off by {} %", report::number(100 * *e)));
+      words.push_back(*e <= held ? fmt::format("angular velocity is right to {}", number(*e))
+                                 : fmt::format("angular velocity is off by {} %", number(100 * *e)));
   }
   return fmt::format("{}", fmt::join(words, ", "));
 }
@@ -80,14 +79,13 @@ std::string pace_words(const TrajectoryScore& score) {
   const std::string name = polhode_pace(score);
   if (name.empty()) return "";
   const Pace pace = *pace_of(score);
-  if (name == "off") return fmt::format("it leaves its polhode by {} %", report::number(100 * pace.off));
+  if (name == "off") return fmt::format("it leaves its polhode by {} %", number(100 * pace.off));
   if (name == "standing") return "it stands still on its polhode";
   if (name == "backwards") {
-    return fmt::format("it goes backwards along its polhode, at {} of the right speed", report::number(-1 - pace.rate));
+    return fmt::format("it goes backwards along its polhode, at {} of the right speed", number(-1 - pace.rate));
   }
-  if (name == "on_time")
-    return fmt::format("it is on time along its polhode, to {} s", report::number(std::abs(pace.phase)));
-  return fmt::format("it is {} along its polhode by {} s at the end", name, report::number(std::abs(pace.phase)));
+  if (name == "on_time") return fmt::format("it is on time along its polhode, to {} s", number(std::abs(pace.phase)));
+  return fmt::format("it is {} along its polhode by {} s at the end", name, number(std::abs(pace.phase)));
 }
 
 void append(std::string& text, const std::string& clause) {
@@ -126,19 +124,19 @@ std::string first_line(const Judged& judged) {
     text += fmt::format(
         "wrong, and no cause that was tried explains it (its rows miss the scenario's motion by {} rad in "
         "{} rad)",
-        report::number(d.miss), report::number(d.span));
+        number(d.miss), number(d.span));
   } else if (d.name != "none") {
     text += d.words;
     if (d.factor) {
-      text += fmt::format(" (fits {} times better than the scenario's {}", report::number(*d.factor, 2),
+      text += fmt::format(" (fits {} times better than the scenario's {}", number(*d.factor, 2),
                           d.margin ? "own motion" : "inertia");
       const bool alone = d.margin && *d.margin >= naming_factor;
-      text += alone ? fmt::format(", {} times better than any other cause tried)", report::number(*d.margin, 2)) : ")";
+      text += alone ? fmt::format(", {} times better than any other cause tried)", number(*d.margin, 2)) : ")";
     }
   } else if (off) {
     text +=
         fmt::format("no wrong convention or equation: {} rad of the motion are right to {} rad, and the errors add up",
-                    report::number(d.span, 2), report::number(d.miss));
+                    number(d.span, 2), number(d.miss));
   } else {
     text += "sound";
   }

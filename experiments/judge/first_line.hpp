@@ -7,7 +7,7 @@
 
 #include "experiments/judge/diagnosis.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 
 /// A trajectory with all that is said of it.
 struct Judged {

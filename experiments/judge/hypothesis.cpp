@@ -11,7 +11,7 @@
 
 #include "experiments/judge/other_inertias.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;

@@ -12,7 +12,7 @@
 #include "experiments/judge/faulty_motion.hpp"
 #include "experiments/judge/reading.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 
 /// What a hypothesis changes; two hypotheses that change the same part are no pair.
 enum class Part { attitude_columns, rate_frame, rate_unit, start, gyroscopic_term, turning, inertia, clock, steps };

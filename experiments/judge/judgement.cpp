@@ -7,91 +7,68 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "experiments/study/plot/axis.hpp"
 #include "experiments/study/plot/figure_layout.hpp"
+#include "experiments/study/record/metric_table.hpp"
 #include "experiments/study/report/findings/drift_words.hpp"
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 namespace {
 
-using namespace report;
 using Kind = Column::Kind;
 using Value = std::optional<double>;
 
 std::string printed(const Value& x) { return x && std::isfinite(*x) ? number(*x) : ""; }
 
-Table table_of(const std::vector<Judged>& judged) {
+Table table_of(const StudyView& study, const std::vector<Judged>& judged) {
+  std::vector<const Metric*> metrics = in_table_order(study.metrics);
+  std::erase_if(metrics, [](const Metric* metric) { return metric->judge_label.empty(); });
   Table table{.caption = "Each trajectory beside the exact motion, or the reference",
               .columns = {{"trajectory", "", Kind::name},
                           {"instants"},
                           {"status", "", Kind::text},
-                          {"diagnosis", "", Kind::text},
-                          {"energy drift", "relative"},
-                          {"drift rate", "W"},
-                          {"±", "W"},
-                          {"its class", "", Kind::text},
-                          {"p"},
-                          {"95 %", "", Kind::text},
-                          {"linear momentum", "relative"},
-                          {"angular momentum", "relative"},
-                          {"orientation defect", "1"},
-                          {"position error", "m"},
-                          {"attitude error", "rad"},
-                          {"angular velocity error", "relative"},
-                          {"along the polhode", "s"},
-                          {"off it", "relative"},
-                          {"its own energy differs", "relative"}},
+                          {"diagnosis", "", Kind::text}},
               .rows = {}};
+  for (const Metric* metric : metrics) {
+    table.columns.push_back({metric->judge_label, metric->unit, is_text(*metric) ? Kind::text : Kind::number});
+  }
+  table.columns.push_back({"its own energy differs", "relative"});
   for (const Judged& one : judged) {
     const TrajectoryScore& s = one.score;
     const RunResult& r = s.record.result;
-    table.rows.push_back(
-        {s.record.config.integrator, std::to_string(s.instants), r.status, one.diagnosis.name,
-         printed(r.energy_drift_max_rel), printed(r.energy_drift_rate), printed(r.energy_drift_rate_ci), r.drift_class,
-         r.drift_exponent ? fmt::format("{:.3f}", *r.drift_exponent) : "", exponent_interval(r),
-         printed(r.linear_momentum_drift_max_rel), printed(r.angular_momentum_drift_max_rel),
-         printed(r.orientation_defect_max), printed(r.position_error_max), printed(r.attitude_error_max),
-         printed(r.angular_velocity_error_max_rel), printed(r.polhode_phase_error_max),
-         printed(r.polhode_off_error_max_rel), printed(s.energy_column_difference_max_rel)});
+    auto& row = table.rows.emplace_back();
+    row = {s.record.config.integrator, std::to_string(s.instants), r.status, one.diagnosis.name};
+    for (const Metric* metric : metrics) {
+      const bool is_exponent = metric->column == "drift_exponent" && r.drift_exponent;  // as precise as its interval
+      row.push_back(is_exponent ? fmt::format("{:.3f}", *r.drift_exponent) : table_cell(*metric, r));
+    }
+    row.push_back(printed(s.energy_column_difference_max_rel));
   }
   return without_empty_columns(std::move(table));
 }
 
 std::string csv_of(const StudyView& study, const std::vector<Judged>& judged) {
-  std::vector<std::string> header = {"trajectory",
-                                     "scenario",
-                                     "status",
-                                     "message",
-                                     "instants",
-                                     "t_first_s",
-                                     "t_last_s",
-                                     "spacing_max_s",
-                                     "diagnosis",
-                                     "diagnosis_factor",
-                                     "diagnosis_margin",
-                                     "polhode_pace",
-                                     "energy_initial_J",
-                                     "energy_drift_max_rel",
-                                     "energy_drift_final_rel",
-                                     "energy_drift_rate_W",
-                                     "drift_class",
-                                     "energy_drift_rate_ci_W",
-                                     "drift_exponent",
-                                     "drift_exponent_low",
-                                     "drift_exponent_high",
-                                     "linear_momentum_drift_max_rel",
-                                     "angular_momentum_drift_max_rel"};
-  for (const std::string& invariant : study.invariants) header.push_back(invariant + "_drift_max_rel");
-  for (const char* c : {"orientation_defect_max", "position_error_max_m", "attitude_error_max_rad",
-                        "angular_velocity_error_max_rel", "polhode_phase_error_max_s", "polhode_phase_error_max_rad",
-                        "polhode_off_error_max_rel", "energy_column_difference_max_rel", "position_reference_m",
-                        "attitude_reference_rad", "angular_velocity_reference_rel", "notes"}) {
-    header.emplace_back(c);
+  std::vector<const Metric*> measured, references;
+  for (const Metric& metric : study.metrics) {
+    if (!metric.in_scores || metric.runs == Metric::Runs::with_contact) continue;
+    (metric.runs == Metric::Runs::with_reference ? references : measured).push_back(&metric);
   }
+  const auto add = [](std::vector<std::string>& row, const std::vector<std::string>& cells) {
+    row.insert(row.end(), cells.begin(), cells.end());
+  };
+  std::vector<std::string> header = {"trajectory", "scenario",         "status",           "message",
+                                     "instants",   "t_first_s",        "t_last_s",         "spacing_max_s",
+                                     "diagnosis",  "diagnosis_factor", "diagnosis_margin", "polhode_pace"};
+  for (const Metric* metric : measured) add(header, csv_columns(*metric, study.invariants));
+  header.emplace_back("energy_column_difference_max_rel");
+  for (const Metric* metric : references) add(header, csv_columns(*metric, study.invariants));
+  header.emplace_back("notes");
   std::string text = csv_row(header);
   for (const Judged& one : judged) {
     const TrajectoryScore& s = one.score;
@@ -101,34 +78,16 @@ std::string csv_of(const StudyView& study, const std::vector<Judged>& judged) {
                                     r.status,
                                     r.message,
                                     std::to_string(s.instants),
-                                    study::exact(s.t_first),
-                                    study::exact(s.record.config.t_end),
+                                    exact(s.t_first),
+                                    exact(s.record.config.t_end),
                                     csv_cell(s.record.config.dt),
                                     one.diagnosis.name,
                                     csv_cell(one.diagnosis.factor),
                                     csv_cell(one.diagnosis.margin),
-                                    polhode_pace(s),
-                                    csv_cell(r.energy_initial),
-                                    csv_cell(r.energy_drift_max_rel),
-                                    csv_cell(r.energy_drift_final_rel),
-                                    csv_cell(r.energy_drift_rate),
-                                    r.drift_class,
-                                    csv_cell(r.energy_drift_rate_ci),
-                                    csv_cell(r.drift_exponent),
-                                    csv_cell(r.drift_exponent_low),
-                                    csv_cell(r.drift_exponent_high),
-                                    csv_cell(r.linear_momentum_drift_max_rel),
-                                    csv_cell(r.angular_momentum_drift_max_rel)};
-    for (const std::string& invariant : study.invariants) {
-      const auto found = r.invariant_drift_max_rel.find(invariant);
-      row.push_back(found == r.invariant_drift_max_rel.end() ? "" : study::exact(found->second));
-    }
-    for (const Value& x : {r.orientation_defect_max, r.position_error_max, r.attitude_error_max,
-                           r.angular_velocity_error_max_rel, r.polhode_phase_error_max, r.polhode_phase_error_max_rad,
-                           r.polhode_off_error_max_rel, s.energy_column_difference_max_rel, r.position_reference,
-                           r.attitude_reference, r.angular_velocity_reference_rel}) {
-      row.push_back(x && std::isfinite(*x) ? study::exact(*x) : "");
-    }
+                                    polhode_pace(s)};
+    for (const Metric* metric : measured) add(row, csv_cells(*metric, r, study.invariants));
+    row.push_back(csv_cell(s.energy_column_difference_max_rel));
+    for (const Metric* metric : references) add(row, csv_cells(*metric, r, study.invariants));
     row.push_back(fmt::format("{}", fmt::join(s.notes, "; ")));
     text += csv_row(row);
   }
@@ -216,7 +175,7 @@ Analysis judgement(const StudyView& study, const std::vector<Judged>& judged) {
                                "scenario's inertia and forces; drifts are against the first row, errors against the "
                                "motion that starts as the scenario says. What is called dt on this page is the largest "
                                "spacing of the rows."},
-                    .tables = {{"scores", table_of(judged)}},
+                    .tables = {{"scores", table_of(study, judged)}},
                     .files = {{"scores.csv", csv_of(study, judged)}}};
   if (Figure figure = errors_against_time(study, judged); !figure.panels.empty()) {
     analysis.figures.push_back(std::move(figure));

@@ -7,7 +7,7 @@
 #include "experiments/judge/first_line.hpp"
 #include "experiments/study/record/study_view.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 
 /// The trajectories in the order of the runs of the study. Its first sentences are their first lines.
 Analysis judgement(const StudyView& study, const std::vector<Judged>& judged);

@@ -9,14 +9,17 @@
 #include "experiments/judge/judgement.hpp"
 #include "experiments/judge/options.hpp"
 #include "experiments/study/plan/plan.hpp"
+#include "experiments/study/report/figures/study_figures.hpp"
+#include "experiments/study/report/page/report.hpp"
 #include "experiments/study/report/tables/results.hpp"
 #include "experiments/study/report/tables/summary.hpp"
+#include "experiments/study/report/tables/tables.hpp"
 #include "experiments/study/store/result_folder.hpp"
 #include "experiments/study/store/store.hpp"
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/program.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 namespace {
 
 /// The stem of each file, or its path where two have the same; the folder where all are called trajectory.csv.
@@ -70,8 +73,8 @@ int judge(const JudgeOptions& options) {
     view.runs.push_back(s.record);
     // The score itself says which run it is: another trajectory has another one.
     std::string text = scenario.canonical + s.record.config.integrator + std::to_string(s.instants);
-    for (const ErrorPoint& p : s.errors) text += study::exact(p.t) + csv_cell(p.attitude) + csv_cell(p.position);
-    for (const SeriesPoint& p : s.record.result.series) text += study::exact(p.t) + study::exact(p.energy_drift_rel);
+    for (const ErrorPoint& p : s.errors) text += exact(p.t) + csv_cell(p.attitude) + csv_cell(p.position);
+    for (const SeriesPoint& p : s.record.result.series) text += exact(p.t) + exact(p.energy_drift_rel);
     view.runs.back().id = identity_of(text);
     ids.insert(view.runs.back().id);
     plan.identity += view.runs.back().id;
@@ -106,8 +109,9 @@ int judge(const JudgeOptions& options) {
 
 int main(int argc, char** argv) {
   using namespace polhode::study;
+  using namespace polhode::study::judge;
   return run_program("judge", [&] {
     const JudgeOptions options = parse_judge_options(argc, argv);
-    return options.exit_status ? *options.exit_status : judge(options);
+    return options.exit_status ? *options.exit_status : judge::judge(options);
   });
 }

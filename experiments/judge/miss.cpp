@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-namespace polhode::study {
+namespace polhode::study::judge {
 namespace {
 
 /// Follows the motion from one row to another; false where that is not possible.

@@ -12,7 +12,7 @@
 #include "experiments/judge/hypothesis.hpp"
 #include "experiments/judge/row_states.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 
 /// rad, from every `stride`-th span and, unless rows.first is empty, from the first rows.
 double miss_of(const RowStates& rows, const Hypothesis& h, std::size_t stride = 1);

@@ -8,7 +8,7 @@
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/value_lists.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 JudgeOptions parse_judge_options(int argc, const char* const* argv) {
   JudgeOptions options;
   CLI::App app{
@@ -52,4 +52,4 @@ JudgeOptions parse_judge_options(int argc, const char* const* argv) {
   return options;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

@@ -8,7 +8,7 @@
 
 #include "core/system/formulation.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 
 struct JudgeOptions {
   std::string scenario;            ///< a built-in name or a file

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <utility>
 
-namespace polhode::study {
+namespace polhode::study::judge {
 namespace {
 
 std::vector<OtherInertia> all_other_inertias(const Body& body) {

@@ -7,7 +7,7 @@
 
 #include "core/problem/problem.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 
 struct OtherInertia {
   Matrix3<double> inertia;  ///< kg m², body axes, about the body's reference point

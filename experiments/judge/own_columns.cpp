@@ -10,7 +10,7 @@
 #include "experiments/judge/diagnosis.hpp"
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 namespace {
 
 /// What a column may hold.
@@ -32,7 +32,7 @@ std::optional<ColumnFault> fault_of(const std::vector<ColumnReading>& readings, 
   if (best->in_body) return ColumnFault{"momentum_frame", "its angular momentum is in body axes", factor};
   return ColumnFault{"inertia",
                      fmt::format("its {} is that of {} times the scenario's inertia, though the motion is right",
-                                 best->what, report::number(best->factor)),
+                                 best->what, number(best->factor)),
                      factor};
 }
 

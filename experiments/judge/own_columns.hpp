@@ -8,7 +8,7 @@
 
 #include "experiments/judge/row_states.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 
 struct ColumnFault {
   std::string name;   ///< the cause, as in scores.csv

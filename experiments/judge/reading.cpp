@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace polhode::study {
+namespace polhode::study::judge {
 
 Quaternion<double> read_so(const Quaternion<double>& q, const Reading& reading) {
   Quaternion<double> meant = q;

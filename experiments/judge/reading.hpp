@@ -4,7 +4,7 @@
 
 #include "experiments/study/trajectory/trajectory_reader.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 
 /// How a program may have written its orientations and rates; as it stands, the format's own.
 struct Reading {

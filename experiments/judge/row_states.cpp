@@ -8,7 +8,7 @@
 
 #include "experiments/study/scenario/characteristic_rate.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 namespace {
 
 /// Evenly over the trajectory; each span is half a radian long, or one row where rows are further apart.

@@ -14,7 +14,7 @@
 #include "experiments/judge/reading.hpp"
 #include "experiments/study/scenario/scenario.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 
 struct RowStates {
   /// Keeps references to both. The trajectory has two rows at least.

@@ -12,7 +12,7 @@
 #include "experiments/study/text/notation.hpp"
 #include "integrators/catalogue.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 namespace {
 
 constexpr std::size_t spans_for_steps = 6;  ///< a few spans are enough to choose among steps
@@ -134,10 +134,10 @@ Hypothesis fitted_steps(const RowStates& rows, const Hypothesis& base) {
   // Several methods are the same in a free motion: the first in the list is the plainest.
   const auto best = std::find_if(fits.begin(), fits.end(), [&](const auto& h) { return h.miss <= 2 * least + 1e-9; });
   const double size = rows.spacing / rows.rate / best->steps.per_row;
-  Hypothesis h = with_cause(*best, "first_order_step",
-                            fmt::format("its steps are those of a first-order method, {}, with {} s",
-                                        best->steps.by.words(), report::number(size)),
-                            Part::steps);
+  Hypothesis h = with_cause(
+      *best, "first_order_step",
+      fmt::format("its steps are those of a first-order method, {}, with {} s", best->steps.by.words(), number(size)),
+      Part::steps);
   h.miss = miss_of(rows, h);
   return h;
 }
@@ -164,7 +164,7 @@ std::optional<Hypothesis> fitted_steps_without_projection(const RowStates& rows,
             state == AngularState::velocity_world  ? "ω in world axes"
             : state == AngularState::velocity_body ? "ω in body axes"
                                                    : "L",
-            report::number(rows.spacing / rows.rate / n));
+            number(rows.spacing / rows.rate / n));
       }
     }
   }

@@ -7,7 +7,7 @@
 
 #include "experiments/judge/miss.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 
 /// Adds the steps of FirstOrderStep that fit best to a hypothesis.
 Hypothesis fitted_steps(const RowStates& rows, const Hypothesis& base);

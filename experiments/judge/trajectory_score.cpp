@@ -10,7 +10,7 @@
 #include "experiments/study/metrics/drift_meter.hpp"
 #include "experiments/study/metrics/polhode_error.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 namespace {
 
 constexpr std::size_t most_error_points = 256;
@@ -113,9 +113,9 @@ void blank(const States& states, const Trajectory& trajectory, const System<doub
     notes.emplace_back("it lacks position or velocity, and no exact path stands for them: energy is left out");
   }
   if (!energy) {
-    drop(r.energy_initial, r.energy_drift_max_rel, r.energy_drift_final_rel, r.energy_drift_rate,
-         r.energy_drift_rate_ci, r.drift_exponent, r.drift_exponent_low, r.drift_exponent_high, r.drift_decided_after,
-         score.energy_column_difference_max_rel);
+    drop(r.energy_initial, r.energy_drift_max, r.energy_round_off, r.energy_drift_max_rel, r.energy_drift_final_rel,
+         r.energy_drift_rate, r.energy_drift_rate_ci, r.drift_exponent, r.drift_exponent_low, r.drift_exponent_high,
+         r.drift_decided_after, score.energy_column_difference_max_rel);
     r.drift_class.clear();
     for (SeriesPoint& p : r.series) p.energy_drift_rel = 0;
   }
@@ -202,9 +202,10 @@ TrajectoryScore score(const Trajectory& trajectory, const Scenario& scenario, Ru
     }
     if (k == 0) compare_start(*system, state, trajectory, result.notes);
     const Sample sample{state.t, system->measure(state.y), work, 0};
-    meter.look(state, sample);
+    if (k == 0) meter.on_start(state, sample);
+    else meter.on_state(state, sample);
     r.t_reached = state.t;
-    if (meter.observe({&sample, 1}) != 1) {
+    if (meter.on_samples({&sample, 1}) != 1) {
       r.status = "diverged";
       r.message = fmt::format("the energy grew beyond all bounds at t = {:.12g} s", state.t);
       break;

@@ -12,7 +12,7 @@
 #include "experiments/study/record/run_record.hpp"
 #include "experiments/study/trajectory/trajectory_reader.hpp"
 
-namespace polhode::study {
+namespace polhode::study::judge {
 
 /// The errors at one instant; absent where they are not known.
 struct ErrorPoint {

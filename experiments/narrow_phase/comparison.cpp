@@ -17,11 +17,8 @@
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study {
+namespace polhode::study::narrow_phase {
 namespace {
-
-using report::Column;
-using report::number;
 
 struct Placed {
   Box a, b;
@@ -69,7 +66,7 @@ void compare_narrow_phases(const std::vector<const NarrowPhaseEntry*>& entries, 
   std::string csv = csv_row({"class", "narrow_phase", "pairs", "overlapping", "wrong_overlaps", "missed_overlaps",
                              "distance_difference_max_rel"});
   std::string costs = csv_row({"class", "narrow_phase", "overlap_ns", "distance_ns", "manifold_ns"});
-  report::Table table{
+  Table table{
       "Agreement with sat: overlaps that are none, overlaps that are missed, and the largest difference of the "
       "signed distance, in units of the smaller box.",
       {{"class", "", Column::Kind::text},
@@ -79,13 +76,13 @@ void compare_narrow_phases(const std::vector<const NarrowPhaseEntry*>& entries, 
        {"missed"},
        {"difference"}},
       {}};
-  report::Table cost_table{"Cost of one question, the best of five rounds over all pairs of the class.",
-                           {{"class", "", Column::Kind::text},
-                            {"narrow phase", "", Column::Kind::name},
-                            {"overlap", "ns"},
-                            {"distance", "ns"},
-                            {"contacts", "ns"}},
-                           {}};
+  Table cost_table{"Cost of one question, the best of five rounds over all pairs of the class.",
+                   {{"class", "", Column::Kind::text},
+                    {"narrow phase", "", Column::Kind::name},
+                    {"overlap", "ns"},
+                    {"distance", "ns"},
+                    {"contacts", "ns"}},
+                   {}};
   std::map<std::string, std::array<Range, 3>> ranges;
   BoxPairs make(seed);
   const std::size_t classes = box_pair_classes().size();
@@ -136,8 +133,8 @@ void compare_narrow_phases(const std::vector<const NarrowPhaseEntry*>& entries, 
   analysis.tables.push_back({"agreement", table});
   analysis.files.push_back({"comparison.csv", csv});
   analysis.timed.files.push_back({"costs.csv", costs});
-  analysis.timed.files.push_back({"costs.md", report::markdown(cost_table)});
-  analysis.timed.files.push_back({"costs.tex", report::latex(cost_table)});
+  analysis.timed.files.push_back({"costs.md", markdown(cost_table)});
+  analysis.timed.files.push_back({"costs.tex", latex(cost_table)});
 }
 
 void measure_course_report(std::size_t count, std::uint64_t seed, Analysis& analysis) {
@@ -146,18 +143,18 @@ void measure_course_report(std::size_t count, std::uint64_t seed, Analysis& anal
   const Box cube(Vector3<double>::Constant(0.5));
   std::string csv =
       csv_row({"angle_deg", "pairs_apart", "called_overlapping", "share_of_pairs_apart", "share_of_overlaps_reported"});
-  report::PlottedCurve of_apart{.label = "of the pairs that are apart"},
+  PlottedCurve of_apart{.label = "of the pairs that are apart"},
       of_reported{.label = "of the overlaps that it reports", .variant = 1};
   double worst = 0, worst_angle = 0;
   for (int k = 0; k < angles; ++k) {
     const double angle_deg = 90.0 * k / (angles - 1), angle = angle_deg * std::numbers::pi / 180;
     std::size_t apart = 0, wrong = 0, reported = 0;
-    Dice dice(seed);  // the same places and axes at each angle
+    PortableRandom random(seed);  // the same places and axes at each angle
     for (std::size_t i = 0; i < count; ++i) {
       // Centres in the ball within which the spheres around the cubes touch.
-      const Vector3<double> centre = dice.direction() * (std::sqrt(3.0) * std::cbrt(dice.uniform(0, 1)));
+      const Vector3<double> centre = random.direction() * (std::sqrt(3.0) * std::cbrt(random.uniform(0, 1)));
       const Pose at_a,
-          at_b{centre, rotation_matrix<double>(quaternion_from_rotation_vector<double>(dice.direction() * angle))};
+          at_b{centre, rotation_matrix<double>(quaternion_from_rotation_vector<double>(random.direction() * angle))};
       const bool overlap = judge->overlap(cube, at_a, cube, at_b), said = course->overlap(cube, at_a, cube, at_b);
       apart += !overlap;
       wrong += said && !overlap;
@@ -178,12 +175,12 @@ void measure_course_report(std::size_t count, std::uint64_t seed, Analysis& anal
                   "surrounding spheres meet, overlapping: at a turn of {} degrees about a random axis.",
                   number(100 * worst, 2), number(worst_angle, 3)));
   analysis.files.push_back({"course_report.csv", csv});
-  report::Panel panel{.x = report::linear_axis("turn of one cube (degrees)", 0, 90),
-                      .y = report::linear_axis("overlaps reported that are none (%)", 0, 1.1 * 100 * worst),
-                      .x_column = "angle_deg",
-                      .y_column = "share_percent",
-                      .curves = {of_apart, of_reported}};
-  report::Figure figure{
+  Panel panel{.x = linear_axis("turn of one cube (degrees)", 0, 90),
+              .y = linear_axis("overlaps reported that are none (%)", 0, 1.1 * 100 * worst),
+              .x_column = "angle_deg",
+              .y_column = "share_percent",
+              .curves = {of_apart, of_reported}};
+  Figure figure{
       .name = "course_report_errors",
       .title = "How often the course report's test errs",
       .caption = fmt::format("{} pairs of equal cubes at each angle, one turned about a random axis, its centre "

@@ -10,7 +10,7 @@
 #include "collision/narrow_phase.hpp"
 #include "experiments/study/record/analysis.hpp"
 
-namespace polhode::study {
+namespace polhode::study::narrow_phase {
 
 /// comparison.csv and its table: of each class and narrow phase how often it differs from `sat`, by how much of the
 /// smaller box, and in timings/ what it costs. Tables and files of `analysis` are added to.

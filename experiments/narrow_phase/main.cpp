@@ -9,14 +9,17 @@
 #include "experiments/narrow_phase/pairs.hpp"
 #include "experiments/study/plan/listing.hpp"
 #include "experiments/study/record/study_view.hpp"
+#include "experiments/study/report/figures/study_figures.hpp"
+#include "experiments/study/report/page/report.hpp"
 #include "experiments/study/report/tables/summary.hpp"
+#include "experiments/study/report/tables/tables.hpp"
 #include "experiments/study/text/command_line.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/program.hpp"
 #include "experiments/study/text/suggestion.hpp"
 #include "experiments/study/text/text_file.hpp"
 
-namespace polhode::study {
+namespace polhode::study::narrow_phase {
 namespace {
 
 const NarrowPhaseEntry& entry(const std::string& name) {
@@ -81,5 +84,6 @@ int run_narrow_phase(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace polhode::study;
+  using namespace polhode::study::narrow_phase;
   return run_program("narrow_phase", [&] { return run_narrow_phase(argc, argv); });
 }

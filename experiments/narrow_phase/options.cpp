@@ -5,7 +5,7 @@
 
 #include "experiments/study/text/command_line.hpp"
 
-namespace polhode::study {
+namespace polhode::study::narrow_phase {
 
 NarrowPhaseOptions parse_narrow_phase_options(const std::string& question, int argc, const char* const* argv) {
   NarrowPhaseOptions options;

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace polhode::study {
+namespace polhode::study::narrow_phase {
 
 struct NarrowPhaseOptions {
   std::string pairs;         ///< empty: the comparison

@@ -11,7 +11,7 @@
 #include "experiments/study/text/csv_reader.hpp"
 #include "experiments/study/text/input_error.hpp"
 
-namespace polhode::study {
+namespace polhode::study::narrow_phase {
 namespace {
 
 constexpr const char* of_a_box[] = {"hx", "hy", "hz", "px", "py", "pz", "qw", "qx", "qy", "qz"};

@@ -8,7 +8,7 @@
 #include "collision/narrow/box_sat.hpp"
 #include "collision/narrow_phase.hpp"
 
-namespace polhode::study {
+namespace polhode::study::narrow_phase {
 
 struct BoxPair {
   std::string id;

@@ -12,10 +12,8 @@
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study {
+namespace polhode::study::pile {
 namespace {
-
-using namespace report;
 
 struct Pile {
   const RunRecord* run;
@@ -135,7 +133,7 @@ class Piles {
   static std::vector<std::string> with_key(const Pile& p, const Key& key, std::vector<std::string> numbers) {
     std::vector<std::string> row = {p.run->id, p.run->config.scenario};
     row.insert(row.end(), key.begin(), key.begin() + of_step);
-    row.insert(row.end(), {study::exact(*p.run->config.dt), std::to_string(p.bodies)});
+    row.insert(row.end(), {exact(*p.run->config.dt), std::to_string(p.bodies)});
     row.insert(row.end(), numbers.begin(), numbers.end());
     return row;
   }
@@ -151,8 +149,7 @@ class Piles {
     for (const auto& [key, piles] : curves_) {
       for (const Pile& p : piles) {
         text += csv_row(with_key(
-            p, key,
-            {study::exact(p.rise()), csv_cell(p.found().penetration_max), csv_cell(p.found().penetration_end)}));
+            p, key, {exact(p.rise()), csv_cell(p.found().penetration_max), csv_cell(p.found().penetration_end)}));
       }
     }
     return text;
@@ -163,7 +160,7 @@ class Piles {
     for (const auto& [key, piles] : curves_) {
       for (const Pile& p : piles) {
         const double rate = p.steps_per_second();
-        text += csv_row(with_key(p, key, {study::exact(rate), study::exact(1 / (rate * double(p.bodies)))}));
+        text += csv_row(with_key(p, key, {exact(rate), exact(1 / (rate * double(p.bodies)))}));
       }
     }
     return text;

@@ -4,7 +4,7 @@
 
 #include "experiments/study/record/study_view.hpp"
 
-namespace polhode::study {
+namespace polhode::study::pile {
 
 /// Against the number of moving bodies. Steps per second go into what is kept apart from the bytes of the study.
 Analysis what_piles_cost(const StudyView& study);

@@ -13,6 +13,6 @@ int main(int argc, char** argv) {
                                                       {"response", "sequential_impulses"}},
                                          .best_times = true,
                                          .fixed_steps_only = true,
-                                         .analysis = polhode::study::what_piles_cost},
+                                         .analysis = polhode::study::pile::what_piles_cost},
                                         argc, argv);
 }

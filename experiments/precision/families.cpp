@@ -9,12 +9,11 @@
 #include <map>
 #include <tuple>
 
+#include "experiments/study/statistics/line_fit.hpp"
 #include "experiments/study/text/notation.hpp"
 
 namespace polhode::study::precision {
 namespace {
-
-using namespace report;
 
 constexpr double agrees = 1.25;           ///< a run within this factor of the more precise one shows truncation alone
 constexpr double dominates = 3;           ///< rounding of at least that many times the truncation error
@@ -50,7 +49,7 @@ std::string varying(const std::vector<Texts>& all, const Key Texts::*part, const
 }
 
 /// The most precise family that is more precise than this one.
-const Family* yardstick_of(const Problem& problem, const Family& family) {
+const Family* yardstick_of(const RoundingProblem& problem, const Family& family) {
   const Family* best = nullptr;
   for (const Family& other : problem.families) {
     if (other.precision > family.precision) best = &other;  // in rising order, compensated last
@@ -58,7 +57,7 @@ const Family* yardstick_of(const Problem& problem, const Family& family) {
   return best;
 }
 
-void match(Problem& problem) {
+void match(RoundingProblem& problem) {
   for (Family& family : problem.families) {
     const Family* yardstick = yardstick_of(problem, family);
     if (yardstick == nullptr) continue;
@@ -91,14 +90,10 @@ std::optional<double> root_mean_square(const Rung& rung, const Quantity& quantit
 
 /// The slope of a straight line through the logarithms.
 std::optional<double> power(const std::vector<std::pair<double, double>>& points) {
-  const auto n = static_cast<double>(points.size());
-  double x = 0, y = 0, xx = 0, xy = 0;
-  for (const auto& [a, b] : points) x += std::log(a) / n, y += std::log(b) / n;
-  for (const auto& [a, b] : points) {
-    xx += (std::log(a) - x) * (std::log(a) - x);
-    xy += (std::log(a) - x) * (std::log(b) - y);
-  }
-  return points.size() >= 3 ? std::optional(xy / xx) : std::nullopt;
+  if (points.size() < 3) return std::nullopt;
+  std::vector<LinePoint> logs;
+  for (const auto& [a, b] : points) logs.push_back({std::log(a), std::log(b)});
+  return fit_line(logs).slope;
 }
 
 }  // namespace
@@ -108,16 +103,16 @@ std::string Family::arithmetic() const {
   return compensated ? plain + ", compensated" : plain;
 }
 
-std::string Problem::label() const {
+std::string RoundingProblem::label() const {
   std::string text = method;
   if (!formulation.empty()) text += fmt::format(" ({})", formulation);
   return motion.empty() ? text : fmt::format("{} on {}", text, motion);
 }
 
-std::vector<Problem> problems_of(const StudyView& study) {
+std::vector<RoundingProblem> problems_of(const StudyView& study) {
   std::vector<Texts> all;
   for (const auto& run : study.runs) all.push_back(texts_of(run.config));
-  std::vector<Problem> problems;
+  std::vector<RoundingProblem> problems;
   std::map<std::tuple<Key, Key, std::string>, std::size_t> seen;
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     const RunRecord& run = study.runs[i];
@@ -142,7 +137,7 @@ std::vector<Problem> problems_of(const StudyView& study) {
     if (rung == family->rungs.end() || rung->step != *step) rung = family->rungs.insert(rung, {*step, {}});
     rung->runs.push_back({&run, nullptr});
   }
-  for (Problem& problem : problems) {
+  for (RoundingProblem& problem : problems) {
     std::sort(problem.families.begin(), problem.families.end(), [](const Family& a, const Family& b) {
       return std::pair(a.precision, a.compensated) < std::pair(b.precision, b.compensated);
     });

@@ -32,20 +32,21 @@ struct Family {
   std::string arithmetic() const;  ///< "float, compensated"
 };
 
-struct Problem {
+struct RoundingProblem {
   std::string method;
   std::string motion, formulation;  ///< what tells it from others of the study; empty where nothing does
   std::vector<Family> families;     ///< by precision, plain before compensated
   std::string label() const;        ///< "rk4, matrix, on detest_b5"
 };
 
-/// In the order of the runs. Points into the records of the study.
-std::vector<Problem> problems_of(const StudyView& study);
+/// The problems of a study, in the order of its runs. They point to the records of the study.
+std::vector<RoundingProblem> problems_of(const StudyView& study);
 
-/// The root mean square over the starts; not a number where a run of them was lost, absent where nothing is measured.
-std::optional<double> error_of(const Rung& rung, const report::Quantity& quantity);
-/// The same of the most precise runs: the truncation error. Absent where there is no higher precision.
-std::optional<double> truncation_of(const Rung& rung, const report::Quantity& quantity);
+/// Root mean square of the error over the starts; NaN if one of the runs was not completed, absent if the quantity was
+/// not measured in all of them.
+std::optional<double> error_of(const Rung& rung, const Quantity& quantity);
+/// The same for the most precise runs: the truncation error. Absent if there is no higher precision.
+std::optional<double> truncation_of(const Rung& rung, const Quantity& quantity);
 
 /// What a ladder shows. Rounding is seen where a run is off by more than one in higher precision.
 struct Split {
@@ -55,8 +56,8 @@ struct Split {
   double least_error = 0, at_step = 0;
   bool has_yardstick = false;  ///< there are runs in a higher precision
 };
-/// Absent where the quantity is not measured.
-std::optional<Split> split(const Family& family, const report::Quantity& quantity);
+/// The errors of a family. Absent if the quantity is not measured.
+std::optional<Split> split(const Family& family, const Quantity& quantity);
 
 /// True where this run's energy drift is rounding: ten times that of its counterpart, and of what double can measure.
 bool is_rounding(const Rung::Run& run);

@@ -6,7 +6,7 @@
 
 #include "experiments/study/statistics/quantiles.hpp"
 
-namespace polhode::study {
+namespace polhode::study::precision {
 namespace {
 
 constexpr int most_octaves = 5;
@@ -68,7 +68,7 @@ std::optional<GrowthEstimate> estimate_growth(const std::vector<double>& path_ex
   return GrowthEstimate{mean, students_t_95(count - 1) * std::sqrt(rest / (count - 1) / count), n};
 }
 
-std::string text(Growth growth) {
+std::string word_of(Growth growth) {
   switch (growth) {
     case Growth::bounded: return "bounded";
     case Growth::random_walk: return "random walk";

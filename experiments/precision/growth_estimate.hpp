@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace polhode::study {
+namespace polhode::study::precision {
 
 struct PathPoint {
   double t = 0;  ///< s
@@ -35,7 +35,7 @@ std::optional<GrowthEstimate> estimate_growth(const std::vector<double>& path_ex
 
 /// How an error can grow, by what rounding or truncation does to the energy.
 enum class Growth { bounded, random_walk, linear, not_told };
-std::string text(Growth growth);
+std::string word_of(Growth growth);
 
 /// Of an energy drift: bounded 0, random walk ½ (Brouwer's law), linear 1. Of an attitude error, which adds up the
 /// drift of a frequency: 1, 3/2, 2. The one within 0.2 of the exponent, where its interval is ±0.2 at most.

@@ -14,15 +14,14 @@
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study {
+namespace polhode::study::precision {
 namespace {
 
 using namespace precision;
-using namespace report;
-using precision::Problem;
+using precision::RoundingProblem;
 
 struct Ladder {
-  const Problem* problem;
+  const RoundingProblem* problem;
   const Family* family;
   Quantity quantity;
   Split split;
@@ -30,7 +29,7 @@ struct Ladder {
 
 /// How the energy drift and the attitude error of the runs grow in which rounding rules.
 struct Rise {
-  const Problem* problem;
+  const RoundingProblem* problem;
   const Family* family;
   std::optional<GrowthEstimate> energy, attitude;
 };
@@ -46,7 +45,7 @@ std::vector<PathPoint> attitude_path(const RunRecord& run) {
   return path;
 }
 
-Rise rise_of(const Problem& problem, const Family& family) {
+Rise rise_of(const RoundingProblem& problem, const Family& family) {
   std::vector<double> energy, attitude;
   for (const Rung& rung : family.rungs) {
     for (const auto& run : rung.runs) {
@@ -60,8 +59,7 @@ Rise rise_of(const Problem& problem, const Family& family) {
 }
 
 std::string step_text(const Family& family, double step) {
-  return family.adaptive() ? fmt::format("tolerance {}", report::rounded(step))
-                           : fmt::format("dt = {} s", report::rounded(step));
+  return family.adaptive() ? fmt::format("tolerance {}", rounded(step)) : fmt::format("dt = {} s", rounded(step));
 }
 std::string words_of(const Quantity& quantity) {
   return quantity.unit == " rad" ? "attitude" : quantity.unit == " m" ? "position" : "energy";
@@ -71,7 +69,7 @@ std::string between(const GrowthEstimate& e) { return fmt::format("{:.2f} ± {:.
 class Rounding {
  public:
   explicit Rounding(const StudyView& study) : problems_(problems_of(study)) {
-    for (const Problem& problem : problems_) {
+    for (const RoundingProblem& problem : problems_) {
       for (const Family& family : problem.families) {
         for (const auto& quantity :
              {quantity::attitude_error(), quantity::position_error(), quantity::energy_drift()}) {
@@ -130,7 +128,7 @@ class Rounding {
   /// "rk4, attitude: in float below dt = 0.0625 s (least error 2e-5 rad at 0.03125 s); …"
   std::vector<std::string> takes_over() const {
     std::vector<std::string> all;
-    for (const Problem& problem : problems_) {
+    for (const RoundingProblem& problem : problems_) {
       std::vector<std::string> parts, never;
       for (const Ladder& l : ladders_) {
         if (l.problem != &problem || l.family->compensated || !l.split.has_yardstick || is_second(l)) continue;
@@ -160,7 +158,7 @@ class Rounding {
   /// At the smallest step at which both were run and plain summation shows rounding.
   std::vector<std::string> saved() const {
     std::vector<std::string> all;
-    for (const Problem& problem : problems_) {
+    for (const RoundingProblem& problem : problems_) {
       std::vector<std::string> parts;
       for (const Family& plain : problem.families) {
         const auto other = std::find_if(problem.families.begin(), problem.families.end(), [&](const Family& f) {
@@ -272,14 +270,14 @@ class Rounding {
       table.rows.push_back(
           {r.problem->method, r.problem->motion, r.problem->formulation, r.family->arithmetic(),
            r.energy ? std::to_string(r.energy->paths) : "", digits(r.energy, &GrowthEstimate::exponent),
-           digits(r.energy, &GrowthEstimate::half_width_95), r.energy ? text(judge_energy_growth(*r.energy)) : "",
+           digits(r.energy, &GrowthEstimate::half_width_95), r.energy ? word_of(judge_energy_growth(*r.energy)) : "",
            digits(r.attitude, &GrowthEstimate::exponent), digits(r.attitude, &GrowthEstimate::half_width_95),
-           r.attitude ? text(judge_attitude_growth(*r.attitude)) : ""});
+           r.attitude ? word_of(judge_attitude_growth(*r.attitude)) : ""});
     }
     return without_empty_columns(std::move(table));
   }
 
-  static std::vector<std::string> named(const Problem& problem, const Family& family) {
+  static std::vector<std::string> named(const RoundingProblem& problem, const Family& family) {
     const RunConfig& c = family.config();
     const auto& f = c.formulation;
     return {c.scenario,
@@ -289,7 +287,7 @@ class Rounding {
             f.gyroscopic ? "on" : "off",
             c.normalise ? "step" : "never",
             std::string(name(f.rotation_from)),
-            study::exact(c.t_end),
+            exact(c.t_end),
             c.samples ? std::to_string(*c.samples) : "",
             std::string(name(family.precision)),
             family.compensated ? "compensated" : "plain"};
@@ -310,12 +308,12 @@ class Rounding {
     for (const Ladder& l : ladders_) {
       auto row = named(*l.problem, *l.family);
       const auto& t = l.split.truncation;
-      const auto of_line = [&](double number) { return t.line ? study::exact(number) : std::string(); };
+      const auto of_line = [&](double number) { return t.line ? exact(number) : std::string(); };
       const double order = t.line ? t.line->order : 0, half = t.line ? t.line->half_width_95 : 0;
       for (auto& cell : std::vector<std::string>{
                l.quantity.column, l.family->adaptive() ? "tolerance" : "dt_s", of_line(order), of_line(order - half),
                of_line(order + half), of_line(t.largest), of_line(t.smallest), csv_cell(l.split.takes_over),
-               study::exact(l.split.least_error), study::exact(l.split.at_step), csv_cell(l.split.rounding_power)}) {
+               exact(l.split.least_error), exact(l.split.at_step), csv_cell(l.split.rounding_power)}) {
         row.push_back(std::move(cell));
       }
       text += csv_row(row);
@@ -329,9 +327,9 @@ class Rounding {
     const auto add = [&](const Rise& r, const char* of, const std::optional<GrowthEstimate>& e, auto judge) {
       if (!e) return;
       auto row = named(*r.problem, *r.family);
-      for (auto& cell : std::vector<std::string>{of, std::to_string(e->paths), study::exact(e->exponent),
-                                                 study::exact(e->exponent - e->half_width_95),
-                                                 study::exact(e->exponent + e->half_width_95), text(judge(*e))}) {
+      for (auto& cell : std::vector<std::string>{of, std::to_string(e->paths), exact(e->exponent),
+                                                 exact(e->exponent - e->half_width_95),
+                                                 exact(e->exponent + e->half_width_95), word_of(judge(*e))}) {
         row.push_back(std::move(cell));
       }
       all += csv_row(row);
@@ -343,7 +341,7 @@ class Rounding {
     return all;
   }
 
-  std::vector<Problem> problems_;
+  std::vector<RoundingProblem> problems_;
   std::vector<Ladder> ladders_;
   std::vector<Rise> rises_;
 };

@@ -4,7 +4,7 @@
 
 #include "experiments/study/record/study_view.hpp"
 
-namespace polhode::study {
+namespace polhode::study::precision {
 
 Analysis rounding_and_truncation(const StudyView& study);
 

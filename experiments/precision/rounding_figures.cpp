@@ -12,12 +12,11 @@
 #include "experiments/study/plot/axis.hpp"
 #include "experiments/study/plot/figure_layout.hpp"
 
-namespace polhode::study {
+namespace polhode::study::precision {
 namespace {
 
-using namespace report;
 using precision::Family;
-using precision::Problem;
+using precision::RoundingProblem;
 using precision::Rung;
 
 constexpr std::size_t most_problems = 3;  // beside each other
@@ -61,10 +60,10 @@ const PlottedCurve* highest(const Panel& panel, std::size_t variant) {
   return best;
 }
 
-std::vector<Panel> ladder_panels(const std::vector<const Problem*>& problems, const Quantity& quantity) {
+std::vector<Panel> ladder_panels(const std::vector<const RoundingProblem*>& problems, const Quantity& quantity) {
   std::vector<Panel> panels;
   bool any = false;
-  for (const Problem* problem : problems) {
+  for (const RoundingProblem* problem : problems) {
     const bool adaptive = problem->families.front().adaptive();
     Panel panel{.title = {problem->label()}, .x_column = adaptive ? "tolerance" : "dt_s", .y_column = quantity.column};
     std::vector<double> steps;
@@ -140,11 +139,11 @@ std::vector<Point> spread(const Rung& rung, Path (*path_of)(const RunRecord&)) {
   return points;
 }
 
-std::vector<Panel> growth_panels(const std::vector<const Problem*>& problems, const std::string& axis,
+std::vector<Panel> growth_panels(const std::vector<const RoundingProblem*>& problems, const std::string& axis,
                                  const std::string& column, Path (*path_of)(const RunRecord&),
                                  bool (*is_rounding)(const Rung::Run&)) {
   std::vector<Panel> panels;
-  for (const Problem* problem : problems) {
+  for (const RoundingProblem* problem : problems) {
     Panel panel{.title = {problem->label()}, .x_column = "t_s", .y_column = column};
     std::vector<double> times;
     for (const Family& family : problem->families) {
@@ -174,10 +173,10 @@ void add_time_guides(std::vector<Panel>& panels, double power, const std::string
 }
 
 /// The precisions take the place of the methods: a colour and a marker for each.
-void finish(Figure& figure, const std::vector<const Problem*>& problems, std::size_t all) {
+void finish(Figure& figure, const std::vector<const RoundingProblem*>& problems, std::size_t all) {
   for (const Precision p : precisions) figure.methods.emplace_back(name(p));
   bool compensated = false, plain = false;
-  for (const Problem* problem : problems) {
+  for (const RoundingProblem* problem : problems) {
     for (const Family& family : problem->families) (family.compensated ? compensated : plain) = true;
   }
   figure.variants = {""};
@@ -188,9 +187,9 @@ void finish(Figure& figure, const std::vector<const Problem*>& problems, std::si
 
 }  // namespace
 
-std::vector<Figure> rounding_figures(const std::vector<Problem>& problems) {
-  std::vector<const Problem*> shown;
-  for (const Problem& problem : problems) {
+std::vector<Figure> rounding_figures(const std::vector<RoundingProblem>& problems) {
+  std::vector<const RoundingProblem*> shown;
+  for (const RoundingProblem& problem : problems) {
     if (shown.size() < most_problems) shown.push_back(&problem);
   }
   std::vector<Figure> figures;

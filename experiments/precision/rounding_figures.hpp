@@ -8,8 +8,8 @@
 #include "experiments/precision/families.hpp"
 #include "experiments/study/plot/figure.hpp"
 
-namespace polhode::study {
+namespace polhode::study::precision {
 
-std::vector<report::Figure> rounding_figures(const std::vector<precision::Problem>& problems);
+std::vector<Figure> rounding_figures(const std::vector<precision::RoundingProblem>& problems);
 
 }  // namespace polhode::study

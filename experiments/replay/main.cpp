@@ -18,7 +18,7 @@
 #include "experiments/study/text/program.hpp"
 #include "experiments/study/text/text_file.hpp"
 
-namespace polhode::study {
+namespace polhode::study::replay {
 namespace {
 
 constexpr std::size_t most_runs = 16;
@@ -176,8 +176,7 @@ int replay(const ReplayOptions& options) {
   const std::string page = page_of(motion.words, motion.recordings, three);
   if (options.out.has_parent_path()) std::filesystem::create_directories(options.out.parent_path());
   write_text(options.out, page);
-  if (!options.results.empty() && options.out == options.results / report::replay_page)
-    report::update_replay_line(options.results);
+  if (!options.results.empty() && options.out == options.results / replay_page) update_replay_line(options.results);
   fmt::print(
       "{}: {}, {:.2f} MB\n{}\n", motion.words.title,
       motion.recordings.size() == 1 ? "one view" : fmt::format("{} views side by side", motion.recordings.size()),
@@ -200,5 +199,6 @@ int run_replay(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace polhode::study;
+  using namespace polhode::study::replay;
   return run_program("replay", [&] { return run_replay(argc, argv); });
 }

@@ -7,7 +7,7 @@
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/value_lists.hpp"
 
-namespace polhode::study {
+namespace polhode::study::replay {
 
 const Experiment& replay_experiment() {
   static const Experiment experiment = {
@@ -70,8 +70,8 @@ ReplayOptions parse_replay_options(int argc, const char* const* argv) {
       throw InputError("--results plays what was run already; of the axes it takes --scenario alone");
     }
   }
-  options.out = !out.empty() ? std::filesystem::path(out) : std::filesystem::path(results) / report::replay_page;
+  options.out = !out.empty() ? std::filesystem::path(out) : std::filesystem::path(results) / replay_page;
   return options;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::replay

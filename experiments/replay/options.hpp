@@ -6,7 +6,7 @@
 
 #include "experiments/study/plan/options.hpp"
 
-namespace polhode::study {
+namespace polhode::study::replay {
 
 struct ReplayOptions {
   Options study;                  ///< what to run, where no results are named

@@ -11,7 +11,7 @@
 #include "experiments/study/text/notation.hpp"
 #include "experiments/study/text/read_file.hpp"
 
-namespace polhode::study {
+namespace polhode::study::replay {
 namespace {
 
 constexpr std::string_view mark = "<meta name=\"generator\" content=\"polhode replay\">";
@@ -45,7 +45,7 @@ std::string inlined(std::string text) {
 }  // namespace
 
 ThreeJs read_three(const std::filesystem::path& folder) {
-  const auto script = [&](const char* name) { return report::read_file(folder / name); };
+  const auto script = [&](const char* name) { return read_file(folder / name); };
   auto library = script("three.min.js");
   if (!library) library = script("build/three.min.js");
   const auto controls = script("examples/js/controls/OrbitControls.js");
@@ -67,7 +67,7 @@ std::string page_of(const PageWords& words, const std::vector<Recording>& record
   std::string script;
   for (const char* name : {"motion", "bodies", "view", "plot", "player"}) script += part(name);
   return filled(part("page"), {{"mark", std::string(mark)},
-                               {"title", report::html(words.title)},
+                               {"title", html(words.title)},
                                {"style", std::string(part("style"))},
                                {"data", page_data(words, recordings)},
                                {"three", three.library},

@@ -7,7 +7,7 @@
 
 #include "experiments/replay/page_data.hpp"
 
-namespace polhode::study {
+namespace polhode::study::replay {
 
 /// three.js and its orbit controls, as they are inlined.
 struct ThreeJs {

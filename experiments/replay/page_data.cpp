@@ -9,7 +9,7 @@
 #include "experiments/study/plot/figure_style.hpp"
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study {
+namespace polhode::study::replay {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -108,8 +108,7 @@ std::string detail_of(const Recording& r, const std::vector<Recording>& all) {
     const std::string &name = r.facts[k].first, &cell = r.facts[k].second;
     if (name == "integrator" || name == "dt_s" || name == "tolerance" || cell.empty()) continue;
     const auto other = [&](const Recording& o) { return k < o.facts.size() && o.facts[k].second != cell; };
-    if (std::any_of(all.begin(), all.end(), other))
-      detail += (detail.empty() ? "" : ", ") + name + " " + report::rounded(cell);
+    if (std::any_of(all.begin(), all.end(), other)) detail += (detail.empty() ? "" : ", ") + name + " " + rounded(cell);
   }
   return detail;
 }
@@ -164,7 +163,7 @@ double bytes_of_instant(const Recording& r) {
 
 std::string page_data(const PageWords& words, const std::vector<Recording>& recordings) {
   Json scenes = Json::array(), runs = Json::array(), colours = Json::array();
-  for (const std::string_view colour : report::style::colours) colours.push_back("#" + std::string(colour));
+  for (const std::string_view colour : style::colours) colours.push_back("#" + std::string(colour));
   for (const Recording& r : recordings) {
     Json scene = scene_json(r.scene);
     const auto known = std::find(scenes.begin(), scenes.end(), scene);

@@ -7,7 +7,7 @@
 
 #include "experiments/replay/recording.hpp"
 
-namespace polhode::study {
+namespace polhode::study::replay {
 
 /// What the page says of itself.
 struct PageWords {

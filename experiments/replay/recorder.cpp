@@ -6,41 +6,38 @@
 #include <utility>
 
 #include "experiments/study/metrics/references.hpp"
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/text/csv.hpp"
 
-namespace polhode::study {
+namespace polhode::study::replay {
 namespace {
 
 class Recorder final : public TrajectoryWriter {
  public:
-  Recorder(const System<double>& system, Observer& next, std::size_t most, Recording& recording, MotionScales scales)
-      : system_(system), next_(next), most_(most), recording_(recording), scales_(std::move(scales)) {}
+  Recorder(const System<double>& system, std::size_t most, Recording& recording, MotionScales scales)
+      : system_(system), most_(most), recording_(recording), scales_(std::move(scales)) {}
 
-  std::size_t observe(std::span<const Sample> samples) override { return next_.observe(samples); }
-  void slides_end(std::span<const Transition> transitions) override { next_.slides_end(transitions); }
-  double next_look() const override { return 0; }
+  double next_state() const override { return 0; }
 
-  void meet(std::span<const Impact> impacts) override {
+  void on_impacts(std::span<const Impact> impacts) override {
     recording_.impacts.insert(recording_.impacts.end(), impacts.begin(), impacts.end());
     recording_.impacts_seen += std::int64_t(impacts.size());
     if (recording_.impacts.size() > 2 * most_) keep_impacts(recording_, most_);
-    next_.meet(impacts);
   }
 
-  void account(const ContactLosses& losses) override {
-    contact_ = losses;
-    next_.account(losses);
-  }
+  void on_contact_energy(const ContactLosses& losses) override { contact_ = losses; }
 
-  void look(const State<double>& state, const Sample& sample) override {
-    if (recording_.instants_seen == 0) start(sample);
+  void on_start(const State<double>& state, const Sample& sample) override {
+    start(sample);
+    on_state(state, sample);
+  }
+  void on_state(const State<double>& state, const Sample& sample) override {
     last_state_ = state;
     last_sample_ = sample;
     last_kept_ = recording_.instants_seen++ % stride_ == 0;
     if (last_kept_) keep();
     if (recording_.times.size() > most_) halve();
-    if (state.t >= next_.next_look() || state.t == 0) next_.look(state, sample);
   }
 
   void close() override {
@@ -92,7 +89,6 @@ class Recorder final : public TrajectoryWriter {
   }
 
   const System<double>& system_;
-  Observer& next_;
   std::size_t most_;
   Recording& recording_;
   MotionScales scales_;
@@ -114,15 +110,15 @@ Recording record(const PlannedRun& run, std::size_t most) {
   for (int asked = 0; asked < 2; ++asked) truth.expect(run.config, *run.scenario);
   const MotionScales scales = truth.of(run.config, *run.scenario, nullptr).scales;
   TrajectoryRequest request;
-  request.open = [&](const System<double>& system, Observer& next) {
+  request.open = [&](const System<double>& system) {
     recording.momentum = shown_momentum(system, *run.scenario);
-    return std::make_unique<Recorder>(system, next, std::max<std::size_t>(most, 4), recording, scales);
+    return std::make_unique<Recorder>(system, std::max<std::size_t>(most, 4), recording, scales);
   };
   const RunResult result = carry_out(run.config, *run.scenario, request, nullptr, &truth);
   std::vector<std::string> keys;
   for (const Override& o : run.config.varied) keys.push_back(o.key);
-  const NamedOptions named{.order = run.config.order.has_value(), .summation = run.config.summation.has_value()};
-  const auto columns = config_columns(keys, named), cells = config_cells(run.config);
+  const NamedOptions all = options_on_demand();
+  const auto columns = config_columns(keys, all), cells = config_cells(run.config, all);
   for (std::size_t k = 0; k < columns.size(); ++k) recording.facts.emplace_back(columns[k], cells[k]);
   recording.id = run.id;
   recording.status = result.status;

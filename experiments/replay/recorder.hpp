@@ -5,7 +5,7 @@
 #include "experiments/replay/recording.hpp"
 #include "experiments/study/plan/plan.hpp"
 
-namespace polhode::study {
+namespace polhode::study::replay {
 
 /// The run with at most `most` instants of its motion and as many impacts: where there are more, every second one is
 /// left out, and so on. The scenario is the run's own.

@@ -6,14 +6,14 @@
 
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study {
+namespace polhode::study::replay {
 
 std::string label_of(const Recording& r) {
   std::string method, step;
   for (const auto& [name, cell] : r.facts) {
     if (name == "integrator") method = cell;
-    if (name == "dt_s" && !cell.empty()) step = ", dt = " + report::rounded(cell) + " s";
-    if (name == "tolerance" && !cell.empty()) step = ", tolerance " + report::rounded(cell);
+    if (name == "dt_s" && !cell.empty()) step = ", dt = " + rounded(cell) + " s";
+    if (name == "tolerance" && !cell.empty()) step = ", tolerance " + rounded(cell);
   }
   return method + step;
 }

@@ -11,7 +11,7 @@
 #include "experiments/scene/scene.hpp"
 #include "experiments/study/metrics/drift_meter.hpp"
 
-namespace polhode::study {
+namespace polhode::study::replay {
 
 struct Placement {
   Vector3<double> position = Vector3<double>::Zero();              ///< m, of the mass centre

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "experiments/study/metrics/references.hpp"
-#include "experiments/study/plan/plan.hpp"
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/scenario/scenario_keys.hpp"
 #include "experiments/study/text/csv_reader.hpp"
 #include "experiments/study/text/input_error.hpp"
@@ -16,7 +16,7 @@
 #include "experiments/study/text/value_lists.hpp"
 #include "experiments/study/trajectory/trajectory_reader.hpp"
 
-namespace polhode::study {
+namespace polhode::study::replay {
 namespace {
 
 using Json = nlohmann::json;
@@ -35,7 +35,7 @@ struct Row {
 };
 
 const std::vector<std::string>& usual_columns() {
-  static const auto columns = config_columns({}, {.order = true, .summation = true});
+  static const auto columns = config_columns({}, options_on_demand());
   return columns;
 }
 

@@ -8,7 +8,7 @@
 
 #include "experiments/replay/recording.hpp"
 
-namespace polhode::study {
+namespace polhode::study::replay {
 
 struct KeptStudy {
   Scenario scenario;                  ///< without the varied keys

@@ -9,7 +9,7 @@
 #include "collision/shapes/half_space.hpp"
 #include "core/problem/inertia.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scene {
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "experiments/scene/surface.hpp"
 #include "experiments/study/scenario/scenario.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scene {
 
 struct SceneBody {
   std::string name;

@@ -12,7 +12,7 @@
 #include "collision/shapes/compound.hpp"
 #include "collision/shapes/convex_hull.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scene {
 
 namespace {
 

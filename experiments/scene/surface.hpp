@@ -7,7 +7,7 @@
 
 #include "collision/shape.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scene {
 
 /// A surface as triangles, m, in the shape's own axes; corners stand once for each normal that they have.
 struct Surface {

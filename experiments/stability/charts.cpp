@@ -13,10 +13,8 @@
 #include "experiments/study/plot/figure_layout.hpp"
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study {
+namespace polhode::study::stability {
 namespace {
-
-using namespace report;
 
 constexpr std::size_t most_chart_rows = 40;  // of methods in one chart
 constexpr std::size_t most_charts = 6;       // figures

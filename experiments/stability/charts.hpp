@@ -8,14 +8,13 @@
 #include "experiments/stability/findings.hpp"
 #include "experiments/study/plot/figure.hpp"
 
-namespace polhode::study {
+namespace polhode::study::stability {
 
-/// One row of cells for each method on each motion without varied keys.
-std::vector<report::Figure> stability_charts(const report::Grouping& grouping,
-                                             const std::vector<StabilityFinding>& found);
+/// Charts with one row of cells for each method on each motion without varied keys.
+std::vector<Figure> stability_charts(const Grouping& grouping, const std::vector<StabilityFinding>& found);
 
-/// One panel for each method, where one key of the scenario takes several numbers: `key` against the step.
-std::vector<report::Figure> stability_maps(const report::Grouping& grouping, const std::vector<StabilityFinding>& found,
-                                           const std::string& key);
+/// Maps of `key` against the step, one panel for each method. `key`: a scenario key with several numbers as values.
+std::vector<Figure> stability_maps(const Grouping& grouping, const std::vector<StabilityFinding>& found,
+                                   const std::string& key);
 
 }  // namespace polhode::study

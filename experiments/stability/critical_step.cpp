@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace polhode::study {
+namespace polhode::study::stability {
 
 CriticalStep critical_step(std::vector<TriedStep> steps) {
   std::sort(steps.begin(), steps.end(), [](const auto& a, const auto& b) { return a.dt < b.dt; });

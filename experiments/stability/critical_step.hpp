@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace polhode::study {
+namespace polhode::study::stability {
 
 /// One run of a scan.
 struct TriedStep {

@@ -8,7 +8,7 @@
 #include "experiments/stability/step_map.hpp"
 #include "experiments/study/statistics/order_estimate.hpp"
 
-namespace polhode::study {
+namespace polhode::study::stability {
 namespace {
 
 constexpr double theory_width = 1e-6;
@@ -93,7 +93,7 @@ std::optional<EnergyGain> gain_of(const std::vector<const Step*>& steps, Verdict
 
 }  // namespace
 
-std::vector<StabilityFinding> stability_findings(const report::Grouping& grouping) {
+std::vector<StabilityFinding> stability_findings(const Grouping& grouping) {
   std::vector<StabilityFinding> found;
   for (Ladder& ladder : ladders(grouping)) {
     StabilityFinding f;

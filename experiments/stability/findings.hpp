@@ -7,7 +7,7 @@
 
 #include "experiments/stability/step_ladder.hpp"
 
-namespace polhode::study {
+namespace polhode::study::stability {
 
 /// The step map over a linear system: its spectral radius at every step of the ladder, and where it first exceeds 1.
 struct LinearTheory {
@@ -38,6 +38,6 @@ struct StabilityFinding {
 /// A radius of 1 to within this is 1: rounding, and the tolerance of implicit methods.
 inline constexpr double radius_tolerance = 1e-9;
 
-std::vector<StabilityFinding> stability_findings(const report::Grouping& grouping);
+std::vector<StabilityFinding> stability_findings(const Grouping& grouping);
 
 }  // namespace polhode::study

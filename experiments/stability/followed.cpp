@@ -6,7 +6,7 @@
 #include "core/exact/exact_path.hpp"
 #include "experiments/study/curves/curves.hpp"
 
-namespace polhode::study {
+namespace polhode::study::stability {
 namespace {
 
 constexpr int path_instants = 200;
@@ -29,8 +29,7 @@ Lost what_is_lost(const RunRecord& run, double displacement) {
   const RunResult& r = run.result;
   if (r.status != "ok") return Lost::end;
   if (r.attitude_error_max.value_or(0) > followed::attitude) return Lost::attitude;
-  const double position_bound =
-      std::max(followed::position * displacement, report::quantity::position_error().round_off);
+  const double position_bound = std::max(followed::position * displacement, quantity::position_error().round_off);
   if (displacement > 0 && r.position_error_max.value_or(0) > position_bound) return Lost::position;
   const double momentum =
       std::max(r.linear_momentum_drift_max_rel.value_or(0), r.angular_momentum_drift_max_rel.value_or(0));
@@ -40,11 +39,11 @@ Lost what_is_lost(const RunRecord& run, double displacement) {
     return Lost::invariant;
   }
   if (r.orientation_defect_max.value_or(0) > followed::defect) return Lost::orientation;
-  const bool energy = !is_measured(run) && r.energy_drift_max_rel.value_or(0) > followed::momentum;
+  const bool energy = !has_known_motion(run) && r.energy_drift_max_rel.value_or(0) > followed::momentum;
   return energy ? Lost::energy : Lost::nothing;
 }
 
-bool is_measured(const RunRecord& run) {
+bool has_known_motion(const RunRecord& run) {
   const RunResult& r = run.result;
   const bool attitude = r.attitude_error_max || small_by_reference(r.attitude_reference, followed::attitude);
   return attitude && (r.position_error_max || r.position_reference || all_pinned(run.scenario->problem));

@@ -7,7 +7,7 @@
 
 #include "experiments/study/record/run_record.hpp"
 
-namespace polhode::study {
+namespace polhode::study::stability {
 
 /// The bounds of a motion that is followed: rough ones, within which the run still resembles the motion.
 namespace followed {
@@ -45,8 +45,8 @@ constexpr std::string_view name(Lost lost) {
 /// `displacement`: m, of the exact path (exact_displacement()); 0: positions are not judged.
 Lost what_is_lost(const RunRecord& run, double displacement);
 
-/// The run was measured against a motion that is known: attitudes, and positions unless every body is pinned.
-bool is_measured(const RunRecord& run);
+/// True if the run was measured against a known motion: its attitudes and, unless every body is pinned, its positions.
+bool has_known_motion(const RunRecord& run);
 
 /// m, how far the mass centres get from where they start, at most, from 0 to t_end (s), by their exact paths. 0 where
 /// a path is not known, or none leads anywhere.

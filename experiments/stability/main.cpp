@@ -18,6 +18,7 @@ const polhode::study::FurtherAxes map_over_inertia = {
 
 std::string meaning() {
   using namespace polhode::study;
+  using namespace polhode::study::stability;
   return fmt::format(
       "Two limits, each the largest step below which it holds: the energy does not grow (a gain of less than "
       "{:g} % of its scale in a turn 2π/|ω| is slow and no growth, but where the system is linear), and the "
@@ -41,8 +42,8 @@ int main(int argc, char** argv) {
                                          .more = {map_over_inertia},
                                          .fixed_steps_only = true,
                                          .failures_are_results = true,
-                                         .duration = polhode::study::whole_steps,
-                                         .refine = polhode::study::bisection,
-                                         .analysis = polhode::study::stability},
+                                         .duration = polhode::study::stability::whole_steps,
+                                         .refine = polhode::study::stability::bisection,
+                                         .analysis = polhode::study::stability::stability},
                                         argc, argv);
 }

@@ -12,16 +12,15 @@
 
 #include "experiments/stability/charts.hpp"
 #include "experiments/stability/findings.hpp"
-#include "experiments/study/plan/plan.hpp"
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
 #include "experiments/study/text/value_lists.hpp"
 #include "integrators/catalogue.hpp"
 
-namespace polhode::study {
+namespace polhode::study::stability {
 namespace {
 
-using namespace report;
 using Kind = CriticalStep::Kind;
 
 constexpr std::size_t most_items = 16;  // of a sentence
@@ -386,7 +385,7 @@ class Stability {
   }
 
   static void add_limit(std::vector<std::string>& row, const StabilityFinding& f, const CriticalStep& c) {
-    const auto cell = [](bool there, double x) { return there ? study::exact(x) : std::string(); };
+    const auto cell = [](bool there, double x) { return there ? exact(x) : std::string(); };
     row.push_back(kind_text(c));
     row.push_back(cell(c.kind != Kind::from_start, c.holds));
     row.push_back(cell(c.kind != Kind::none, c.fails));
@@ -438,24 +437,23 @@ class Stability {
     std::string text = csv_row(header);
     for (const auto& f : found_) {
       const auto& steps = f.ladder.steps;
-      auto row = without_step(config_cells(steps.front().longest().config));
-      for (auto& cell : {csv_cell(f.rate), study::exact(steps.front().dt), study::exact(steps.back().dt)})
-        row.push_back(cell);
+      auto row = without_step(config_cells(steps.front().longest().config, study_.named));
+      for (auto& cell : {csv_cell(f.rate), exact(steps.front().dt), exact(steps.back().dt)}) row.push_back(cell);
       add_limit(row, f, f.growth);
       row.emplace_back(f.growth.holds_again ? "yes" : "no");
       add_limit(row, f, f.blow_up);
       if (f.linear) {
         add_limit(row, f, f.linear->critical);
-        row.push_back(study::exact(f.linear->smallest));
-        row.push_back(study::exact(f.linear->largest));
+        row.push_back(exact(f.linear->smallest));
+        row.push_back(exact(f.linear->largest));
       } else {
         row.resize(row.size() + 6);
       }
       row.emplace_back(name(f.below));
-      row.push_back(f.gain ? study::exact(f.gain->per_second) : "");
-      row.push_back(f.gain ? study::exact(f.gain->dt) : "");
+      row.push_back(f.gain ? exact(f.gain->per_second) : "");
+      row.push_back(f.gain ? exact(f.gain->dt) : "");
       row.push_back(f.gain ? csv_cell(f.gain->exponent) : "");
-      row.push_back(study::exact(f.ladder.duration));
+      row.push_back(exact(f.ladder.duration));
       row.emplace_back(f.ladder.measured ? "yes" : "no");
       add_limit(row, f, f.motion);
       row.emplace_back(name(f.lost));
@@ -476,9 +474,9 @@ class Stability {
         const auto& step = f.ladder.steps[i];
         for (const RunRecord* run : step.runs) {
           std::vector<std::string> row = {run->id};
-          for (auto& cell : config_cells(run->config)) row.push_back(std::move(cell));
+          for (auto& cell : config_cells(run->config, study_.named)) row.push_back(std::move(cell));
           row.push_back(std::to_string(run->result.steps));
-          row.push_back(f.rate ? study::exact(step.dt * *f.rate) : "");
+          row.push_back(f.rate ? exact(step.dt * *f.rate) : "");
           row.emplace_back(name(energy_verdict(*run, f.ladder.turn)));
           row.push_back(f.linear ? csv_cell(f.linear->radius[i]) : "");
           row.push_back(csv_cell(energy_gain_rate(*run)));

@@ -4,7 +4,7 @@
 
 #include "experiments/study/record/study_view.hpp"
 
-namespace polhode::study {
+namespace polhode::study::stability {
 
 Analysis stability(const StudyView& study);
 

@@ -8,7 +8,7 @@
 #include "experiments/stability/step_map.hpp"
 #include "experiments/study/scenario/characteristic_rate.hpp"
 
-namespace polhode::study {
+namespace polhode::study::stability {
 namespace {
 
 constexpr double least_steps = 500;
@@ -37,7 +37,7 @@ std::optional<double> turn_of(const RunConfig& config, const Scenario& scenario,
 }
 
 /// The runs of a curve, each step once.
-std::vector<Ladder::Step> steps_of(const report::Curve& curve) {
+std::vector<Ladder::Step> steps_of(const Curve& curve) {
   std::vector<const RunRecord*> runs;
   for (const RunRecord* run : curve.runs) {
     if (run->result.status != "refused") runs.push_back(run);
@@ -101,7 +101,7 @@ class Wanted {
 double whole_steps(double t_end, double dt) { return std::max(least_steps * dt, whole_steps_only(t_end, dt)); }
 
 Verdict energy_verdict(const RunRecord& run, std::optional<double> turn) {
-  return run.config.t_end < (1 - 1e-9) * least_steps * *run.config.dt ? Verdict::none : judge(run, turn);
+  return run.config.t_end < (1 - 1e-9) * least_steps * *run.config.dt ? Verdict::none : stability_verdict(run, turn);
 }
 
 CriticalStep Ladder::growth() const { return first_growth(*this, Verdict::gaining); }
@@ -112,9 +112,9 @@ CriticalStep Ladder::motion() const {
   return critical_step(std::move(tried));
 }
 
-std::vector<Ladder> ladders(const report::Grouping& grouping) {
+std::vector<Ladder> ladders(const Grouping& grouping) {
   std::vector<Ladder> all;
-  for (const report::Curve& curve : grouping.curves) {
+  for (const Curve& curve : grouping.curves) {
     Ladder ladder{.curve = &curve, .steps = steps_of(curve)};
     if (ladder.steps.empty()) continue;
     const RunConfig& config = ladder.steps.front().shortest().config;  // the smallest step is the last to be lengthened
@@ -126,7 +126,7 @@ std::vector<Ladder> ladders(const report::Grouping& grouping) {
     for (Ladder::Step& step : ladder.steps) {
       step.verdict = ladder_verdict(step, ladder.turn);
       step.lost = what_is_lost(step.shortest(), ladder.displacement);
-      ladder.measured = ladder.measured || is_measured(step.shortest());
+      ladder.measured = ladder.measured || has_known_motion(step.shortest());
     }
     all.push_back(std::move(ladder));
   }
@@ -134,7 +134,7 @@ std::vector<Ladder> ladders(const report::Grouping& grouping) {
 }
 
 std::vector<RunConfig> bisection(const StudyView& study) {
-  const auto grouping = report::group(study);
+  const auto grouping = group(study);
   Wanted wanted;
   for (const Ladder& ladder : ladders(grouping)) {
     const auto halve = [&](const CriticalStep& critical) {

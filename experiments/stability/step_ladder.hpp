@@ -10,7 +10,7 @@
 #include "experiments/stability/verdict.hpp"
 #include "experiments/study/curves/curves.hpp"
 
-namespace polhode::study {
+namespace polhode::study::stability {
 
 /// s: as long as asked for, rounded up to whole steps, and 500 steps at least. A shortened last step would be a step of
 /// another size, and growth that is slow for each step takes many of them to show.
@@ -31,21 +31,21 @@ struct Ladder {
     const RunRecord& longest() const { return *runs.back(); }
     const RunRecord& shortest() const { return *runs.front(); }
   };
-  const report::Curve* curve = nullptr;
-  std::vector<Step> steps{};     ///< rising; without those that were refused
-  std::optional<double> rate{};  ///< rad/s, the characteristic rate of the motion
-  std::optional<double> turn{};  ///< s, what a slow gain is measured by; absent: no gain counts as slow
-  double duration = 0;           ///< s, over which the motion is to be followed
-  double displacement = 0;       ///< m, the largest of the exact motion in that time
-  bool measured = false;         ///< against a motion that is known
+  const Curve* curve = nullptr;
+  std::vector<Step> steps{};     ///< in ascending order, without refused runs
+  std::optional<double> rate{};  ///< characteristic rate of the motion, rad/s
+  std::optional<double> turn{};  ///< time unit of slow gains, s; absent: no gain counts as slow
+  double duration = 0;           ///< time over which the motion must be followed, s
+  double displacement = 0;       ///< largest displacement of the exact motion in that time, m
+  bool measured = false;         ///< some run was measured against a known motion
 
   CriticalStep growth() const;   ///< where the energy first grows: gaining or blown up
   CriticalStep blow_up() const;  ///< where it first blows up
   CriticalStep motion() const;   ///< where the motion is first lost
 };
 
-/// Those of a grouping that have a run, in its order; the grouping must outlive them.
-std::vector<Ladder> ladders(const report::Grouping& grouping);
+/// Ladders of the curves of a grouping that have a run, in the order of the curves. The grouping must outlive them.
+std::vector<Ladder> ladders(const Grouping& grouping);
 
 /// The steps that halve the brackets of all ladders, side by side; where a lone verdict would decide, a longer run of
 /// that step; where only a run longer than the duration asked for has lost the motion, one that is not.

@@ -8,7 +8,7 @@
 
 #include "experiments/study/scenario/characteristic_rate.hpp"
 
-namespace polhode::study {
+namespace polhode::study::stability {
 namespace {
 
 /// The numbers of y that belong to mass centres, positions before velocities.

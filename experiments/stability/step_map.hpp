@@ -8,7 +8,7 @@
 #include "core/system/formulation.hpp"
 #include "integrators/catalogue.hpp"
 
-namespace polhode::study {
+namespace polhode::study::stability {
 
 /// The largest modulus of the eigenvalues of the map (positions, velocities) → the same after one step of dt. Its
 /// columns are differences of steps from displaced states, which for a linear map is exact but for rounding.

@@ -7,7 +7,7 @@
 
 #include "experiments/study/curves/curves.hpp"
 
-namespace polhode::study {
+namespace polhode::study::stability {
 namespace {
 
 struct Range {
@@ -48,7 +48,7 @@ double change_for_good(const std::array<Range, 4>& q) {
 double rounding(const RunRecord& run) {
   const RunResult& r = run.result;
   const bool measured = r.energy_round_off && r.energy_scale && *r.energy_scale > 0;
-  return std::max(4 * report::round_off_level(run), measured ? *r.energy_round_off / *r.energy_scale : 0);
+  return std::max(4 * round_off_level(run), measured ? *r.energy_round_off / *r.energy_scale : 0);
 }
 
 /// 1/s
@@ -59,7 +59,7 @@ std::optional<double> slope(const RunResult& r) {
 
 }  // namespace
 
-Verdict judge(const RunRecord& run, std::optional<double> turn) {
+Verdict stability_verdict(const RunRecord& run, std::optional<double> turn) {
   const RunResult& r = run.result;
   if (r.status == "refused") return Verdict::none;
   if (r.status != "ok" || r.series.empty() || !r.energy_drift_max_rel || !r.energy_drift_final_rel) {
@@ -80,7 +80,7 @@ Verdict judge(const RunRecord& run, std::optional<double> turn) {
 }
 
 std::optional<double> energy_gain_rate(const RunRecord& run) {
-  return judge(run) == Verdict::blown_up ? std::nullopt : slope(run.result);
+  return stability_verdict(run) == Verdict::blown_up ? std::nullopt : slope(run.result);
 }
 
 }  // namespace polhode::study

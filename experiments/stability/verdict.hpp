@@ -10,7 +10,7 @@
 
 #include "experiments/study/record/run_record.hpp"
 
-namespace polhode::study {
+namespace polhode::study::stability {
 
 enum class Verdict {
   stable,          ///< the drift stays within bounds, or below what is counted
@@ -48,9 +48,10 @@ inline constexpr double settled = 2;
 inline constexpr double slow = 0.01;
 }  // namespace verdict
 
-/// A trend, or having come to rest elsewhere, is a change for good. `turn`: s, what a slow gain is measured by; absent:
-/// no gain counts as slow, since errors of a linear system grow exponentially, however slowly.
-Verdict judge(const RunRecord& run, std::optional<double> turn = std::nullopt);
+/// The verdict on a run. A change is permanent if it is a trend, or if the drift has settled at another value. turn:
+/// time unit of slow gains, s; absent: no gain counts as slow, since errors of a linear system grow exponentially,
+/// however slowly.
+Verdict stability_verdict(const RunRecord& run, std::optional<double> turn = std::nullopt);
 
 /// 1/s, the gain of energy over its scale: slope of the least-squares line through the drift of all samples. Absent for
 /// a run that has blown up.

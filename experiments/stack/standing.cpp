@@ -11,10 +11,8 @@
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study {
+namespace polhode::study::stack {
 namespace {
-
-using namespace report;
 
 /// Of a box of 1 m: further than this from where it was after 2 s, it has moved; deeper than that, it has sunk in.
 constexpr double still = 1e-3, shallow = 5e-3;  // m
@@ -159,7 +157,7 @@ class Standing {
       const auto& [scenario, method, response, timing, size] = key;
       for (const Stack& s : stacks) {
         const ContactMeasures& c = s.found();
-        text += csv_row({s.run->id, scenario, method, response, timing, study::exact(size), std::to_string(s.boxes),
+        text += csv_row({s.run->id, scenario, method, response, timing, exact(size), std::to_string(s.boxes),
                          csv_cell(c.left_place), csv_cell(c.displacement_max), csv_cell(c.penetration_max),
                          csv_cell(c.penetration_end), csv_cell(c.energy_rise_max)});
       }

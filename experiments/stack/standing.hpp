@@ -4,7 +4,7 @@
 
 #include "experiments/study/record/study_view.hpp"
 
-namespace polhode::study {
+namespace polhode::study::stack {
 
 /// Against the number of moving bodies, for each step and response.
 Analysis how_stacks_stand(const StudyView& study);

@@ -16,8 +16,12 @@
 #include "experiments/study/plan/options.hpp"
 #include "experiments/study/plan/plan.hpp"
 #include "experiments/study/progress.hpp"
+#include "experiments/study/record/run_options.hpp"
+#include "experiments/study/report/figures/study_figures.hpp"
+#include "experiments/study/report/page/report.hpp"
 #include "experiments/study/report/tables/results.hpp"
 #include "experiments/study/report/tables/summary.hpp"
+#include "experiments/study/report/tables/tables.hpp"
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/store/result_folder.hpp"
 #include "experiments/study/store/store.hpp"
@@ -64,7 +68,7 @@ std::string plan_text(const Experiment& experiment, const Plan& plan, const std:
   const auto names = config_columns(plan.varied_keys, plan.named);
   std::vector<std::vector<std::string>> cells;
   if (experiment.refine) text += "further runs follow from the results of these\n";
-  for (const PlannedRun& run : plan.runs) cells.push_back(config_cells(run.config));
+  for (const PlannedRun& run : plan.runs) cells.push_back(config_cells(run.config, plan.named));
   for (std::size_t k = 0; k < names.size(); ++k) {
     std::vector<std::string> values;
     for (const auto& c : cells) {
@@ -72,7 +76,7 @@ std::string plan_text(const Experiment& experiment, const Plan& plan, const std:
     }
     if (values.empty()) continue;
     std::string line;
-    for (const std::string& v : values) line += (line.empty() ? "" : ", ") + report::rounded(v);
+    for (const std::string& v : values) line += (line.empty() ? "" : ", ") + rounded(v);
     text += fmt::format("  {:<15} {}\n", names[k], line);
   }
   return text;

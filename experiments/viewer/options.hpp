@@ -5,7 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "experiments/viewer/stage/show.hpp"
+#include "experiments/viewer/pictures/show_offscreen.hpp"
+#include "experiments/viewer/window/show_window.hpp"
 
 namespace polhode::viewer {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace polhode::study {
+namespace polhode::study::work_precision {
 namespace {
 
 bool usable(const WorkPoint& p) { return std::isfinite(p.error) && p.error > 0 && std::isfinite(p.cost) && p.cost > 0; }

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace polhode::study {
+namespace polhode::study::work_precision {
 
 struct WorkPoint {
   double error = 0;  ///< not finite or not positive: the point is left out

@@ -21,10 +21,8 @@
 #include "experiments/work_precision/envelope.hpp"
 #include "integrators/catalogue.hpp"
 
-namespace polhode::study {
+namespace polhode::study::work_precision {
 namespace {
-
-using namespace report;
 
 constexpr std::size_t most_coloured = 8;  ///< of more methods, those off the envelope are grey
 constexpr std::size_t most_panels = 6;
@@ -192,9 +190,9 @@ class Work {
         const auto method = [&](std::size_t i) { return grouping_.methods[motion.curves[i]->method_index]; };
         const auto variant = [&](std::size_t i) { return grouping_.variants[motion.curves[i]->variant_index]; };
         text += csv_row({of.scenario, of.label(), motion.quantity.column, rad ? error_text(p.decade) : "",
-                         rad ? "" : error_text(p.decade), method(p.curve), variant(p.curve), study::exact(p.cost),
+                         rad ? "" : error_text(p.decade), method(p.curve), variant(p.curve), exact(p.cost),
                          p.at_most ? "yes" : "no", p.next ? method(*p.next) : "", p.next ? variant(*p.next) : "",
-                         p.next ? study::exact(p.next_cost) : ""});
+                         p.next ? exact(p.next_cost) : ""});
       }
     }
     return text;

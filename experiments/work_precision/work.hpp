@@ -4,7 +4,7 @@
 
 #include "experiments/study/record/study_view.hpp"
 
-namespace polhode::study {
+namespace polhode::study::work_precision {
 
 /// Against right-hand sides; and, apart from what must be the same bytes at every call, against wall time. A motion's
 /// error is that of the attitude, where it has none of the position.

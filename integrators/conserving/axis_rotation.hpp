@@ -7,7 +7,7 @@
 
 #include "core/math/quaternion.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <int axis, class S>
 void rotate_about_axis(S h_kappa, Vector3<S>& m, Quaternion<S>& q) {

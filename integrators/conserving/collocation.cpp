@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class S>
-CollocationSolver<S>::CollocationSolver(const System<S>& system, int stages)
-    : system_(&system), stages_(stages), a_(stages, stages), c_(stages), d_(stages) {
+CollocationSolver<S>::CollocationSolver(const Ode<S>& ode, int stages)
+    : ode_(&ode), stages_(stages), a_(stages, stages), c_(stages), d_(stages) {
   using std::sqrt;
   if (stages == 1) {
     c_ << S(1) / S(2);
@@ -29,7 +29,7 @@ CollocationSolver<S>::CollocationSolver(const System<S>& system, int stages)
         S(5) / S(36) + r / S(30), S(2) / S(9) + r / S(15), S(5) / S(36);
     d_ << S(5) / S(3), S(-4) / S(3), S(5) / S(3);
   }
-  const Eigen::Index n = system.layout().size();
+  const Eigen::Index n = ode.size();
   jacobian_ = Matrix::Zero(n, n);
   y_ = stage_ = dy_ = moved_ = Vector::Zero(n);
   z_ = delta_ = Vector::Zero(n * stages);

@@ -15,13 +15,13 @@
 
 #include "integrators/fixed_step.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 /// Compiled once for each scalar (collocation.cpp): it sees the system behind its erased type.
 template <class S>
 class CollocationSolver {
  public:
-  CollocationSolver(const System<S>& system, int stages);
+  CollocationSolver(const Ode<S>& ode, int stages);
 
   /// Moves y by h; null, or why it could not.
   const char* step(S t, S h, S* y);
@@ -32,14 +32,14 @@ class CollocationSolver {
   using Matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
 
   void rate(S t, const Vector& y, Vector& dy) {
-    system_->rate(t, y.data(), dy.data());
+    ode_->rate(t, y.data(), dy.data());
     ++evaluations_;
   }
   void differentiate(S t, const Vector& y);
   void factorise(S h);
   bool solve(S t, S h);
 
-  const System<S>* system_;
+  const Ode<S>* ode_;
   int stages_;
   Matrix a_;
   Vector c_, d_;

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 /// The triple jump, γ1 = γ3 = 1/(2 − 2^{1/3}), γ2 = −2^{1/3} γ1: order 4. Yoshida, Phys. Lett. A 150 (1990) 262.
 struct Yoshida4 {

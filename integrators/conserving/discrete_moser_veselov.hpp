@@ -23,7 +23,7 @@
 
 #include "integrators/conserving/rotor_splitting.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 /// The step with moments j, by u = ρ/ρ0: j1 u1 + (j3 − j2) u2 u3 = (h/2)(1 + |u|²) m1, and cyclically, in Newton's
 /// iteration to round-off. The solution is the one on the branch from h = 0, which ends where the Jacobian does.

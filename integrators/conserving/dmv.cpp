@@ -2,7 +2,7 @@
 // The discrete Moser–Veselov algorithm in the Strang splitting with kicks; of order 2, free or forced.
 #include "integrators/conserving/discrete_moser_veselov.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 using Dmv = RotorSplitting<System, MoserVeselov<2>>;

@@ -3,7 +3,7 @@
 // Strang splitting with kicks of order 2. Source: Hairer & Vilmart, J. Phys. A 39 (2006) 13225.
 #include "integrators/conserving/discrete_moser_veselov.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 using Dmv6 = RotorSplitting<System, MoserVeselov<6>>;

@@ -3,7 +3,7 @@
 // Source: Celledoni, Fassò, Säfström & Zanna, SIAM J. Sci. Comput. 30 (2008) 2084, section 4.
 #include "integrators/conserving/exact_rotor.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 IntegratorEntry exact_rotor() {
   return exact_rotor_method<ExactRotorMethod>({.name = "exact_rotor",

@@ -7,7 +7,7 @@
 #include "core/exact/free_top.hpp"
 #include "integrators/conserving/rotor_splitting.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 /// The turn of the free top with these principal moments over h, from the momentum m, which becomes that after h.
 inline Quaternion<double> free_top_turn(const Vector3<double>& moments, double h, Vector3<double>& m) {

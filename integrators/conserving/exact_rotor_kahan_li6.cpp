@@ -4,7 +4,7 @@
 #include "integrators/conserving/composition.hpp"
 #include "integrators/conserving/exact_rotor.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 using ExactRotorKahanLi6 = Composition<System, ExactRotorMethod, KahanLi6>;

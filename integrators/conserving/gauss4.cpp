@@ -3,20 +3,19 @@
 // Source: Hairer, Lubich & Wanner, Geometric Numerical Integration, 2nd ed., II.1.3 and IV.2.
 #include "integrators/conserving/collocation.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 using Gauss4 = GaussMethod<System, 2>;
 
 IntegratorEntry gauss4() {
-  return fixed_step<Gauss4>({.name = "gauss4",
-                             .family = "conserving",
-                             .summary = "the implicit Runge-Kutta method of Gauss with two stages",
-                             .order = 4,
-                             .implicit = true,
-                             .additive = true,
-                             .conserves_quadratics = true,
-                             .symmetric = true});
+  return additive_step<Gauss4>({.name = "gauss4",
+                                .family = "conserving",
+                                .summary = "the implicit Runge-Kutta method of Gauss with two stages",
+                                .order = 4,
+                                .implicit = true,
+                                .conserves_quadratics = true,
+                                .symmetric = true});
 }
 
 }  // namespace polhode

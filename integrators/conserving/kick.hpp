@@ -12,11 +12,15 @@
 #include <cstdint>
 #include <limits>
 
-namespace polhode {
+#include "core/system/concepts.hpp"
 
+namespace polhode::inline integrators {
+
+/// The kick, with its scratch storage and count of evaluations.
 template <class System>
 class Kick {
  public:
+  static_assert(Splitting<System>);
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
 

@@ -2,7 +2,7 @@
 // McLachlan 1993, Reich 1994: kick(h/2), the three-rotation splitting of the free body over h, kick(h/2).
 #include "integrators/conserving/mclachlan_reich.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 IntegratorEntry mclachlan_reich() {
   return rotor_method<MclachlanReich>({.name = "mclachlan_reich",

@@ -7,7 +7,7 @@
 #include "integrators/conserving/axis_rotation.hpp"
 #include "integrators/conserving/rotor_splitting.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 struct ThreeRotations {
   template <class S>

@@ -4,7 +4,7 @@
 #include "integrators/conserving/composition.hpp"
 #include "integrators/conserving/mclachlan_reich.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 using MclachlanReichSuzuki4 = Composition<System, MclachlanReich, Suzuki4>;

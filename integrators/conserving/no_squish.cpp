@@ -9,7 +9,7 @@
 
 #include "integrators/conserving/rotor_splitting.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 struct QuaternionRotations {
   template <class S>

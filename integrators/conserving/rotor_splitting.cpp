@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "integrators/conserving/rotor_splitting.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 const char* KickFlowKick<System>::step(const System& system, S t, S h, Flat& y, RotorTurn<S> turn) {

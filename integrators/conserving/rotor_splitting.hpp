@@ -13,7 +13,7 @@
 #include "integrators/conserving/kick.hpp"
 #include "integrators/fixed_step.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 /// Moves the angular momentum m, in principal axes, to that after h and gives the unit quaternion dq of the turn,
 /// R' = R dR; null, or why it cannot.
@@ -23,6 +23,7 @@ using RotorTurn = const char* (*)(const BodyConstants<S>& body, S h, Vector3<S>&
 template <class System>
 class KickFlowKick {
  public:
+  static_assert(Splitting<System>);
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
 

@@ -13,7 +13,7 @@
 #include "integrators/conserving/axis_rotation.hpp"
 #include "integrators/conserving/rotor_splitting.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 /// Scheme::compose(rotation, symmetric_top) calls its two arguments, each with its fraction of the step, in the order
 /// of the composition.

@@ -4,7 +4,7 @@
 // 5840.
 #include "integrators/conserving/symmetric_rotor.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 struct StrangScheme {
   template <class S>

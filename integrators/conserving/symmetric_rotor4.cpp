@@ -4,7 +4,7 @@
 // Sources: Blanes & Moan, J. Comput. Appl. Math. 142 (2002) 313, table 2; Fassò, J. Comput. Phys. 189 (2003) 527.
 #include "integrators/conserving/symmetric_rotor.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 struct BlanesMoanScheme {
   template <class S>

@@ -10,11 +10,12 @@
 #include "integrators/fixed_step.hpp"
 #include "integrators/lie_group/gyroscopic_only.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 class Buss2 {
  public:
+  static_assert(BodyFrame<System>);
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
   using Tangent = typename System::Tangent;

@@ -5,11 +5,12 @@
 // Source: Celledoni, Marthinsen & Owren, Commutator-free Lie group methods, Future Gener. Comput. Syst. 19 (2003).
 #include "integrators/lie_group/stage.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 class CommutatorFree4 {
  public:
+  static_assert(LieGroup<System>);
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
 

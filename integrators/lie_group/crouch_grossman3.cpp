@@ -7,11 +7,12 @@
 // (1993); the coefficients as in Owren & Marthinsen, Runge–Kutta methods adapted to manifolds, BIT 39 (1999).
 #include "integrators/lie_group/stage.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 class CrouchGrossman3 {
  public:
+  static_assert(LieGroup<System>);
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
 

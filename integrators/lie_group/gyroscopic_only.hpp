@@ -7,7 +7,7 @@
 #include "core/problem/problem.hpp"
 #include "core/system/formulation.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 inline std::string needs_the_gyroscopic_term(const Problem&, const Formulation& formulation) {
   return formulation.gyroscopic ? "" : "it moves the angular momentum, which has no gyroscopic term to leave out";

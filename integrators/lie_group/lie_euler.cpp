@@ -4,11 +4,12 @@
 // Source: Iserles, Munthe-Kaas, Nørsett & Zanna, Lie-group methods, Acta Numerica 9 (2000), section 3.
 #include "integrators/lie_group/stage.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 class LieEuler {
  public:
+  static_assert(LieGroup<System>);
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
 

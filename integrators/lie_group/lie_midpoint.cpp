@@ -8,7 +8,7 @@
 // dynamics of rigid bodies approximating the midpoint Lie algorithm, Int. J. Numer. Methods Eng. 63 (2005).
 #include "integrators/lie_group/midpoint_step.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 using LieMidpoint = MidpointStep<System, TwistRule::middle>;

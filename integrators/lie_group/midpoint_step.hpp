@@ -15,13 +15,14 @@
 #include "integrators/lie_group/gyroscopic_only.hpp"
 #include "integrators/lie_group/root.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 enum class TwistRule { middle, end };
 
 template <class System, TwistRule Where>
 class MidpointStep {
  public:
+  static_assert(BodyFrame<System>);
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
   using Tangent = typename System::Tangent;

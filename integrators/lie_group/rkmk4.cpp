@@ -5,11 +5,12 @@
 // (1999).
 #include "integrators/lie_group/stage.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 class Rkmk4 {
  public:
+  static_assert(LieGroup<System>);
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace polhode {
+namespace polhode::inline integrators {
 namespace {
 
 constexpr int broyden_iterations = 20, newton_iterations = 40;

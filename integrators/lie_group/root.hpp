@@ -13,7 +13,7 @@
 
 #include "core/math/linear_algebra.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 /// f(x) = x − g(x) for one step, x lengths in m and angles in rad.
 template <class S>

@@ -8,7 +8,7 @@
 // momentum, Int. J. Numer. Methods Eng. 31 (1991).
 #include "integrators/lie_group/midpoint_step.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 using SimoWong = MidpointStep<System, TwistRule::end>;

@@ -7,12 +7,13 @@
 
 #include "integrators/fixed_step.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 /// The right-hand side at one point: ξ in the algebra, and v̇ and the power beside it.
 template <class System>
 class LieStage {
  public:
+  static_assert(LieGroup<System>);
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
   using Tangent = typename System::Tangent;

@@ -18,10 +18,10 @@
 
 #include "integrators/catalogue.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class Method, class S>
-class OdeintControlled final : public Integrator<S> {
+class OdeintControlled final : public Integrator<S>, public DenseOutput<S> {
  public:
   using Vector = std::vector<S>;
 
@@ -72,7 +72,7 @@ class OdeintControlled final : public Integrator<S> {
     fresh_ = false;
   }
 
-  bool has_dense_output() const override { return dense; }
+  const DenseOutput<S>* dense_output() const override { return dense ? this : nullptr; }
   bool interpolate(double t, State<S>& state) const override {
     if constexpr (dense) {
       if (!(t_before_ <= t && t <= t_now_)) return false;

@@ -8,7 +8,7 @@
 
 #include "integrators/odeint/controlled.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 namespace {
 
 namespace odeint = boost::numeric::odeint;

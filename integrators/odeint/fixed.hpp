@@ -9,7 +9,7 @@
 
 #include "integrators/catalogue.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 /// The numbers of a state where they stand, as a range: a copy to a vector and back costs a third of an RK4 step.
 template <class S>
@@ -27,7 +27,7 @@ struct OdeintRange {
 template <template <class> class Stepper, class S>
 class OdeintFixed final : public Integrator<S> {
  public:
-  explicit OdeintFixed(const System<S>& system) : system_(system) {}
+  explicit OdeintFixed(const Ode<S>& ode) : ode_(ode) {}
 
   void begin(const State<S>&) override {
     evaluations_ = 0;
@@ -36,22 +36,22 @@ class OdeintFixed final : public Integrator<S> {
   }
 
   StepResult step(State<S>& state, double h) override {
-    return advance(state, Stretch{.h = h, .count = 1, .t0 = state.t});
+    return advance(state, StepBatch{.h = h, .count = 1, .t0 = state.t});
   }
 
   using Integrator<S>::advance;
-  StepResult advance(State<S>& state, const Stretch& stretch) override {
+  StepResult advance(State<S>& state, const StepBatch& batch) override {
     if constexpr (has_history) {
-      if (stretch.h != h_) stepper_.reset();
+      if (batch.h != h_) stepper_.reset();
     }
-    h_ = stretch.h;
+    h_ = batch.h;
     const auto rate = [this](const auto& y, auto& dy, S t) {
       ++evaluations_;
-      system_.rate(t, y.data(), dy.data());
+      ode_.rate(t, y.data(), dy.data());
     };
     OdeintRange<S> x{state.y.data(), state.y.size()};
-    for (std::int64_t k = 0; k < stretch.count; ++k) stepper_.do_step(rate, x, S(stretch.time(k)), S(stretch.h));
-    state.t = stretch.time(stretch.count);
+    for (std::int64_t k = 0; k < batch.count; ++k) stepper_.do_step(rate, x, S(batch.time(k)), S(batch.h));
+    state.t = batch.time(batch.count);
     return {};
   }
 
@@ -64,7 +64,7 @@ class OdeintFixed final : public Integrator<S> {
  private:
   static constexpr bool has_history = requires(Stepper<S> & s) { s.reset(); };
 
-  const System<S>& system_;
+  const Ode<S>& ode_;
   Stepper<S> stepper_;
   double h_ = 0;
   std::int64_t evaluations_ = 0;
@@ -74,10 +74,14 @@ class OdeintFixed final : public Integrator<S> {
 template <template <class> class Stepper>
 IntegratorEntry odeint_fixed(Declaration declaration) {
   declaration.additive = true;
-  const auto maker = []<class S>(const System<S>& system) { return std::make_unique<OdeintFixed<Stepper, S>>(system); };
-  return {std::move(declaration), [maker](const System<double>& s, const IntegratorSettings&) { return maker(s); },
-          [maker](const System<float>& s, const IntegratorSettings&) { return maker(s); },
-          [maker](const System<long double>& s, const IntegratorSettings&) { return maker(s); }};
+  const auto maker = []<class S>(const Ode<S>& ode) { return std::make_unique<OdeintFixed<Stepper, S>>(ode); };
+  return {.declaration = std::move(declaration),
+          .make = [maker](const System<double>& s, const IntegratorSettings&) { return maker(s); },
+          .make_float = [maker](const System<float>& s, const IntegratorSettings&) { return maker(s); },
+          .make_long_double = [maker](const System<long double>& s, const IntegratorSettings&) { return maker(s); },
+          .increments = {[maker](const ShiftedSystem<float>& s) { return maker(s); },
+                         [maker](const ShiftedSystem<double>& s) { return maker(s); },
+                         [maker](const ShiftedSystem<long double>& s) { return maker(s); }}};
 }
 
 }  // namespace polhode

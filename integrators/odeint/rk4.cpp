@@ -6,7 +6,7 @@
 
 #include "integrators/odeint/fixed.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 namespace {
 
 template <class S>

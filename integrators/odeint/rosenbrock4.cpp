@@ -6,7 +6,7 @@
 #include "integrators/odeint/controlled.hpp"
 #include "integrators/odeint/rosenbrock4_stepper.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 namespace {
 
 class Rosenbrock4 {

@@ -11,7 +11,7 @@
 
 #include "integrators/difference_quotients.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 namespace {
 
 namespace odeint = boost::numeric::odeint;

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 class Rosenbrock4Stepper {
  public:

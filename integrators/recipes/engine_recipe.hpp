@@ -6,7 +6,7 @@
 
 #include "integrators/fixed_step.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 inline std::string needs_an_engine_state(const Problem&, const Formulation& formulation) {
   return formulation.orientation == Orientation::quaternion && formulation.angular_state == AngularState::velocity_world
@@ -19,6 +19,7 @@ inline std::string needs_an_engine_state(const Problem&, const Formulation& form
 template <class System>
 class OdeStep {
  public:
+  static_assert(PartitionedOde<System> && Measurable<System>);
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
 

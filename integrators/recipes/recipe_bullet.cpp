@@ -11,11 +11,12 @@
 
 #include "integrators/recipes/engine_recipe.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 class BulletStep {
  public:
+  static_assert(LieGroup<System> && Splitting<System> && Measurable<System>);
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
 

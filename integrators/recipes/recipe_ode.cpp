@@ -5,7 +5,7 @@
 // Robotic Simulation in Gazebo, whose figures for ODE it gives.
 #include "integrators/recipes/engine_recipe.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 IntegratorEntry recipe_ode() {
   return engine_recipe<OdeStep>({.name = "recipe_ode",

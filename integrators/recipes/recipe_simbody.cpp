@@ -3,7 +3,7 @@
 // Source: Peters & Hsu, Comparison of Rigid Body Dynamic Simulators for Robotic Simulation in Gazebo.
 #include "integrators/recipes/engine_recipe.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 class SimbodyStep {

@@ -13,7 +13,7 @@
 
 #include "integrators/sundials/sundials_integrator.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 namespace {
 
 using namespace sundials;

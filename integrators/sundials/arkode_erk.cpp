@@ -10,7 +10,7 @@
 
 #include "integrators/sundials/sundials_integrator.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 namespace {
 
 using namespace sundials;

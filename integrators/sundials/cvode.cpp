@@ -16,7 +16,7 @@
 
 #include "integrators/sundials/sundials_integrator.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 namespace {
 
 using namespace sundials;
@@ -24,12 +24,12 @@ using namespace sundials;
 void free_cvode(void* memory) { CVodeFree(&memory); }
 using CvodeMemory = std::unique_ptr<void, Destroy<free_cvode>>;
 
-class Cvode final : public SundialsIntegrator {
+class Cvode final : public SundialsIntegrator, public NativeProjection {
  public:
   Cvode(const System<double>& system, const IntegratorSettings& settings, int method)
       : SundialsIntegrator(system, settings), method_(method), projects_(settings.project && method == CV_BDF) {}
 
-  bool projects_natively() const override { return projects_; }
+  const NativeProjection* native_projection() const override { return projects_ ? this : nullptr; }
   double projection_energy() const override { return injected_; }
 
  private:

@@ -10,7 +10,7 @@
 
 #include <memory>
 
-namespace polhode::sundials {
+namespace polhode::inline integrators::sundials {
 
 template <auto destroy>
 struct Destroy {

@@ -7,7 +7,7 @@
 #include <new>
 #include <stdexcept>
 
-namespace polhode::sundials {
+namespace polhode::inline integrators::sundials {
 namespace {
 
 constexpr int root_return = 2;  // CV_ROOT_RETURN and ARK_ROOT_RETURN

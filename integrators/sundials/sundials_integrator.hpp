@@ -10,14 +10,15 @@
 #include "integrators/catalogue.hpp"
 #include "integrators/sundials/handles.hpp"
 
-namespace polhode::sundials {
+namespace polhode::inline integrators::sundials {
 
 constexpr long max_steps = 100000000;  // between two returns; the default of 500 is meant for users who wait for one
 
 /// Throws what a call that cannot fail, unless memory runs out, has said.
 void check(int flag, const char* function);
 
-class SundialsIntegrator : public Integrator<double> {
+/// Base class of an integrator on CVODE or ARKODE.
+class SundialsIntegrator : public Integrator<double>, public DenseOutput<double>, public NativeRoots<double> {
  public:
   SundialsIntegrator(const System<double>& system, const IntegratorSettings& settings);
 
@@ -25,9 +26,9 @@ class SundialsIntegrator : public Integrator<double> {
   StepResult step(State<double>& state, double h) final;
   std::int64_t evaluations() const final { return evaluations_; }
   void discard_history(const State<double>& state) final;
-  bool has_dense_output() const final { return true; }
+  const DenseOutput<double>* dense_output() const final { return this; }
   bool interpolate(double t, State<double>& state) const final;
-  bool has_native_roots() const final { return true; }
+  NativeRoots<double>* native_roots() final { return this; }
   void set_events(std::vector<EventFunction<double>> events) final;
   std::span<const int> events() const final { return roots_; }
 

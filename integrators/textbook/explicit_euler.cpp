@@ -3,11 +3,12 @@
 // Source: the engine slides, "Integration": p_next = p + p'Δt, θ_next = θ + (Δt/2) ω θ, θ'_next = θ' + θ''Δt.
 #include "integrators/fixed_step.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 class ExplicitEuler {
  public:
+  static_assert(FlatOde<System>);
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
   static constexpr bool remembers_nothing = true;
@@ -24,13 +25,12 @@ class ExplicitEuler {
 };
 
 IntegratorEntry explicit_euler() {
-  return fixed_step<ExplicitEuler, in_lanes>(
+  return additive_step<ExplicitEuler, in_lanes>(
       {.name = "explicit_euler",
        .family = "textbook",
        .summary = "y' = y + h f(t, y), all from the old state, as the slides write it",
        .order = 1,
-       .evaluations_per_step = 1,
-       .additive = true});
+       .evaluations_per_step = 1});
 }
 
 }  // namespace polhode

@@ -3,11 +3,12 @@
 // Source: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.1 (Runge 1895).
 #include "integrators/fixed_step.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 class ExplicitMidpoint {
  public:
+  static_assert(FlatOde<System>);
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
   static constexpr bool remembers_nothing = true;
@@ -27,12 +28,11 @@ class ExplicitMidpoint {
 };
 
 IntegratorEntry explicit_midpoint() {
-  return fixed_step<ExplicitMidpoint, in_lanes>({.name = "explicit_midpoint",
-                                                 .family = "textbook",
-                                                 .summary = "y' = y + h f(t + h/2, y + h/2 f(t, y))",
-                                                 .order = 2,
-                                                 .evaluations_per_step = 2,
-                                                 .additive = true});
+  return additive_step<ExplicitMidpoint, in_lanes>({.name = "explicit_midpoint",
+                                                    .family = "textbook",
+                                                    .summary = "y' = y + h f(t + h/2, y + h/2 f(t, y))",
+                                                    .order = 2,
+                                                    .evaluations_per_step = 2});
 }
 
 }  // namespace polhode

@@ -3,11 +3,12 @@
 // Source: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.1 (Heun 1900).
 #include "integrators/fixed_step.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 class Heun {
  public:
+  static_assert(FlatOde<System>);
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
   static constexpr bool remembers_nothing = true;
@@ -26,12 +27,11 @@ class Heun {
 };
 
 IntegratorEntry heun() {
-  return fixed_step<Heun, in_lanes>({.name = "heun",
-                                     .family = "textbook",
-                                     .summary = "y' = y + h/2 (f(t, y) + f(t + h, y + h f(t, y)))",
-                                     .order = 2,
-                                     .evaluations_per_step = 2,
-                                     .additive = true});
+  return additive_step<Heun, in_lanes>({.name = "heun",
+                                        .family = "textbook",
+                                        .summary = "y' = y + h/2 (f(t, y) + f(t + h, y + h f(t, y)))",
+                                        .order = 2,
+                                        .evaluations_per_step = 2});
 }
 
 }  // namespace polhode

@@ -3,11 +3,12 @@
 // Source: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.1 (Kutta 1901).
 #include "integrators/fixed_step.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 class Rk4 {
  public:
+  static_assert(FlatOde<System>);
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
   static constexpr bool remembers_nothing = true;
@@ -32,12 +33,12 @@ class Rk4 {
 };
 
 IntegratorEntry rk4() {
-  return fixed_step<Rk4, in_lanes>({.name = "rk4",
-                                    .family = "textbook",
-                                    .summary = "the classical Runge-Kutta method, y' = y + h/6 (k1 + 2 k2 + 2 k3 + k4)",
-                                    .order = 4,
-                                    .evaluations_per_step = 4,
-                                    .additive = true});
+  return additive_step<Rk4, in_lanes>(
+      {.name = "rk4",
+       .family = "textbook",
+       .summary = "the classical Runge-Kutta method, y' = y + h/6 (k1 + 2 k2 + 2 k3 + k4)",
+       .order = 4,
+       .evaluations_per_step = 4});
 }
 
 }  // namespace polhode

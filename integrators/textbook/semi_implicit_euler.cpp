@@ -4,11 +4,12 @@
 // ds = v dt, dR = ω* R dt. Additive in the orientation; symplectic for translation under a potential only.
 #include "integrators/fixed_step.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 class SemiImplicitEuler {
  public:
+  static_assert(PartitionedOde<System>);
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
   static constexpr bool remembers_nothing = true;
@@ -28,13 +29,12 @@ class SemiImplicitEuler {
 };
 
 IntegratorEntry semi_implicit_euler() {
-  return fixed_step<SemiImplicitEuler, in_lanes>(
+  return additive_step<SemiImplicitEuler, in_lanes>(
       {.name = "semi_implicit_euler",
        .family = "textbook",
        .summary = "v' = v + h a(t, q, v), then q' = q + h N(q) v', as the report updates",
        .order = 1,
-       .evaluations_per_step = 1,
-       .additive = true});
+       .evaluations_per_step = 1});
 }
 
 }  // namespace polhode

@@ -4,11 +4,12 @@
 // of v' at the old q. Source: the course report, section 2.1, with the exponential for dR = ω* R dt.
 #include "integrators/fixed_step.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 class SemiImplicitEulerExp {
  public:
+  static_assert(LieGroup<System>);
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
   static constexpr bool remembers_nothing = true;

@@ -12,11 +12,12 @@
 // J. Chem. Phys. 107 (1997), with λ = 1.
 #include "integrators/fixed_step.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 class VelocityVerlet {
  public:
+  static_assert(LieGroup<System>);
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
   static constexpr bool remembers_nothing = true;

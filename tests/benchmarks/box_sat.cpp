@@ -32,11 +32,11 @@ struct Pairs {
 
   /// Boxes of similar size at random, four in five of the pairs together.
   Pairs() {
-    study::Dice dice(7);
+    PortableRandom random(7);
     for (std::uint32_t k = 0; k < 1024; ++k) {
       for (int side = 0; side < 2; ++side) {
-        PosedBox box{dice.uniform_vector(0.5, 1.5), {Vector3<double>::Zero(), dice.rotation()}};
-        if (side == 1) box.pose.position = dice.direction() * dice.uniform(1, 3);
+        PosedBox box{random.uniform_vector(0.5, 1.5), {Vector3<double>::Zero(), random.rotation()}};
+        if (side == 1) box.pose.position = random.direction() * random.uniform(1, 3);
         shapes.push_back(std::make_unique<Box>(box.half));
         boxes.push_back(box);
       }

@@ -46,7 +46,7 @@ using polhode::Bounds;
 using Vector = polhode::Vector3<double>;
 using Clock = std::chrono::steady_clock;
 
-using Gas = polhode::study::FlyingBoxes;
+using Gas = polhode::study::broad_phase::FlyingBoxes;
 
 constexpr double filling = 0.1;  // of the space
 

@@ -31,7 +31,6 @@
 namespace {
 
 using namespace polhode;
-using study::Dice;
 using ShapePair = std::pair<ShapePointer, ShapePointer>;
 
 constexpr int pair_count = 512, rounds = 21;
@@ -41,23 +40,23 @@ struct Placed {
   Pose at_a, at_b;
 };
 
-Pose placed(Dice& dice, double spread) { return {spread * dice.uniform_vector(0, 1), dice.rotation()}; }
+Pose placed(PortableRandom& random, double spread) { return {spread * random.uniform_vector(0, 1), random.rotation()}; }
 
-ShapePointer random_box(Dice& dice) { return std::make_shared<Box>(dice.uniform_vector(0.2, 1.2)); }
+ShapePointer random_box(PortableRandom& random) { return std::make_shared<Box>(random.uniform_vector(0.2, 1.2)); }
 
-ShapePointer random_hull(Dice& dice) {
+ShapePointer random_hull(PortableRandom& random) {
   std::vector<Vector3<double>> points;
-  for (int i = 0; i < 32; ++i) points.push_back(dice.direction());
+  for (int i = 0; i < 32; ++i) points.push_back(random.direction());
   return std::make_shared<ConvexHull>(points);
 }
 
 /// Pairs that overlap, that do not, or both as they come.
-std::vector<Placed> pairs(ShapePointer (*make)(Dice&), int overlapping) {
-  Dice dice(7);
+std::vector<Placed> pairs(ShapePointer (*make)(PortableRandom&), int overlapping) {
+  PortableRandom random(7);
   const auto narrow = find_narrow_phase("gjk")->make();
   std::vector<Placed> found;
   while (found.size() < pair_count) {
-    const Placed p = {make(dice), make(dice), placed(dice, 2.5), placed(dice, 2.5)};
+    const Placed p = {make(random), make(random), placed(random, 2.5), placed(random, 2.5)};
     const bool touch = narrow->overlap(*p.a, p.at_a, *p.b, p.at_b);
     if (overlapping < 0 || touch == (overlapping > 0)) found.push_back(p);
   }
@@ -203,7 +202,7 @@ std::function<void()> ccd_questions(const std::vector<Placed>& pairs, bool depth
 #endif
 
 /// With what the build found of the peers; the last rival is the one that ratios refer to.
-void questions(const std::string& what, ShapePointer (*make)(Dice&)) {
+void questions(const std::string& what, ShapePointer (*make)(PortableRandom&)) {
   for (const int overlapping : {0, 1, -1}) {
     const std::string set = what + (overlapping < 0 ? ", mixed" : overlapping ? ", overlapping" : ", apart");
     const auto p = pairs(make, overlapping);

@@ -49,7 +49,7 @@ void report(benchmark::State& state, double deep) {
 struct LargestEnergy final : Observer {
   double first = 0, most = 0;
   bool started = false;
-  std::size_t observe(std::span<const Sample> seen) override {
+  std::size_t on_samples(std::span<const Sample> seen) override {
     for (const Sample& s : seen) {
       if (!started) first = s.seen.energy();
       started = true;

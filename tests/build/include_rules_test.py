@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Who may include whom, over all C++ files of the checkout.
+"""Who may include whom, over all C++ files of the checkout: MAY_INCLUDE is the plan of the house.
 
-core includes nobody; integrators and collision include core; experiments and tests include all; papers holds no C++.
-An include of ours is written from the top of the checkout ("core/system/state.hpp"). Libraries that are slow to compile stay
-out of headers. Every C++ file begins with its licence.
+A folder is a room. It may include itself and the rooms of its entry; no cycle of rooms is allowed. An include of ours is
+written from the top of the checkout ("core/system/state.hpp"). Libraries that are slow to compile stay out of headers.
+Every C++ file begins with its licence.
 """
 
+import collections
 import pathlib
 import re
 import tempfile
@@ -13,14 +14,89 @@ import unittest
 
 CHECKOUT = pathlib.Path(__file__).resolve().parents[2]
 
+# Room: the rooms that it may include. "core/*" is core with all its rooms.
 MAY_INCLUDE = {
-    "core": {"core"},
-    "integrators": {"integrators", "core"},
-    "collision": {"collision", "core"},
-    "experiments": {"experiments", "core", "integrators", "collision"},
-    "tests": {"tests", "experiments", "core", "integrators", "collision"},
-    "papers": set(),
+    "core/math": "",
+    "core/problem": "core/math",
+    "core/forces": "core/math core/problem",
+    "core/system": "core/math core/problem core/forces",
+    "core/exact": "core/math core/problem core/system",
+    "core/run": "core/math core/problem core/system",
+    "integrators": "core/*",
+    "integrators/conserving": "core/* integrators",
+    "integrators/lie_group": "core/* integrators",
+    "integrators/odeint": "core/* integrators",
+    "integrators/recipes": "core/* integrators",
+    "integrators/sundials": "core/* integrators",
+    "integrators/textbook": "core/* integrators",
+    "collision": "core/math",
+    "collision/shapes": "core/math core/problem collision",
+    "collision/broad": "core/math core/problem collision",
+    "collision/narrow": "core/math core/problem collision collision/shapes",
+    "collision/response": "core/math core/problem collision",
+    "collision/contact": "core/* collision collision/response",
+
+    "experiments/study/text": "core/problem",
+    "experiments/study/statistics": "experiments/study/text",
+    "experiments/study/scenario": "core/* collision collision/shapes collision/contact experiments/study/text",
+    "experiments/study/plot": "experiments/study/text",
+    "experiments/study/trajectory": "core/* experiments/study/text",
+    "experiments/study/record": "core/system integrators collision collision/contact experiments/study/text"
+                                " experiments/study/scenario experiments/study/plot",
+    "experiments/study/store": "experiments/study/text experiments/study/record",
+    "experiments/study/setup": "core/* integrators collision collision/contact experiments/study/text"
+                               " experiments/study/scenario experiments/study/record",
+    "experiments/study/metrics": "core/* collision/contact experiments/study/text experiments/study/statistics"
+                                 " experiments/study/scenario experiments/study/record experiments/study/setup",
+    "experiments/study/curves": "core/run integrators experiments/study/text experiments/study/statistics"
+                                " experiments/study/scenario experiments/study/record",
+    "experiments/study/run": "core/run integrators collision/contact experiments/study/text experiments/study/scenario"
+                             " experiments/study/trajectory experiments/study/record experiments/study/setup"
+                             " experiments/study/metrics",
+    "experiments/study/plan": "core/* integrators collision collision/contact collision/shapes experiments/study/text"
+                              " experiments/study/scenario experiments/study/trajectory experiments/study/record"
+                              " experiments/study/run",
+    "experiments/study/report/findings": "integrators experiments/study/text experiments/study/statistics"
+                                         " experiments/study/plot experiments/study/record experiments/study/curves",
+    "experiments/study/report/figures": "experiments/study/text experiments/study/plot experiments/study/record"
+                                        " experiments/study/curves",
+    "experiments/study/report/tables": "experiments/study/text experiments/study/plot experiments/study/record"
+                                       " experiments/study/curves experiments/study/plan experiments/study/report/findings",
+    "experiments/study/report/page": "integrators experiments/study/text experiments/study/plot experiments/study/record"
+                                     " experiments/study/curves experiments/study/report/findings"
+                                     " experiments/study/report/figures experiments/study/report/tables",
+    "experiments/study": "core/* integrators collision experiments/study/*",
+    "experiments/scene": "core/problem collision collision/shapes experiments/study/scenario",
+
+    "experiments/broad_phase": "core/* integrators collision/* experiments/study/*",
+    "experiments/certificate": "core/* integrators collision/* experiments/study/*",
+    "experiments/convergence": "core/* integrators collision/* experiments/study/*",
+    "experiments/energy_drift": "experiments/study/*",
+    "experiments/impact": "core/* integrators collision/* experiments/study/*",
+    "experiments/judge": "core/* integrators collision/* experiments/study/*",
+    "experiments/narrow_phase": "core/* integrators collision/* experiments/study/*",
+    "experiments/pile": "core/* integrators collision/* experiments/study/*",
+    "experiments/precision": "core/* integrators collision/* experiments/study/*",
+    "experiments/replay": "core/* integrators collision/* experiments/study/* experiments/scene",
+    "experiments/simulate": "experiments/study/*",
+    "experiments/stability": "core/* integrators collision/* experiments/study/*",
+    "experiments/stack": "core/* integrators collision/* experiments/study/*",
+    "experiments/work_precision": "core/* integrators collision/* experiments/study/*",
+
+    "experiments/viewer/frame": "core/math collision",
+    "experiments/viewer/session": "core/* integrators collision collision/contact experiments/study/*"
+                                  " experiments/viewer/frame",
+    "experiments/viewer/drawing": "core/math core/problem experiments/scene experiments/viewer/frame",
+    "experiments/viewer/stage": "experiments/study/text experiments/viewer/frame experiments/viewer/session"
+                                " experiments/viewer/drawing",
+    "experiments/viewer/overlay": "integrators collision/contact experiments/study/text experiments/study/scenario"
+                                  " experiments/viewer/stage",
+    "experiments/viewer/pictures": "experiments/study/text experiments/viewer/stage experiments/viewer/overlay",
+    "experiments/viewer/window": "experiments/study/text experiments/viewer/stage experiments/viewer/overlay"
+                                 " experiments/viewer/pictures",
+    "experiments/viewer": "collision experiments/study/* experiments/viewer/*",
 }
+TOP_FOLDERS = ("core", "integrators", "collision", "experiments", "tests", "papers")
 CPP_SUFFIXES = {".cpp", ".cc", ".cxx", ".hpp", ".hh", ".h", ".inl", ".ipp"}
 SOURCE_SUFFIXES = {".cpp", ".cc", ".cxx"}
 NOT_IN_A_HEADER = ("CLI/", "toml++/", "toml.hpp", "boost/numeric/odeint", "nlohmann/")
@@ -28,10 +104,46 @@ LICENCE = "// SPDX-License-Identifier: BSD-3-Clause"
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
-def violations(checkout):
+def may_include(room, other, table):
+    """Whether a file in `room` may include one in `other`; tests may include everything."""
+    if room == other or room.split("/")[0] == "tests":
+        return True
+    for allowed in table.get(room, "").split():
+        if allowed == other or (allowed.endswith("/*") and (other + "/").startswith(allowed[:-1])):
+            return True
+    return False
+
+
+def cycle(included):
+    """A cycle of rooms, as the list of its rooms, or an empty list. `included`: room -> rooms."""
+    done, path = set(), []
+
+    def visit(room):
+        if room in path:
+            return path[path.index(room):] + [room]
+        if room in done:
+            return []
+        path.append(room)
+        for other in sorted(included.get(room, ())):
+            found = visit(other)
+            if found:
+                return found
+        path.pop()
+        done.add(room)
+        return []
+
+    for room in sorted(included):
+        found = visit(room)
+        if found:
+            return found
+    return []
+
+
+def violations(checkout, table):
     """One line for each rule that a file under `checkout` breaks."""
     found = []
-    for folder, may_include in MAY_INCLUDE.items():
+    included = collections.defaultdict(set)
+    for folder in TOP_FOLDERS:
         for file in sorted((checkout / folder).rglob("*")):
             if file.suffix not in CPP_SUFFIXES or not file.is_file():
                 continue
@@ -39,6 +151,9 @@ def violations(checkout):
             if folder == "papers":
                 found.append(f"{name}: papers/ holds no C++; a program belongs in experiments/")
                 continue
+            room = name.parent.as_posix()
+            if folder != "tests" and room not in table:
+                found.append(f"{name}: the room {room} has no entry in MAY_INCLUDE")
             lines = file.read_text(encoding="utf-8").splitlines()
             if not lines or lines[0] != LICENCE:
                 found.append(f"{name}:1: the first line must be {LICENCE}")
@@ -47,67 +162,105 @@ def violations(checkout):
                 if not include:
                     continue
                 quote, target = include.groups()
-                house = target.split("/")[0] if "/" in target else None
-                if house in MAY_INCLUDE:
-                    if house not in may_include:
-                        found.append(f"{name}:{number}: {folder}/ may not include {target}")
+                if target.split("/")[0] in TOP_FOLDERS and "/" in target:
+                    other = pathlib.PurePosixPath(target).parent.as_posix()
+                    if not may_include(room, other, table):
+                        found.append(f"{name}:{number}: {room}/ may not include {target}")
+                    if folder != "tests" and other != room:
+                        included[room].add(other)
                 elif quote == '"':
                     found.append(f'{name}:{number}: write "{target}" from the top of the checkout, a library\'s in <>')
                 elif file.suffix not in SOURCE_SUFFIXES and target.startswith(NOT_IN_A_HEADER):
                     found.append(f"{name}:{number}: {target} is slow to compile: include it in a .cpp")
+    around = cycle(included)
+    if around:
+        found.append(f"rooms include each other: {' -> '.join(around)}")
     return found
 
 
 class IncludeRules(unittest.TestCase):
     def test_this_checkout_keeps_the_rules(self):
         self.assertTrue(any((CHECKOUT / "core").rglob("*.hpp")), "no headers found: looked in the wrong place")
-        self.assertEqual(violations(CHECKOUT), [])
+        self.assertEqual(violations(CHECKOUT, MAY_INCLUDE), [])
 
-    def found_in(self, path, text):
+    def test_the_table_names_rooms_that_are_there(self):
+        for room, allowed in MAY_INCLUDE.items():
+            for name in [room, *allowed.split()]:
+                with self.subTest(room=room, name=name):
+                    self.assertTrue((CHECKOUT / name.removesuffix("/*")).is_dir())
+
+    def test_every_arrow_that_the_table_leaves_out_is_found(self):
+        """In each room a planted file that includes every room."""
+        rooms = list(MAY_INCLUDE)
+        text = "".join(f'#include "{other}/b.hpp"\n' for other in rooms)
+        for room in rooms:
+            found = self.found_in({f"{room}/a.cpp": f"{LICENCE}\n{text}"})
+            for number, other in enumerate(rooms, start=2):
+                told = any(line.startswith(f"{room}/a.cpp:{number}: ") for line in found)
+                with self.subTest(room=room, other=other):
+                    self.assertEqual(told, not may_include(room, other, MAY_INCLUDE))
+        self.assertFalse(may_include("core/math", "core/system", MAY_INCLUDE))
+        self.assertFalse(may_include("integrators", "collision", MAY_INCLUDE))
+        self.assertFalse(may_include("collision/broad", "integrators", MAY_INCLUDE))
+        self.assertFalse(may_include("experiments/study/plot", "experiments/study/record", MAY_INCLUDE))
+        self.assertFalse(may_include("experiments/judge", "experiments/stability", MAY_INCLUDE))
+
+    def test_a_cycle_of_rooms_is_found(self):
+        table = {"core/a": "core/b", "core/b": "core/c", "core/c": "core/a"}
+        files = {"core/a/a.hpp": f'{LICENCE}\n#include "core/b/b.hpp"\n',
+                 "core/b/b.hpp": f'{LICENCE}\n#include "core/c/c.hpp"\n',
+                 "core/c/c.hpp": f"{LICENCE}\n"}
+        self.assertEqual(self.found_in(files, table), [])
+        files["core/c/c.cpp"] = f'{LICENCE}\n#include "core/a/a.hpp"\n'
+        self.assertEqual(self.found_in(files, table), ["rooms include each other: core/a -> core/b -> core/c -> core/a"])
+
+    def found_in(self, files, table=None):
         with tempfile.TemporaryDirectory() as folder:
-            file = pathlib.Path(folder, path)
-            file.parent.mkdir(parents=True)
-            file.write_text(text, encoding="utf-8")
-            return violations(pathlib.Path(folder))
+            for path, text in files.items():
+                file = pathlib.Path(folder, path)
+                file.parent.mkdir(parents=True, exist_ok=True)
+                file.write_text(text, encoding="utf-8")
+            return violations(pathlib.Path(folder), table or MAY_INCLUDE)
 
     def test_planted_violations_are_found(self):
         for path, include in [
-            ("core/a.hpp", '"integrators/rk4.hpp"'),
-            ("core/deep/a.cpp", "<integrators/rk4.hpp>"),
-            ("core/a.cpp", '"tests/a.hpp"'),
+            ("core/math/a.hpp", '"integrators/rk4.hpp"'),
+            ("core/math/a.cpp", "<integrators/rk4.hpp>"),
+            ("core/math/a.cpp", '"tests/a.hpp"'),
             ("integrators/a.cpp", '"collision/shape.hpp"'),
             ("integrators/a.cpp", '"experiments/study/plan/plan.hpp"'),
             ("collision/a.hpp", '"integrators/rk4.hpp"'),
-            ("experiments/drift/main.cpp", '"tests/a.hpp"'),
+            ("experiments/energy_drift/main.cpp", '"tests/a.hpp"'),
             ("integrators/a.cpp", '"../collision/shape.hpp"'),
             ("integrators/a.cpp", '"rk4.hpp"'),
-            ("core/a.h", "<nlohmann/json.hpp>"),
+            ("core/run/a.h", "<nlohmann/json.hpp>"),
             ("experiments/study/a.hpp", "<CLI/CLI.hpp>"),
             ("integrators/a.hpp", "<boost/numeric/odeint/stepper/runge_kutta4.hpp>"),
             ("tests/a.hpp", "<toml++/toml.h>"),
         ]:
             with self.subTest(path=path, include=include):
-                found = self.found_in(path, f"{LICENCE}\n  #  include {include}\n")
+                found = self.found_in({path: f"{LICENCE}\n  #  include {include}\n"})
                 self.assertEqual(len(found), 1, found)
                 self.assertTrue(found[0].startswith(f"{path}:2: "), found)
-        self.assertEqual(len(self.found_in("core/a.cpp", "int a;\n")), 1)
-        self.assertEqual(len(self.found_in("core/a.hpp", f"\n{LICENCE}\n")), 1)
-        self.assertEqual(len(self.found_in("papers/study/a.cpp", f"{LICENCE}\n")), 1)
+        self.assertEqual(len(self.found_in({"core/run/a.cpp": "int a;\n"})), 1)
+        self.assertEqual(len(self.found_in({"core/run/a.hpp": f"\n{LICENCE}\n"})), 1)
+        self.assertEqual(len(self.found_in({"core/a.cpp": f"{LICENCE}\n"})), 1)
+        self.assertEqual(len(self.found_in({"papers/study/a.cpp": f"{LICENCE}\n"})), 1)
 
     def test_what_is_allowed_passes(self):
         for path, include in [
-            ("core/a.hpp", '"core/system/state.hpp"'),
-            ("core/a.hpp", "<boost/math/tools/roots.hpp>"),
+            ("core/run/a.hpp", '"core/system/state.hpp"'),
+            ("core/math/a.hpp", "<boost/math/tools/roots.hpp>"),
             ("integrators/a.cpp", '"core/system/state.hpp"'),
             ("integrators/a.cpp", "<boost/numeric/odeint.hpp>"),
-            ("collision/a.hpp", '"core/system/state.hpp"'),
+            ("collision/a.hpp", '"core/math/quaternion.hpp"'),
             ("experiments/study/a.cpp", "<CLI/CLI.hpp>"),
-            ("experiments/study/a.hpp", '"collision/shape.hpp"'),
+            ("experiments/study/scenario/a.hpp", '"collision/shape.hpp"'),
             ("tests/laws/a.hpp", '"experiments/study/plan/plan.hpp"'),
             ("tests/laws/a.hpp", '"tests/laws/b.hpp"'),
         ]:
             with self.subTest(path=path, include=include):
-                self.assertEqual(self.found_in(path, f"{LICENCE}\n#include {include}\n"), [])
+                self.assertEqual(self.found_in({path: f"{LICENCE}\n#include {include}\n"}), [])
 
 
 if __name__ == "__main__":

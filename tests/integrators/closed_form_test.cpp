@@ -39,8 +39,8 @@ class Motion {
 
   void steps(double h, std::int64_t n, bool project = false) {
     const double t = state_.t;
-    const Stretch stretch{.h = h, .count = n, .t0 = t, .project = project};
-    if (!integrator_->advance(state_, stretch).ok()) ADD_FAILURE() << "a step failed";
+    const StepBatch batch{.h = h, .count = n, .t0 = t, .project = project};
+    if (!integrator_->advance(state_, batch).ok()) ADD_FAILURE() << "a step failed";
     state_.t = t + double(n) * h;
   }
 

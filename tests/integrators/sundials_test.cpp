@@ -32,12 +32,13 @@ struct Root {
 std::vector<Root> roots(Integrator<double>& integrator, State<double>& state, double t_end,
                         std::vector<EventFunction<double>> events) {
   std::vector<Root> found;
-  integrator.set_events(std::move(events));
+  NativeRoots<double>& native = *integrator.native_roots();
+  native.set_events(std::move(events));
   for (integrator.begin(state); state.t < t_end;) {
     const StepResult result = integrator.step(state, t_end - state.t);
     EXPECT_TRUE(result.ok()) << result.failure;
     if (!result.ok()) break;
-    for (const int sign : integrator.events()) {
+    for (const int sign : native.events()) {
       if (sign != 0) found.push_back({state.t, sign});
     }
   }
@@ -56,18 +57,20 @@ TEST(NativeRoots, ApexOfAProjectile) {
   for (const std::string& name : all) {
     SCOPED_TRACE(name);
     const auto integrator = make(name, *system, {.tolerance = 1e-11, .t_end = 2});
-    ASSERT_TRUE(integrator->has_native_roots());
+    NativeRoots<double>* native = integrator->native_roots();
+    ASSERT_TRUE(native);
+    ASSERT_TRUE(integrator->dense_output());
     State<double> state = system->start(), apex = state;
     const auto vertical = [&](const State<double>& s) { return s.y[slot.velocity + 2]; };
-    integrator->set_events({vertical});
+    native->set_events({vertical});
     integrator->begin(state);
     while (state.t < 2) {
       ASSERT_TRUE(integrator->step(state, 2 - state.t).ok());
-      if (integrator->events()[0] != 0) {
+      if (native->events()[0] != 0) {
         apex = state;
-        EXPECT_EQ(integrator->events()[0], -1);
+        EXPECT_EQ(native->events()[0], -1);
         State<double> beyond = state;
-        EXPECT_FALSE(integrator->interpolate(state.t + 1e-6, beyond)) << "the step ended at the root";
+        EXPECT_FALSE(integrator->dense_output()->interpolate(state.t + 1e-6, beyond)) << "the step ended at the root";
       }
     }
     EXPECT_EQ(state.t, 2);
@@ -111,7 +114,7 @@ TEST(NativeRoots, ZerosOfAnOscillator) {
 TEST(NativeProjection, KeepsTheManifoldAndTheHistory) {
   struct Watch final : Observer {
     double defect = 0, projection = 0;
-    std::size_t observe(std::span<const Sample> seen) override {
+    std::size_t on_samples(std::span<const Sample> seen) override {
       for (const Sample& s : seen) {
         defect = std::max(defect, s.seen.orientation_defect);
         projection = s.projection;
@@ -123,7 +126,7 @@ TEST(NativeProjection, KeepsTheManifoldAndTheHistory) {
     const auto system = make_system<double>(laws::free_top(), {.orientation = orientation});
     const auto run = [&](bool natively, Watch& watch, State<double>& state) {
       const auto integrator = make("cvode_bdf", *system, {.tolerance = 1e-6, .t_end = 1, .project = natively});
-      EXPECT_EQ(integrator->projects_natively(), natively);
+      EXPECT_EQ(integrator->native_projection() != nullptr, natively);
       state = system->start();
       const Schedule schedule{.t_end = 1, .adaptive = true, .samples = {}, .normalise = true};
       const RunOutcome outcome = simulate(*system, *system, *integrator, state, schedule, watch);
@@ -165,15 +168,15 @@ TEST(NativeProjection, CountsTheEnergyThatItInjects) {
   while (state.t < 1) ASSERT_TRUE(integrator->step(state, 1 - state.t).ok());
   const double change = system->measure(state.y).energy() - before;
   EXPECT_GT(std::abs(change), 1e-7 * before);
-  EXPECT_NEAR(integrator->projection_energy() / change, 1, 1e-5);
+  EXPECT_NEAR(integrator->native_projection()->projection_energy() / change, 1, 1e-5);
 }
 
 // Only backward differentiation projects by itself.
 TEST(NativeProjection, IsBackwardDifferentiationsAlone) {
   const auto system = make_system<double>(laws::free_top(), {});
   for (const std::string& name : all) {
-    EXPECT_EQ(make(name, *system, {.project = true})->projects_natively(), name == "cvode_bdf") << name;
-    EXPECT_FALSE(make(name, *system, {.project = false})->projects_natively()) << name;
+    EXPECT_EQ(make(name, *system, {.project = true})->native_projection() != nullptr, name == "cvode_bdf") << name;
+    EXPECT_FALSE(make(name, *system, {.project = false})->native_projection()) << name;
   }
 }
 

@@ -3,7 +3,7 @@
 // Source: Ralston, Math. Comp. 16 (1962).
 #include "integrators/fixed_step.hpp"
 
-namespace polhode {
+namespace polhode::inline integrators {
 
 template <class System>
 class Ralston {
@@ -33,4 +33,4 @@ IntegratorEntry ralston() {
                               .evaluations_per_step = 2});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -23,7 +23,6 @@ void PrintTo(const BroadPhaseEntry& e, std::ostream* out) { *out << e.name; }
 
 namespace {
 
-using study::Dice;
 using Vector = Vector3<double>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -61,7 +60,8 @@ class BroadPhaseLaw : public ::testing::TestWithParam<BroadPhaseEntry> {
   }
 };
 
-std::vector<Bounds> random_boxes(Dice& random, std::size_t n, double edge, double half_low, double half_high) {
+std::vector<Bounds> random_boxes(PortableRandom& random, std::size_t n, double edge, double half_low,
+                                 double half_high) {
   std::vector<Bounds> boxes;
   for (std::size_t i = 0; i < n; ++i) {
     const Vector centre = random.uniform_vector(0, edge);
@@ -81,7 +81,7 @@ TEST_P(BroadPhaseLaw, KnowsNoneAndOneAndTwo) {
 TEST_P(BroadPhaseLaw, NothingIsAskedBeforeTheFirstStep) { EXPECT_TRUE(phase->pairs().empty()); }
 
 TEST_P(BroadPhaseLaw, FindsThePairsOfRandomBoxes) {
-  Dice random(1);
+  PortableRandom random(1);
   for (const std::size_t n : {3u, 10u, 100u, 700u}) {
     for (const double edge : {0.0, 1.0, 10.0, 40.0}) {
       expect_right(random_boxes(random, n, edge, 0.1, 1), std::to_string(n) + " in " + std::to_string(edge));
@@ -90,7 +90,7 @@ TEST_P(BroadPhaseLaw, FindsThePairsOfRandomBoxes) {
 }
 
 TEST_P(BroadPhaseLaw, FollowsManySteps) {
-  Dice random(2);
+  PortableRandom random(2);
   for (const double step : {0.001, 0.02, 0.2, 3.0}) {
     const std::size_t n = 300;
     const double edge = 12;
@@ -115,7 +115,7 @@ TEST_P(BroadPhaseLaw, FollowsManySteps) {
 }
 
 TEST_P(BroadPhaseLaw, FollowsASceneThatFliesApartAndComesBack) {
-  Dice random(3);
+  PortableRandom random(3);
   const auto start = random_boxes(random, 250, 5, 0.1, 0.5);
   for (int k = 0; k < 40; ++k) {
     const double grow = std::exp(12 * std::sin(std::numbers::pi * k / 39));
@@ -126,7 +126,7 @@ TEST_P(BroadPhaseLaw, FollowsASceneThatFliesApartAndComesBack) {
 }
 
 TEST_P(BroadPhaseLaw, FollowsABoxThroughACrowdThatRests) {
-  Dice random(4);
+  PortableRandom random(4);
   auto boxes = random_boxes(random, 300, 15, 0.2, 0.6);
   for (int k = 0; k < 100; ++k) {
     boxes[17] = box({0.2 * k - 2, 0.15 * k, 7}, {1, 1, 1});
@@ -144,7 +144,7 @@ TEST_P(BroadPhaseLaw, FollowsAColumnThatFalls) {
 }
 
 TEST_P(BroadPhaseLaw, FindsThePairsOfClusters) {
-  Dice random(5);
+  PortableRandom random(5);
   std::vector<Vector> at;
   for (int c = 0; c < 5; ++c) at.push_back(random.uniform_vector(-1e6, 1e6));
   for (int k = 0; k < 10; ++k) {
@@ -203,7 +203,7 @@ bool held(const Bounds& box, const std::vector<Bounds>& cells) {
 
 // For drawing only. Whatever is finite is in them, through the motion and beside what has no end.
 TEST_P(BroadPhaseLaw, ItsCellsHoldWhatIsFinite) {
-  Dice random(11);
+  PortableRandom random(11);
   std::vector<Bounds> none;
   phase->cells(none);
   EXPECT_TRUE(none.empty()) << "nothing has been asked";
@@ -237,7 +237,7 @@ TEST_P(BroadPhaseLaw, ItsCellsHoldWhatIsFinite) {
 TEST_P(BroadPhaseLaw, CellsThatDivideSpaceAreApart) {
   const std::string& name = GetParam().name;
   if (name != "uniform_grid" && name != "bsp_tree") GTEST_SKIP() << "its cells are the nodes of a tree";
-  Dice random(12);
+  PortableRandom random(12);
   auto boxes = random_boxes(random, 200, 8, 0.1, 0.5);
   boxes[3] = box({2, 2, 2}, {3, 3, 3});
   answer(*phase, boxes);
@@ -263,7 +263,7 @@ TEST_P(BroadPhaseLaw, NegativeZeroIsZero) {
 }
 
 TEST_P(BroadPhaseLaw, BoundsMayBeInfinite) {
-  Dice random(6);
+  PortableRandom random(6);
   auto boxes = random_boxes(random, 200, 10, 0.1, 0.8);
   boxes.emplace_back(Vector(-infinity, -infinity, -infinity), Vector(infinity, infinity, 1));
   boxes.insert(boxes.begin() + 50, Bounds(Vector(3, 3, -infinity), Vector(4, 4, infinity)));
@@ -284,7 +284,7 @@ TEST_P(BroadPhaseLaw, BoundsMayBeInfinite) {
 }
 
 TEST_P(BroadPhaseLaw, CoordinatesMayBeHuge) {
-  Dice random(7);
+  PortableRandom random(7);
   for (const double far : {1e8, 1e15, 1e150, 1e307}) {
     std::vector<Bounds> boxes;
     for (int i = 0; i < 150; ++i) {
@@ -306,7 +306,7 @@ TEST_P(BroadPhaseLaw, CoordinatesMayBeHuge) {
 }
 
 TEST_P(BroadPhaseLaw, SizesMaySpanSixOrders) {
-  Dice random(8);
+  PortableRandom random(8);
   std::vector<Bounds> boxes;
   for (int i = 0; i < 700; ++i) {
     const double size = random.power_of_ten(-4, 2);
@@ -320,7 +320,7 @@ TEST_P(BroadPhaseLaw, SizesMaySpanSixOrders) {
 }
 
 TEST_P(BroadPhaseLaw, SmallBoxesMayLieWithinALargeOne) {
-  Dice random(9);
+  PortableRandom random(9);
   auto boxes = random_boxes(random, 300, 1, 1e-3, 1e-2);
   boxes.push_back(box({0.5, 0.5, 0.5}, {10, 10, 10}));
   boxes.push_back(box({0.5, 0.5, 0.5}, {1e4, 1e4, 1e-4}));
@@ -331,7 +331,7 @@ TEST_P(BroadPhaseLaw, SmallBoxesMayLieWithinALargeOne) {
 }
 
 TEST_P(BroadPhaseLaw, SizesMayChange) {
-  Dice random(10);
+  PortableRandom random(10);
   auto boxes = random_boxes(random, 200, 10, 0.1, 0.4);
   for (int k = 0; k < 30; ++k) {
     expect_right(boxes, "step " + std::to_string(k));
@@ -342,7 +342,7 @@ TEST_P(BroadPhaseLaw, SizesMayChange) {
 }
 
 TEST_P(BroadPhaseLaw, AnotherNumberOfBodiesIsANewScene) {
-  Dice random(11);
+  PortableRandom random(11);
   for (const std::size_t n : {100u, 101u, 40u, 0u, 1u, 300u, 299u}) {
     auto boxes = random_boxes(random, n, 6, 0.1, 0.5);
     for (int k = 0; k < 3; ++k) {
@@ -353,14 +353,14 @@ TEST_P(BroadPhaseLaw, AnotherNumberOfBodiesIsANewScene) {
 }
 
 TEST_P(BroadPhaseLaw, ASceneMayJump) {
-  Dice random(12);
+  PortableRandom random(12);
   for (int k = 0; k < 8; ++k) {
     expect_right(random_boxes(random, 300, 10, 0.1, 0.5), "scene " + std::to_string(k));
   }
 }
 
 TEST_P(BroadPhaseLaw, AScenesAxesMayAllBeTheWidest) {
-  Dice random(13);
+  PortableRandom random(13);
   for (int k = 0; k < 6; ++k) {
     std::vector<Bounds> boxes;
     for (int i = 0; i < 200; ++i) {
@@ -373,7 +373,7 @@ TEST_P(BroadPhaseLaw, AScenesAxesMayAllBeTheWidest) {
 }
 
 TEST_P(BroadPhaseLaw, RefusesWhatIsNoBox) {
-  Dice random(14);
+  PortableRandom random(14);
   const auto good = random_boxes(random, 30, 3, 0.1, 0.5);
   const auto expected = answer(*phase, good);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -397,7 +397,7 @@ TEST_P(BroadPhaseLaw, RefusesWhatIsNoBox) {
 }
 
 TEST_P(BroadPhaseLaw, PairsMayBeAskedAgain) {
-  Dice random(15);
+  PortableRandom random(15);
   auto boxes = random_boxes(random, 100, 5, 0.1, 0.5);
   const auto first = answer(*phase, boxes);
   const auto again = phase->pairs();
@@ -412,7 +412,7 @@ TEST_P(BroadPhaseLaw, PairsMayBeAskedAgain) {
 }
 
 TEST_P(BroadPhaseLaw, TheCallersBoundsMayGoAfterTheUpdate) {
-  Dice random(16);
+  PortableRandom random(16);
   auto boxes = random_boxes(random, 100, 5, 0.1, 0.5);
   const auto expected = by_brute_force(boxes);
   phase->update(boxes);
@@ -432,7 +432,7 @@ std::vector<Bounds> swaying(const std::vector<Bounds>& places, double t, double 
 }
 
 TEST_P(BroadPhaseLaw, ASteadySceneAllocatesNothingAfterItsFirstStep) {
-  Dice random(17);
+  PortableRandom random(17);
   const auto places = random_boxes(random, 1000, 12, 0.2, 0.6);
   for (const double reach : {0.0, 0.01, 0.2, 1.0}) {
     std::vector<std::vector<Bounds>> steps;
@@ -451,7 +451,7 @@ TEST_P(BroadPhaseLaw, ASteadySceneAllocatesNothingAfterItsFirstStep) {
 }
 
 TEST_P(BroadPhaseLaw, TheSameMotionGivesTheSameBytes) {
-  Dice random(18);
+  PortableRandom random(18);
   const auto places = random_boxes(random, 200, 6, 0.2, 0.6);
   auto other = GetParam().make();
   for (int k = 0; k < 20; ++k) {

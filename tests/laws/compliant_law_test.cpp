@@ -19,7 +19,6 @@
 namespace polhode::laws {
 namespace {
 
-using study::Dice;
 using Vector = Vector3<double>;
 
 struct Pair {
@@ -77,16 +76,16 @@ class CompliantLaw : public testing::TestWithParam<Pair> {
     std::unique_ptr<Compliant> force;
   };
 
-  static std::vector<BodyMotion<double>> random_motions(Dice& dice) {
+  static std::vector<BodyMotion<double>> random_motions(PortableRandom& random) {
     const bool plane = !GetParam().b->finite();
     const auto motion = [&](double near) {
-      return BodyMotion<double>{dice.uniform_vector(-near, near), dice.rotation(), dice.uniform_vector(-1, 1),
-                                dice.uniform_vector(-3, 3)};
+      return BodyMotion<double>{random.uniform_vector(-near, near), random.rotation(), random.uniform_vector(-1, 1),
+                                random.uniform_vector(-3, 3)};
     };
     std::vector<BodyMotion<double>> all = {motion(0.3), motion(0.3)};
     if (plane) {
       all[1] = {Vector::Zero(), Matrix3<double>::Identity(), Vector::Zero(), Vector::Zero()};
-      all[0].position[2] = dice.uniform(0.1, 0.4);
+      all[0].position[2] = random.uniform(0.1, 0.4);
     }
     return all;
   }
@@ -111,8 +110,8 @@ TEST_P(CompliantLaw, ForcesAreEqualAndOppositeInOneLine) {
   const Scene s(GetParam(), 0.5, 0.7);
   int touching = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    Dice dice(seed);
-    const auto bodies = random_motions(dice);
+    PortableRandom random(seed);
+    const auto bodies = random_motions(random);
     const auto w = s.wrenches(bodies);
     touching += !w[0].force.isZero(0);
     Vector force = Vector::Zero(), torque = Vector::Zero();
@@ -132,8 +131,8 @@ TEST_P(CompliantLaw, WhatHasNoPotentialIsPower) {
     const Scene s(GetParam(), restitution, 0.7);
     int smooth = 0;
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
-      Dice dice(seed);
-      const auto bodies = random_motions(dice);
+      PortableRandom random(seed);
+      const auto bodies = random_motions(random);
       const auto w = s.wrenches(bodies);
       const double whole = power_of(bodies, w), power = s.force->power(0, bodies), scale = 1 + w[0].force.norm();
       if (!GetParam().potential) {
@@ -159,8 +158,8 @@ TEST_P(CompliantLaw, WhatHasNoPotentialIsPower) {
 TEST_P(CompliantLaw, NoPointPulls) {
   const Scene s(GetParam(), 0, 0);
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    Dice dice(seed);
-    auto bodies = random_motions(dice);
+    PortableRandom random(seed);
+    auto bodies = random_motions(random);
     const Vector at_rest = [&] {
       auto still = bodies;
       for (BodyMotion<double>& b : still) b.velocity.setZero(), b.angular_velocity.setZero();
@@ -173,8 +172,8 @@ TEST_P(CompliantLaw, NoPointPulls) {
 
 TEST_P(CompliantLaw, ALostStateTouchesNothing) {
   const Scene s(GetParam(), 0.5, 0.5);
-  Dice dice(1);
-  auto bodies = random_motions(dice);
+  PortableRandom random(1);
+  auto bodies = random_motions(random);
   for (const double lost : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     bodies[0].position[1] = lost;
     EXPECT_EQ(s.wrenches(bodies)[0].force, Vector(Vector::Zero()));
@@ -183,8 +182,8 @@ TEST_P(CompliantLaw, ALostStateTouchesNothing) {
 
 TEST_P(CompliantLaw, TheSameInputGivesTheSameBytesAndTakesNoMemory) {
   const Scene s(GetParam(), 0.5, 0.5), t(GetParam(), 0.5, 0.5);
-  Dice dice(3);
-  const auto bodies = random_motions(dice), later = moved(bodies, 1e-4);
+  PortableRandom random(3);
+  const auto bodies = random_motions(random), later = moved(bodies, 1e-4);
   std::vector<Wrench<double>> w(2), u(2);
   s.force->add_wrench(0, bodies, w);
   t.force->add_wrench(0, bodies, u);

@@ -60,18 +60,18 @@ struct Seen final : Observer {
   std::vector<State<double>> states{};
   double next = 0;
 
-  std::size_t observe(std::span<const Sample> part) override {
+  std::size_t on_samples(std::span<const Sample> part) override {
     for (std::size_t i = 0; i < part.size(); ++i) {
       samples.push_back(part[i]);
       if (!(std::abs(part[i].seen.energy()) < bound)) return i;
     }
     return part.size();
   }
-  void look(const State<double>& state, const Sample&) override {
+  void on_state(const State<double>& state, const Sample&) override {
     states.push_back(state);
     next += look_every;
   }
-  double next_look() const override { return next; }
+  double next_state() const override { return next; }
 };
 
 void expect_same(const Seen& a, const Seen& b) {

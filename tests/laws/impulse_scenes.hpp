@@ -76,34 +76,34 @@ struct SceneKind {
 };
 
 /// Bodies at random, each two with a chance of a patch of one to four points.
-inline ImpulseScene random_scene(study::Dice& dice, const SceneKind& kind) {
+inline ImpulseScene random_scene(PortableRandom& random, const SceneKind& kind) {
   ImpulseScene s;
   for (int i = 0; i < kind.bodies; ++i) {
     ImpulseBody b;
-    b.position = dice.uniform_vector(-2, 2);
-    if (!dice.chance(kind.statics)) {
-      b.inverse_mass = dice.power_of_ten(-kind.spread, kind.spread);
-      const Matrix3<double> r = dice.rotation();
+    b.position = random.uniform_vector(-2, 2);
+    if (!random.chance(kind.statics)) {
+      b.inverse_mass = random.power_of_ten(-kind.spread, kind.spread);
+      const Matrix3<double> r = random.rotation();
       // Of a box of sides from 1 to 2.
-      const Vector3<double> h = dice.uniform_vector(1, 2).array().square();
+      const Vector3<double> h = random.uniform_vector(1, 2).array().square();
       b.inverse_inertia =
           r *
           (12 * b.inverse_mass * Vector3<double>(1 / (h[1] + h[2]), 1 / (h[2] + h[0]), 1 / (h[0] + h[1])))
               .asDiagonal() *
           r.transpose();
-      b.velocity = dice.uniform_vector(-2, 2);
-      b.angular_velocity = dice.uniform_vector(-2, 2);
+      b.velocity = random.uniform_vector(-2, 2);
+      b.angular_velocity = random.uniform_vector(-2, 2);
     }
     s.bodies.push_back(b);
   }
   for (std::uint32_t a = 0; a < s.bodies.size(); ++a) {
     for (std::uint32_t b = a + 1; b < s.bodies.size(); ++b) {
-      if (!dice.chance(0.6)) continue;
-      const Vector3<double> n = dice.direction(), t = n.unitOrthogonal(), u = n.cross(t);
+      if (!random.chance(0.6)) continue;
+      const Vector3<double> n = random.direction(), t = n.unitOrthogonal(), u = n.cross(t);
       const Vector3<double> middle =
-          0.5 * (s.bodies[a].position + s.bodies[b].position) + dice.uniform_vector(-0.3, 0.3);
-      const double friction = dice.uniform(0, kind.friction), restitution = dice.uniform(0, kind.restitution);
-      const int points = 1 + dice.below(4);
+          0.5 * (s.bodies[a].position + s.bodies[b].position) + random.uniform_vector(-0.3, 0.3);
+      const double friction = random.uniform(0, kind.friction), restitution = random.uniform(0, kind.restitution);
+      const int points = 1 + random.below(4);
       for (int k = 0; k < points; ++k) {
         ImpulseContact c;
         c.a = a;

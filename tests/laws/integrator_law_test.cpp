@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The laws of an integrator: what every entry of the catalogue must keep, in every formulation, on a free problem, a
-// forced one and one that depends on time. A new method needs nothing here. What it declares beyond its order is in
-// integrator_trait_law_test.cpp.
+// forced one and one that depends on time. A new method needs nothing here. Its accuracy is in
+// integrator_accuracy_law_test.cpp, several steps in one call in integrator_stretch_law_test.cpp, what it declares
+// beyond its order in integrator_trait_law_test.cpp.
+#include "tests/laws/integrator_law.hpp"
+
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
+#include <cstdint>
 #include <optional>
 
-#include "tests/laws/integrator_trials.hpp"
 #include "tests/laws/reference_flow.hpp"
 
 namespace polhode::laws {
@@ -16,14 +17,6 @@ namespace {
 
 using Real = long double;
 using Flat = VectorX<Real>;
-
-class IntegratorLaw : public OverTheCatalogue {
- protected:
-  template <class S>
-  void expect_advance_is_single_steps() const;
-  template <class S>
-  void expect_precision(double round_off) const;
-};
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, IntegratorLaw, testing::ValuesIn(method_names()),
                          [](const auto& param_info) { return param_info.param; });
@@ -39,60 +32,6 @@ TEST_P(IntegratorLaw, DeclaresWhatItIs) {
   } else {
     EXPECT_GT(d.order, 0) << "a fixed-step method has an order";
   }
-}
-
-// The declared order of a fixed-step method, from both sides: halving h divides the error by 2^p; free bodies may have
-// an order of their own, or be exact.
-TEST_P(IntegratorLaw, HasTheDeclaredOrder) {
-  if (adaptive()) GTEST_SKIP() << "it takes a tolerance, not a step";
-  const double floor = 4e-12;  // above the round-off of a run in double; multi-step methods reach their order late
-  everywhere([&](const Trial& trial, const Formulation& f) {
-    const auto system = build<double>(trial, f);
-    const auto exact = build<Real>(trial, f);
-    const Flat end = reference_flow(*exact, system->start().y.cast<Real>(), 0, 1);
-    const bool free = trial.problem.forces.empty() && !trial.shaken && declared().free_order > 0;
-    const int expected = free ? declared().free_order : declared().order;
-    if (expected == Declaration::exact_order) {
-      for (const std::int64_t n : {1, 15, 240}) EXPECT_LT(difference(run(*system, 0, n).y, end), 2e-13) << n;
-      return;
-    }
-    // Where few steps already come near the round-off of double, long double has room for the order to show.
-    std::int64_t first = 15;
-    double coarse = difference(run(*system, 0, first).y, end);
-    const bool extended = entry().make_long_double && (expected > 4 || coarse < 1000 * floor);
-    for (; !extended && coarse < 1000 * floor && first > 3; coarse = difference(run(*system, 0, first).y, end))
-      first /= 2;
-    double order = 0, error = 1;
-    for (std::int64_t n = first; n <= 3840; n *= 2) {
-      const double next = extended ? difference(run(*exact, 0, n).y, end) : difference(run(*system, 0, n).y, end);
-      if (next < (extended ? 1e-15 : floor)) break;
-      order = std::log2(error / next);
-      error = next;
-    }
-    EXPECT_LT(error, 0.01) << "it does not come near the exact motion";
-    EXPECT_NEAR(order, expected, 0.25) << "error " << error;
-  });
-}
-
-// An adaptive method comes nearer as its tolerance falls, and stays within a factor of it.
-TEST_P(IntegratorLaw, FollowsItsTolerance) {
-  if (!adaptive()) GTEST_SKIP() << "it takes a step, not a tolerance";
-  everywhere([&](const Trial& trial, const Formulation& f) {
-    const auto system = build<double>(trial, f);
-    const auto exact = build<Real>(trial, f);
-    const Flat end = reference_flow(*exact, system->start().y.cast<Real>(), 0, 1);
-    // The slope of log error against log tolerance, by least squares.
-    double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
-    for (int k = 5; k <= 11; ++k) {  // at 1e-4 a method of order 8 takes four steps
-      const double tolerance = std::pow(10, -k);
-      const double error = difference(run(*system, tolerance).y, end);
-      EXPECT_LT(error, 1000 * tolerance);
-      const double x = -k, y = std::log10(error);
-      n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
-    }
-    const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
-    EXPECT_NEAR(slope, 1, 0.4) << "slope of log error against log tolerance";
-  });
 }
 
 // evaluations() is the number of right-hand sides since begin(), those of the start and of a discarded history too.
@@ -199,17 +138,19 @@ TEST_P(IntegratorLaw, DiscardedHistoryIsForgotten) {
 
 TEST_P(IntegratorLaw, DenseOutputIsTheMotion) {
   const double tolerance = 1e-8;
+  const auto any = build<double>(trials().front(), {});
+  if (!make(*any, tolerance)->dense_output()) {
+    EXPECT_NE(GetParam(), "odeint_dopri5") << "which has dense output";
+    GTEST_SKIP() << "it has no dense output";
+  }
   everywhere([&](const Trial& trial, const Formulation& f) {
     const auto system = build<double>(trial, f);
     const auto exact = build<Real>(trial, f);
     const auto integrator = make(*system, tolerance);
     State<double> state = system->start(), between = state;
     integrator->begin(state);
-    if (!integrator->has_dense_output()) {
-      ASSERT_TRUE(integrator->step(state, 1.0 / 64).ok());
-      EXPECT_FALSE(integrator->interpolate(state.t / 2, between));
-      return;
-    }
+    const DenseOutput<double>* dense = integrator->dense_output();
+    ASSERT_TRUE(dense);
     State<double> before = state;
     while (state.t < 0.6) {
       before = state;
@@ -218,7 +159,7 @@ TEST_P(IntegratorLaw, DenseOutputIsTheMotion) {
     const double length = state.t - before.t;
     for (const double part : {0.0, 0.2, 0.5, 0.9, 1.0}) {
       const double t = part == 1 ? state.t : before.t + part * length;
-      ASSERT_TRUE(integrator->interpolate(t, between)) << part;
+      ASSERT_TRUE(dense->interpolate(t, between)) << part;
       EXPECT_EQ(between.t, t);
       const Flat truth = reference_flow(*exact, system->start().y.cast<Real>(), 0, Real(t));
       EXPECT_LT(difference(between.y, truth), 1000 * tolerance) << part;
@@ -236,8 +177,8 @@ TEST_P(IntegratorLaw, DenseOutputIsTheMotion) {
       }
     }
     const State<double> kept = between;
-    EXPECT_FALSE(integrator->interpolate(state.t + 0.01 * length, between)) << "the future is not known";
-    EXPECT_FALSE(integrator->interpolate(before.t - 0.01 * length, between)) << "nor what was before the last step";
+    EXPECT_FALSE(dense->interpolate(state.t + 0.01 * length, between)) << "the future is not known";
+    EXPECT_FALSE(dense->interpolate(before.t - 0.01 * length, between)) << "nor what was before the last step";
     EXPECT_TRUE(same_bytes(between, kept));
   });
 }
@@ -259,132 +200,6 @@ TEST_P(IntegratorLaw, TimeGoesAsAsked) {
     for (const double end : {0.1, 0.1000001, 0.3, 1.0 / 3, 0.7}) {
       go(*integrator, state, end);
       EXPECT_EQ(state.t, end);
-    }
-  });
-}
-
-template <class S>
-void IntegratorLaw::expect_advance_is_single_steps() const {
-  if (!entry().maker<S>()) return;
-  everywhere([&](const Trial& trial, const Formulation& f) {
-    const auto system = build<S>(trial, f);
-    for (const double t0 : {0.0, 0.3}) {
-      const double h = 0.007;
-      State<S> at_once = system->start();
-      at_once.t = t0;
-      State<S> one_by_one = at_once;
-      const auto a = make<S>(*system), b = make<S>(*system);
-      a->begin(at_once);
-      b->begin(one_by_one);
-      ASSERT_TRUE(a->advance(at_once, h, 25).ok());
-      for (int k = 1; k <= 25; ++k) {
-        ASSERT_TRUE(b->step(one_by_one, h).ok());
-        one_by_one.t = t0 + k * h;  // as the driver counts time
-      }
-      EXPECT_TRUE(same_bytes(at_once, one_by_one));
-      EXPECT_EQ(a->evaluations(), b->evaluations());
-    }
-  });
-}
-TEST_P(IntegratorLaw, AdvanceIsSingleStepsToTheBit) {
-  if (adaptive()) GTEST_SKIP() << "it chooses its steps";
-  expect_advance_is_single_steps<float>();
-  expect_advance_is_single_steps<double>();
-  expect_advance_is_single_steps<Real>();
-}
-
-// A method that projects and measures within a stretch does it as the driver would, step by step.
-TEST_P(IntegratorLaw, StretchesAreSingleStepsToTheBit) {
-  if (adaptive()) GTEST_SKIP() << "it chooses its steps";
-  everywhere([&](const Trial& trial, const Formulation& f) {
-    const auto system = build<double>(trial, f);
-    const auto whole = make(*system), single = make(*system);
-    if (!whole->takes_stretches()) return;
-    for (const bool project : {false, true}) {
-      const Stretch stretch{.h = 0.007, .count = 20, .t0 = 0.25, .first = 3, .project = project};
-      State<double> x = system->start();
-      x.t = stretch.time(0);
-      State<double> y = x;
-      whole->begin(x);
-      single->begin(y);
-      std::vector<Sample> samples(20);
-      Stretch seen = stretch;
-      seen.samples = samples.data();
-      ASSERT_TRUE(whole->advance(x, seen).ok());
-      for (int k = 1; k <= 20; ++k) {
-        ASSERT_TRUE(single->step(y, stretch.h).ok());
-        y.t = 0.25 + (3 + k) * 0.007;
-        double injected = 0;
-        if (project) {
-          const double before = system->measure(y.y).energy();
-          system->project(y.y);
-          single->discard_history(y);
-          if (system->projection_changes_energy()) injected = system->measure(y.y).energy() - before;
-        }
-        EXPECT_TRUE(same_bytes(samples[std::size_t(k - 1)],
-                               Sample{y.t, system->measure(y.y), y.y[system->layout().work()], injected}));
-      }
-      EXPECT_TRUE(same_bytes(x, y));
-      EXPECT_EQ(whole->evaluations(), single->evaluations());
-      State<double> unseen = system->start();
-      unseen.t = stretch.time(0);
-      whole->begin(unseen);
-      ASSERT_TRUE(whole->advance(unseen, stretch).ok());
-      EXPECT_TRUE(same_bytes(unseen, y)) << "whether anybody looks or not";
-    }
-  });
-}
-
-/// A method that hides that it takes stretches: the driver projects and measures for it.
-class Stepwise final : public Integrator<double> {
- public:
-  explicit Stepwise(IntegratorPointer<double> inner) : inner_(std::move(inner)) {}
-  void begin(const State<double>& state) override { inner_->begin(state); }
-  StepResult step(State<double>& state, double h) override { return inner_->step(state, h); }
-  std::int64_t evaluations() const override { return inner_->evaluations(); }
-  void discard_history(const State<double>& state) override { inner_->discard_history(state); }
-
- private:
-  IntegratorPointer<double> inner_;
-};
-
-// A run shows the same digits whether the method takes its steps by stretches or one by one.
-TEST_P(IntegratorLaw, TheDriverSeesTheSameWithAndWithoutStretches) {
-  if (adaptive()) GTEST_SKIP() << "it chooses its steps";
-  everywhere([&](const Trial& trial, const Formulation& f) {
-    const auto system = build<double>(trial, f);
-    for (const bool normalise : {false, true}) {
-      for (const bool all_states : {false, true}) {
-        const Schedule schedule{
-            .t_end = 1, .dt = 0.0073, .samples = {}, .normalise = normalise};  // the last step is shortened
-        const auto run = [&](Integrator<double>& integrator, Rows& rows, State<double>& state) {
-          rows.all_states = all_states;
-          return simulate(*system, *system, integrator, state, schedule, rows);
-        };
-        const auto whole = make(*system);
-        Stepwise single(make(*system));
-        Rows a, b;
-        State<double> x = system->start(), y = x;
-        const RunOutcome first = run(*whole, a, x), second = run(single, b, y);
-        EXPECT_TRUE(first.status == RunStatus::ok && second.status == RunStatus::ok) << first.message << second.message;
-        EXPECT_EQ(first.steps, second.steps);
-        EXPECT_EQ(first.evaluations, second.evaluations);
-        EXPECT_EQ(x.t, 1);
-        EXPECT_TRUE(same_bytes(x, y));
-        if (!normalise) {
-          State<double> by_hand = system->start();
-          const auto integrator = make(*system);
-          integrator->begin(by_hand);
-          ASSERT_TRUE(integrator->advance(by_hand, 0.0073, 136).ok());
-          ASSERT_TRUE(integrator->step(by_hand, 1 - 136 * 0.0073).ok());
-          EXPECT_EQ(x.y, by_hand.y);
-        }
-        ASSERT_EQ(a.samples.size(), b.samples.size());
-        ASSERT_EQ(a.samples.size(), 138u);
-        for (std::size_t k = 0; k < a.samples.size(); ++k) EXPECT_TRUE(same_bytes(a.samples[k], b.samples[k])) << k;
-        ASSERT_EQ(a.states.size(), all_states ? 138u : 1u);
-        for (std::size_t k = 0; k < a.states.size(); ++k) EXPECT_TRUE(same_bytes(a.states[k], b.states[k])) << k;
-      }
     }
   });
 }
@@ -432,67 +247,9 @@ TEST_P(IntegratorLaw, RunsDoNotDisturbEachOther) {
   }
 }
 
-/// In S the same 60 steps, or those to a tolerance, differ from those in long double by the round-off of S, and not by
-/// less.
-template <class S>
-void IntegratorLaw::expect_precision(double round_off) const {
-  if (!entry().maker<S>() || !entry().make_long_double) return;
-  double most = 0, tolerance = 1e-8;
-  if (adaptive()) {
-    // Steps that a method chooses differ too, each by about its tolerance.
-    tolerance = 100 * double(std::numeric_limits<S>::epsilon());
-    round_off = std::max(round_off, 1000 * tolerance);
-  }
-  everywhere([&](const Trial& trial, const Formulation& f) {
-    const auto system = build<S>(trial, f);
-    const auto exact = build<Real>(trial, f);
-    State<S> state = system->start();
-    State<Real> truth{0, state.y.template cast<Real>()};
-    const auto a = make<S>(*system, tolerance);
-    const auto b = make<Real>(*exact, tolerance);
-    a->begin(state);
-    b->begin(truth);
-    go(*a, state, 1, 60, adaptive());
-    go(*b, truth, 1, 60, adaptive());
-    const double error = difference(state.y, truth.y);
-    EXPECT_LT(error, round_off);
-    most = std::max(most, error);
-  });
-  EXPECT_GT(most, adaptive() ? double(std::numeric_limits<S>::epsilon()) / 10 : round_off / 1e4);
-}
-TEST_P(IntegratorLaw, ScalarsWorkToTheirPrecision) {
-  expect_precision<float>(2e-5);
-  expect_precision<double>(4e-14);
-  if (!entry().make_long_double || declared().order < 4 || adaptive()) return;
-  // In long double the order is seen where double has long drowned in its round-off.
-  const Trial trial = trials()[3];
-  const auto system = build<Real>(trial, {});
-  const Flat end = reference_flow(*system, system->start().y, 0, 1);
-  double error = 1, order = 0;
-  for (std::int64_t n = 64; n <= 16384 && error > 1e-14; n *= 2) {
-    const double next = difference(run(*system, 0, n).y, end);
-    order = std::log2(error / next);
-    error = next;
-  }
-  EXPECT_LT(error, 1e-14);
-  EXPECT_NEAR(order, declared().order, 0.25) << error;
-}
-
 TEST(IntegratorCatalogue, NamesAreUniqueAndFound) {
   for (const IntegratorEntry& e : integrator_catalogue()) EXPECT_EQ(find_integrator(e.declaration.name), &e);
   EXPECT_EQ(find_integrator("no such method"), nullptr);
-}
-
-// The judge of this file: twice as many steps do not change it.
-TEST(ReferenceFlow, HasConverged) {
-  for (const Trial& trial : trials()) {
-    for (const Formulation& f : gyroscopic_formulations()) {
-      const auto system = build<Real>(trial, f);
-      const Flat y = system->start().y;
-      EXPECT_LT(difference(reference_flow(*system, y, 0, 1), reference_flow(*system, y, 0, 1, 128)), 5e-17)
-          << trial.name << ", " << label(f);
-    }
-  }
 }
 
 }  // namespace

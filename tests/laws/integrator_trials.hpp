@@ -63,12 +63,12 @@ struct Rows final : Observer {
   bool all_states = true;  ///< or the start alone
   std::vector<Sample> samples{};
   std::vector<State<double>> states{};
-  std::size_t observe(std::span<const Sample> seen) override {
+  std::size_t on_samples(std::span<const Sample> seen) override {
     samples.insert(samples.end(), seen.begin(), seen.end());
     return seen.size();
   }
-  void look(const State<double>& state, const Sample&) override { states.push_back(state); }
-  double next_look() const override { return all_states ? 0 : std::numeric_limits<double>::infinity(); }
+  void on_state(const State<double>& state, const Sample&) override { states.push_back(state); }
+  double next_state() const override { return all_states ? 0 : std::numeric_limits<double>::infinity(); }
 };
 
 inline bool is_finite(const Sample& s) {

@@ -29,17 +29,17 @@ using Vector = Vector3<double>;
 double slack(const ShapePair& p) { return (p.round ? 1e-7 : 1e-13) * p.scale; }
 
 template <class T>
-bool same_bytes(const T& a, const T& b) {
+bool bitwise_equal(const T& a, const T& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 bool same(const Distance& a, const Distance& b) {
-  return same_bytes(a.distance, b.distance) && same_bytes(a.normal, b.normal) && same_bytes(a.on_a, b.on_a) &&
-         same_bytes(a.on_b, b.on_b);
+  return bitwise_equal(a.distance, b.distance) && bitwise_equal(a.normal, b.normal) && bitwise_equal(a.on_a, b.on_a) &&
+         bitwise_equal(a.on_b, b.on_b);
 }
 bool same(const Manifold& a, const Manifold& b) {
-  bool all = a.count == b.count && same_bytes(a.normal, b.normal);
+  bool all = a.count == b.count && bitwise_equal(a.normal, b.normal);
   for (std::size_t i = 0; all && i < a.count; ++i) {
-    all = same_bytes(a.points[i].point, b.points[i].point) && same_bytes(a.points[i].depth, b.points[i].depth) &&
+    all = bitwise_equal(a.points[i].point, b.points[i].point) && bitwise_equal(a.points[i].depth, b.points[i].depth) &&
           a.points[i].feature == b.points[i].feature;
   }
   return all;

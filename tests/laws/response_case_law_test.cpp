@@ -11,7 +11,6 @@
 namespace polhode::laws {
 namespace {
 
-using study::Dice;
 using Vector = Vector3<double>;
 using Matrix = Matrix3<double>;
 
@@ -216,8 +215,8 @@ TEST_P(ResponseCase, PenetrationIsUndoneApartFromTheVelocities) {
   for_scenes(60, {.bodies = 5, .statics = 0.3, .friction = 1, .restitution = 0.5}, [&](ImpulseScene s) {
     response->forget();
     const ImpulseScene touching = after(s, 0.01);
-    Dice dice(4);
-    for (ImpulseContact& c : s.contacts) c.depth = dice.uniform(-0.01, 0.1);
+    PortableRandom random(4);
+    for (ImpulseContact& c : s.contacts) c.depth = random.uniform(-0.01, 0.1);
     response->forget();
     const ImpulseScene deep = after(s, 0.01);
     ASSERT_EQ(difference(touching, deep), 0);
@@ -231,7 +230,7 @@ TEST_P(ResponseCase, PenetrationIsUndoneApartFromTheVelocities) {
     s = after(s, 0.01);
     before = depth;
     depth -= s.bodies[1].shift[2];
-    ASSERT_LE(before - depth, (PenetrationSettings{}.share + 0.01) * before);
+    ASSERT_LE(before - depth, (PositionCorrectionSettings{}.share + 0.01) * before);
     ASSERT_LE(s.bodies[1].turn.norm(), 1e-3 * before);
   }
   EXPECT_LE(depth, 2e-3);

@@ -11,7 +11,6 @@
 namespace polhode::laws {
 namespace {
 
-using study::Dice;
 using Vector = Vector3<double>;
 using Matrix = Matrix3<double>;
 
@@ -59,9 +58,9 @@ TEST_P(ResponseLaw, KineticEnergyNeverRises) {
 
 TEST_P(ResponseLaw, KineticEnergyNeverRisesWhereRestitutionDiffers) {
   for (std::uint64_t seed = 1400; seed < 1500; ++seed) {
-    Dice dice(seed);
-    ImpulseScene s = random_scene(dice, {.bodies = 3, .friction = 1.5, .spread = 3});
-    for (ImpulseContact& c : s.contacts) c.restitution = dice.chance(0.5);
+    PortableRandom random(seed);
+    ImpulseScene s = random_scene(random, {.bodies = 3, .friction = 1.5, .spread = 3});
+    for (ImpulseContact& c : s.contacts) c.restitution = random.chance(0.5);
     s.meet();
     const double before = kinetic_energy(s.bodies);
     ASSERT_LE(kinetic_energy(after(s).bodies), before * (1 + 1e-10)) << seed;
@@ -71,10 +70,10 @@ TEST_P(ResponseLaw, KineticEnergyNeverRisesWhereRestitutionDiffers) {
 TEST_P(ResponseLaw, KineticEnergyNeverRisesFromForcesOfTheStepBefore) {
   for_scenes(60, {.bodies = 5, .statics = 0.3, .friction = 1, .restitution = 0.5}, [&](const ImpulseScene& start) {
     ImpulseScene s = start;
-    Dice dice(5);
+    PortableRandom random(5);
     for (int k = 0; k < 5; ++k) {
       for (ImpulseBody& b : s.bodies) {
-        if (b.moves()) b.velocity += dice.uniform_vector(-1, 1);
+        if (b.moves()) b.velocity += random.uniform_vector(-1, 1);
       }
       s.meet();
       const double before = kinetic_energy(s.bodies);
@@ -138,8 +137,8 @@ TEST_P(ResponseLaw, NothingApproachesFasterThanWanted) {
     for (const double friction : {0.0, 0.5}) {
       for_scenes(100, {.bodies = 3, .statics = statics, .friction = friction}, [&](ImpulseScene s) {
         if (!sees_points()) keep_first_points(s);
-        Dice dice(3);
-        for (ImpulseContact& c : s.contacts) c.wanted = dice.chance(0.3) ? -dice.uniform(0, 1) : 0;
+        PortableRandom random(3);
+        for (ImpulseContact& c : s.contacts) c.wanted = random.chance(0.3) ? -random.uniform(0, 1) : 0;
         const ImpulseScene t = after(s);
         for (const ImpulseContact& c : t.contacts) {
           if (!s.bodies[c.a].moves() && !s.bodies[c.b].moves()) continue;
@@ -185,9 +184,9 @@ TEST_P(ResponseLaw, AMovedSceneGetsTheSame) {
   for_scenes(60, {.bodies = 3, .friction = 1, .restitution = 0.5}, [&](ImpulseScene s) {
     // With more points than three a patch has more than one answer.
     std::erase_if(s.contacts, [](const ImpulseContact& c) { return c.feature.of_a > 2; });
-    Dice dice(8);
-    const Matrix r = dice.rotation();
-    const Vector away = dice.uniform_vector(-1, 1);
+    PortableRandom random(8);
+    const Matrix r = random.rotation();
+    const Vector away = random.uniform_vector(-1, 1);
     ImpulseScene moved = s;
     for (ImpulseBody& b : moved.bodies) {
       b.position = r * b.position + away;
@@ -210,8 +209,8 @@ TEST_P(ResponseLaw, AMovedSceneGetsTheSame) {
 
 TEST_P(ResponseLaw, ScenesApartDoNotMatterToEachOther) {
   for_scenes(40, {.bodies = 3, .friction = 0.5, .restitution = 0.5}, [&](const ImpulseScene& s) {
-    Dice dice(9);
-    const ImpulseScene other = random_scene(dice, {.bodies = 3, .friction = 0.5, .restitution = 1});
+    PortableRandom random(9);
+    const ImpulseScene other = random_scene(random, {.bodies = 3, .friction = 0.5, .restitution = 1});
     ImpulseScene both = s;
     for (const ImpulseBody& b : other.bodies) both.bodies.push_back(b);
     for (ImpulseContact c : other.contacts) {
@@ -270,16 +269,16 @@ TEST_P(ResponseLaw, TheSameInputGivesTheSameBytes) {
   // What it remembers, it forgets.
   const auto fresh = GetParam().make();
   response->forget();
-  Dice dice(77);
-  ImpulseScene s = random_scene(dice, {.bodies = 6, .friction = 1}), t = s;
+  PortableRandom random(77);
+  ImpulseScene s = random_scene(random, {.bodies = 6, .friction = 1}), t = s;
   response->resolve(s.bodies, s.contacts, 0.01);
   fresh->resolve(t.bodies, t.contacts, 0.01);
   EXPECT_EQ(difference(s, t), 0);
 }
 
 TEST_P(ResponseLaw, ASteadySceneAllocatesNothing) {
-  Dice dice(11);
-  ImpulseScene s = random_scene(dice, {.bodies = 8, .statics = 0.2, .friction = 1, .restitution = 0.5});
+  PortableRandom random(11);
+  ImpulseScene s = random_scene(random, {.bodies = 8, .statics = 0.2, .friction = 1, .restitution = 0.5});
   for (ImpulseContact& c : s.contacts) c.depth = 0.02;
   ImpulseScene t = s;
   const auto resolve = [&](double step) {

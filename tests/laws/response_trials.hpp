@@ -64,10 +64,10 @@ class ResponseTrial : public testing::TestWithParam<ResponseEntry> {
   }
   static void for_scenes(int count, const SceneKind& kind, const std::function<void(const ImpulseScene&)>& law) {
     for (int k = 0; k < count; ++k) {
-      study::Dice dice{std::uint64_t(1000 + k)};
+      PortableRandom random{std::uint64_t(1000 + k)};
       SceneKind some = kind;
       some.bodies = std::min(kind.bodies, 2 + k % 5);
-      law(random_scene(dice, some));
+      law(random_scene(random, some));
       ASSERT_FALSE(HasFatalFailure()) << "scene " << k << " of " << some.bodies << " bodies";
     }
   }

@@ -106,9 +106,9 @@ struct Stopper final : Observer {
   explicit Stopper(int most_states) : most(most_states) {}
   int most, seen = 0;
   std::atomic<bool> stop{false};
-  std::size_t observe(std::span<const Sample> samples) override { return samples.size(); }
-  void look(const State<double>&, const Sample&) override { stop = ++seen == most; }
-  double next_look() const override { return 0; }
+  std::size_t on_samples(std::span<const Sample> samples) override { return samples.size(); }
+  void on_state(const State<double>&, const Sample&) override { stop = ++seen == most; }
+  double next_state() const override { return 0; }
 };
 
 TEST_P(ScheduleLaw, AnObserverStopsARunWhereItLooks) {

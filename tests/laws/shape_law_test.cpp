@@ -99,13 +99,13 @@ const Sample& sample(const std::string& kind) {
 
 std::vector<std::string> kinds() {
   std::vector<std::string> names;
-  for (const ShapeEntry& e : collision_shape_catalogue()) names.push_back(e.name);
+  for (const ShapeEntry& e : shape_catalogue()) names.push_back(e.name);
   return names;
 }
 
 class ShapeLaw : public testing::TestWithParam<std::string> {
  protected:
-  const ShapeEntry& entry() const { return *find_collision_shape(GetParam()); }
+  const ShapeEntry& entry() const { return *find_shape(GetParam()); }
   const Sample& given() const { return sample(GetParam()); }
   ShapePointer shape() const { return entry().make({given().sizes}); }
 

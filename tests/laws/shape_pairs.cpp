@@ -21,7 +21,6 @@
 namespace polhode::laws {
 namespace {
 
-using study::Dice;
 using Vector = Vector3<double>;
 
 /// Of a height and a radius, its tip on +z.
@@ -50,28 +49,29 @@ class Cone final : public Shape {
   double radius_, height_;
 };
 
-std::shared_ptr<ConvexHull> hull(Dice& dice, double size, const Vector& about = Vector::Zero()) {
+std::shared_ptr<ConvexHull> hull(PortableRandom& random, double size, const Vector& about = Vector::Zero()) {
   std::vector<Vector> points;
-  const int n = 4 + dice.below(30);
-  for (int i = 0; i < n; ++i) points.push_back(about + size * dice.direction());
+  const int n = 4 + random.below(30);
+  for (int i = 0; i < n; ++i) points.push_back(about + size * random.direction());
   return std::make_shared<ConvexHull>(points);
 }
 
-ShapePointer shape(Dice& dice, const std::string& kind, double size) {
-  const Vector s = size * dice.uniform_vector(0.1, 1);
+ShapePointer shape(PortableRandom& random, const std::string& kind, double size) {
+  const Vector s = size * random.uniform_vector(0.1, 1);
   if (kind == "sphere") return std::make_shared<Sphere>(s[0]);
   if (kind == "box") return std::make_shared<Box>(s);
-  if (kind == "capsule") return std::make_shared<Capsule>(s[0], dice.chance(0.1) ? 0 : s[1]);
+  if (kind == "capsule") return std::make_shared<Capsule>(s[0], random.chance(0.1) ? 0 : s[1]);
   if (kind == "cylinder") return std::make_shared<Cylinder>(s[0], s[1]);
   if (kind == "ellipsoid") return std::make_shared<Ellipsoid>(s);
   if (kind == "cone") return std::make_shared<Cone>(s[0], s[1]);
-  if (kind == "convex_hull") return hull(dice, size);
+  if (kind == "convex_hull") return hull(random, size);
   if (kind == "half_space")
-    return std::make_shared<HalfSpace>(dice.chance(0.5) ? dice.direction() : Vector::UnitZ(),
-                                       size * dice.uniform(-1, 1));
+    return std::make_shared<HalfSpace>(random.chance(0.5) ? random.direction() : Vector::UnitZ(),
+                                       size * random.uniform(-1, 1));
   if (kind == "compound") {
     std::vector<Compound::Part> parts;
-    for (int i = dice.below(3); i >= 0; --i) parts.push_back(hull(dice, 0.6 * size, 0.4 * size * dice.direction()));
+    for (int i = random.below(3); i >= 0; --i)
+      parts.push_back(hull(random, 0.6 * size, 0.4 * size * random.direction()));
     return std::make_shared<Compound>(parts);
   }
   throw std::logic_error("give shape() in shape_pairs.cpp a line for " + kind);
@@ -82,9 +82,9 @@ double off_convex_surface(const Shape& shape, const Pose& at, const Vector& x, c
     return d.dot(at.to_world(shape.support(at.rotation.transpose() * d)) - x);
   };
   double off = std::abs(height(out));
-  Dice dice(1);
+  PortableRandom random(1);
   for (int k = 0; k < 60; ++k)
-    off = std::max(off, -height(k < 6 ? Vector((k % 2 ? -1 : 1) * Vector::Unit(k / 2)) : dice.direction()));
+    off = std::max(off, -height(k < 6 ? Vector((k % 2 ? -1 : 1) * Vector::Unit(k / 2)) : random.direction()));
   return off;
 }
 
@@ -93,7 +93,7 @@ double off_convex_surface(const Shape& shape, const Pose& at, const Vector& x, c
 const std::vector<std::string>& shape_kinds() {
   static const std::vector<std::string> kinds = [] {
     std::vector<std::string> names;
-    for (const ShapeEntry& entry : collision_shape_catalogue()) names.push_back(entry.name);
+    for (const ShapeEntry& entry : shape_catalogue()) names.push_back(entry.name);
     names.push_back("cone");
     return names;
   }();
@@ -101,31 +101,32 @@ const std::vector<std::string>& shape_kinds() {
 }
 
 ShapePair shape_pair(const std::string& kind_a, const std::string& kind_b, std::uint64_t seed) {
-  Dice dice(seed);
-  const double ratio = dice.chance(0.5) ? 1 : dice.power_of_ten(-2, 0), size = dice.power_of_ten(-2, 2);
-  const bool first = dice.chance(0.5);
+  PortableRandom random(seed);
+  const double ratio = random.chance(0.5) ? 1 : random.power_of_ten(-2, 0), size = random.power_of_ten(-2, 2);
+  const bool first = random.chance(0.5);
   const double size_a = size * (first ? 1 : ratio), size_b = size * (first ? ratio : 1);
-  ShapePair pair{kind_a, kind_b, seed,        shape(dice, kind_a, size_a), shape(dice, kind_b, size_b), {},
+  ShapePair pair{kind_a, kind_b, seed,        shape(random, kind_a, size_a), shape(random, kind_b, size_b), {},
                  {},     0,      size * ratio};
   const auto either = [&](const char* kind) { return kind_a == kind || kind_b == kind; };
   pair.round = either("cylinder") || either("ellipsoid") || either("cone");
   pair.convex = !either("compound");
   pair.finite = !either("half_space");
-  if (dice.chance(0.7)) pair.at_a = {size * dice.uniform(0, 2) * dice.direction(), dice.rotation()};
+  if (random.chance(0.7)) pair.at_a = {size * random.uniform(0, 2) * random.direction(), random.rotation()};
   pair.at_b = pair.at_a;
-  if (dice.chance(0.6)) pair.at_b.rotation = dice.rotation();
-  const int placing = dice.below(6);
+  if (random.chance(0.6)) pair.at_b.rotation = random.rotation();
+  const int placing = random.below(6);
   if (placing > 0 && pair.finite) {
     // Where the shadows on a line touch, then a gap of any size from there.
-    const Vector along = dice.chance(0.5) ? dice.direction() : Vector(pair.at_a.rotation.col(dice.below(3)));
+    const Vector along = random.chance(0.5) ? random.direction() : Vector(pair.at_a.rotation.col(random.below(3)));
     const auto reach = [&](const Shape& s, const Pose& at, const Vector& d) {
       return d.dot(at.rotation * s.support(at.rotation.transpose() * d));
     };
     const double touching = reach(*pair.a, pair.at_a, along) + reach(*pair.b, pair.at_b, -along);
-    const double gap = dice.chance(0.1) ? 0 : (dice.chance(0.5) ? 1 : -1) * size * ratio * dice.power_of_ten(-16, 0);
-    pair.at_b.position += (placing < 3 ? touching + gap : dice.uniform(0, 1.3) * touching) * along;
+    const double gap =
+        random.chance(0.1) ? 0 : (random.chance(0.5) ? 1 : -1) * size * ratio * random.power_of_ten(-16, 0);
+    pair.at_b.position += (placing < 3 ? touching + gap : random.uniform(0, 1.3) * touching) * along;
   } else if (placing > 0) {
-    pair.at_b.position += size * dice.uniform(0, 3) * dice.direction();
+    pair.at_b.position += size * random.uniform(0, 3) * random.direction();
   }
   pair.scale = size_a + size_b + pair.at_a.position.norm() + pair.at_b.position.norm();
   return pair;

@@ -26,7 +26,7 @@ RunResult run_of(const Scenario& scenario, double dt, std::optional<ContactConfi
 }
 
 TEST(Recipes, StandInTheCatalogues) {
-  EXPECT_TRUE(find_collision_shape("cone"));
+  EXPECT_TRUE(find_shape("cone"));
   EXPECT_TRUE(find_force("coulomb"));
 }
 

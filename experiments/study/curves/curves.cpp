@@ -11,12 +11,13 @@
 #include <set>
 #include <tuple>
 
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/scenario/motion_size.hpp"
 #include "experiments/study/statistics/order_estimate.hpp"
 #include "experiments/study/text/notation.hpp"
 #include "integrators/catalogue.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline curves {
 
 namespace {
 
@@ -36,30 +37,28 @@ std::vector<std::string> methods_of(const std::vector<RunRecord>& runs) {
   return found;
 }
 
-/// Which texts occur in the study for an option: it is worth naming where there are several.
-class Options {
+/// The variant of a run: its options that differ between the runs of the study.
+class Variants {
  public:
-  using Describe = std::string (*)(const RunConfig&);
-
-  Options(const std::vector<RunRecord>& runs, std::vector<Describe> all) {
-    for (const auto describe : all) {
-      const bool varies = std::any_of(runs.begin(), runs.end(), [&](const auto& run) {
-        return describe(run.config) != describe(runs.front().config);
+  explicit Variants(const std::vector<RunRecord>& runs) {
+    for (const RunOption* option : options_of_role(RunOption::Role::variant)) {
+      const bool varies = std::any_of(runs.begin(), runs.end(), [&](const RunRecord& run) {
+        return label_of(*option, run.config) != label_of(*option, runs.front().config);
       });
-      if (varies) varying_.push_back(describe);
+      if (varies) varying_.push_back(option);
     }
   }
 
   std::vector<std::string> describe(const RunConfig& config) const {
     std::vector<std::string> texts;
-    for (const auto describe_one : varying_) {
-      if (auto text = describe_one(config); !text.empty()) texts.push_back(std::move(text));
+    for (const RunOption* option : varying_) {
+      if (auto text = label_of(*option, config); !text.empty()) texts.push_back(std::move(text));
     }
     return texts;
   }
 
  private:
-  std::vector<Describe> varying_;
+  std::vector<const RunOption*> varying_;
 };
 
 /// How long, and seen how often, of scenarios whose runs differ in that. Scenarios of different length need no telling
@@ -86,23 +85,6 @@ class Durations {
   std::map<std::string, std::set<double>> ends_;
   std::map<std::string, std::set<std::optional<std::int64_t>>> samples_;
 };
-
-Options variant_options(const std::vector<RunRecord>& runs) {
-  return {
-      runs,
-      {[](const RunConfig& c) { return std::string(name(c.formulation.orientation)); },
-       [](const RunConfig& c) { return std::string(name(c.formulation.angular_state)); },
-       [](const RunConfig& c) { return fmt::format("gyroscopic {}", c.formulation.gyroscopic ? "on" : "off"); },
-       [](const RunConfig& c) { return fmt::format("normalize {}", c.normalise ? "step" : "never"); },
-       [](const RunConfig& c) { return fmt::format("rotation {}", name(c.formulation.rotation_from)); },
-       [](const RunConfig& c) { return std::string(name(c.precision)); },
-       [](const RunConfig& c) { return c.contact ? c.contact->broad_phase : std::string(); },
-       [](const RunConfig& c) { return c.contact ? c.contact->narrow_phase : std::string(); },
-       [](const RunConfig& c) { return c.contact ? c.contact->response : std::string(); },
-       [](const RunConfig& c) { return c.contact ? c.contact->impact_timing : std::string(); },
-       [](const RunConfig& c) { return c.order.value_or(0) > 0 ? fmt::format("order {}", *c.order) : std::string(); },
-       [](const RunConfig& c) { return c.summation ? std::string(name(*c.summation)) : std::string(); }}};
-}
 
 Case case_of(const RunConfig& config, const Durations& durations) {
   Case found{.scenario = config.scenario, .details = {}};
@@ -154,7 +136,7 @@ Grouping group(const StudyView& study) {
   std::map<std::tuple<std::size_t, std::size_t, std::size_t, bool>, std::size_t> curves;
   std::vector<double> sizes;  // m, of the motions of the cases
   const Durations durations(study);
-  const auto formulations = variant_options(study.runs);
+  const Variants options(study.runs);
 
   for (const auto& run : study.runs) {
     Case motion = case_of(run.config, durations);
@@ -165,7 +147,7 @@ Grouping group(const StudyView& study) {
                                    : std::numeric_limits<double>::infinity());
     }
 
-    const auto variant = joined(formulations.describe(run.config));
+    const auto variant = joined(options.describe(run.config));
     const auto [variant_index, new_variant] = index_of(variants, variant);
     if (new_variant) grouping.variants.push_back(variant);
 

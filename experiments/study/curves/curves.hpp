@@ -13,7 +13,7 @@
 
 #include "experiments/study/record/study_view.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline curves {
 
 struct Case {
   std::string scenario;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/curves/declared_order.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline curves {
 namespace {
 
 bool torque_acts(const Scenario& scenario) {

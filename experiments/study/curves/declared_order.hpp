@@ -7,7 +7,7 @@
 #include "core/run/integrator.hpp"
 #include "experiments/study/record/run_record.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline curves {
 
 /// Its free order, where it declares one, for bodies without forces, and for their attitude without torques; otherwise
 /// the order under forces. Absent: it is exact.

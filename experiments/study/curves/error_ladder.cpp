@@ -8,7 +8,7 @@
 
 #include "experiments/study/curves/reference_words.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline curves {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();

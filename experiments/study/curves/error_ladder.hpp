@@ -13,7 +13,7 @@
 #include "experiments/study/curves/curves.hpp"
 #include "experiments/study/statistics/order_estimate.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline curves {
 
 /// The errors of its runs against their steps or tolerances, without refused ones; infinite where it is too large for
 /// a fit or the run did not end. An error that a reference proves no digit of has an infinite round-off.

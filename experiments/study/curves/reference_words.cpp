@@ -9,7 +9,7 @@
 
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline curves {
 namespace {
 
 /// Over the runs of a scenario.

@@ -7,7 +7,7 @@
 
 #include "experiments/study/record/study_view.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline curves {
 
 /// True if a reference was used for this run, proven or not.
 bool used_reference(const RunRecord& run);

@@ -8,7 +8,7 @@
 
 #include "experiments/study/curves/curves.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline curves {
 
 /// The curves of one panel.
 struct Block {

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-namespace polhode::study {
+namespace polhode::study::inline metrics {
 namespace {
 
-constexpr std::int64_t instants = 1000, between_depths = 10;
-constexpr double settled_at = 2;  // s
-constexpr double left = 0.1;      // of its radius: so far from where it was at the start a body has left its place
+constexpr std::int64_t depth_instants = 1000, between_depths = 10;
+constexpr double settled_at = 2;  // time from which displacements are measured, s
+constexpr double left = 0.1;  // displacement from the start, over the body's radius, beyond which it has left its place
 
 void raise(std::optional<double>& worst, double now) {
   if (std::isfinite(now) && !(worst && *worst >= now)) worst = now;
@@ -18,45 +18,44 @@ void raise(std::optional<double>& worst, double now) {
 }  // namespace
 
 ContactMeter::ContactMeter(const System<double>& system, const Scenario& scenario, const ContactConfig& config,
-                           double t_end, Observer& next)
+                           double t_end)
     : system_(system),
-      next_(next),
       scene_(scenario.problem, scenario.colliders, config.broad_phase, config.narrow_phase),
       t_end_(t_end) {}
 
-std::size_t ContactMeter::observe(std::span<const Sample> samples) {
+void ContactMeter::on_start(const State<double>& state, const Sample& sample) {
+  energy_start_ = energy_least_ = sample.seen.energy() - sample.work;
+  on_state(state, sample);
+}
+
+std::size_t ContactMeter::on_samples(std::span<const Sample> samples) {
   for (const Sample& sample : samples) {
     const double energy = sample.seen.energy() - sample.work;
-    if (first_) energy_start_ = energy_least_ = energy;
-    first_ = false;
     energy_least_ = std::min(energy_least_, energy);
     raise(found_.energy_rise_max, energy - energy_least_);
     raise(found_.energy_change_max, std::abs(energy - energy_start_));
   }
-  return next_.observe(samples);
+  return samples.size();
 }
 
-void ContactMeter::meet(std::span<const Impact> impacts) {
+void ContactMeter::on_impacts(std::span<const Impact> impacts) {
   if (!found_.first_impact && !impacts.empty()) found_.first_impact = impacts.front().t;
-  next_.meet(impacts);
 }
 
-void ContactMeter::account(const ContactLosses& losses) {
+void ContactMeter::on_contact_energy(const ContactLosses& losses) {
   found_.impact_loss = losses.impact;
   found_.friction_loss = losses.friction;
   found_.penetration_energy = losses.penetration;
-  next_.account(losses);
 }
 
-double ContactMeter::next_look() const {
-  // A little early, so that a sample at the very instant counts, however its time was rounded.
+double ContactMeter::next_state() const {
+  // Slightly early, so that a sample at the instant itself counts in spite of the rounding of its time.
   constexpr double early = 1 - 1e-12;
-  return std::min(early * t_end_ * static_cast<double>(instant_) / instants, next_.next_look());
+  return early * t_end_ * static_cast<double>(instant_) / depth_instants;
 }
 
-void ContactMeter::look(const State<double>& state, const Sample& sample) {
-  if (state.t == 0 || sample.t >= next_.next_look()) next_.look(state, sample);
-  const auto reached = static_cast<std::int64_t>(std::floor((1 + 1e-12) * state.t / t_end_ * instants));
+void ContactMeter::on_state(const State<double>& state, const Sample&) {
+  const auto reached = static_cast<std::int64_t>(std::floor((1 + 1e-12) * state.t / t_end_ * depth_instants));
   if (reached < instant_) return;
   shape_poses(system_, state.y, poses_);
   measure_places(state);

@@ -9,21 +9,21 @@
 #include "core/run/simulate.hpp"
 #include "experiments/study/record/run_record.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline metrics {
 
 /// An observer that hands everything on to the next one. Places are looked at at 1000 instants spread evenly over the
 /// run (the first sample at or after each) and at its end, depths at every tenth of them, since they cost as much as
 /// finding contacts.
 class ContactMeter final : public Observer {
  public:
-  ContactMeter(const System<double>& system, const Scenario& scenario, const ContactConfig& config, double t_end,
-               Observer& next);
+  ContactMeter(const System<double>& system, const Scenario& scenario, const ContactConfig& config, double t_end);
 
-  std::size_t observe(std::span<const Sample> samples) override;
-  void look(const State<double>& state, const Sample& sample) override;
-  void meet(std::span<const Impact> impacts) override;
-  void account(const ContactLosses& losses) override;
-  double next_look() const override;
+  void on_start(const State<double>& state, const Sample& sample) override;
+  std::size_t on_samples(std::span<const Sample> samples) override;
+  void on_state(const State<double>& state, const Sample& sample) override;
+  void on_impacts(std::span<const Impact> impacts) override;
+  void on_contact_energy(const ContactLosses& losses) override;
+  double next_state() const override;
 
   /// Fills the part of the result that is about contact.
   void report(RunResult& result) const;
@@ -33,12 +33,10 @@ class ContactMeter final : public Observer {
   void measure_places(const State<double>& state);
 
   const System<double>& system_;
-  Observer& next_;
-  ContactScene scene_;  ///< its own: what pairs remember in the run's is left alone
+  ContactScene scene_;  ///< separate from that of the run, whose data cached by pair stay unchanged
   double t_end_;
   std::int64_t instant_ = 0;  ///< the next one
   ContactMeasures found_;
-  bool first_ = true;
   double energy_start_ = 0, energy_least_ = 0;  ///< J
   std::vector<Pose> poses_, started_, settled_;
 };

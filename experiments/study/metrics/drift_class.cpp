@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-namespace polhode::study {
+namespace polhode::study::inline metrics {
 namespace {
 
 constexpr double clear_of_round_off = 4;  // times round-off: growth is claimed from here on

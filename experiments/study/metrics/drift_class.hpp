@@ -28,7 +28,7 @@
 
 #include "experiments/study/statistics/drift_growth.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline metrics {
 
 struct DriftRecord {
   std::vector<BlockMean> blocks;  ///< J

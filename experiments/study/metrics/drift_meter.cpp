@@ -7,7 +7,7 @@
 
 #include "experiments/study/metrics/drift_class.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline metrics {
 namespace {
 
 constexpr int exact_instants = 50;
@@ -87,9 +87,8 @@ DriftMeter::DriftMeter(const System<double>& system, const std::vector<std::stri
   for (const std::string& name : invariants) invariants_.push_back({find_invariant(name)});
 }
 
-void DriftMeter::start(const State<double>& state, const Sample& sample) {
+void DriftMeter::on_start(const State<double>& state, const Sample& sample) {
   const Measurement<double>& m = sample.seen;
-  started_ = true;
   energy_start_ = sample.ledger(0);
   linear_start_ = m.linear_momentum;
   angular_start_ = m.angular_momentum;
@@ -97,9 +96,10 @@ void DriftMeter::start(const State<double>& state, const Sample& sample) {
     const BodySnapshot<double> body = system_.snapshot(state.y, 0);
     w.start = w.kind->value(system_.problem(), body);
   }
+  on_state(state, sample);
 }
 
-std::size_t DriftMeter::observe(std::span<const Sample> samples) {
+std::size_t DriftMeter::on_samples(std::span<const Sample> samples) {
   const double bound = scales_.energy > 0 ? hopeless_drift * scales_.energy : std::numeric_limits<double>::max();
   const double per_t_end = 1 / t_end_, energy_start = energy_start_;
   const ConservedMomenta conserved = conserved_;
@@ -136,13 +136,12 @@ std::size_t DriftMeter::observe(std::span<const Sample> samples) {
   return taken;
 }
 
-double DriftMeter::next_look() const {
+double DriftMeter::next_state() const {
   if (!invariants_.empty() || (has_exact_ && exact_at_samples_)) return 0;
   return has_exact_ ? next_exact_ : std::numeric_limits<double>::infinity();
 }
 
-void DriftMeter::look(const State<double>& state, const Sample& sample) {
-  if (!started_) start(state, sample);
+void DriftMeter::on_state(const State<double>& state, const Sample&) {
   if (!invariants_.empty()) measure_further(state);
   if (!has_exact_ || (!exact_at_samples_ && state.t < next_exact_)) return;
   measure_errors(state);
@@ -244,8 +243,8 @@ void DriftMeter::judge_by_reference(RunResult& result) const {
         result.angular_velocity_reference_rel);
 }
 
-void DriftMeter::meet(std::span<const Impact> impacts) {
-  constexpr double apart = 1e-3;  // of the run: less than a block
+void DriftMeter::on_impacts(std::span<const Impact> impacts) {
+  constexpr double apart = 1e-3;  // least distance of impacts that are kept, over t_end; shorter than a block
   for (const Impact& impact : impacts) {
     if (impacts_.empty() || impact.t > impacts_.back() + apart * t_end_) impacts_.push_back(impact.t);
   }

@@ -19,7 +19,7 @@
 #include "experiments/study/record/run_record.hpp"
 #include "experiments/study/statistics/drift_growth.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline metrics {
 
 /// The history of a run in a fixed number of stretches, however long it is: when all are in use, neighbours merge.
 class ThinnedSeries {
@@ -48,11 +48,12 @@ class DriftMeter final : public Observer {
   DriftMeter(const System<double>& system, const std::vector<std::string>& invariants, double t_end,
              bool exact_at_samples, TrueMotion motion, Precision precision = Precision::dual);
 
-  std::size_t observe(std::span<const Sample> samples) override;
-  void look(const State<double>& state, const Sample& sample) override;
-  double next_look() const override;
-  void account(const ContactLosses& losses) override { lost_in_contact_ = losses.total(); }
-  void meet(std::span<const Impact> impacts) override;
+  void on_start(const State<double>& state, const Sample& sample) override;
+  std::size_t on_samples(std::span<const Sample> samples) override;
+  void on_state(const State<double>& state, const Sample& sample) override;
+  double next_state() const override;
+  void on_contact_energy(const ContactLosses& losses) override { lost_in_contact_ = losses.total(); }
+  void on_impacts(std::span<const Impact> impacts) override;
 
   /// J, against which energy drifts are told; 0: against none.
   double energy_scale() const { return scales_.energy; }
@@ -62,7 +63,6 @@ class DriftMeter final : public Observer {
   void report(RunResult& result);
 
  private:
-  void start(const State<double>& state, const Sample& sample);
   void measure_further(const State<double>& state);
   void measure_errors(const State<double>& state);
   static void forget_errors(RunResult& result);
@@ -82,8 +82,7 @@ class DriftMeter final : public Observer {
   ExactMotion exact_;
   std::shared_ptr<const ReferenceMotion> reference_;
   std::optional<ReferenceMotion::Follower> follower_;
-  bool has_exact_;  ///< or a reference
-  bool started_ = false;
+  bool has_exact_;  ///< an exact solution, at least in part, or a reference is known
 
   MotionScales scales_;
   Precision precision_;

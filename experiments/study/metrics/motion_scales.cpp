@@ -15,7 +15,7 @@
 #include "experiments/study/scenario/narrow_phase_choice.hpp"
 #include "experiments/study/setup/run_setup.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline metrics {
 namespace {
 
 /// Takes states of the true motion and keeps the largest of everything.
@@ -41,9 +41,9 @@ class LargestScales final : public Observer {
     }
   }
 
-  std::size_t observe(std::span<const Sample> samples) override { return samples.size(); }
-  double next_look() const override { return 0; }
-  void look(const State<double>& state, const Sample& sample) override { take(state, sample.seen); }
+  std::size_t on_samples(std::span<const Sample> samples) override { return samples.size(); }
+  double next_state() const override { return 0; }
+  void on_state(const State<double>& state, const Sample& sample) override { take(state, sample.seen); }
 
   /// J: the kinetic energy or the change of the potential energy.
   double take(const State<double>& state, const Measurement<double>& seen) {
@@ -147,7 +147,7 @@ State<double> exact_state(const ExactMotion& exact, const System<double>& system
 
 MotionScales along_exact(const Scenario& scenario, const System<double>& system, const ExactMotion& exact,
                          double t_end) {
-  constexpr int instants = 64, bits = 26;
+  constexpr int samples = 64, bits = 26;
   LargestScales largest(system, scenario.invariants);
   const auto take = [&](double t) {
     const State<double> state = exact_state(exact, system, t);
@@ -155,12 +155,12 @@ MotionScales along_exact(const Scenario& scenario, const System<double>& system,
   };
   take(0);
   double best = t_end, most = take(t_end);
-  // By the golden ratio, so that no period of the motion falls in with the instants.
-  for (int k = 1; k <= instants; ++k) {
+  // Instants by the golden ratio, which do not coincide with any period of the motion.
+  for (int k = 1; k <= samples; ++k) {
     const double place = k / std::numbers::phi, t = t_end * (place - std::floor(place)), energy = take(t);
     if (energy > most) best = t, most = energy;
   }
-  const double from = std::max(best - t_end / instants, 0.0), to = std::min(best + t_end / instants, t_end);
+  const double from = std::max(best - t_end / samples, 0.0), to = std::min(best + t_end / samples, t_end);
   boost::math::tools::brent_find_minima([&](double t) { return -take(t); }, from, to, bits);
   return largest.found();
 }

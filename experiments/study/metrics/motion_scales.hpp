@@ -12,7 +12,7 @@
 #include "core/system/system.hpp"
 #include "experiments/study/record/run_record.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline metrics {
 
 /// The drift, over its scale, beyond which a run is called off as diverged.
 inline constexpr double hopeless_drift = 1e6;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace polhode::study {
+namespace polhode::study::inline metrics {
 
 std::optional<PolhodeError> PolhodeError::of(const System<double>& system) {
   const auto& forces = system.forces();

@@ -14,7 +14,7 @@
 #include "core/exact/free_top.hpp"
 #include "core/system/system.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline metrics {
 
 class PolhodeError {
  public:

@@ -3,7 +3,7 @@
 
 #include "core/exact/exact_motion.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline metrics {
 
 References::Key References::key(const RunConfig& config, const Scenario& scenario) {
   return {scenario.canonical, config.t_end};

@@ -17,7 +17,7 @@
 #include "experiments/study/metrics/motion_scales.hpp"
 #include "experiments/study/record/run_record.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline metrics {
 
 struct TrueMotion {
   MotionScales scales;

@@ -10,7 +10,7 @@
 
 #include "experiments/study/record/study_view.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline plan {
 
 /// A further product of axes: what it runs that differs from the first one's defaults. An option that the user gives
 /// holds for all of them.

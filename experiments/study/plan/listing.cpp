@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "collision/broad_phase.hpp"
 #include "collision/contact/impact_timing.hpp"
 #include "collision/narrow_phase.hpp"
 #include "collision/shapes/shape_catalogue.hpp"
-#include "collision/shapes/shape_inertia.hpp"
 #include "core/forces/catalogue.hpp"
 #include "core/system/invariants.hpp"
 #include "experiments/study/scenario/builtin_scenarios.hpp"
@@ -18,7 +21,7 @@
 #include "experiments/study/text/suggestion.hpp"
 #include "integrators/catalogue.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline plan {
 namespace {
 
 constexpr std::size_t name_width = 30;  // of the longest name
@@ -64,9 +67,8 @@ std::string forces() {
 
 std::string shapes() {
   std::string text;
-  for (const ShapeEntry& s : collision_shape_catalogue()) {
-    const ShapeKind* core = find_shape(s.name);
-    text += line(s.name, (core ? core->summary : s.summary) + "; keys: " + keys(s.parameters));
+  for (const ShapeEntry& s : shape_catalogue()) {
+    text += line(s.name, (s.moments ? s.moments_formula : s.summary) + "; keys: " + keys(s.parameters));
   }
   return text;
 }
@@ -101,61 +103,45 @@ std::string impact_timings() {
   return text;
 }
 
-std::string metrics() {
-  return line("energy_drift_*",
-              "ledger: kinetic + potential - work of non-conservative forces + energy lost in contact - energy "
-              "injected by projection") +
-         line("linear_momentum_*", "|P - P0| over |P0|, where the forces conserve it") +
-         line("angular_momentum_*",
-              "|L - L0| over |L0|: one body about its mass centre or pivot, several about the origin") +
-         line("<invariant>_*", "each further invariant that a scenario declares, over its scale") +
-         line("orientation_defect_max", "| |q| - 1 |, or the Frobenius norm of R^T R - 1") +
-         line("position_error_max_m",
-              "distance from the exact mass centre, or with --reference from a proven reference") +
-         line("attitude_error_max_rad", "angle between the attitude and the exact one") +
-         line("angular_velocity_error_*", "|w - w exact| over |w0|") +
-         line("polhode_phase_error_*",
-              "of one free body: how far its momentum is ahead along the exact polhode, s and rad") +
-         line("polhode_off_error_*", "and its distance from that polhode, over |L|") +
-         line("energy_drift_rate_*", "least-squares slope of the drift, and half its 95 % confidence interval") +
-         line("first_impact_s", "with contact: when the first impact was, and") +
-         line("impact_loss_J ...",
-              "what the ledger has lost to impacts and friction, and what undoing penetration put in") +
-         line("energy_rise_max_J", "largest rise of kinetic + potential - work above an earlier value") +
-         line("energy_change_max_J", "its largest distance from that at the start") +
-         line("penetration_max_m, _end_m", "how deep two bodies were in each other at most, and at the end") +
-         line("displacement_after_2s_max_m", "of a mass centre from where it was after 2 s") +
-         line("left_place_s", "when one was a tenth of its body's radius away from where it started") +
-         line("drift_exponent*", "p of |drift| ~ t^p, oscillations set aside, and its 95 % confidence interval") +
-         line("drift_class",
-              "by that exponent: bounded, random walk or sublinear, linear, quadratic, faster; round-off,") +
-         line("", "saturated, jumps (at impacts alone), undecided, with") +
-         line("drift_decided_after_s", "the duration that would decide it, by estimate");
+std::string metrics_text(std::span<const Metric> table) {
+  std::vector<const Metric*> listed;
+  for (const Metric& metric : table) {
+    if (!metric.meaning.empty()) listed.push_back(&metric);
+  }
+  std::stable_sort(listed.begin(), listed.end(),
+                   [](const Metric* a, const Metric* b) { return a->list_rank < b->list_rank; });
+  std::string text;
+  for (const Metric* metric : listed) {
+    std::string name = metric->listed_as.empty() ? metric->column : metric->listed_as;
+    for (std::size_t at = 0; at != std::string::npos;) {
+      const std::size_t end = metric->meaning.find('\n', at);
+      text += line(name, metric->meaning.substr(at, end - at));
+      name.clear();
+      at = end == std::string::npos ? end : end + 1;
+    }
+  }
+  return text;
 }
-
-struct Section {
-  const char* name;
-  std::string (*text)();
-};
-constexpr Section sections[] = {{"integrators", integrators},
-                                {"scenarios", scenarios},
-                                {"forces", forces},
-                                {"shapes", shapes},
-                                {"invariants", invariants},
-                                {"metrics", metrics},
-                                {"broad-phases", broad_phases},
-                                {"narrow-phases", narrow_phases},
-                                {"responses", responses},
-                                {"impact-timings", impact_timings}};
 
 }  // namespace
 
-std::string listing(const std::string& what) {
+std::string listing(const std::string& what, std::span<const Metric> metrics) {
+  const std::pair<const char*, std::function<std::string()>> sections[] = {
+      {"integrators", integrators},
+      {"scenarios", scenarios},
+      {"forces", forces},
+      {"shapes", shapes},
+      {"invariants", invariants},
+      {"metrics", [&] { return metrics_text(metrics); }},
+      {"broad-phases", broad_phases},
+      {"narrow-phases", narrow_phases},
+      {"responses", responses},
+      {"impact-timings", impact_timings}};
   std::string text;
   std::vector<std::string_view> known;
-  for (const Section& s : sections) {
-    known.emplace_back(s.name);
-    if (what.empty() || what == s.name) text += (what.empty() ? std::string(s.name) + "\n" : "") + s.text();
+  for (const auto& [name, section] : sections) {
+    known.emplace_back(name);
+    if (what.empty() || what == name) text += (what.empty() ? std::string(name) + "\n" : "") + section();
   }
   if (text.empty()) throw InputError("--list: no catalogue '" + what + "'" + suggestion(what, "There are", known));
   return text;

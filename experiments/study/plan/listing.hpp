@@ -2,11 +2,15 @@
 // --list: the catalogues, one line of physics or mathematics per entry.
 #pragma once
 
+#include <span>
 #include <string>
 
-namespace polhode::study {
+#include "experiments/study/record/metric_table.hpp"
 
-/// `what` as --list takes it, "" for everything. Throws InputError on an unknown word.
-std::string listing(const std::string& what);
+namespace polhode::study::inline plan {
 
-}  // namespace polhode::study
+/// The text of a catalogue; `what` is an argument of --list, "" for all catalogues. Throws InputError for an unknown
+/// catalogue.
+std::string listing(const std::string& what, std::span<const Metric> metrics = metric_table());
+
+}  // namespace polhode::study::plan

@@ -3,52 +3,16 @@
 
 #include <CLI/CLI.hpp>
 
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/text/command_line.hpp"
 #include "experiments/study/text/input_error.hpp"
 
-namespace polhode::study {
-namespace {
+namespace polhode::study::inline plan {
 
-struct AxisHelp {
-  const char* name;
-  const char* values;
-  const char* meaning;
-};
-// The order is that of axis_names().
-constexpr AxisHelp axis_help[] = {
-    {"scenario", "NAME|FILE", "scenario, built in or a TOML file (see --list scenarios)"},
-    {"integrator", "NAME", "method, or all (see --list integrators)"},
-    {"orientation", "quaternion|matrix", "chart of the orientation (default: quaternion)"},
-    {"angular-state", "velocity_world|velocity_body|momentum_world",
-     "what stands for the rotation in the state (default: velocity_world)"},
-    {"gyroscopic", "on|off", "the term w x Iw, which both source documents leave out (default: on)"},
-    {"normalize", "never|step", "project the orientation after each step (default: never)"},
-    {"rotation-from", "normalised|stored", "what a quaternion off the unit sphere stands for (default: normalised)"},
-    {"precision", "float|double|long_double",
-     "arithmetic; other than double for our own methods and Odeint's (default: double)"},
-    {"summation", "plain|compensated",
-     "how increments are added to the state; compensated: what rounding loses is kept and added to the next one "
-     "(default: plain)"},
-    {"order", "N", "of methods that offer several, as --list integrators says"},
-    {"dt", "S", "step of fixed-step methods, in s"},
-    {"tolerance", "X", "relative and absolute tolerance of adaptive methods"},
-    {"t-end", "S", "duration in s (default: the scenario's)"},
-    {"samples", "N", "measure at k t_end/N only (default: after every step)"},
-    {"broad-phase", "NAME", "broad phase of scenarios with contact, a list or all (default: sweep_and_prune)"},
-    {"narrow-phase", "NAME", "narrow phase of them (default: sat, or gjk where shapes have no separating axes)"},
-    {"response", "NAME", "contact response (default: sequential_impulses)"},
-    {"impact-timing", "NAME", "when impacts are answered (default: time_stepping)"},
-};
-
-}  // namespace
-
-const std::vector<std::string>& axis_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const AxisHelp& axis : axis_help) all.emplace_back(axis.name);
-    return all;
-  }();
-  return names;
+std::vector<std::string> axis_names() {
+  std::vector<std::string> all;
+  for (const RunOption& option : run_options()) all.push_back(option.name);
+  return all;
 }
 
 ParsedOptions parse_options(const Experiment& experiment, int argc, const char* const* argv,
@@ -62,13 +26,12 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
                experiment.name};
   app.get_formatter()->column_width(40);
   std::map<std::string, std::string> given;
-  for (const AxisHelp& axis : axis_help) {
-    std::string meaning = axis.meaning;
+  for (const RunOption& axis : run_options()) {
+    std::string meaning = axis.help;
     const auto preset = experiment.defaults.find(axis.name);
     if (preset != experiment.defaults.end()) meaning += " (default: " + preset->second + ")";
     app.add_option_function<std::string>(
-           std::string("--") + axis.name, [&given, name = axis.name](const std::string& text) { given[name] = text; },
-           meaning)
+           "--" + axis.name, [&given, name = axis.name](const std::string& text) { given[name] = text; }, meaning)
         ->type_name(axis.values)
         ->group("Axes");
   }
@@ -158,4 +121,4 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   return parsed;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::plan

@@ -18,7 +18,7 @@ namespace CLI {
 class App;
 }
 
-namespace polhode::study {
+namespace polhode::study::inline plan {
 
 struct Options {
   /// By option name without dashes, as written: {"dt", "1e-3,1e-2"}; defaults filled in.
@@ -60,7 +60,7 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
 /// Keys: those of the options, without dashes; `vary` is a table from scenario keys to lists.
 void read_study_file(const std::string& path, Options& options);
 
-/// The names of the axes that options take, in the order in which they are varied, the slowest first.
-const std::vector<std::string>& axis_names();
+/// Names of all axes, in the order in which they are varied (slowest first).
+std::vector<std::string> axis_names();
 
 }  // namespace polhode::study

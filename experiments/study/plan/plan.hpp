@@ -10,7 +10,7 @@
 #include "experiments/study/plan/options.hpp"
 #include "experiments/study/record/run_record.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline plan {
 
 struct PlannedRun {
   std::string id;
@@ -39,8 +39,4 @@ Plan make_plan(const Experiment& experiment, const Options& options);
 /// values of one of its runs. Returns how many there were. The plan's identity stays what it was.
 std::size_t widen(Plan& plan, const std::vector<RunConfig>& configs);
 
-/// The configuration of a run as the cells of runs.csv, in the order of config_columns().
-std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys, const NamedOptions& named);
-std::vector<std::string> config_cells(const RunConfig& config);
-
-}  // namespace polhode::study
+}  // namespace polhode::study::plan

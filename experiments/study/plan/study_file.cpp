@@ -9,7 +9,7 @@
 #include "experiments/study/text/toml_value.hpp"
 #include "experiments/study/text/value_lists.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline plan {
 namespace {
 
 using Type = TomlValue::Type;
@@ -72,7 +72,7 @@ TomlValue read_tree(const std::string& path) {
 
 void read_study_file(const std::string& path, Options& options) {
   const TomlValue file = read_tree(path);
-  const auto& names = axis_names();
+  const std::vector<std::string> names = axis_names();
   for (const auto& [key, key_place, value] : file.entries) {
     const std::string where = place(path, value.place) + key + ": ";
     if (key == "vary") {

@@ -10,7 +10,7 @@
 
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline plot {
 
 namespace {
 
@@ -35,7 +35,7 @@ std::vector<Tick> short_log_ticks(double low, double high) {
     for (const int m : {1, 2, 5}) {
       // m / 10^-e is the double that the text "2e-4" reads as; m * 10^e is not.
       const double at = e < 0 ? m / decade(-e) : m * decade(e);
-      if (at >= low && at <= high) ticks.push_back({at, exact(at)});
+      if (at >= low && at <= high) ticks.push_back({at, exact_number(at)});
     }
   }
   if (ticks.empty()) ticks.push_back({low, number(low)});

@@ -12,18 +12,15 @@
 
 #include "experiments/study/plot/gnuplot_figure.hpp"
 #include "experiments/study/plot/pgfplots_figure.hpp"
-#include "experiments/study/record/study_view.hpp"
-#include "experiments/study/report/figures/study_figures.hpp"
 #include "experiments/study/text/child_process.hpp"
 #include "experiments/study/text/notation.hpp"
 #include "experiments/study/text/read_file.hpp"
 #include "experiments/study/text/text_file.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline plot {
 
 namespace {
 
-using namespace report;
 namespace fs = std::filesystem;
 
 constexpr std::size_t children = 2;
@@ -120,15 +117,4 @@ std::string draw_figures(const FigureSet& set, const fs::path& study_folder, con
   return "";
 }
 
-std::string write_figures(const StudyView& study) {
-  const bool alone = study.analysis && study.analysis->alone;
-  const auto grouping = group(study);
-  auto said = draw_figures(alone ? FigureSet{study.analysis->figures, {}} : figures_of(study, grouping), study.folder,
-                           "figures");
-  if (!study.analysis) return said;
-  const auto said_of_timed =
-      draw_figures({.figures = study.analysis->timed.figures, .absent = {}}, study.folder, timings_folder);
-  return said.empty() ? said_of_timed : said;
-}
-
-}  // namespace polhode::study
+}  // namespace polhode::study::plot

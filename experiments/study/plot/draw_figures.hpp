@@ -7,11 +7,10 @@
 
 #include "experiments/study/plot/figure.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline plot {
 
-/// Into a folder within that of a study, in which figures of an earlier study are removed. Returns what to tell the
-/// user where gnuplot is not installed. Throws std::runtime_error where gnuplot fails.
-std::string draw_figures(const report::FigureSet& set, const std::filesystem::path& study_folder,
-                         const std::string& where);
+/// Draws into a subfolder of a study's folder; figures of an earlier study there are removed. Returns a message for the
+/// user if gnuplot is not installed. Throws std::runtime_error if gnuplot fails.
+std::string draw_figures(const FigureSet& set, const std::filesystem::path& study_folder, const std::string& where);
 
 }  // namespace polhode::study

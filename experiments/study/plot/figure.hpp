@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace polhode::study::report {
+namespace polhode::study::inline plot {
 
 enum class Scale {
   linear,

@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-namespace polhode::study::report {
+namespace polhode::study::inline plot {
 
 void add_rows(Figure& figure, std::vector<Panel> panels, std::size_t columns) {
   const std::size_t first_row = figure.panels.empty() ? 0 : figure.rows;

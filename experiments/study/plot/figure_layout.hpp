@@ -8,7 +8,7 @@
 
 #include "experiments/study/plot/figure.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline plot {
 
 /// Puts panels that share a y axis into rows below what the figure has; only the leftmost of a row labels that axis.
 void add_rows(Figure& figure, std::vector<Panel> panels, std::size_t columns);

@@ -7,22 +7,22 @@
 #include <cstddef>
 #include <string_view>
 
-namespace polhode::study::report::style {
+namespace polhode::study::inline plot::style {
 
 /// Told apart by colour-blind readers (Okabe & Ito 2008, brown in place of their yellow, which is too pale for lines).
 inline constexpr std::array<std::string_view, 8> colours = {"0072B2", "D55E00", "009E73", "CC79A7",
                                                             "E69F00", "56B4E9", "000000", "8C510A"};
 
-/// A marker as gnuplot's pointtype and as PGFPlots names it; the second variant of a formulation has it open.
-struct Shape {
+/// A marker by gnuplot's pointtype and PGFPlots' name; the second variant of a formulation has the open marker.
+struct Marker {
   int filled, open;
   std::string_view pgf_filled, pgf_open;
 };
-inline constexpr std::array<Shape, 5> shapes = {{{7, 6, "*", "o"},
-                                                 {5, 4, "square*", "square"},
-                                                 {9, 8, "triangle*", "triangle"},
-                                                 {13, 12, "diamond*", "diamond"},
-                                                 {15, 14, "pentagon*", "pentagon"}}};
+inline constexpr std::array<Marker, 5> markers = {{{7, 6, "*", "o"},
+                                                   {5, 4, "square*", "square"},
+                                                   {9, 8, "triangle*", "triangle"},
+                                                   {13, 12, "diamond*", "diamond"},
+                                                   {15, 14, "pentagon*", "pentagon"}}};
 
 struct Dash {
   std::string_view gnuplot, pgf;
@@ -32,10 +32,10 @@ inline constexpr std::array<Dash, 4> dashes = {
 
 // Colour and marker belong to a method; they repeat together only after 8 × 5 methods.
 constexpr std::string_view colour(std::size_t method) { return colours[method % colours.size()]; }
-constexpr const Shape& shape(std::size_t method) { return shapes[method % shapes.size()]; }
+constexpr const Marker& marker(std::size_t method) { return markers[method % markers.size()]; }
 constexpr const Dash& dash(std::size_t variant) { return dashes[variant % dashes.size()]; }
 constexpr int point_type(std::size_t method, std::size_t variant) {
-  return variant % 2 == 0 ? shape(method).filled : shape(method).open;
+  return variant % 2 == 0 ? marker(method).filled : marker(method).open;
 }
 // The later a method is drawn the slimmer, so that one that covers another leaves its rim in sight.
 constexpr double rank(std::size_t method) { return static_cast<double>(method % colours.size()); }
@@ -43,7 +43,7 @@ constexpr double line_width(std::size_t method) { return 2.3 - 0.16 * rank(metho
 constexpr double point_size(std::size_t method) { return 0.95 - 0.05 * rank(method); }
 constexpr double mark_size(std::size_t method) { return 1.6 - 0.14 * rank(method); }
 constexpr std::string_view pgf_mark(std::size_t method, std::size_t variant) {
-  return variant % 2 == 0 ? shape(method).pgf_filled : shape(method).pgf_open;
+  return variant % 2 == 0 ? marker(method).pgf_filled : marker(method).pgf_open;
 }
 
 // Sizes in pixels of the SVG; 96 of them make an inch of the PDF.

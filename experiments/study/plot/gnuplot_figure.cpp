@@ -10,7 +10,7 @@
 #include "experiments/study/plot/figure_style.hpp"
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline plot {
 
 namespace {
 

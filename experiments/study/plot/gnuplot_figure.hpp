@@ -7,7 +7,7 @@
 
 #include "experiments/study/plot/figure.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline plot {
 
 inline constexpr const char* style_file = "style.gnuplot";
 

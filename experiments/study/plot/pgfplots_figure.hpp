@@ -6,7 +6,7 @@
 
 #include "experiments/study/plot/figure.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline plot {
 
 std::string pgfplots(const Figure& figure);
 

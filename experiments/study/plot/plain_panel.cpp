@@ -6,7 +6,7 @@
 #include "experiments/study/plot/axis.hpp"
 #include "experiments/study/plot/figure_layout.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline plot {
 
 Panel plain_panel(std::string title, const PlainAxis& x, const PlainAxis& y, const std::vector<PlainCurve>& curves) {
   Panel panel{.title = {std::move(title)}, .x_column = x.column, .y_column = y.column};

@@ -8,7 +8,7 @@
 
 #include "experiments/study/plot/figure.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline plot {
 
 struct PlainCurve {
   std::string label;

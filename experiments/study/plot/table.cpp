@@ -8,7 +8,7 @@
 
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline plot {
 
 namespace {
 
@@ -26,7 +26,7 @@ std::string html_cell(const Column& column, const std::string& cell, bool heads_
                      : length(cell) <= short_text        ? "short"
                                                          : "text";
   return fmt::format("<{}{} class=\"{}\">{}</{}>", tag, heads_row ? " scope=\"row\"" : "", kind,
-                     cell.empty() ? "<span class=\"none\" title=\"not defined\">–</span>" : html(cell), tag);
+                     cell.empty() ? "<span class=\"none\" title=\"not defined\">–</span>" : text::html(cell), tag);
 }
 
 std::string latex_cell(const Column& column, const std::string& cell) {
@@ -72,13 +72,13 @@ Table without_empty_columns(Table table) {
 std::string html(const Table& table, Caption caption) {
   // A table wider than the screen scrolls in its own region, which the keyboard can reach.
   std::string out = fmt::format("<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">\n<table>\n",
-                                html(table.caption));
+                                text::html(table.caption));
   if (!table.caption.empty() && caption == Caption::shown)
-    out += fmt::format("<caption><span class=\"caption\">{}</span></caption>\n", html(table.caption));
+    out += fmt::format("<caption><span class=\"caption\">{}</span></caption>\n", text::html(table.caption));
   out += "<thead><tr>";
   for (const auto& column : table.columns) {
     out += fmt::format("<th scope=\"col\"{}>{}</th>", column.kind == Column::Kind::number ? " class=\"number\"" : "",
-                       html(header_of(column)));
+                       text::html(header_of(column)));
   }
   out += "</tr></thead>\n<tbody>\n";
   for (const auto& row : table.rows) {
@@ -92,13 +92,13 @@ std::string html(const Table& table, Caption caption) {
 std::string markdown(const Table& table) {
   std::string out = "|", rule = "|";
   for (const auto& column : table.columns) {
-    out += fmt::format(" {} |", markdown(header_of(column)));
+    out += fmt::format(" {} |", text::markdown(header_of(column)));
     rule += column.kind == Column::Kind::number ? " ---: |" : " --- |";
   }
   out += "\n" + rule + "\n";
   for (const auto& row : table.rows) {
     out += "|";
-    for (const auto& cell : row) out += fmt::format(" {} |", markdown(cell));
+    for (const auto& cell : row) out += fmt::format(" {} |", text::markdown(cell));
     out += "\n";
   }
   return out;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace polhode::study::report {
+namespace polhode::study::inline plot {
 
 struct Column {
   enum class Kind { name, number, text };

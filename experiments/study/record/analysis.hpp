@@ -12,14 +12,14 @@
 #include "experiments/study/plot/figure.hpp"
 #include "experiments/study/plot/table.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline record {
 
 inline constexpr const char* timings_folder = "timings";
 
 struct Analysis {
   struct NamedTable {
-    std::string name;  ///< of tables/NAME.tex and tables/NAME.md
-    report::Table table;
+    std::string name;  ///< file name without extension: tables/NAME.tex and tables/NAME.md
+    Table table;
   };
   struct File {
     std::filesystem::path name;  ///< in the folder of results: "orders.csv"
@@ -28,19 +28,19 @@ struct Analysis {
 
   /// Its runs are means to another end: the report shows it instead of what every study says and draws of its runs.
   bool alone = false;
-  std::string heading{};                 ///< of its part of the report: "Observed order"
-  std::vector<std::string> sentences{};  ///< what is seen
-  std::vector<std::string> method{};     ///< how the numbers were made; below the tables
-  std::vector<NamedTable> tables{};      ///< the first one stands on the terminal too
-  std::vector<report::Figure> figures{};
+  std::string heading{};                 ///< heading of its section of the report: "Observed order"
+  std::vector<std::string> sentences{};  ///< findings
+  std::vector<std::string> method{};     ///< method by which the numbers were computed; printed below the tables
+  std::vector<NamedTable> tables{};      ///< the first one is also printed on the terminal
+  std::vector<Figure> figures{};
   std::vector<File> files{};
 
   /// What was made from wall times, which differ from call to call. It is kept apart in timings/, and the report shows
   /// those figures by reference, so that its own bytes do not depend on them; titles and captions must not either.
   struct Timed {
-    std::vector<std::string> sentences{};  ///< on the terminal only
-    std::vector<report::Figure> figures{};
-    std::vector<File> files{};  ///< in timings/
+    std::vector<std::string> sentences{};  ///< findings, printed on the terminal only
+    std::vector<Figure> figures{};
+    std::vector<File> files{};  ///< paths relative to timings/
   };
   Timed timed{};
 };

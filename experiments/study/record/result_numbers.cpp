@@ -2,12 +2,18 @@
 #include "experiments/study/record/result_numbers.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <initializer_list>
 #include <iterator>
+#include <map>
 #include <optional>
+#include <string>
+#include <type_traits>
 #include <vector>
 
-namespace polhode::study {
+#include "experiments/study/record/metric_table.hpp"
+
+namespace polhode::study::inline record {
 namespace {
 
 /// False where x is not finite; −0 becomes 0.
@@ -36,16 +42,21 @@ void settle(std::optional<double>& x) {
   if (x && !settle(*x)) x.reset();
 }
 
+void settle(std::map<std::string, double>& numbers) {
+  for (auto one = numbers.begin(); one != numbers.end();)
+    one = settle(one->second) ? std::next(one) : numbers.erase(one);
+}
+
 }  // namespace
 
 void keep_finite(RunResult& result) {
-  for (const auto member : run_members) settle(result.*member);
-  for (const auto member : drift_members) settle(result.*member);
-  for (const auto member : energy_members) settle(result.*member);
-  for (const auto member : contact_members) settle(result.contact.*member);
-  for (auto drift = result.invariant_drift_max_rel.begin(); drift != result.invariant_drift_max_rel.end();) {
-    drift = settle(drift->second) ? std::next(drift) : result.invariant_drift_max_rel.erase(drift);
+  for (const Metric& metric : metric_table()) {
+    if (metric.may_be_infinite) continue;
+    with_value(metric, result, []<class Value>(Value& value) {
+      if constexpr (!std::is_same_v<Value, std::string> && !std::is_same_v<Value, std::int64_t>) settle(value);
+    });
   }
+  settle(result.further);
   keep_points(result.series, [](SeriesPoint& p) {
     return settle_all({&p.t, &p.energy_drift_rel, &p.linear_momentum_drift_rel, &p.angular_momentum_drift_rel,
                        &p.orientation_defect});

@@ -7,13 +7,15 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/system/formulation.hpp"
 #include "experiments/study/scenario/scenario.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline record {
 
 enum class Precision { single, dual, extended };
 constexpr std::string_view name(Precision p) {
@@ -31,17 +33,19 @@ constexpr double epsilon(Precision p) {
 enum class Summation { plain, compensated };
 constexpr std::string_view name(Summation s) { return s == Summation::plain ? "plain" : "compensated"; }
 
-/// Options that have a column in runs.csv only in a study that gives them.
-struct NamedOptions {
-  bool order = false, summation = false;
-};
+/// The value of a run option in one run; std::monostate: the run has no value of the option.
+using OptionValue = std::variant<std::monostate, std::int64_t, double, std::string>;
 
-/// How contact is found and answered, by the names of the catalogues.
+/// Names of options on demand (RunOption::on_demand): options with a column in runs.csv only in studies that give them.
+using NamedOptions = std::set<std::string>;
+
+/// Algorithms of contact detection and response, as names in the catalogues.
 struct ContactConfig {
   std::string broad_phase, narrow_phase, response;
-  std::string impact_timing;  ///< empty where the response is a force
+  std::string impact_timing;  ///< empty if the response is a force
 };
 
+/// The configuration of one run. run_options.hpp names, reads and prints each member.
 struct RunConfig {
   std::string scenario;  ///< name
   /// The varied keys of the scenario with this run's values, in the axes' order; an empty value leaves the key as it
@@ -51,15 +55,16 @@ struct RunConfig {
   Formulation formulation;
   bool normalise = false;  ///< --normalize step
   Precision precision = Precision::dual;
-  std::optional<int> order;               ///< absent: the study does not speak of it; 0: means nothing to this method
-  std::optional<Summation> summation;     ///< absent: plain, and the study does not speak of it
-  std::optional<ContactConfig> contact;   ///< absent: the scenario has none
-  std::optional<double> dt;               ///< s; fixed-step methods only
-  std::optional<double> tolerance;        ///< adaptive methods only
-  std::optional<std::int64_t> max_steps;  ///< adaptive methods only; absent: as Schedule has it
-  double t_end = 1;                       ///< s
-  std::optional<std::int64_t> samples;    ///< absent: observed after every step
-  bool reference = false;                 ///< --reference: errors also where no exact solution is known
+  std::optional<int> order;                      ///< absent or 0: the default order of the method
+  std::optional<Summation> summation;            ///< absent: plain, and not given by the study
+  std::optional<ContactConfig> contact;          ///< absent: the scenario has no contact
+  std::optional<double> dt;                      ///< s; fixed-step methods only
+  std::optional<double> tolerance;               ///< adaptive methods only
+  std::optional<std::int64_t> max_steps;         ///< adaptive methods only; absent: the default of Schedule
+  double t_end = 1;                              ///< s
+  std::optional<std::int64_t> samples;           ///< absent: observed after every step
+  bool reference = false;                        ///< --reference: a reference motion replaces unknown exact solutions
+  std::map<std::string, OptionValue> further{};  ///< values of the options without a member here, by option name
 };
 
 /// How the run went over time, thinned: each point stands for a stretch of the run and holds the largest value in it.
@@ -129,7 +134,9 @@ struct RunResult {
   std::optional<double> attitude_reference;  ///< rad
   std::optional<double> angular_velocity_reference_rel;
   ContactMeasures contact;
-  double seconds = 0;  ///< wall time of the motion, measuring included; goes to timings.csv only
+  /// Numbers of metrics without a member here, by name of their column (metric_table.hpp).
+  std::map<std::string, double> further;
+  double seconds = 0;  ///< wall time of the simulation including measurements, s; written to timings.csv only
   std::vector<SeriesPoint> series;
   std::vector<AttitudeError> attitude_errors;  ///< empty without an exact solution, and where a reference stands for it
 };

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <new>
 #include <stdexcept>
@@ -12,11 +13,12 @@
 #include "experiments/study/metrics/contact_meter.hpp"
 #include "experiments/study/metrics/drift_meter.hpp"
 #include "experiments/study/record/result_numbers.hpp"
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/scenario/narrow_phase_choice.hpp"
 #include "experiments/study/setup/run_setup.hpp"
 #include "integrators/catalogue.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline run {
 namespace {
 
 std::string_view status_text(RunStatus status) {
@@ -101,14 +103,16 @@ RunResult measured(const RunConfig& config, const Scenario& scenario, const Traj
   DriftMeter meter(*truth, scenario.invariants, config.t_end, config.samples.has_value(),
                    true_motion_of(config, scenario, stop, references), config.precision);
   std::optional<ContactMeter> contact_meter;
-  if (config.contact) contact_meter.emplace(*truth, scenario, *config.contact, config.t_end, meter);
-  Observer& seen = contact_meter ? static_cast<Observer&>(*contact_meter) : meter;
-  const auto writer = trajectory.open ? trajectory.open(*truth, seen)
-                                      : open_trajectory(trajectory.format, trajectory.folder, *truth, seen);
-  Observer& observer = writer ? static_cast<Observer&>(*writer) : seen;
+  if (config.contact) contact_meter.emplace(*truth, scenario, *config.contact, config.t_end);
+  const auto writer =
+      trajectory.open ? trajectory.open(*truth) : open_trajectory(trajectory.format, trajectory.folder, *truth);
+  Observers observers;
+  if (writer) observers.add(*writer);
+  if (contact_meter) observers.add(*contact_meter);
+  observers.add(meter);
   double seconds = 0;
   const RunOutcome outcome = guarded(scenario, [&] {
-    return run_on(*truth, config, observer, stop, seconds, contact ? contact->model.get() : nullptr);
+    return run_on(*truth, config, observers, stop, seconds, contact ? contact->model.get() : nullptr);
   });
   if (writer && outcome.status != RunStatus::interrupted) writer->close();  // else it stays unfinished by name
   RunResult result = result_of(outcome, meter, seconds);
@@ -213,8 +217,11 @@ RunResult carry_out(const RunConfig& config, const Scenario& scenario, const Tra
 }
 
 std::string ensemble_key(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory) {
-  const bool plain = config.dt && !config.contact && !config.samples && config.precision == Precision::dual &&
-                     !is_compensated(config) && trajectory.format == TrajectoryFormat::none;
+  const auto& options = run_options();
+  const bool usual = std::all_of(options.begin(), options.end(),
+                                 [&](const RunOption& o) { return !o.on_demand || is_usual(o, config); });
+  const bool plain = config.dt && !config.contact && !config.samples && config.precision == Precision::dual && usual &&
+                     trajectory.format == TrajectoryFormat::none;
   if (!plain || !find_integrator(config.integrator)->make_lanes) return {};
   const std::string key = lane_key(*make_system<double>(scenario.problem, config.formulation));
   if (key.empty()) return {};

@@ -14,7 +14,7 @@
 #include "experiments/study/record/run_record.hpp"
 #include "experiments/study/trajectory/trajectory.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline run {
 
 /// Why this run makes no sense, in one line; empty if it does. Throws std::invalid_argument on an impossible step.
 std::string refusal(const RunConfig& config, const Scenario& scenario);
@@ -22,8 +22,8 @@ std::string refusal(const RunConfig& config, const Scenario& scenario);
 struct TrajectoryRequest {
   TrajectoryFormat format = TrajectoryFormat::none;
   std::filesystem::path folder;
-  /// Where given, what it makes takes the place of files: it sees each sample and hands it on.
-  std::function<std::unique_ptr<TrajectoryWriter>(const System<double>&, Observer& next)> open{};
+  /// If set, its observer replaces the files.
+  std::function<std::unique_ptr<TrajectoryWriter>(const System<double>&)> open{};
 };
 
 /// What is thrown out of the run is its failure, and its message says why; throws TrajectoryError alone, when a

@@ -5,14 +5,13 @@
 #include <cmath>
 
 #include "collision/shapes/shape_catalogue.hpp"
-#include "collision/shapes/shape_inertia.hpp"
 #include "core/problem/inertia.hpp"
 #include "experiments/study/scenario/canonical_text.hpp"
 #include "experiments/study/scenario/parameter_reader.hpp"
 #include "experiments/study/scenario/scenario_keys.hpp"
 #include "experiments/study/text/value_lists.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 namespace {
 
@@ -53,40 +52,45 @@ Matrix3<double> read_inertia(const TomlCursor& inertia) {
 }
 
 /// "[0.1, 0, 0]"
-std::string text(const Vector3<double>& v) { return "[" + exact(v[0]) + ", " + exact(v[1]) + ", " + exact(v[2]) + "]"; }
+std::string vector_text(const Vector3<double>& v) {
+  return "[" + exact(v[0]) + ", " + exact(v[1]) + ", " + exact(v[2]) + "]";
+}
 
-/// A shape that touches, built from its sizes.
-ShapePointer build_shape(const TomlCursor& shape, ShapeParameters& sizes) {
-  std::vector<std::string_view> known;
-  for (const ShapeEntry& entry : collision_shape_catalogue()) known.push_back(entry.name);
+/// The entry of the shape's kind.
+const ShapeEntry& read_kind(const TomlCursor& shape) {
   const TomlCursor name = shape.at("kind", "the name of a shape");
-  const ShapeEntry* entry = find_collision_shape(name.text("the name of a shape"));
-  if (!entry) name.unknown("shape", "There are", known);
-  sizes.values = read_parameters(shape, entry->parameters, {"kind"}, "A " + entry->name + " has");
+  const ShapeEntry* entry = find_shape(name.text("the name of a shape"));
+  if (entry) return *entry;
+  std::vector<std::string_view> known;
+  for (const ShapeEntry& other : shape_catalogue()) known.push_back(other.name);
+  name.unknown("shape", "There are", known);
+}
+
+ShapeParameters read_sizes(const TomlCursor& shape, const ShapeEntry& entry) {
+  return {read_parameters(shape, entry.parameters, {"kind"}, "A " + entry.name + " has")};
+}
+
+/// Throws where the shape refuses its sizes.
+ShapePointer build_shape(const TomlCursor& shape, const ShapeEntry& entry, const ShapeParameters& sizes) {
   try {
-    return entry->make(sizes);
+    return entry.make(sizes);
   } catch (const std::invalid_argument& error) {
     shape.fail(error.what());
   }
 }
 
 Matrix3<double> read_shape(const TomlCursor& shape, double mass) {
-  std::vector<std::string_view> known;
-  for (const ShapeEntry& entry : collision_shape_catalogue()) known.push_back(entry.name);
   if (shape.value().type != TomlValue::Type::table) shape.refuse("a table such as { kind = \"sphere\", radius = 0.1 }");
-  const TomlCursor name = shape.at("kind", "the name of a shape");
-  const ShapeKind* kind = find_shape(name.text("the name of a shape"));
-  if (!kind && !find_collision_shape(name.value().text)) name.unknown("shape", "There are", known);
-  if (kind)
-    return kind->moments(mass, read_parameters(shape, kind->parameters, {"kind"}, "A " + kind->name + " has"))
-        .asDiagonal();
-  ShapeParameters sizes;
-  const ShapePointer built = build_shape(shape, sizes);
+  const ShapeEntry& entry = read_kind(shape);
+  const ShapeParameters sizes = read_sizes(shape, entry);
+  if (entry.moments) return entry.moments(mass, sizes).asDiagonal();
+  const ShapePointer built = build_shape(shape, entry, sizes);
   if (!built->finite())
     shape.fail("a " + std::string(built->kind()) + " has no end and no inertia; its body must be static");
   const MassProperties matter = built->mass_properties();
   if (!(matter.centroid.norm() <= 1e-9 * std::cbrt(matter.volume))) {
-    shape.fail("has its mass centre at " + text(matter.centroid) + " m; it must be at the origin of the body's axes");
+    shape.fail("has its mass centre at " + vector_text(matter.centroid) +
+               " m; it must be at the origin of the body's axes");
   }
   return mass / matter.volume * matter.inertia;
 }
@@ -119,7 +123,7 @@ void take_point_masses(const TomlCursor& table, Body& body) {
   for (const PointMass& p : points) size = std::max(size, p.position.norm());
   if (body.pinned) return;
   if (!(body.center_of_mass.norm() <= 1e-9 * size)) {
-    list.fail("has its mass centre at " + text(body.center_of_mass) +
+    list.fail("has its mass centre at " + vector_text(body.center_of_mass) +
               " m; it must be at the origin of a body that is not pinned");
   }
   body.center_of_mass.setZero();
@@ -135,17 +139,18 @@ void check_inertia(const TomlCursor& table, std::string_view source, const Body&
   if (!impossible.empty()) cursor.fail("the inertia " + impossible + "; unphysical_inertia = true lets it pass");
 }
 
-/// Of those shapes whose inertia is a formula.
-bool known_in_core(const TomlCursor& shape) {
-  return shape.value().type != TomlValue::Type::table || !shape.has("kind") ||
-         !find_collision_shape(shape.at("kind", "").text("the name of a shape")) ||
-         find_shape(shape.at("kind", "").text("the name of a shape"));
+/// True if a static body's shape is also read for its inertia, so that errors in it are reported: all shapes but those
+/// whose inertia has no formula.
+bool has_formula(const TomlCursor& shape) {
+  if (shape.value().type != TomlValue::Type::table || !shape.has("kind")) return true;
+  const ShapeEntry* entry = find_shape(shape.at("kind", "").text("the name of a shape"));
+  return !entry || entry->moments;
 }
 
 /// With `mass` and `center_of_mass` known: the key `inertia`, or that of the shape.
 void take_inertia(const TomlCursor& table, Body& body) {
   // A static body needs no inertia, and some shapes have none.
-  const bool needed = table.has("shape") && (!body.fixed || known_in_core(table.at("shape", "")));
+  const bool needed = table.has("shape") && (!body.fixed || has_formula(table.at("shape", "")));
   const Matrix3<double> of_shape =
       needed ? read_shape(table.at("shape", ""), body.mass) : Matrix3<double>(Matrix3<double>::Identity());
   if (table.has("inertia")) {
@@ -231,11 +236,11 @@ BodyStart read_start(const TomlCursor& table, const Body& body) {
 
 /// Of a body that touches nothing: the shape is only seen, so that sizes that are fit for moments alone pass.
 ShapePointer seen_shape(const TomlCursor& shape) {
-  const TomlCursor name = shape.at("kind", "the name of a shape");
-  const ShapeEntry* entry = find_collision_shape(name.text("the name of a shape"));
+  const ShapeEntry* entry = find_shape(shape.at("kind", "the name of a shape").text("the name of a shape"));
   if (!entry) return nullptr;
+  const ShapeParameters sizes = read_sizes(shape, *entry);
   try {
-    return entry->make({read_parameters(shape, entry->parameters, {"kind"}, "A " + entry->name + " has")});
+    return entry->make(sizes);
   } catch (const std::invalid_argument&) {
     return nullptr;
   }
@@ -253,8 +258,9 @@ void read_collider(const TomlCursor& table, bool contact, ReadBody& read) {
     read.shape = seen_shape(shape);
     return;
   }
-  ShapeParameters sizes;
-  read.shape = collider.shape = build_shape(shape, sizes);
+  const ShapeEntry& entry = read_kind(shape);
+  const ShapeParameters sizes = read_sizes(shape, entry);
+  read.shape = collider.shape = build_shape(shape, entry, sizes);
   if (!collider.shape->finite() && !read.body.fixed) {
     shape.fail("a " + std::string(collider.shape->kind()) + " has no end; its body must be static");
   }

@@ -6,7 +6,7 @@
 #include "core/problem/body.hpp"
 #include "experiments/study/text/toml_cursor.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 struct ReadBody {
   Body body;

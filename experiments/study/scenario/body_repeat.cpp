@@ -10,7 +10,7 @@
 #include "experiments/study/scenario/scenario_keys.hpp"
 #include "experiments/study/text/value_lists.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 namespace {
 
@@ -38,9 +38,9 @@ Vector3<double> read_spacing(const TomlCursor& spacing, const Counts& counts) {
 }
 
 /// A turn about a random direction by up to `most` (rad), after the body's own orientation.
-Quaternion<double> turned(const Quaternion<double>& q, double most, Dice& dice) {
-  const Vector3<double> axis = dice.direction();
-  const double half = 0.5 * dice.uniform(-most, most);
+Quaternion<double> turned(const Quaternion<double>& q, double most, PortableRandom& random) {
+  const Vector3<double> axis = random.direction();
+  const double half = 0.5 * random.uniform(-most, most);
   const Quaternion<double> turn(std::cos(half), std::sin(half) * axis[0], std::sin(half) * axis[1],
                                 std::sin(half) * axis[2]);
   return product(turn, q);
@@ -61,7 +61,7 @@ std::vector<ReadBody> repeated(const TomlCursor& table, std::size_t index, ReadB
   const TomlCursor angle = body_key(table, "jitter_angle");
   const double jitter_angle = angle.number("rad", Parameter::Range::non_negative);
   if (jitter_angle > std::numbers::pi) angle.refuse("a number from 0 to pi, of rad");
-  Dice dice(index);
+  PortableRandom random(index);
   std::vector<ReadBody> copies;
   for (int z = 0; z < counts[2]; ++z) {
     for (int y = 0; y < counts[1]; ++y) {
@@ -69,10 +69,10 @@ std::vector<ReadBody> repeated(const TomlCursor& table, std::size_t index, ReadB
         ReadBody& copy = copies.emplace_back(body);
         copy.body.name += '_' + std::to_string(copies.size() - 1);
         copy.start.position += spacing.cwiseProduct(Vector3<double>(x, y, z));
-        if (jitter > 0) copy.start.position += dice.uniform_vector(-jitter, jitter);
+        if (jitter > 0) copy.start.position += random.uniform_vector(-jitter, jitter);
         if (!copy.start.position.allFinite())
           table.fail("its copies stand too far away for a number; take a smaller spacing or jitter");
-        if (jitter_angle > 0) copy.start.orientation = turned(body.start.orientation, jitter_angle, dice);
+        if (jitter_angle > 0) copy.start.orientation = turned(body.start.orientation, jitter_angle, random);
       }
     }
   }

@@ -6,7 +6,7 @@
 
 #include "experiments/study/scenario/body_reader.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 /// The copies of a body with the key `repeat`, the first axis fastest, called NAME_0, NAME_1, …; of any other body
 /// itself. `index` (of the table in the scenario) seeds the jitter: the same scenario has the same copies. Throws a

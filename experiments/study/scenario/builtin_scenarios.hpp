@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 struct BuiltinScenario {
   std::string_view name;  // the file's name without .toml

@@ -5,7 +5,7 @@
 
 #include "experiments/study/text/value_lists.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 namespace {
 

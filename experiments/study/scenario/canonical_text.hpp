@@ -9,7 +9,7 @@
 #include "collision/contact/collider.hpp"
 #include "core/problem/problem.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 /// What Scenario::canonical holds. Bodies and forces in their order, the keys of a force and the invariants sorted.
 std::string canonical_text(const Problem& problem, const std::vector<std::string>& invariants);

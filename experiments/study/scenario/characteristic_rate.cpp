@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 namespace {
 
 double inverse_mass(const Problem& problem, std::size_t body) {

@@ -6,7 +6,7 @@
 
 #include "core/problem/problem.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 /// rad/s; the largest of
 ///   √(k/m) of each spring, m the body's mass or, between two that move, the reduced mass,

@@ -6,7 +6,7 @@
 
 #include "core/exact/exact_motion.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 double motion_size(const Scenario& scenario, double t_end) {
   constexpr int instants = 64;

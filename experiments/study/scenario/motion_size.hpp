@@ -4,7 +4,7 @@
 
 #include "experiments/study/scenario/scenario.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 /// m: the largest distance of a moving body's mass centre from its start, at 64 instants of the exact motion up to
 /// t_end. Infinite where no path is known exactly, or nothing leaves its place.

@@ -7,7 +7,7 @@
 
 #include "collision/narrow_phase.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 std::string narrow_phase_refusal(std::string_view narrow_phase, const Scenario& scenario) {
   const auto narrow = find_narrow_phase(narrow_phase)->make();

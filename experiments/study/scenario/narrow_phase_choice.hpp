@@ -7,7 +7,7 @@
 
 #include "experiments/study/scenario/scenario.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 /// Why this narrow phase cannot answer for some two of the scenario's shapes, in its own words; empty if it can for
 /// all.

@@ -5,7 +5,7 @@
 
 #include "experiments/study/text/suggestion.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 namespace {
 

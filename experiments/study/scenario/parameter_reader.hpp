@@ -10,7 +10,7 @@
 #include "core/problem/force_kind.hpp"
 #include "experiments/study/text/toml_cursor.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 /// Every key of `parameters`, with defaults filled in. `also` are the keys of the table that are not parameters
 /// ("kind"); `introduction` is "A spring has"; `bodies` is how many bodies a force acts on. Throws a Fault on a key

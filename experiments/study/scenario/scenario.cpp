@@ -12,7 +12,7 @@
 #include "experiments/study/text/text_file.hpp"
 #include "experiments/study/text/toml_cursor.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 struct ScenarioSource::Parsed {
   std::string name;

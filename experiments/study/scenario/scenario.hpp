@@ -14,7 +14,7 @@
 #include "collision/response.hpp"
 #include "core/problem/problem.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 /// One key of a scenario set from outside: --vary body.0.inertia.1=… or the axis of a study file.
 struct Override {

@@ -5,7 +5,7 @@
 
 #include "collision/response.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "core/problem/force_kind.hpp"
 #include "experiments/study/text/toml_value.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 /// Where a key decides how a run goes; elsewhere a run is the same whatever it says, so that it makes no axis.
 enum class Decides { always, with_contact, never };

@@ -10,7 +10,7 @@
 #include "experiments/study/text/suggestion.hpp"
 #include "experiments/study/text/toml_cursor.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "experiments/study/scenario/scenario.hpp"
 #include "experiments/study/text/toml_value.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 /// Sets the key, which may be absent where it has a default; `index` is the override's among all, and goes into the
 /// place of what it sets. Whether the value will do is for the reader of the result to say. Returns the path with

@@ -14,7 +14,7 @@
 #include "experiments/study/text/toml_cursor.hpp"
 #include "experiments/study/text/value_lists.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 namespace {
 

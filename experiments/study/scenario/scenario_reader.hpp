@@ -7,7 +7,7 @@
 #include "experiments/study/scenario/scenario.hpp"
 #include "experiments/study/text/toml_value.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline scenario {
 
 /// `name` is the scenario's, and its title where it has none. Throws a Fault.
 Scenario read_scenario(const TomlValue& root, const std::string& name);

@@ -8,7 +8,7 @@
 
 #include "core/run/contact_model.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline setup {
 
 /// The steps are those of another model. The impact that ends the run is listed without an impulse.
 class EndAtContact final : public ContactModel {

@@ -6,7 +6,7 @@
 #include "integrators/catalogue.hpp"
 #include "integrators/compensated.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline setup {
 
 Schedule schedule_of(const RunConfig& config) {
   Schedule schedule;
@@ -28,7 +28,7 @@ std::unique_ptr<Integrator<S>> integrator_of(const RunConfig& config, const Syst
                                     .order = config.order.value_or(0)};
   const IntegratorEntry& entry = *find_integrator(config.integrator);
   if constexpr (!is_lanes<S>) {
-    if (is_compensated(config)) return make_compensated<S>(entry, system, settings);
+    if (is_compensated(config)) return make_compensated<S>(entry, system);
   }
   return entry.maker<S>()(system, settings);
 }

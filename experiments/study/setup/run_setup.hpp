@@ -9,7 +9,7 @@
 #include "core/run/simulate.hpp"
 #include "experiments/study/record/run_record.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline setup {
 
 Schedule schedule_of(const RunConfig& config);
 

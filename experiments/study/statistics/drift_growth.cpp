@@ -13,7 +13,7 @@
 
 #include "experiments/study/statistics/quantiles.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline statistics {
 namespace {
 
 using Eigen::Index;

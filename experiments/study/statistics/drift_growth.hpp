@@ -21,7 +21,7 @@
 #include <optional>
 #include <vector>
 
-namespace polhode::study {
+namespace polhode::study::inline statistics {
 
 struct BlockMean {
   double t = 0;      ///< s

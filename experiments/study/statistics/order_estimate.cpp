@@ -5,37 +5,15 @@
 #include <cmath>
 #include <span>
 
+#include "experiments/study/statistics/line_fit.hpp"
 #include "experiments/study/statistics/quantiles.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline statistics {
 namespace {
 
 constexpr double above_rounding = 10;  ///< so that rounding adds no more than a tenth to an error
 constexpr std::size_t least_points = 3, wanted_points = 4;
 constexpr double margin = 0.25;
-
-struct LogPoint {
-  double x, y;  ///< ln step, ln error
-};
-
-struct Fit {
-  double slope = 0, standard_error = 0, worst = 0;
-};
-
-Fit fit(std::span<const LogPoint> points) {
-  const auto n = static_cast<double>(points.size());
-  double x = 0, y = 0, xx = 0, xy = 0, rest = 0;
-  for (const LogPoint& p : points) x += p.x / n, y += p.y / n;
-  for (const LogPoint& p : points) xx += (p.x - x) * (p.x - x), xy += (p.x - x) * (p.y - y);
-  Fit line{.slope = xy / xx};
-  for (const LogPoint& p : points) {
-    const double off = p.y - y - line.slope * (p.x - x);
-    rest += off * off;
-    line.worst = std::max(line.worst, std::abs(off));
-  }
-  line.standard_error = std::sqrt(rest / (n - 2) / xx);
-  return line;
-}
 
 /// Takes away the points at and above the smallest step at which the motion is lost; those left are finite.
 void drop_blown_up(std::vector<LadderPoint>& points, double lost, OrderEstimate& estimate) {
@@ -66,10 +44,12 @@ void drop_round_off(std::vector<LadderPoint>& points, const OrderSettings& setti
   estimate.at_round_off = before - points.size();
 }
 
-bool is_straight(std::span<const LogPoint> points, double straightness) { return fit(points).worst <= straightness; }
+bool is_straight(std::span<const LinePoint> points, double straightness) {
+  return fit_line(points).worst <= straightness;
+}
 
-/// Where the smallest steps bend a line that is straight before them, below √ε, rounding begins to show.
-void drop_bent_end(std::vector<LogPoint>& logs, const OrderSettings& settings, OrderEstimate& estimate) {
+/// Drops the smallest steps if they deviate, below √ε, from a line that is straight before them: rounding begins there.
+void drop_bent_end(std::vector<LinePoint>& logs, const OrderSettings& settings, OrderEstimate& estimate) {
   const double rounding_shows = 0.5 * std::log(settings.epsilon);
   const auto straight_without = [&](std::size_t n) {
     return is_straight(std::span(logs).first(logs.size() - n).last(least_points), settings.straightness);
@@ -81,7 +61,7 @@ void drop_bent_end(std::vector<LogPoint>& logs, const OrderSettings& settings, O
 }
 
 /// The longest straight stretch that ends at the smallest step.
-std::span<const LogPoint> straight_stretch(std::span<const LogPoint> points, double straightness) {
+std::span<const LinePoint> straight_stretch(std::span<const LinePoint> points, double straightness) {
   const auto straight = [&](std::size_t n) { return is_straight(points.last(n), straightness); };
   std::size_t n = std::min(wanted_points, points.size());
   if (!straight(n) && straight(least_points)) n = least_points;
@@ -109,13 +89,13 @@ OrderEstimate estimate_order(std::vector<LadderPoint> points, const OrderSetting
   estimate.smallest = points.back().step;
   if (points.size() < least_points) return estimate;
 
-  std::vector<LogPoint> logs;
+  std::vector<LinePoint> logs;
   for (const LadderPoint& p : points) logs.push_back({std::log(p.step), std::log(p.error)});
   drop_bent_end(logs, settings, estimate);
   points.resize(logs.size());
   estimate.smallest = points.back().step;
   const auto stretch = straight_stretch(logs, settings.straightness);
-  const Fit line = fit(stretch);
+  const LineFit line = fit_line(stretch);
   estimate.straight = line.worst <= settings.straightness;
   estimate.not_straight = logs.size() - stretch.size();
   estimate.points = stretch.size();
@@ -125,7 +105,7 @@ OrderEstimate estimate_order(std::vector<LadderPoint> points, const OrderSetting
   return estimate;
 }
 
-std::string text(OrderVerdict verdict) {
+std::string word_of(OrderVerdict verdict) {
   switch (verdict) {
     case OrderVerdict::as_declared: return "as declared";
     case OrderVerdict::higher: return "higher";

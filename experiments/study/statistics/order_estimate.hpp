@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace polhode::study {
+namespace polhode::study::inline statistics {
 
 /// rad of an attitude, or 1 of what is relative: from here on the motion is lost. Angles beyond are wrapped or
 /// saturated, and which of two is the less is chance.
@@ -66,7 +66,7 @@ struct OrderEstimate {
 OrderEstimate estimate_order(std::vector<LadderPoint> points, const OrderSettings& settings = {});
 
 enum class OrderVerdict { as_declared, higher, lower, exact_here, too_few, scattered };
-std::string text(OrderVerdict verdict);
+std::string word_of(OrderVerdict verdict);
 
 /// `declared` is compared with the observed order to within 0.25; an interval wider than ±0.5, or one that holds an
 /// order further off than that, decides nothing. nullopt: it declares to be exact. Exact here: it is, and did not

@@ -6,7 +6,7 @@
 #include <map>
 #include <tuple>
 
-namespace polhode::study {
+namespace polhode::study::inline statistics {
 
 double students_t_95(double degrees) {
   // Studies ask for the same few degrees over and over.

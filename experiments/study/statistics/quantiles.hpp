@@ -2,7 +2,7 @@
 // Quantiles of the distributions that confidence intervals and tests are made from.
 #pragma once
 
-namespace polhode::study {
+namespace polhode::study::inline statistics {
 
 /// Student's t that is exceeded, on either side, with probability 0.05: half the width of a 95 % interval in units of
 /// the standard error.

@@ -14,7 +14,7 @@
 #include "experiments/study/store/store.hpp"
 #include "experiments/study/text/input_error.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline store {
 namespace {
 
 /// What a study writes beside its store: files, and folders.

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-namespace polhode::study {
+namespace polhode::study::inline store {
 
 class ResultFolder {
  public:

@@ -11,11 +11,12 @@
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
+#include <type_traits>
+#include <variant>
 
-#include "experiments/study/record/result_numbers.hpp"
 #include "experiments/study/text/value_lists.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline store {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, sqlite3* db) {
@@ -25,14 +26,14 @@ namespace {
   throw std::runtime_error(path.string() + ": " + why);
 }
 
-/// A row of the store that holds what no study wrote; what() names the column.
+/// Thrown for a row with a value that no study writes; what() is the name of the column.
 class Damage : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A prepared statement with typed binding and reading; columns and parameters are taken in order. Reading throws
-/// Damage where a column holds another type, or a number that is not finite.
+/// A prepared statement with typed binding and reading; each call binds the next parameter or reads the next column.
+/// Reading throws Damage if the column has another type, or a number that is not finite.
 class Statement {
  public:
   Statement(const std::filesystem::path& path, sqlite3* db, const std::string& sql) : path_(path), db_(db) {
@@ -51,6 +52,12 @@ class Statement {
     if (x) bind(*x);
     else sqlite3_bind_null(statement_, ++at_);
   }
+  /// Binds the text "name=value " of each entry; names are identifiers, values have all digits.
+  void bind(const std::map<std::string, double>& values) {
+    std::string all;
+    for (const auto& [name, value] : values) all += name + "=" + exact(value) + " ";
+    bind(all);
+  }
   template <class Point>
   void bind(const std::vector<Point>& series) {
     static_assert(std::is_trivially_copyable_v<Point>);
@@ -58,7 +65,7 @@ class Statement {
                       SQLITE_TRANSIENT);
   }
 
-  /// True while there are rows.
+  /// Advances to the next row. Returns false if there is none.
   bool step() {
     column_ = -1;
     const int code = sqlite3_step(statement_);
@@ -91,7 +98,7 @@ class Statement {
     if (x && !std::isfinite(*x)) damaged();
     return x;
   }
-  /// Infinite too.
+  /// The next column: a number, which may be infinite, or nothing for NULL.
   std::optional<double> any_real() {
     const int type = next();
     if (type == SQLITE_NULL) return std::nullopt;
@@ -101,7 +108,7 @@ class Statement {
   template <class Point>
   std::vector<Point> series() {
     const int type = next();
-    if (type == SQLITE_NULL) return {};  // as an empty one is kept
+    if (type == SQLITE_NULL) return {};  // an empty series is stored as NULL
     const void* bytes = sqlite3_column_blob(statement_, column_);
     const auto n = static_cast<std::size_t>(sqlite3_column_bytes(statement_, column_));
     if (type != SQLITE_BLOB || n % sizeof(Point) != 0) damaged();
@@ -138,59 +145,68 @@ class Statement {
   int at_ = 0, column_ = -1;
 };
 
-/// name=value, a blank after each; names are identifiers and numbers read back exactly.
-std::string pack(const std::map<std::string, double>& values) {
-  std::string text;
-  for (const auto& [name, value] : values) text += name + "=" + exact(value) + " ";
-  return text;
+std::string sql_type(const Metric& metric) {
+  const auto of_member = []<class M>(M) {
+    if (std::is_same_v<M, std::int64_t RunResult::*>) return "INTEGER";
+    const bool text =
+        std::is_same_v<M, std::string RunResult::*> || std::is_same_v<M, std::map<std::string, double> RunResult::*>;
+    return text ? "TEXT" : "REAL";
+  };
+  return std::visit(of_member, metric.member);
 }
 
-struct Table {
-  std::string name, columns;
-};
-
-const std::vector<Table>& tables() {
-  static const std::vector<Table> all = {
-      {"runs",
-       "id TEXT PRIMARY KEY, status TEXT, message TEXT, t_reached_s REAL, steps INTEGER, rhs_evaluations INTEGER,"
-       " energy_initial_J REAL, energy_drift_max_rel REAL, energy_drift_final_rel REAL, energy_drift_rate_W REAL,"
-       " drift_class TEXT, linear_momentum_drift_max_rel REAL, angular_momentum_drift_max_rel REAL,"
-       " invariant_drifts_max_rel TEXT, orientation_defect_max REAL, position_error_max_m REAL,"
-       " attitude_error_max_rad REAL, angular_velocity_error_max_rel REAL, wall_s REAL, series BLOB"},
-      // How the energy drift grows, and the error along the polhode and off it.
-      {"drifts",
-       "id TEXT PRIMARY KEY, energy_drift_rate_ci_W REAL, drift_exponent REAL, drift_exponent_low REAL,"
-       " drift_exponent_high REAL, polhode_phase_error_max_s REAL, polhode_phase_error_max_rad REAL,"
-       " polhode_off_error_max_rel REAL"},
-      // What energy drifts are judged by.
-      {"energies",
-       "id TEXT PRIMARY KEY, energy_scale_J REAL, energy_drift_max_J REAL, energy_round_off_J REAL,"
-       " drift_decided_after_s REAL"},
-      // Of the runs that were judged by a reference, how uncertain it is.
-      {"references_used", "id TEXT PRIMARY KEY, position_m REAL, attitude_rad REAL, angular_velocity_rel REAL"},
-      // Of the runs with contact.
-      {"contacts",
-       "id TEXT PRIMARY KEY, first_impact_s REAL, impact_loss_J REAL, friction_loss_J REAL, penetration_J REAL,"
-       " energy_rise_max_J REAL, energy_change_max_J REAL, penetration_max_m REAL, penetration_end_m REAL,"
-       " displacement_after_2s_max_m REAL, left_place_s REAL"},
-      // Of the runs with an exact motion, their attitude error over time.
-      {"attitude_errors", "id TEXT PRIMARY KEY, series BLOB"}};
-  return all;
+/// Column definitions of the table `runs`, in the order of pack() and unpack().
+std::string columns_of(std::span<const Metric> metrics) {
+  std::string text = "id TEXT PRIMARY KEY";
+  for (const Metric& metric : metrics) text += ", " + metric.column + " " + sql_type(metric);
+  return text + ", t_reached_s REAL, wall_s REAL, series BLOB, attitude_errors BLOB";
 }
 
-/// A row is put into the table by this, with a parameter for each column.
-std::string insertion(const std::string& name) {
-  const auto table = std::find_if(tables().begin(), tables().end(), [&](const Table& t) { return t.name == name; });
-  std::string sql = "INSERT OR REPLACE INTO " + name + " VALUES (?";
-  for (auto more = std::count(table->columns.begin(), table->columns.end(), ','); more > 0; --more) sql += ",?";
-  return sql + ")";
+/// Binds the columns of a row. Throws std::logic_error if the result has a number of a metric that is not in `metrics`.
+void pack(Statement& row, const RunRecord& record, std::span<const Metric> metrics) {
+  const RunResult& r = record.result;
+  for (const auto& measured : r.further) {
+    const std::string& column = measured.first;
+    if (std::none_of(metrics.begin(), metrics.end(), [&](const Metric& m) { return m.column == column; })) {
+      throw std::logic_error("the metric " + column + " is measured, but is not in the table of metrics");
+    }
+  }
+  row.bind(record.id);
+  for (const Metric& metric : metrics) with_value(metric, r, [&](const auto& value) { row.bind(value); });
+  row.bind(r.t_reached);
+  row.bind(r.seconds);
+  row.bind(r.series);
+  row.bind(r.attitude_errors);
 }
 
-/// How long another program that looks into the store may hold it.
+/// Reads the columns of a row after the id. Throws Damage.
+void unpack(Statement& row, RunResult& r, std::span<const Metric> metrics) {
+  for (const Metric& metric : metrics) {
+    with_value(metric, r, [&]<class Value>(Value& value) {
+      if constexpr (std::is_same_v<Value, std::optional<double>>) {
+        value = metric.may_be_infinite ? row.any_real() : row.optional_real();
+      } else if constexpr (std::is_same_v<Value, std::int64_t>) {
+        value = row.count();
+      } else if constexpr (std::is_same_v<Value, std::string>) {
+        value = row.text();
+      } else {
+        value = row.named_numbers();
+      }
+    });
+  }
+  if (r.status != "ok" && r.status != "diverged" && r.status != "failed") throw Damage("status");
+  r.t_reached = row.real();
+  r.seconds = row.real();
+  r.series = row.series<SeriesPoint>();
+  r.attitude_errors = row.series<AttitudeError>();
+}
+
+/// Longest time to wait while another program locks the store, ms.
 constexpr int patience_ms = 5000;
 
-/// SQLite maps the file of a store's shared memory, having written one byte of each page of it. Where a block of the
-/// file system is smaller than a page, the others are holes, and to touch one on a full disk would kill the program.
+/// Replacement of mmap for SQLite: allocates the mapped part of the file first. SQLite writes only one byte of each
+/// page of its shared-memory file before it maps the file. If a block of the file system is smaller than a page, the
+/// other blocks are holes, and access to a hole on a full disk kills the program (SIGBUS).
 void* map_filled(void* at, std::size_t length, int protection, int flags, int file, off_t offset) {
   if ((protection & PROT_WRITE) && fallocate(file, 0, offset, static_cast<off_t>(length)) != 0 &&
       (errno == ENOSPC || errno == EDQUOT)) {
@@ -214,15 +230,13 @@ sqlite3* open_database(const std::filesystem::path& path, int flags) {
   fail(path, db);
 }
 
-/// Throws where the database is damaged, or has a table of ours with other columns.
-void check(const std::filesystem::path& path, sqlite3* db) {
+/// Throws std::runtime_error if the database is damaged, or has a table `runs` with other columns.
+void check(const std::filesystem::path& path, sqlite3* db, std::span<const Metric> metrics) {
   Statement whole(path, db, "PRAGMA integrity_check(1)");
   if (!whole.step() || whole.text() != "ok") throw std::runtime_error(path.string() + ": the database is damaged");
-  for (const Table& table : tables()) {
-    Statement made(path, db, "SELECT sql FROM sqlite_master WHERE name = '" + table.name + "'");
-    if (made.step() && made.text() != "CREATE TABLE " + table.name + " (" + table.columns + ")") {
-      throw std::runtime_error(path.string() + ": its table " + table.name + " is not that of this version of polhode");
-    }
+  Statement made(path, db, "SELECT sql FROM sqlite_master WHERE name = 'runs'");
+  if (made.step() && made.text() != "CREATE TABLE runs (" + columns_of(metrics) + ")") {
+    throw std::runtime_error(path.string() + ": its table runs is not that of this version of polhode");
   }
 }
 
@@ -230,12 +244,13 @@ void check(const std::filesystem::path& path, sqlite3* db) {
 
 void Store::Close::operator()(sqlite3* db) const { sqlite3_close(db); }
 
-Store::Store(const std::filesystem::path& folder) : path_(folder / file_name) {
+Store::Store(const std::filesystem::path& folder, std::span<const Metric> metrics)
+    : path_(folder / file_name), metrics_(metrics) {
   db_.reset(open_database(path_, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE));
-  // A commit survives the death of the process without waiting for the disk; the disk is waited for at checkpoints.
+  // A commit survives a crash of the process without waiting for the disk; SQLite syncs to disk at checkpoints only.
   execute("PRAGMA journal_mode=WAL");
   execute("PRAGMA synchronous=NORMAL");
-  for (const Table& table : tables()) execute("CREATE TABLE IF NOT EXISTS " + table.name + " (" + table.columns + ")");
+  execute("CREATE TABLE IF NOT EXISTS runs (" + columns_of(metrics_) + ")");
 }
 
 Store::~Store() = default;
@@ -246,135 +261,37 @@ void Store::execute(const std::string& sql) const {
 
 Store::Loaded Store::load() const {
   Loaded loaded;
-  // Calls read(row, result) for each row of a table that belongs to a run; a run with a damaged one is none.
-  const auto each_row = [&](const std::string& table, const auto& read) {
-    Statement rows(path_, db_.get(), "SELECT * FROM " + table + " WHERE id IN (SELECT id FROM runs)");
-    std::set<std::string> seen;
-    while (rows.step()) {
-      const std::string id = rows.text();
-      seen.insert(id);
-      try {
-        read(rows, loaded.runs[id]);
-      } catch (const Damage& damage) {
-        loaded.damaged.emplace(id, table + "." + damage.what());
-      }
+  Statement rows(path_, db_.get(), "SELECT * FROM runs");
+  while (rows.step()) {
+    const std::string id = rows.text();
+    RunResult result;
+    try {
+      unpack(rows, result, metrics_);
+      loaded.runs[id] = std::move(result);
+    } catch (const Damage& damage) {
+      loaded.damaged.emplace(id, std::string("runs.") + damage.what());
     }
-    return seen;
-  };
-  const auto ids = each_row("runs", [](Statement& row, RunResult& r) {
-    r.status = row.text();
-    if (r.status != "ok" && r.status != "diverged" && r.status != "failed") throw Damage("status");
-    r.message = row.text();
-    r.t_reached = row.real();
-    r.steps = row.count();
-    r.evaluations = row.count();
-    r.energy_initial = row.optional_real();
-    r.energy_drift_max_rel = row.optional_real();
-    r.energy_drift_final_rel = row.optional_real();
-    r.energy_drift_rate = row.optional_real();
-    r.drift_class = row.text();
-    r.linear_momentum_drift_max_rel = row.optional_real();
-    r.angular_momentum_drift_max_rel = row.optional_real();
-    r.invariant_drift_max_rel = row.named_numbers();
-    r.orientation_defect_max = row.optional_real();
-    r.position_error_max = row.optional_real();
-    r.attitude_error_max = row.optional_real();
-    r.angular_velocity_error_max_rel = row.optional_real();
-    r.seconds = row.real();
-    r.series = row.series<SeriesPoint>();
-  });
-  const auto need = [&](const std::string& table, const std::set<std::string>& seen) {
-    for (const std::string& id : ids) {
-      if (!seen.contains(id)) loaded.damaged.emplace(id, "no row in " + table);
-    }
-  };
-  need("drifts", each_row("drifts", [](Statement& row, RunResult& r) {
-         for (const auto member : drift_members) r.*member = row.optional_real();
-       }));
-  need("energies", each_row("energies", [](Statement& row, RunResult& r) {
-         for (const auto member : energy_members) r.*member = row.optional_real();
-       }));
-  each_row("references_used", [](Statement& row, RunResult& r) {
-    r.position_reference = row.any_real();
-    r.attitude_reference = row.any_real();
-    r.angular_velocity_reference_rel = row.any_real();
-  });
-  each_row("contacts", [](Statement& row, RunResult& r) {
-    for (const auto member : contact_members) r.contact.*member = row.optional_real();
-  });
-  each_row("attitude_errors", [](Statement& row, RunResult& r) { r.attitude_errors = row.series<AttitudeError>(); });
-  for (const auto& [id, why] : loaded.damaged) loaded.runs.erase(id);
+  }
   return loaded;
 }
 
 void Store::forget(const std::string& id) {
-  for (const Table& table : tables()) {
-    Statement row(path_, db_.get(), "DELETE FROM " + table.name + " WHERE id = ?");
-    row.bind(id);
-    row.step();
-  }
+  Statement row(path_, db_.get(), "DELETE FROM runs WHERE id = ?");
+  row.bind(id);
+  row.step();
 }
 
 void Store::keep(std::span<const RunRecord> records) {
+  const std::string columns = columns_of(metrics_);
+  std::string parameters = "?";
+  for (auto more = std::count(columns.begin(), columns.end(), ','); more > 0; --more) parameters += ",?";
   execute("BEGIN IMMEDIATE");
   try {
-    Statement insert(path_, db_.get(), insertion("runs"));
-    Statement drifts(path_, db_.get(), insertion("drifts"));
-    Statement energies(path_, db_.get(), insertion("energies"));
-    Statement used(path_, db_.get(), insertion("references_used"));
-    Statement contacts(path_, db_.get(), insertion("contacts"));
-    Statement errors(path_, db_.get(), insertion("attitude_errors"));
+    Statement insert(path_, db_.get(), "INSERT OR REPLACE INTO runs VALUES (" + parameters + ")");
     for (const RunRecord& record : records) {
-      const RunResult& r = record.result;
-      if (!r.attitude_errors.empty()) {
-        errors.bind(record.id);
-        errors.bind(r.attitude_errors);
-        errors.step();
-        errors.reset();
-      }
-      insert.bind(record.id);
-      insert.bind(r.status);
-      insert.bind(r.message);
-      insert.bind(r.t_reached);
-      insert.bind(r.steps);
-      insert.bind(r.evaluations);
-      insert.bind(r.energy_initial);
-      insert.bind(r.energy_drift_max_rel);
-      insert.bind(r.energy_drift_final_rel);
-      insert.bind(r.energy_drift_rate);
-      insert.bind(r.drift_class);
-      insert.bind(r.linear_momentum_drift_max_rel);
-      insert.bind(r.angular_momentum_drift_max_rel);
-      insert.bind(pack(r.invariant_drift_max_rel));
-      insert.bind(r.orientation_defect_max);
-      insert.bind(r.position_error_max);
-      insert.bind(r.attitude_error_max);
-      insert.bind(r.angular_velocity_error_max_rel);
-      insert.bind(r.seconds);
-      insert.bind(r.series);
+      pack(insert, record, metrics_);
       insert.step();
       insert.reset();
-      drifts.bind(record.id);
-      for (const auto member : drift_members) drifts.bind(r.*member);
-      drifts.step();
-      drifts.reset();
-      energies.bind(record.id);
-      for (const auto member : energy_members) energies.bind(r.*member);
-      energies.step();
-      energies.reset();
-      if (r.contact.energy_change_max) {
-        contacts.bind(record.id);
-        for (const auto member : contact_members) contacts.bind(r.contact.*member);
-        contacts.step();
-        contacts.reset();
-      }
-      if (!r.position_reference && !r.attitude_reference && !r.angular_velocity_reference_rel) continue;
-      used.bind(record.id);
-      used.bind(r.position_reference);
-      used.bind(r.attitude_reference);
-      used.bind(r.angular_velocity_reference_rel);
-      used.step();
-      used.reset();
     }
     execute("COMMIT");
   } catch (...) {
@@ -383,14 +300,14 @@ void Store::keep(std::span<const RunRecord> records) {
   }
 }
 
-std::set<std::string> Store::ids_in(const std::filesystem::path& folder) {
+std::set<std::string> Store::ids_in(const std::filesystem::path& folder, std::span<const Metric> metrics) {
   std::set<std::string> ids;
   const std::filesystem::path path = folder / file_name;
   if (!std::filesystem::exists(path)) return ids;
   const std::unique_ptr<sqlite3, Close> db(open_database(path, SQLITE_OPEN_READWRITE));
   try {
-    check(path, db.get());
-    // A program killed at once leaves a store without its table.
+    check(path, db.get(), metrics);
+    // A program that was killed just after its start leaves a store without the table.
     Statement table(path, db.get(), "SELECT name FROM sqlite_master WHERE name = 'runs'");
     if (!table.step()) return ids;
     Statement rows(path, db.get(), "SELECT id FROM runs");
@@ -402,9 +319,9 @@ std::set<std::string> Store::ids_in(const std::filesystem::path& folder) {
 }
 
 std::size_t Store::longest_folder() {
-  // SQLite leaves room for what it adds to the name.
+  // SQLite appends suffixes to the file name, the longest of which is "-journal".
   return static_cast<std::size_t>(sqlite3_vfs_find(nullptr)->mxPathname) - std::strlen("/-journal") -
          std::strlen(file_name);
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::store

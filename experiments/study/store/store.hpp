@@ -9,17 +9,18 @@
 #include <span>
 #include <string>
 
+#include "experiments/study/record/metric_table.hpp"
 #include "experiments/study/record/run_record.hpp"
 
 struct sqlite3;
 
-namespace polhode::study {
+namespace polhode::study::inline store {
 
 /// Every function throws std::runtime_error with SQLite's reason, naming the file (disk full, locked, damaged).
 class Store {
  public:
-  /// Opens the store in the folder, or makes it.
-  explicit Store(const std::filesystem::path& folder);
+  /// Opens the store in the folder, or creates it. `metrics` must outlive the store.
+  explicit Store(const std::filesystem::path& folder, std::span<const Metric> metrics = metric_table());
   ~Store();
   Store(const Store&) = delete;
   Store& operator=(const Store&) = delete;
@@ -32,9 +33,10 @@ class Store {
   void keep(std::span<const RunRecord> records);  ///< in one transaction
   void forget(const std::string& id);
 
-  /// The ids in a folder's store, empty if there is none; changes nothing. Throws too where another program has made
-  /// tables of these names, and where the database is damaged anywhere.
-  static std::set<std::string> ids_in(const std::filesystem::path& folder);
+  /// The run ids in the store of a folder, empty if there is no store. Read-only. Also throws if the table has other
+  /// columns, such as those of another version, or if any part of the database is damaged.
+  static std::set<std::string> ids_in(const std::filesystem::path& folder,
+                                      std::span<const Metric> metrics = metric_table());
 
   /// Bytes, of the absolute path of a folder whose store SQLite opens.
   static std::size_t longest_folder();
@@ -45,6 +47,7 @@ class Store {
   void execute(const std::string& sql) const;
 
   std::filesystem::path path_;
+  std::span<const Metric> metrics_;
   struct Close {
     void operator()(sqlite3*) const;
   };

@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 
 struct BuildInfo {
   std::string_view version;

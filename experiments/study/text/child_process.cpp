@@ -15,7 +15,7 @@
 #include <stdexcept>
 #include <system_error>
 
-namespace polhode::study::report {
+namespace polhode::study::inline text {
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace polhode::study::report {
+namespace polhode::study::inline text {
 
 class ChildProcess {
  public:

@@ -6,7 +6,7 @@
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/suggestion.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 namespace {
 
 std::string quoted(const std::string& word) {

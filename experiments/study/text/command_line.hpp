@@ -10,7 +10,7 @@ class App;
 class Option;
 }
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 
 /// Adds --no-figures, which makes `figures` false.
 CLI::Option* add_no_figures(CLI::App& app, bool& figures);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/text/csv.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 
 std::string csv_row(const std::vector<std::string>& cells) {
   std::string row;

@@ -9,14 +9,14 @@
 
 #include "experiments/study/text/value_lists.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 
 /// Cells with a comma, a quote or a line break stand in quotes. Ends with a line break.
 std::string csv_row(const std::vector<std::string>& cells);
 
 /// All digits; empty where there is no number, or one that is not finite.
 inline std::string csv_cell(const std::optional<double>& x) {
-  return x && std::isfinite(*x) ? study::exact(*x) : std::string();
+  return x && std::isfinite(*x) ? exact(*x) : std::string();
 }
 
 }  // namespace polhode::study

@@ -13,7 +13,7 @@
 #include "experiments/study/text/legible.hpp"
 #include "experiments/study/text/suggestion.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 namespace {
 
 constexpr std::string_view blanks = " \t";

@@ -14,7 +14,7 @@
 
 #include "experiments/study/text/text_file.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 
 class CsvReader {
  public:

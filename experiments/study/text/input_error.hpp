@@ -7,7 +7,7 @@
 
 #include "experiments/study/text/legible.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 
 /// what() is the one line, without the program's name, legible whatever the user gave. main() prints it on stderr and
 /// exits with 2.

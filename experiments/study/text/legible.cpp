@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 namespace {
 
 constexpr std::string_view ellipsis = "...";

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 
 /// One line: control characters, and bytes that are no UTF-8, are spelled out (\x0a). Of a word longer than 300 bytes,
 /// and of a message longer than 3000, the middle is left out.

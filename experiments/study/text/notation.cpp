@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace polhode::study::report {
+namespace polhode::study::inline text {
 
 namespace {
 
@@ -64,7 +64,7 @@ std::string scientific(double value) {
   return without_padding(fmt::format("{:.16e}", value));
 }
 
-std::string exact(double value) {
+std::string exact_number(double value) {
   if (!std::isfinite(value)) return "not finite";
   const double size = std::abs(value);
   if (size > 0 && (size < 1e-3 || size >= 1e6)) return scientific(value);

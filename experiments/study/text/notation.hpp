@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace polhode::study::report {
+namespace polhode::study::inline text {
 
 /// A measured number to so many significant digits: "0.0325", "3.25e-5"; "not finite" if it is not.
 std::string number(double value, int digits = 3);
@@ -17,8 +17,8 @@ std::string rounded(double value);
 /// The same of a text that is a number; any other text as it is.
 std::string rounded(const std::string& text);
 
-/// A number that was given, with all its digits: "0.001", "1e-5", "2.5e-4".
-std::string exact(double value);
+/// A given number with all its digits: "0.001", "1e-5", "2.5e-4".
+std::string exact_number(double value);
 
 /// With an exponent and no more digits than it takes to read it back: "1e-3", "2.5e-4", "1e0". Finite values only.
 std::string scientific(double value);

@@ -13,7 +13,7 @@
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/legible.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 namespace {
 
 void say(const std::string& name, const std::string& message) {

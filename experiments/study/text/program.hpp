@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 
 constexpr int bad_input = 2, not_carried_out = 3;  ///< exit statuses
 

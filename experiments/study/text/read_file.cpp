@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace polhode::study::report {
+namespace polhode::study::inline text {
 
 std::optional<std::string> read_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace polhode::study::report {
+namespace polhode::study::inline text {
 
 /// Absent: there is no such file, or it cannot be read.
 std::optional<std::string> read_file(const std::filesystem::path& path);

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 
 int edit_distance(std::string_view a, std::string_view b) {
   const std::size_t n = b.size();

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 
 /// The fewest insertions, deletions, replacements and swaps of neighbours that make b of a (Damerau 1964).
 int edit_distance(std::string_view a, std::string_view b);

@@ -11,7 +11,7 @@
 
 #include "experiments/study/text/input_error.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 namespace {
 
 namespace fs = std::filesystem;

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 
 constexpr std::size_t mebibyte = std::size_t{1} << 20;
 

@@ -8,7 +8,7 @@
 #include "experiments/study/text/suggestion.hpp"
 #include "experiments/study/text/value_lists.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 
 namespace {
 

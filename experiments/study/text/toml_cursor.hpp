@@ -10,7 +10,7 @@
 #include "core/problem/force_kind.hpp"
 #include "experiments/study/text/toml_value.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 
 /// Something is wrong with the input. What the user sees is made of it where the file's name is known.
 struct Fault {

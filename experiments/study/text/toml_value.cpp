@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 
 namespace {
 

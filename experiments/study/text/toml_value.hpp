@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 
 /// Where a value was written: line and column of the text (from 1), or the override that set it.
 struct TomlPlace {

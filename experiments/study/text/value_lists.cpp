@@ -7,7 +7,7 @@
 
 #include "experiments/study/text/input_error.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 namespace {
 
 std::string_view trimmed(std::string_view text) {

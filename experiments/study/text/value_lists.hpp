@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace polhode::study {
+namespace polhode::study::inline text {
 
 /// Splits at the separator; blanks around items are dropped. Throws InputError, naming `option`, on an empty list or
 /// item.

@@ -13,7 +13,7 @@
 
 #include "experiments/study/trajectory/trajectory_rows.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline trajectory {
 namespace {
 
 constexpr std::size_t rows_between_flushes = 1000;
@@ -201,43 +201,35 @@ std::vector<double> event_row(const Transition& t) {
 template <class Tables>
 class Writer final : public TrajectoryWriter {
  public:
-  Writer(const std::filesystem::path& folder, const System<double>& system, Observer& next)
-      : system_(system), next_(next), tables_(folder, trajectory_columns(system)) {}
+  Writer(const std::filesystem::path& folder, const System<double>& system)
+      : system_(system), tables_(folder, trajectory_columns(system)) {}
 
-  std::size_t observe(std::span<const Sample> samples) override { return next_.observe(samples); }
-  void meet(std::span<const Impact> impacts) override {
+  void on_impacts(std::span<const Impact> impacts) override {
     for (const Impact& impact : impacts) tables_.impact(event_row(impact));
-    next_.meet(impacts);
   }
-  void slides_end(std::span<const Transition> transitions) override {
+  void on_slides_end(std::span<const Transition> transitions) override {
     for (const Transition& transition : transitions) tables_.slide_end(event_row(transition));
-    next_.slides_end(transitions);
   }
-  void account(const ContactLosses& losses) override {
-    contact_ = losses;
-    next_.account(losses);
-  }
-  double next_look() const override { return 0; }
+  void on_contact_energy(const ContactLosses& losses) override { contact_ = losses; }
+  double next_state() const override { return 0; }
 
-  void look(const State<double>& state, const Sample& sample) override {
-    const double energy = sample.ledger(contact_.total());
-    if (first_) energy_start_ = energy;
-    first_ = false;
+  void on_start(const State<double>& state, const Sample& sample) override {
+    energy_start_ = sample.ledger(contact_.total());
+    on_state(state, sample);
+  }
+  void on_state(const State<double>& state, const Sample& sample) override {
     for (std::size_t i = 0; i < system_.moving(); ++i) {
       tables_.trajectory(trajectory_row(system_, state, i, sample.seen.energy()));
     }
     tables_.energy(energy_row(sample, contact_, energy_start_));
-    if (state.t >= next_.next_look() || state.t == 0) next_.look(state, sample);
   }
 
   void close() override { tables_.close(); }
 
  private:
   const System<double>& system_;
-  Observer& next_;
   Tables tables_;
   ContactLosses contact_;
-  bool first_ = true;
   double energy_start_ = 0;
 };
 
@@ -289,13 +281,13 @@ class Hdf5Tables {
 }  // namespace
 
 std::unique_ptr<TrajectoryWriter> open_trajectory(TrajectoryFormat format, const std::filesystem::path& folder,
-                                                  const System<double>& system, Observer& next) {
+                                                  const System<double>& system) {
   if (format == TrajectoryFormat::none) return nullptr;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw TrajectoryError("cannot create the folder " + folder.string() + ": " + error.message());
-  if (format == TrajectoryFormat::hdf5) return std::make_unique<Writer<Hdf5Tables>>(folder, system, next);
-  return std::make_unique<Writer<CsvTables>>(folder, system, next);
+  if (format == TrajectoryFormat::hdf5) return std::make_unique<Writer<Hdf5Tables>>(folder, system);
+  return std::make_unique<Writer<CsvTables>>(folder, system);
 }
 
 }  // namespace polhode::study

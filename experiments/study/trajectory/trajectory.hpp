@@ -8,7 +8,7 @@
 
 #include "core/run/simulate.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline trajectory {
 
 enum class TrajectoryFormat { none, csv, hdf5 };
 
@@ -29,6 +29,6 @@ class TrajectoryWriter : public Observer {
 
 /// Creates `folder` and the files in it; `next` sees every sample too. Throws TrajectoryError.
 std::unique_ptr<TrajectoryWriter> open_trajectory(TrajectoryFormat format, const std::filesystem::path& folder,
-                                                  const System<double>& system, Observer& next);
+                                                  const System<double>& system);
 
 }  // namespace polhode::study

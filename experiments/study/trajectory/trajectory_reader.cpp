@@ -15,7 +15,7 @@
 #include "experiments/study/text/suggestion.hpp"
 #include "experiments/study/text/text_file.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline trajectory {
 namespace {
 
 /// The names of trajectory.csv in groups that are there as a whole or not at all.

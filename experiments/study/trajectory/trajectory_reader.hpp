@@ -12,7 +12,7 @@
 #include "core/math/quaternion.hpp"
 #include "core/problem/problem.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline trajectory {
 
 struct TrajectoryBody {
   Vector3<double> position = Vector3<double>::Zero(), velocity = Vector3<double>::Zero();  ///< of the mass centre

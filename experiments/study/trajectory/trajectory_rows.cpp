@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/trajectory/trajectory_rows.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline trajectory {
 
 std::vector<std::string> trajectory_columns(const System<double>& system) {
   std::vector<std::string> names = {

@@ -8,7 +8,7 @@
 #include "core/run/contact_model.hpp"
 #include "core/run/integrator.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline trajectory {
 
 /// t_s, body, p, q, v, ω, L, energy_J, and with the matrix chart r11 … r33: world axes, SI units; p and v are of the
 /// mass centre, L about the reference point.

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 namespace {
 
@@ -128,4 +128,4 @@ void ArrowPass::draw(const ViewState& view, std::span<const ArrowInstance> arrow
   glDisable(GL_CULL_FACE);
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

@@ -7,7 +7,7 @@
 #include "experiments/viewer/drawing/gl_objects.hpp"
 #include "experiments/viewer/drawing/view_state.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 struct ArrowInstance {
   Vector3<float> from;  ///< m, from the eye

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 namespace {
 
@@ -155,4 +155,4 @@ void BodyPass::draw_shadows(const ViewState& view, const Vector3<double>& normal
   glDisable(GL_STENCIL_TEST);
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

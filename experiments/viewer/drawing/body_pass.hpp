@@ -10,7 +10,7 @@
 #include "experiments/viewer/drawing/surface_mesh.hpp"
 #include "experiments/viewer/drawing/view_state.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 /// A body as the card has it: where it stands from the eye, and its colour.
 struct BodyInstance {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 Vector3<double> Camera::eye() const {
   const double level = std::cos(elevation);

@@ -7,7 +7,7 @@
 
 #include "core/math/linear_algebra.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 struct Camera {
   Vector3<double> target = Vector3<double>::Zero();  ///< m, in the middle of the picture

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 Cast cast_of(const study::Scene& scene) {
   std::vector<double> of_surface;

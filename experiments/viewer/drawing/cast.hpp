@@ -6,7 +6,7 @@
 
 #include "experiments/scene/scene.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 struct Cast {
   std::vector<std::size_t> moving;  ///< among Scene::bodies, ascending

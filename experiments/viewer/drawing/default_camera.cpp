@@ -7,7 +7,7 @@
 
 #include "experiments/viewer/drawing/marks.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 namespace {
 

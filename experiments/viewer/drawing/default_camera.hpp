@@ -9,7 +9,7 @@
 #include "experiments/viewer/drawing/look.hpp"
 #include "experiments/viewer/frame/frame.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 /// Sees all moving bodies of the frames whole, with the ends of their springs and their pivots, as near as it can in a
 /// picture of that shape and the arrows of `look`; half-spaces and fixed bodies do not count. A row of bodies is seen

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 namespace {
 
@@ -120,4 +120,4 @@ void FloorPass::draw_floor(const ViewState& view, std::span<const Plane> planes,
   glDisable(GL_STENCIL_TEST);
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

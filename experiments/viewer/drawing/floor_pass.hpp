@@ -7,7 +7,7 @@
 #include "experiments/viewer/drawing/gl_objects.hpp"
 #include "experiments/viewer/drawing/view_state.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 /// normal · x = offset, world; the half-space is behind it.
 struct Plane {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <string_view>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 /// A vertex and a fragment shader, linked. `#version 330 core` is put before each.
 class Program {

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 namespace {
 
@@ -88,4 +88,4 @@ void LinePass::draw(const ViewState& view, std::span<const LineInstance> lines, 
   lines_.draw(GL_TRIANGLE_STRIP, 4, lines.size());
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

@@ -11,7 +11,7 @@
 #include "core/math/linear_algebra.hpp"
 #include "experiments/viewer/drawing/palette.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 enum class Corner { upper_left, upper_right, lower_left, lower_right };
 

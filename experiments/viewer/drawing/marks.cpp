@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "experiments/viewer/drawing/vector_scale.hpp"
 #include "experiments/viewer/frame/frame.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 /// The scales of vectors, kept from frame to frame.
 struct VectorScales {

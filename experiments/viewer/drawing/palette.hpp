@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 struct Colour {
   std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;

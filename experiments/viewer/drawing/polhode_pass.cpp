@@ -7,7 +7,7 @@
 
 #include "core/problem/inertia.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 namespace {
 
@@ -193,4 +193,4 @@ void PolhodePass::draw(const ViewState& view, const InertiaEllipsoid& e, std::sp
   lines.draw(view, curve_, 0.3, 0.03);
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

@@ -14,7 +14,7 @@
 #include "experiments/viewer/drawing/line_pass.hpp"
 #include "experiments/viewer/drawing/view_state.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 /// The ellipsoid of one body at one instant; lengths are shares of the longest semi-axis.
 struct InertiaEllipsoid {

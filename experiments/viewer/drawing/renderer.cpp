@@ -9,7 +9,7 @@
 
 #include "experiments/viewer/drawing/cast.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 namespace {
 

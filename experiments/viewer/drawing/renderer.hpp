@@ -9,7 +9,7 @@
 #include "experiments/viewer/drawing/marks.hpp"
 #include "experiments/viewer/drawing/polhode_pass.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 /// One for all runs of the same scene: they share its meshes, and the scale of their arrows, so that they compare. The
 /// framebuffer needs a depth buffer, and a stencil buffer for the shadows.

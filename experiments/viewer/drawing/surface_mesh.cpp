@@ -5,7 +5,7 @@
 #include <array>
 #include <map>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include "experiments/scene/scene.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 struct MeshVertex {
   Vector3<float> point, normal;

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 /// The first length seen is the unit; it doubles when one more than half as long again comes.
 class VectorScale {

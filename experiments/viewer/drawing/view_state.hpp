@@ -7,7 +7,7 @@
 #include "experiments/viewer/drawing/camera.hpp"
 #include "experiments/viewer/drawing/look.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline drawing {
 
 struct ViewState {
   Vector3<double> eye;

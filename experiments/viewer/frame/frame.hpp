@@ -8,7 +8,7 @@
 #include "collision/shape.hpp"
 #include "core/math/quaternion.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline frame {
 
 struct FrameBody {
   Vector3<double> position = Vector3<double>::Zero();              ///< m, of the mass centre

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline overlay {
 namespace {
 
 ImU32 colour(Colour c) { return IM_COL32(c.red, c.green, c.blue, c.alpha); }

@@ -6,7 +6,7 @@
 
 #include "experiments/viewer/stage/stage.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline overlay {
 
 /// Behind all windows of Dear ImGui; `area` is where the runs were drawn.
 void write_captions(Stage& stage, const std::vector<Label>& labels, const Rectangle& area, int picture_height);

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline overlay {
 namespace {
 
 /// The font of the figures too, where it is installed.

@@ -8,7 +8,7 @@
 
 struct ImVec2;
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline overlay {
 
 /// Where the controls of a frame are, by name: "play", "integrator", and "integrator/rk4" while that list is open.
 class Controls {

@@ -12,7 +12,7 @@
 #include "experiments/study/scenario/builtin_scenarios.hpp"
 #include "integrators/catalogue.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline overlay {
 namespace {
 
 bool button(Controls& controls, const char* label, const char* name) {
@@ -199,7 +199,7 @@ void Panel::method(Stage& stage, Controls& controls) {
     change(stage, c);
   }
   if (check(controls, "gyroscopic term", "gyroscopic", run.formulation.gyroscopic)) change(stage, c);
-  if (check(controls, "normalise each step", "normalise", run.normalise)) change(stage, c);
+  if (check(controls, "normalize each step", "normalize", run.normalise)) change(stage, c);
   if (run.contact) {
     study::ContactConfig& contact = *run.contact;
     if (choose(controls, "broad phase", "broad_phase", names_of(broad_phase_catalogue()), contact.broad_phase))

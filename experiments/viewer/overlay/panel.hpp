@@ -8,7 +8,7 @@
 #include "experiments/viewer/overlay/gui.hpp"
 #include "experiments/viewer/stage/stage.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline overlay {
 
 /// What the controls ask of the window, which alone can do it.
 struct PanelWishes {

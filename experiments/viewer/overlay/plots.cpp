@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline overlay {
 namespace {
 
 /// Okabe and Ito's, as in the figures of a study.

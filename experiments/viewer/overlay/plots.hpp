@@ -4,7 +4,7 @@
 
 #include "experiments/viewer/stage/stage.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline overlay {
 
 /// A strip of plots at the lower edge of the picture, one curve for each run.
 void draw_plots(Stage& stage, float left, float upper, float width, float height);

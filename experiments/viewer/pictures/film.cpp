@@ -13,11 +13,11 @@
 #include <system_error>
 #include <vector>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline pictures {
 
 namespace {
 
-using study::report::ChildProcess;
+using study::ChildProcess;
 
 [[noreturn]] void no_encoder(const std::filesystem::path& path) {
   throw std::runtime_error(

@@ -9,7 +9,7 @@
 #include "experiments/study/text/child_process.hpp"
 #include "experiments/viewer/pictures/picture.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline pictures {
 
 class Film {
  public:
@@ -28,7 +28,7 @@ class Film {
   [[noreturn]] void fail(const std::string& printed);
   std::filesystem::path path_, unfinished_;
   int width_, height_;
-  std::optional<study::report::ChildProcess> encoder_;
+  std::optional<study::ChildProcess> encoder_;
 };
 
 }  // namespace polhode::viewer

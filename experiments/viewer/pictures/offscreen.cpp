@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline pictures {
 
 namespace {
 

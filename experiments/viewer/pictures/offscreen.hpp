@@ -6,7 +6,7 @@
 
 #include "experiments/viewer/pictures/picture.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline pictures {
 
 /// Whether the current context draws by the processor: a sample more a pixel then costs as much as the first.
 bool draws_in_software();

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline pictures {
 
 /// Red, green and blue, a byte each; the uppermost row first, no padding.
 struct Picture {

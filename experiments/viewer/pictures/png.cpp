@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline pictures {
 
 void write_png(const std::filesystem::path& path, const Picture& picture) {
   const std::string temporary = path.string() + ".new";

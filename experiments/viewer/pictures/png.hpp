@@ -6,7 +6,7 @@
 
 #include "experiments/viewer/pictures/picture.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline pictures {
 
 /// Under a temporary name beside the file, then renamed. Throws std::runtime_error, which names the file and the
 /// reason.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/viewer/pictures/show_offscreen.hpp"
+
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
@@ -13,9 +15,8 @@
 #include "experiments/viewer/pictures/film.hpp"
 #include "experiments/viewer/pictures/offscreen.hpp"
 #include "experiments/viewer/pictures/png.hpp"
-#include "experiments/viewer/stage/show.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline pictures {
 namespace {
 
 constexpr int plots_height = 170;

@@ -9,13 +9,13 @@
 #include "collision/contact/impact_timing.hpp"
 #include "collision/narrow_phase.hpp"
 #include "collision/response.hpp"
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/run/run.hpp"
-#include "experiments/study/scenario/narrow_phase_choice.hpp"
 #include "experiments/study/text/suggestion.hpp"
 #include "experiments/viewer/session/session.hpp"
 #include "integrators/catalogue.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline session {
 namespace {
 
 template <class Entry>
@@ -65,10 +65,11 @@ std::string integrator_fault(const study::RunConfig& run) {
 Configuration usual_configuration(const study::Scenario& scenario) {
   Configuration usual;
   usual.run.scenario = scenario.name;
-  usual.run.t_end = scenario.t_end;
   choose_integrator(usual, "rk4");
-  if (scenario.colliders.empty()) return usual;
-  usual.run.contact = {"sweep_and_prune", study::narrow_phase_for(scenario), "sequential_impulses", "time_stepping"};
+  if (!scenario.colliders.empty()) usual.run.contact.emplace();
+  for (const study::RunOption& option : study::run_options()) {
+    if (option.preset && option.applies_to(usual.run)) option.set(usual.run, option.preset(scenario));
+  }
   return usual;
 }
 

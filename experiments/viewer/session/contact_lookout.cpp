@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline session {
 namespace {
 
 constexpr double touching = 1e-6, apart = 1e-3;  // of the largest body

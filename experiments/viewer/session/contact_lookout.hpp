@@ -11,7 +11,7 @@
 #include "experiments/study/record/run_record.hpp"
 #include "experiments/viewer/frame/frame.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline session {
 
 class ContactLookout {
  public:

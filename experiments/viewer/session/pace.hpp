@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline session {
 
 class Pace {
  public:

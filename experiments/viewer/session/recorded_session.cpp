@@ -13,7 +13,7 @@
 #include "experiments/viewer/session/session.hpp"
 #include "experiments/viewer/session/state_conversion.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline session {
 namespace {
 
 constexpr std::size_t most_points = 2048;

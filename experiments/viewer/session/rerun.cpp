@@ -10,7 +10,7 @@
 #include "experiments/viewer/session/session_record.hpp"
 #include "experiments/viewer/session/state_conversion.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline session {
 namespace {
 
 using Place = std::pair<std::int64_t, std::int64_t>;  // segment and step
@@ -24,9 +24,9 @@ class Follower final : public Observer {
     for (const SegmentPart& part : segment.parts) sizes_.insert(sizes_.end(), part.sizes.begin(), part.sizes.end());
   }
 
-  std::size_t observe(std::span<const Sample> samples) override { return samples.size(); }
-  double next_look() const override { return 0; }
-  void look(const State<double>& state, const Sample&) override {
+  std::size_t on_samples(std::span<const Sample> samples) override { return samples.size(); }
+  double next_state() const override { return 0; }
+  void on_state(const State<double>& state, const Sample&) override {
     if (wanted_.contains({number_, step_})) kept_[{number_, step_}] = state;
     check(state);
     end_ = state;

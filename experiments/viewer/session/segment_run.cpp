@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline session {
 
 SegmentRun::SegmentRun(const study::Scenario& scenario, const Configuration& configuration)
     : configuration_(configuration), system_(make_system<double>(scenario.problem, configuration.run.formulation)) {
@@ -21,7 +21,7 @@ RunOutcome SegmentRun::go(State<double>& state, Observer& observer, const std::a
   if (configuration_.drive == Drive::frame_clock) schedule.next_step = std::move(next_step);
   if (!(state.t < schedule.t_end)) {
     const Sample sample{state.t, system_->measure(state.y), state.y[system_->layout().work()], 0};
-    observer.look(state, sample);
+    observer.on_start(state, sample);
     RunOutcome outcome;
     outcome.t = state.t;
     return outcome;

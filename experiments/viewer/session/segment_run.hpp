@@ -12,7 +12,7 @@
 #include "experiments/study/setup/run_setup.hpp"
 #include "experiments/viewer/session/session.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline session {
 
 class SegmentRun {
  public:

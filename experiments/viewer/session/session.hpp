@@ -24,7 +24,7 @@
 #include "experiments/study/scenario/scenario.hpp"
 #include "experiments/viewer/frame/frame.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline session {
 
 /// What gives the steps their size.
 enum class Drive {

@@ -6,10 +6,10 @@
 
 #include "experiments/study/metrics/motion_scales.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline session {
 namespace {
 
-constexpr std::size_t most_points = 2048;  // of a plot, and of a trace
+constexpr std::size_t most_plotted = 2048;  // largest number of points of a plot or a trace
 constexpr std::size_t fewest_states = 16, most_states = 1 << 16;
 
 std::size_t states_in(std::size_t bytes, const Problem& problem) {
@@ -21,7 +21,7 @@ std::size_t states_in(std::size_t bytes, const Problem& problem) {
 }  // namespace
 
 SessionMemory::SessionMemory(const study::Scenario& scenario, std::size_t bytes)
-    : scenario_(scenario), capacity_(states_in(bytes, scenario.problem)), history_(capacity_), plot_(most_points) {}
+    : scenario_(scenario), capacity_(states_in(bytes, scenario.problem)), history_(capacity_), plot_(most_plotted) {}
 
 const System<double>& SessionMemory::system(const Formulation& f) {
   auto& made = systems_[{f.orientation, f.angular_state, f.gyroscopic, f.rotation_from}];
@@ -33,8 +33,8 @@ void SessionMemory::begin(const Kept& start) {
   energy_start_ = start.sample.ledger(start.losses.total());
   momentum_start_ = start.sample.seen.angular_momentum;
   history_ = Thinned<Kept>(capacity_);
-  plot_ = Thinned<PlotPoint>(most_points);
-  for (Traced& t : traced_) t.points = Thinned<TracePoint>(most_points);
+  plot_ = Thinned<PlotPoint>(most_plotted);
+  for (Traced& t : traced_) t.points = Thinned<TracePoint>(most_plotted);
   add(start);
 }
 
@@ -119,7 +119,7 @@ void SessionMemory::trace(std::span<const std::size_t> bodies) {
       traced.push_back(std::move(*old));
       traced_.erase(old);
     } else if (std::none_of(traced.begin(), traced.end(), same)) {
-      traced.push_back({body, Thinned<TracePoint>(most_points)});
+      traced.push_back({body, Thinned<TracePoint>(most_plotted)});
       for (const auto& item : history_.items()) traced.back().points.add(item.step, trace_point(item.value, body));
     }
   }

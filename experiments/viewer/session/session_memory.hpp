@@ -14,7 +14,7 @@
 #include "experiments/viewer/session/session_record.hpp"
 #include "experiments/viewer/session/thinned.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline session {
 
 /// A state with all that belongs to it.
 struct Kept {

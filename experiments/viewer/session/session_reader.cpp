@@ -6,19 +6,15 @@
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/text_file.hpp"
 #include "experiments/study/text/toml_cursor.hpp"
+#include "experiments/viewer/session/segment_options.hpp"
 #include "experiments/viewer/session/segment_run.hpp"
 #include "experiments/viewer/session/session_record.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline session {
 namespace {
 
 using study::TomlCursor;
 using Range = TomlCursor::Range;
-
-const std::vector<std::string_view> segment_keys = {
-    "from_segment", "from_step",    "drive",       "integrator",    "dt",         "tolerance",     "order",
-    "summation",    "t_end",        "orientation", "angular_state", "gyroscopic", "rotation_from", "normalise",
-    "broad_phase",  "narrow_phase", "response",    "impact_timing", "part"};
 
 std::int64_t whole(const TomlCursor& cursor, double most) {
   const double x = cursor.number("", Range::non_negative);
@@ -43,30 +39,56 @@ std::string text_of(const TomlCursor& table, std::string_view key) {
   return cursor.text("a name");
 }
 
+study::OptionValue value_of(const TomlCursor& cursor, const SegmentOption& said) {
+  const study::RunOption& option = *said.option;
+  if (option.kind == study::RunOption::Kind::number) return cursor.number(option.unit, Range::positive);
+  if (option.kind == study::RunOption::Kind::whole) {
+    const double x = cursor.number("", Range::non_negative);
+    if (x != std::floor(x) || (x > 0 && option.fault && !option.fault(x).empty()))
+      cursor.refuse("a whole number, not too large");
+    return static_cast<std::int64_t>(x);
+  }
+  if (option.takes_all) return cursor.text("a name");
+  const std::vector<std::string> known = option.known();
+  if (!said.if_true.empty()) {
+    const bool on = cursor.boolean();
+    return *std::find_if(known.begin(), known.end(), [&](const auto& name) { return (name == said.if_true) == on; });
+  }
+  const std::string& text = cursor.text("one of its names");
+  if (std::find(known.begin(), known.end(), text) == known.end())
+    cursor.unknown(cursor.path(), "There are", {known.begin(), known.end()});
+  return text;
+}
+
+/// True if the option is part of RunConfig::contact.
+bool is_of_contact(const study::RunOption& option) {
+  study::RunConfig with;
+  with.contact.emplace();
+  return option.value(with) != option.value({});
+}
+
 Configuration configuration_of(const TomlCursor& segment) {
   Configuration c;
-  study::RunConfig& run = c.run;
-  const auto at = [&](std::string_view key) { return segment.at(key, "said for each segment"); };
-  c.drive = choice(at("drive"), {Drive::accumulator, Drive::frame_clock});
-  run.integrator = text_of(segment, "integrator");
-  if (segment.has("dt")) run.dt = at("dt").number("s", Range::positive);
-  if (segment.has("tolerance")) run.tolerance = at("tolerance").number("", Range::positive);
-  if (segment.has("order")) run.order = static_cast<int>(whole(at("order"), 100));
-  if (segment.has("summation"))
-    run.summation = choice(at("summation"), {study::Summation::plain, study::Summation::compensated});
-  run.t_end = at("t_end").number("s", Range::positive);
-  Formulation& f = run.formulation;
-  f.orientation = choice(at("orientation"), {Orientation::quaternion, Orientation::matrix});
-  f.angular_state = choice(at("angular_state"),
-                           {AngularState::velocity_world, AngularState::velocity_body, AngularState::momentum_world});
-  f.gyroscopic = at("gyroscopic").boolean();
-  f.rotation_from = choice(at("rotation_from"), {RotationFrom::normalised, RotationFrom::stored});
-  run.normalise = at("normalise").boolean();
-  if (segment.has("response")) {
-    run.contact = {text_of(segment, "broad_phase"), text_of(segment, "narrow_phase"), text_of(segment, "response"),
-                   segment.has("impact_timing") ? text_of(segment, "impact_timing") : ""};
+  c.drive = choice(segment.at("drive", "said for each segment"), {Drive::accumulator, Drive::frame_clock});
+  for (const SegmentOption& said : segment_options()) {
+    const study::RunOption& option = *said.option;
+    bool needed = option.value({}) != study::OptionValue{};
+    if (is_of_contact(option)) {
+      if (!segment.has("response")) continue;
+      needed = option.name != "impact-timing";
+    }
+    if (!needed && !segment.has(said.key)) continue;
+    const TomlCursor cursor = segment.at(said.key, option.takes_all ? "a name" : "said for each segment");
+    option.set(c.run, value_of(cursor, said));
   }
   return c;
+}
+
+std::vector<std::string_view> keys_of(const std::vector<SegmentOption>& options) {
+  std::vector<std::string_view> keys = {"from_segment", "from_step", "drive"};
+  for (const SegmentOption& said : options) keys.push_back(said.key);
+  keys.push_back("part");
+  return keys;
 }
 
 SegmentPart part_of(const TomlCursor& cursor, Drive drive) {
@@ -101,7 +123,8 @@ SegmentStart start_of(const TomlCursor& cursor, const std::vector<RecordedSegmen
 
 RecordedSegment segment_of(const TomlCursor& cursor, const study::Scenario& scenario,
                            const std::vector<RecordedSegment>& before) {
-  cursor.table("A segment has", segment_keys);
+  const std::vector<SegmentOption> options = segment_options();  // hold the keys
+  cursor.table("A segment has", keys_of(options));
   RecordedSegment segment;
   segment.configuration = configuration_of(cursor);
   segment.configuration.run.scenario = scenario.name;

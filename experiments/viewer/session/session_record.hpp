@@ -14,7 +14,7 @@
 
 #include "experiments/viewer/session/session.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline session {
 
 /// A segment starts where another, counted from 1, was after so many steps; segment 0: at the scenario's start.
 struct SegmentStart {

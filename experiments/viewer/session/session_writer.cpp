@@ -6,10 +6,11 @@
 #include <stdexcept>
 
 #include "experiments/study/text/value_lists.hpp"
+#include "experiments/viewer/session/segment_options.hpp"
 #include "experiments/viewer/session/segment_run.hpp"
 #include "experiments/viewer/session/session_record.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline session {
 namespace {
 
 std::string quoted(std::string_view text) {
@@ -70,24 +71,17 @@ SessionWriter::~SessionWriter() {
 }
 
 void SessionWriter::begin(SegmentStart from, const Configuration& configuration) {
-  const study::RunConfig& run = configuration.run;
-  const Formulation& f = run.formulation;
   std::string text = "\n[[segment]]\n";
   if (from.segment > 0) {
     text += line("from_segment", static_cast<double>(from.segment)) + line("from_step", static_cast<double>(from.step));
   }
-  text += line("drive", name(configuration.drive)) + line("integrator", run.integrator);
-  if (run.dt) text += line("dt", *run.dt);
-  if (run.tolerance) text += line("tolerance", *run.tolerance);
-  if (run.order) text += line("order", static_cast<double>(*run.order));
-  if (run.summation) text += line("summation", study::name(*run.summation));
-  text += line("t_end", run.t_end) + line("orientation", polhode::name(f.orientation)) +
-          line("angular_state", polhode::name(f.angular_state)) + line("gyroscopic", f.gyroscopic) +
-          line("rotation_from", polhode::name(f.rotation_from)) + line("normalise", run.normalise);
-  if (run.contact) {
-    text += line("broad_phase", run.contact->broad_phase) + line("narrow_phase", run.contact->narrow_phase) +
-            line("response", run.contact->response);
-    if (!run.contact->impact_timing.empty()) text += line("impact_timing", run.contact->impact_timing);
+  text += line("drive", name(configuration.drive));
+  for (const auto& [option, key, if_true] : segment_options()) {
+    const std::string said = study::text_of(option->value(configuration.run));
+    if (said.empty()) continue;
+    if (!if_true.empty()) text += line(key, said == if_true);
+    else if (option->kind == study::RunOption::Kind::name) text += line(key, said);
+    else text += fmt::format("{} = {}\n", key, said);
   }
   append(text);
 }

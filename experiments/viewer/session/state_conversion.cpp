@@ -3,7 +3,7 @@
 
 #include "core/system/orientation_chart.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline session {
 namespace {
 
 using MatrixChart = Chart<double, Orientation::matrix>;

@@ -4,7 +4,7 @@
 
 #include "core/system/system.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline session {
 
 /// Writes a body into a state of this system: its orientation (the rotation where the chart is the matrix), its angular
 /// state and, unless it is pinned, where it is and how fast.

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline session {
 
 template <class T>
 class Thinned {

@@ -4,7 +4,7 @@
 #include "experiments/viewer/session/pace.hpp"
 #include "experiments/viewer/session/session.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline session {
 
 void tick_together(std::span<const std::unique_ptr<Session>> sessions, double seconds) {
   double behind = 0;

@@ -10,10 +10,10 @@
 #include "experiments/study/text/notation.hpp"
 #include "experiments/viewer/drawing/default_camera.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline stage {
 namespace {
 
-using study::report::rounded;
+using study::rounded;
 
 /// The first name of a session that is not taken.
 std::filesystem::path free_name(const std::filesystem::path& folder) {

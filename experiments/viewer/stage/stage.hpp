@@ -13,7 +13,7 @@
 #include "experiments/viewer/drawing/renderer.hpp"
 #include "experiments/viewer/session/session.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline stage {
 
 struct StageSetup {
   std::string scenario;  ///< a built-in name or a path

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline window {
 
 class FrameClock {
  public:

@@ -14,7 +14,7 @@
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/text_file.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline window {
 namespace {
 
 /// How many words stand after each.
@@ -205,7 +205,7 @@ std::string Script::value(Stage& stage, const std::string& of) const {
       {"chart", [&] { return std::string(polhode::name(run.formulation.orientation)); }},
       {"angular_state", [&] { return std::string(polhode::name(run.formulation.angular_state)); }},
       {"gyroscopic", [&] { return truth(run.formulation.gyroscopic); }},
-      {"normalise", [&] { return truth(run.normalise); }},
+      {"normalize", [&] { return truth(run.normalise); }},
       {"broad_phase", [&] { return run.contact ? run.contact->broad_phase : "none"; }},
       {"narrow_phase", [&] { return run.contact ? run.contact->narrow_phase : "none"; }},
       {"response", [&] { return run.contact ? run.contact->response : "none"; }},

@@ -24,7 +24,7 @@
 #include "experiments/viewer/overlay/gui.hpp"
 #include "experiments/viewer/stage/stage.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline window {
 
 class Script {
  public:

@@ -20,11 +20,11 @@
 #include "experiments/viewer/overlay/plots.hpp"
 #include "experiments/viewer/pictures/offscreen.hpp"
 #include "experiments/viewer/pictures/png.hpp"
-#include "experiments/viewer/stage/show.hpp"
 #include "experiments/viewer/window/frame_clock.hpp"
 #include "experiments/viewer/window/script.hpp"
+#include "experiments/viewer/window/show_window.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::inline window {
 namespace {
 
 constexpr int panel_width = 320, plots_height = 170;
@@ -258,17 +258,6 @@ class Show {
 };
 
 }  // namespace
-
-void show(const Shown& shown, Stage& stage) {
-  stage.look.axes = shown.axes;
-  stage.look.angular_velocity = shown.angular_velocity;
-  stage.look.angular_momentum = shown.angular_momentum;
-  stage.look.polhode = shown.polhode || shown.poinsot;
-  stage.look.poinsot = shown.poinsot;
-  stage.look.contacts = shown.contacts;
-  stage.trails = shown.trails;
-  stage.cells = shown.cells;
-}
 
 void show_window(StageSetup setup, const WindowSettings& settings) {
   std::signal(SIGINT, [](int) { asked_to_stop = true; });

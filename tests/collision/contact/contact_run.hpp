@@ -91,19 +91,21 @@ struct ContactRun {
  private:
   struct Recorder final : Observer {
     Recorder(ContactRun& to, const System<double>& s) : run(to), system(s) {}
-    std::size_t observe(std::span<const Sample> seen) override {
+    std::size_t on_samples(std::span<const Sample> seen) override {
       run.samples.insert(run.samples.end(), seen.begin(), seen.end());
       return seen.size();
     }
-    void meet(std::span<const Impact> some) override {
+    void on_impacts(std::span<const Impact> some) override {
       run.impacts.insert(run.impacts.end(), some.begin(), some.end());
     }
-    void slides_end(std::span<const Transition> some) override {
+    void on_slides_end(std::span<const Transition> some) override {
       run.transitions.insert(run.transitions.end(), some.begin(), some.end());
     }
-    void account(const ContactLosses& all) override { run.losses = all; }
-    void look(const State<double>& state, const Sample&) override { run.path.push_back(system.snapshot(state.y, 0)); }
-    double next_look() const override { return 0; }
+    void on_contact_energy(const ContactLosses& all) override { run.losses = all; }
+    void on_state(const State<double>& state, const Sample&) override {
+      run.path.push_back(system.snapshot(state.y, 0));
+    }
+    double next_state() const override { return 0; }
     ContactRun& run;
     const System<double>& system;
   };

@@ -148,12 +148,12 @@ TEST(BoxManifold, NumbersAreThoseOfThePolytope) {
 }
 
 TEST(BoxManifold, FacesThatTouchButForRoundOffHaveTheWholePatch) {
-  study::Dice dice(5);
+  PortableRandom random(5);
   int touching = 0;
   for (int k = 0; k < 1000; ++k) {
-    PosedBox a{dice.uniform_vector(0.5, 1.5), {dice.uniform_vector(-1, 1), dice.rotation()}},
-        b{dice.uniform_vector(0.5, 1.5), a.pose};
-    b.pose.position = a.pose.to_world({dice.uniform(-0.5, 0.5), a.half[1] + b.half[1], dice.uniform(-0.5, 0.5)});
+    PosedBox a{random.uniform_vector(0.5, 1.5), {random.uniform_vector(-1, 1), random.rotation()}},
+        b{random.uniform_vector(0.5, 1.5), a.pose};
+    b.pose.position = a.pose.to_world({random.uniform(-0.5, 0.5), a.half[1] + b.half[1], random.uniform(-0.5, 0.5)});
     const Manifold m = manifold(a, b);
     if (m.count == 0) continue;
     ++touching;

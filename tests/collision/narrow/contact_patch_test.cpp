@@ -135,17 +135,17 @@ TEST(ContactPatch, BoxesHaveTheSamePointsFromGjkAndSat) {
 /// However one face lies on the other: turned, tilted, covered in part; the one's corners within, the other's, or all
 /// cut off.
 TEST(ContactPatch, FacesOfBoxesAreClippedAlikeByGjkAndSat) {
-  study::Dice dice(3);
+  PortableRandom random(3);
   std::set<std::size_t> counts;
   int alike = 0;
   for (int k = 0; k < 3000; ++k) {
-    const Box a(dice.uniform_vector(0.5, 1.5)), b(dice.uniform_vector(0.3, 1.5));
-    const int axis = dice.below(3);
-    const Vector up = (dice.chance(0.5) ? 1 : -1) * Vector::Unit(axis);
-    Pose pose = at({}, dice.uniform_vector(-0.02, 0.02));
-    pose.rotation = pose.rotation * at({}, dice.angle() * up).rotation *
-                    at({}, std::numbers::pi / 2 * dice.below(2) * Vector::Unit((axis + 1) % 3)).rotation;
-    pose.position = dice.uniform_vector(-1.5, 1.5);
+    const Box a(random.uniform_vector(0.5, 1.5)), b(random.uniform_vector(0.3, 1.5));
+    const int axis = random.below(3);
+    const Vector up = (random.chance(0.5) ? 1 : -1) * Vector::Unit(axis);
+    Pose pose = at({}, random.uniform_vector(-0.02, 0.02));
+    pose.rotation = pose.rotation * at({}, random.angle() * up).rotation *
+                    at({}, std::numbers::pi / 2 * random.below(2) * Vector::Unit((axis + 1) % 3)).rotation;
+    pose.position = random.uniform_vector(-1.5, 1.5);
     pose.position[axis] = 0;
     pose.position +=
         up * (a.support(up) - pose.rotation * b.support(pose.rotation.transpose() * -up)).dot(up) - 0.01 * up;

@@ -120,11 +120,11 @@ TEST(Gjk, HalfSpaceAgainstAll) {
 
 // Touching is contact: coincident, nested and kissing shapes of every kind always have an answer.
 TEST(Gjk, NeverDropsATouchingContact) {
-  study::Dice dice(1);
+  PortableRandom random(1);
   for (const double size : {0.01, 0.5, 1000.0}) {
     const Box box(Vector::Constant(size / 2));
     for (int k = 0; k < 200; ++k) {
-      const Pose at{5 * size * dice.direction(), dice.rotation()};
+      const Pose at{5 * size * random.direction(), random.rotation()};
       for (int axis = 0; axis < 3; ++axis) {
         const Pose beside = {at.position + size * at.rotation.col(axis), at.rotation};
         const Distance d = gjk_phase().distance(box, at, box, beside);

@@ -21,64 +21,62 @@ using Real = long double;
 using Vector = Vector3<Real>;
 using Matrix = Matrix3<Real>;
 
-using study::Dice;
-
-Vector3<double> bell_vector(Dice& dice) {
-  const double x = dice.bell(), y = dice.bell();
-  return {x, y, dice.bell()};
+Vector3<double> bell_vector(PortableRandom& random) {
+  const double x = random.bell(), y = random.bell();
+  return {x, y, random.bell()};
 }
 
-ShapePointer sphere_hull(Dice& dice, int n, double scale) {
+ShapePointer sphere_hull(PortableRandom& random, int n, double scale) {
   std::vector<Vector3<double>> points;
-  for (int i = 0; i < n; ++i) points.push_back(scale * dice.direction());
+  for (int i = 0; i < n; ++i) points.push_back(scale * random.direction());
   return std::make_shared<ConvexHull>(points);
 }
 
 }  // namespace
 
 Pose random_pose(std::uint64_t seed, double spread) {
-  Dice dice(seed);
-  return {spread * bell_vector(dice), dice.rotation()};
+  PortableRandom random(seed);
+  return {spread * bell_vector(random), random.rotation()};
 }
 
 PlacedPair hull_pair(std::uint64_t k) {
-  Dice dice(k);
-  const double scale = dice.power_of_ten(-3, 3), ratio = dice.below(2) ? 1 : dice.power_of_ten(-2, 0);
-  const auto count = [&] { return k % 10 == 0 ? 128 : 4 + dice.below(28); };
+  PortableRandom random(k);
+  const double scale = random.power_of_ten(-3, 3), ratio = random.below(2) ? 1 : random.power_of_ten(-2, 0);
+  const auto count = [&] { return k % 10 == 0 ? 128 : 4 + random.below(28); };
   const double size_a = scale, size_b = scale * ratio;
-  PlacedPair p = {sphere_hull(dice, count(), size_a),
-                  sphere_hull(dice, count(), size_b),
-                  {scale * bell_vector(dice), dice.rotation()},
+  PlacedPair p = {sphere_hull(random, count(), size_a),
+                  sphere_hull(random, count(), size_b),
+                  {scale * bell_vector(random), random.rotation()},
                   {},
                   size_a,
                   size_b,
                   true};
-  p.at_b = {p.at_a.position + dice.uniform(0, 1) * (size_a + size_b) * dice.direction(), dice.rotation()};
+  p.at_b = {p.at_a.position + random.uniform(0, 1) * (size_a + size_b) * random.direction(), random.rotation()};
   return p;
 }
 
 PlacedPair any_pair(std::uint64_t seed) {
-  Dice dice(seed);
+  PortableRandom random(seed);
   PlacedPair p;
   const auto shape = [&](double scale) -> ShapePointer {
-    const Vector3<double> s = scale * dice.uniform_vector(0.1, 1);
-    switch (dice.below(7)) {
+    const Vector3<double> s = scale * random.uniform_vector(0.1, 1);
+    switch (random.below(7)) {
       case 0: return std::make_shared<Sphere>(s[0]);
       case 1: return std::make_shared<Capsule>(s[0], s[1]);
       case 2: p.polytopes = false; return std::make_shared<Cylinder>(s[0], s[1]);
       case 3: p.polytopes = false; return std::make_shared<Ellipsoid>(s);
-      case 4: return sphere_hull(dice, 4 + dice.below(30), scale);
+      case 4: return sphere_hull(random, 4 + random.below(30), scale);
       default: return std::make_shared<Box>(s);
     }
   };
   p.size_a = 1;
-  p.size_b = dice.below(2) ? 1 : dice.power_of_ten(-2, 0);
+  p.size_b = random.below(2) ? 1 : random.power_of_ten(-2, 0);
   p.a = shape(p.size_a);
   p.b = shape(p.size_b);
-  p.at_a = {bell_vector(dice), dice.rotation()};
-  p.at_b = {p.at_a.position + dice.uniform(0, 2) * bell_vector(dice),
-            dice.below(3) ? dice.rotation() : p.at_a.rotation};
-  if (dice.below(8) == 0) p.at_b.position = p.at_a.position;
+  p.at_a = {bell_vector(random), random.rotation()};
+  p.at_b = {p.at_a.position + random.uniform(0, 2) * bell_vector(random),
+            random.below(3) ? random.rotation() : p.at_a.rotation};
+  if (random.below(8) == 0) p.at_b.position = p.at_a.position;
   return p;
 }
 

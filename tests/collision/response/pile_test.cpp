@@ -15,7 +15,7 @@ using Vector = Vector3<double>;
 struct Watch final : Observer {
   double first = 0, least = 0, rise = 0;  ///< J: of the start, the least so far, and the largest rise above that
   bool started = false;
-  std::size_t observe(std::span<const Sample> seen) override {
+  std::size_t on_samples(std::span<const Sample> seen) override {
     for (const Sample& s : seen) {
       const double energy = s.seen.energy();
       if (!started) first = least = energy;

@@ -21,8 +21,6 @@
 namespace polhode {
 namespace {
 
-using study::Dice;
-
 TEST(Complementarity, SolvesAProblemOfThree) {
   // Without the sign the third would be negative: by hand, with j3 = 0, 2 j1 + j2 = 3, j1 + 2 j2 = 3.
   Eigen::MatrixXd a(3, 3);
@@ -39,16 +37,16 @@ TEST(Complementarity, SolvesAProblemOfThree) {
 TEST(Complementarity, SolvesProblemsOfEveryRank) {
   Complementarity problem;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    Dice dice(seed);
-    const Eigen::Index size = 1 + dice.below(20), rank = 1 + dice.below(12);
+    PortableRandom random(seed);
+    const Eigen::Index size = 1 + random.below(20), rank = 1 + random.below(12);
     Eigen::MatrixXd jacobian(size, rank);
     Eigen::VectorXd motion(rank), b(size), j = Eigen::VectorXd::Zero(size);
-    for (Eigen::Index k = 0; k < rank; ++k) motion[k] = dice.uniform(-1, 1);
+    for (Eigen::Index k = 0; k < rank; ++k) motion[k] = random.uniform(-1, 1);
     for (Eigen::Index i = 0; i < size; ++i) {
-      for (Eigen::Index k = 0; k < rank; ++k) jacobian(i, k) = dice.uniform(-1, 1);
-      if (i > 0 && dice.chance(0.3)) jacobian.row(i) = jacobian.row(i - 1);  // the same again
-      b[i] = dice.chance(0.3) ? dice.uniform(0, 0.5) : 0;                    // a gap
-      if (dice.chance(0.3)) j[i] = dice.uniform(0, 1);                       // a start that is not zero
+      for (Eigen::Index k = 0; k < rank; ++k) jacobian(i, k) = random.uniform(-1, 1);
+      if (i > 0 && random.chance(0.3)) jacobian.row(i) = jacobian.row(i - 1);  // the same again
+      b[i] = random.chance(0.3) ? random.uniform(0, 0.5) : 0;                  // a gap
+      if (random.chance(0.3)) j[i] = random.uniform(0, 1);                     // a start that is not zero
     }
     const Eigen::MatrixXd a = jacobian * jacobian.transpose();
     b += jacobian * motion;
@@ -65,10 +63,10 @@ TEST(Complementarity, SolvesProblemsOfEveryRank) {
 
 TEST(FrictionCone, ComesToRestAgainstTheSlip) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    Dice dice(seed);
-    const double tt = dice.uniform(1, 3), bb = dice.uniform(1, 3), tb = dice.uniform(-0.9, 0.9),
-                 radius = dice.uniform(0, 1);
-    const Tangential<double> before{dice.uniform(-2, 2), dice.uniform(-2, 2)};
+    PortableRandom random(seed);
+    const double tt = random.uniform(1, 3), bb = random.uniform(1, 3), tb = random.uniform(-0.9, 0.9),
+                 radius = random.uniform(0, 1);
+    const Tangential<double> before{random.uniform(-2, 2), random.uniform(-2, 2)};
     const FrictionCone<double> cone(tt, tb, bb);
     Tangential<double> j{0, 0}, slip = before;
     for (int k = 0; k < 2000; ++k) {
@@ -98,8 +96,8 @@ TEST(EnergyGuard, FindsWhereTheParabolaEndsAtZero) {
 }
 
 TEST(ContactBatches, NoTwoLanesShareABodyThatMoves) {
-  Dice dice(3);
-  const laws::ImpulseScene s = laws::random_scene(dice, {.bodies = 40, .statics = 0.1});
+  PortableRandom random(3);
+  const laws::ImpulseScene s = laws::random_scene(random, {.bodies = 40, .statics = 0.1});
   ContactBatches batches;
   batches.build(s.bodies, s.contacts);
   std::vector<int> found(s.contacts.size(), 0);
@@ -128,9 +126,9 @@ TEST(ContactBatches, NoTwoLanesShareABodyThatMoves) {
 TEST(ContactBatches, ABodyWithManyNeighboursHasThemAll) {
   laws::ImpulseScene s;
   s.bodies.push_back(laws::ball(1, 1, Vector3<double>::Zero()));
-  Dice dice(4);
+  PortableRandom random(4);
   for (std::uint32_t k = 1; k <= 150; ++k) {
-    const Vector3<double> out = dice.direction();
+    const Vector3<double> out = random.direction();
     s.bodies.push_back(laws::ball(1, 0.1, 1.1 * out));
     s.bodies.back().velocity = -out;
     ImpulseContact c;

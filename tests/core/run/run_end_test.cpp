@@ -27,7 +27,7 @@ class Scripted final : public Integrator<double> {
 };
 
 struct Blind final : Observer {
-  std::size_t observe(std::span<const Sample> samples) override { return samples.size(); }
+  std::size_t on_samples(std::span<const Sample> samples) override { return samples.size(); }
 };
 
 struct RunEnd : testing::Test {

@@ -12,7 +12,7 @@
 #include "tests/laws/problems.hpp"
 #include "tests/laws/reference_flow.hpp"
 
-namespace polhode::study {
+namespace polhode::study::certificate {
 namespace {
 
 using Real = long double;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace polhode::study {
+namespace polhode::study::precision {
 namespace {
 
 constexpr int samples = 128;

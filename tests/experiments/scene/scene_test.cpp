@@ -115,7 +115,7 @@ class SurfaceOf : public testing::TestWithParam<std::string> {};
 
 std::vector<std::string> kinds() {
   std::vector<std::string> names;
-  for (const ShapeEntry& e : collision_shape_catalogue()) names.push_back(e.name);
+  for (const ShapeEntry& e : shape_catalogue()) names.push_back(e.name);
   return names;
 }
 
@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, SurfaceOf, testing::ValuesIn(kinds()),
                          [](const auto& param_info) { return param_info.param; });
 
 TEST_P(SurfaceOf, IsClosedAndOutward) {
-  const ShapePointer shape = sample(*find_collision_shape(GetParam()));
+  const ShapePointer shape = sample(*find_shape(GetParam()));
   if (!shape->finite()) {
     EXPECT_THROW(surface_of(*shape), std::invalid_argument);
     return;

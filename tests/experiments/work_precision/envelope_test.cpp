@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace polhode::study {
+namespace polhode::study::work_precision {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();

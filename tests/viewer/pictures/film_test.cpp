@@ -24,7 +24,7 @@ Picture picture_number(int number, int width, int height) {
 }
 
 bool has_ffmpeg() {
-  auto asked = study::report::ChildProcess::start({"ffmpeg", "-version"}, ".", {});
+  auto asked = study::ChildProcess::start({"ffmpeg", "-version"}, ".", {});
   return asked && asked->wait().exit_status == 0;
 }
 

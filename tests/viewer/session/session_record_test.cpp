@@ -15,14 +15,12 @@
 namespace polhode::viewer {
 namespace {
 
-using study::Dice;
-
 template <class List>
-const auto& one_of(Dice& dice, const List& list) {
-  return list[static_cast<std::size_t>(dice.below(static_cast<int>(list.size())))];
+const auto& one_of(PortableRandom& random, const List& list) {
+  return list[static_cast<std::size_t>(random.below(static_cast<int>(list.size())))];
 }
-std::size_t place_in(Dice& dice, const std::string& text) {
-  return static_cast<std::size_t>(dice.below(static_cast<int>(text.size())));
+std::size_t place_in(PortableRandom& random, const std::string& text) {
+  return static_cast<std::size_t>(random.below(static_cast<int>(text.size())));
 }
 
 void write(const std::filesystem::path& path, const std::string& text) {
@@ -38,44 +36,44 @@ std::string recorded_end(const std::string& text) {
 const std::vector<std::string> fixed_methods = {"rk4", "semi_implicit_euler", "implicit_midpoint"};
 
 /// Changes something that the scenario allows.
-void change_something(Session& session, Dice& dice) {
+void change_something(Session& session, PortableRandom& random) {
   Configuration c = session.view()->configuration;
-  switch (dice.below(6)) {
-    case 0: choose_integrator(c, one_of(dice, fixed_methods), 0.01); break;
+  switch (random.below(6)) {
+    case 0: choose_integrator(c, one_of(random, fixed_methods), 0.01); break;
     case 1:
       choose_integrator(c, "cvode_adams", 0, 1e-7);
       c.drive = Drive::accumulator;
       break;
     case 2:
-      if (c.run.dt) c.run.dt = dice.uniform(0.005, 0.02);
+      if (c.run.dt) c.run.dt = random.uniform(0.005, 0.02);
       break;
-    case 3: c.run.formulation.orientation = dice.below(2) ? Orientation::matrix : Orientation::quaternion; break;
+    case 3: c.run.formulation.orientation = random.below(2) ? Orientation::matrix : Orientation::quaternion; break;
     case 4:
-      c.run.formulation.angular_state = dice.below(2) ? AngularState::velocity_body : AngularState::momentum_world;
+      c.run.formulation.angular_state = random.below(2) ? AngularState::velocity_body : AngularState::momentum_world;
       break;
-    default: c.drive = dice.below(2) ? Drive::frame_clock : Drive::accumulator;
+    default: c.drive = random.below(2) ? Drive::frame_clock : Drive::accumulator;
   }
-  if (c.run.contact) c.run.contact->impact_timing = c.run.dt && dice.below(2) ? "time_stepping" : "event_located";
+  if (c.run.contact) c.run.contact->impact_timing = c.run.dt && random.below(2) ? "time_stepping" : "event_located";
   session.change(c);
 }
 
 /// Whatever a hand may do.
-void do_anything(Session& session, Dice& dice) {
-  switch (dice.below(9)) {
+void do_anything(Session& session, PortableRandom& random) {
+  switch (random.below(9)) {
     case 0: session.pause(); break;
-    case 1: session.step(dice.below(20)); break;
-    case 2: session.scrub(dice.uniform(0, 1.5)); break;
+    case 1: session.step(random.below(20)); break;
+    case 2: session.scrub(random.uniform(0, 1.5)); break;
     case 3:
-      if (dice.below(4) == 0) session.reset();
+      if (random.below(4) == 0) session.reset();
       break;
-    case 4: session.set_speed(dice.uniform(0.5, 3)); break;
-    case 5: change_something(session, dice); break;
-    case 6: session.pause_on_collision(dice.below(2) == 0); break;
+    case 4: session.set_speed(random.uniform(0.5, 3)); break;
+    case 5: change_something(session, random); break;
+    case 6: session.pause_on_collision(random.below(2) == 0); break;
     default: session.play();
   }
-  for (int k = dice.below(6); k > 0; --k) {
-    session.tick(dice.uniform(0, 0.03));
-    if (dice.below(3) == 0) session.settle();
+  for (int k = random.below(6); k > 0; --k) {
+    session.tick(random.uniform(0, 0.03));
+    if (random.below(3) == 0) session.settle();
   }
 }
 
@@ -86,11 +84,11 @@ INSTANTIATE_TEST_SUITE_P(Sessions, Recorded, testing::Values("peters_hsu", "two_
 TEST_P(Recorded, RunsAgainToTheSameBytes) {
   const TemporaryFolder folder;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    Dice dice(seed);
+    PortableRandom random(seed);
     std::int64_t segments = 0;
     {
       const auto session = open(GetParam(), with(GetParam(), "rk4", 0.01, 3), folder.path());
-      for (int k = 0; k < 60; ++k) do_anything(*session, dice);
+      for (int k = 0; k < 60; ++k) do_anything(*session, random);
       segments = settled(*session)->status.segment;
     }
     const std::string text = text_of(folder.path() / "session.toml");
@@ -195,9 +193,9 @@ TEST(SessionRecord, NumbersReadBackExactly) {
     c.drive = Drive::frame_clock;
     const auto session = open("peters_hsu", c, folder.path());
     session->play();
-    Dice dice(3);
+    PortableRandom random(3);
     for (int k = 0; k < 200; ++k) {
-      sizes.push_back(dice.uniform(1e-9, 0.02));
+      sizes.push_back(random.uniform(1e-9, 0.02));
       session->tick(sizes.back());
       session->settle();
     }
@@ -292,22 +290,22 @@ TEST(SessionRecordFuzz, MutatedRecordsAreReadOrRefused) {
                                              "steps = 5\n",
                                              "sizes = [0.1]\n",
                                              "from_segment = 1\n"};
-  Dice dice(5);
+  PortableRandom random(5);
   int read_well = 0;
   constexpr int rounds = 3000;
   for (int i = 0; i < rounds && !testing::Test::HasFailure(); ++i) {
     std::string other = text;
-    for (int m = 1 + dice.below(3); m > 0 && !other.empty(); --m) {
-      const std::size_t at = place_in(dice, other);
-      switch (dice.below(4)) {
-        case 0: other.insert(at, one_of(dice, snippets)); break;
-        case 1: other.erase(at, 1 + place_in(dice, "twelve bytes")); break;
-        case 2: other[at] = static_cast<char>(dice.below(256)); break;
+    for (int m = 1 + random.below(3); m > 0 && !other.empty(); --m) {
+      const std::size_t at = place_in(random, other);
+      switch (random.below(4)) {
+        case 0: other.insert(at, one_of(random, snippets)); break;
+        case 1: other.erase(at, 1 + place_in(random, "twelve bytes")); break;
+        case 2: other[at] = static_cast<char>(random.below(256)); break;
         default: {  // a line goes, or stands twice
           const auto begin = other.rfind('\n', at == 0 ? 0 : at - 1) + 1,
                      end = std::min(other.find('\n', begin), other.size());
           const std::string line = other.substr(begin, end + 1 - begin);
-          if (dice.below(2) == 0) other.erase(begin, line.size());
+          if (random.below(2) == 0) other.erase(begin, line.size());
           else other.insert(begin, line);
         }
       }

@@ -38,23 +38,23 @@ INSTANTIATE_TEST_SUITE_P(Sessions, SameBytes,
                          });
 
 /// Plays it to its end with whatever a hand may do that changes no motion.
-void play_wildly(Session& session, study::Dice& dice) {
+void play_wildly(Session& session, PortableRandom& random) {
   for (int k = 0; k < 100000; ++k) {
     const auto view = session.view();
     if (view->status.at_end) return;
-    switch (dice.below(12)) {
+    switch (random.below(12)) {
       case 0: session.pause(); break;
-      case 1: session.step(dice.below(5)); break;
-      case 2: session.set_speed(dice.uniform(0.1, 30)); break;
-      case 3: session.want({dice.below(2) == 0, dice.below(2) == 0, {0}}); break;
+      case 1: session.step(random.below(5)); break;
+      case 2: session.set_speed(random.uniform(0.1, 30)); break;
+      case 3: session.want({random.below(2) == 0, random.below(2) == 0, {0}}); break;
       case 4:
-        session.scrub(dice.uniform(0, 1));  // a look back
+        session.scrub(random.uniform(0, 1));  // a look back
         session.scrub(1e9);
         break;
       case 5: session.settle(); break;
       default: session.play();
     }
-    session.tick(dice.uniform(0, 0.1));
+    session.tick(random.uniform(0, 0.1));
   }
   FAIL() << "it does not come to its end";
 }
@@ -69,7 +69,7 @@ TEST_P(SameBytes, AsWithoutAWindow) {
       study::carry_out(configuration.run, scenario, {study::TrajectoryFormat::csv, folder.path() / "run"}, nullptr);
   ASSERT_EQ(run.status, "ok") << run.message;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    study::Dice dice(seed);
+    PortableRandom random(seed);
     SessionSetup setup;
     setup.scenario = c.scenario;
     setup.configuration = configuration;
@@ -77,7 +77,7 @@ TEST_P(SameBytes, AsWithoutAWindow) {
     setup.history_bytes = seed == 1 ? 1 : 64 << 20;
     {
       const auto session = live_session(setup);
-      play_wildly(*session, dice);
+      play_wildly(*session, random);
       const auto view = session->view();
       EXPECT_EQ(view->status.segment, 1);
       EXPECT_EQ(view->frame.step, run.steps);

@@ -10,7 +10,7 @@
 
 #include "experiments/study/plot/axis.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline figures {
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "experiments/study/curves/selection.hpp"
 #include "experiments/study/plot/figure.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline figures {
 
 bool has_several_steps(const Curve& curve);
 bool has_value(const Curve& curve, const Quantity& quantity);

@@ -10,12 +10,13 @@
 
 #include "experiments/study/curves/reference_words.hpp"
 #include "experiments/study/curves/selection.hpp"
+#include "experiments/study/plot/draw_figures.hpp"
 #include "experiments/study/plot/figure_layout.hpp"
 #include "experiments/study/report/figures/step_panels.hpp"
 #include "experiments/study/report/figures/time_panels.hpp"
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline figures {
 
 namespace {
 
@@ -244,4 +245,15 @@ FigureSet figures_of(const StudyView& study, const Grouping& grouping) {
   return set;
 }
 
-}  // namespace polhode::study::report
+std::string write_figures(const StudyView& study) {
+  const bool alone = study.analysis && study.analysis->alone;
+  const auto grouping = group(study);
+  auto said = draw_figures(alone ? FigureSet{study.analysis->figures, {}} : figures_of(study, grouping), study.folder,
+                           "figures");
+  if (!study.analysis) return said;
+  const auto said_of_timed =
+      draw_figures({.figures = study.analysis->timed.figures, .absent = {}}, study.folder, timings_folder);
+  return said.empty() ? said_of_timed : said;
+}
+
+}  // namespace polhode::study::report::figures

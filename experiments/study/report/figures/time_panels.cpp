@@ -9,7 +9,7 @@
 
 #include "experiments/study/plot/axis.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline figures {
 
 namespace {
 

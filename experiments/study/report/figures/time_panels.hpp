@@ -9,7 +9,7 @@
 #include "experiments/study/curves/selection.hpp"
 #include "experiments/study/plot/figure.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline figures {
 
 /// A number of the thinned series, signed or a magnitude.
 struct SeriesQuantity {

@@ -12,7 +12,7 @@
 #include "experiments/study/curves/curves.hpp"
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline findings {
 namespace {
 
 std::string exponent(double p) { return fmt::format("{:.3f}", p); }
@@ -30,11 +30,6 @@ std::string some(const std::set<std::string>& names) {
 }
 
 }  // namespace
-
-std::string exponent_interval(const RunResult& r) {
-  if (!r.drift_exponent_low || !r.drift_exponent_high) return "";
-  return fmt::format("{} … {}", exponent(*r.drift_exponent_low), exponent(*r.drift_exponent_high));
-}
 
 std::string growth_words(const RunResult& r) {
   if (r.drift_decided_after)

@@ -7,12 +7,10 @@
 
 #include "experiments/study/record/study_view.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline findings {
 
-/// "0.998 … 1.004", empty where there is none.
-std::string exponent_interval(const RunResult& result);
-
-/// "linear: p = 1.001, 95 % between 0.998 and 1.004", "undecided, which some 60 s would decide"; empty without a class.
+/// Class of a run's drift: "linear: p = 1.001, 95 % between 0.998 and 1.004" or "undecided, which some 60 s would
+/// decide"; empty if the result has no class.
 std::string growth_words(const RunResult& result);
 
 /// Which methods' drifts grow how, of how many it cannot be told, and what duration would.

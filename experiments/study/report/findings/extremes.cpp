@@ -11,7 +11,7 @@
 
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline findings {
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "experiments/study/curves/curves.hpp"
 #include "experiments/study/plot/table.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline findings {
 
 /// Of one motion in one formulation: sentences. Of a few: a table. Of many: sentences that count over them as well.
 /// Methods whose value is at round-off are named together.

@@ -21,7 +21,7 @@
 #include "experiments/study/text/notation.hpp"
 #include "integrators/catalogue.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline findings {
 
 namespace {
 

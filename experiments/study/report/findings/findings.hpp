@@ -8,7 +8,7 @@
 #include "experiments/study/curves/curves.hpp"
 #include "experiments/study/plot/table.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline findings {
 
 struct Topic {
   std::string heading;

@@ -8,13 +8,16 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/report/findings/extremes.hpp"
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline findings {
 
 namespace {
 
@@ -128,9 +131,12 @@ std::vector<std::string> gyroscopic_not_checked(const Grouping& grouping) {
 /// What two curves must share to be compared: everything but the gyroscopic term.
 auto comparison_key(const Curve& curve) {
   const auto& c = curve.runs.front()->config;
+  std::vector<std::string> on_demand;
+  for (const RunOption& option : run_options()) {
+    if (option.on_demand) on_demand.push_back(label_of(option, c));
+  }
   return std::tuple(curve.case_index, curve.method_index, curve.adaptive, c.formulation.orientation,
-                    c.formulation.angular_state, c.formulation.rotation_from, c.normalise, c.precision, c.order,
-                    c.summation);
+                    c.formulation.angular_state, c.formulation.rotation_from, c.normalise, c.precision, on_demand);
 }
 
 /// The runs of both at the smallest step that both completed.

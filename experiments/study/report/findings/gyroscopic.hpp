@@ -10,7 +10,7 @@
 #include "experiments/study/curves/curves.hpp"
 #include "experiments/study/plot/table.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline findings {
 
 /// A caution for each motion and formulation in which the energy would call a run perfect and the angular momentum does
 /// not; and one where the gyroscopic term is left out but no angular momentum is conserved that could show it.

@@ -5,7 +5,7 @@
 #include "experiments/study/curves/curves.hpp"
 #include "experiments/study/plot/table.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline findings {
 
 /// Where a run's energy ends: "gains", "loses", "comes back" (its final drift is below a tenth of the largest),
 /// "round-off"; empty for a run that was not completed.

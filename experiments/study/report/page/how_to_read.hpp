@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The box of report.html that says what its numbers mean and how its figures are to be read.
+// Explanation of the numbers and figures of report.html, shown in a box of the page.
 #pragma once
 
 #include <string_view>
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline page {
 
 inline constexpr std::string_view how_to_read = R"html(<aside class="box" aria-labelledby="reading">
 <h2 id="reading">How to read this</h2>
@@ -53,4 +53,4 @@ not conserve that momentum, or the run ended too early.</dd>
 </aside>
 )html";
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::page

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The style sheet of report.html: system fonts, light and dark, one column that fits a phone, and paper.
+// Style sheet of report.html: system fonts, light and dark colour schemes, one column that fits a phone, a print
+// layout.
 #pragma once
 
 #include <string_view>
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline page {
 
 inline constexpr std::string_view page_style = R"css(
 :root {
@@ -96,4 +97,4 @@ footer { margin-top: 3rem; color: var(--soft); font-size: .88rem; }
 }
 )css";
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::page

@@ -7,7 +7,7 @@
 #include "experiments/study/text/read_file.hpp"
 #include "experiments/study/text/text_file.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline page {
 namespace {
 
 constexpr std::string_view opening = "<p id=\"replay\">", closing = "</p>\n";

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline page {
 
 inline constexpr const char* replay_page = "replay.html";
 

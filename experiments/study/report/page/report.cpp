@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// report.html of a study: one page that opens alone. What is seen comes first, then the figures, then what was run.
+// report.html of a study: a self-contained page with the findings first, then the figures, then the runs.
+#include "experiments/study/report/page/report.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <regex>
 #include <set>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "experiments/study/plot/gnuplot_figure.hpp"
-#include "experiments/study/record/study_view.hpp"
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/report/figures/study_figures.hpp"
 #include "experiments/study/report/findings/findings.hpp"
 #include "experiments/study/report/findings/method_table.hpp"
@@ -23,13 +26,11 @@
 #include "experiments/study/text/text_file.hpp"
 #include "integrators/catalogue.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline report::inline page {
 
 namespace {
 
-using namespace report;
-
-constexpr std::size_t open_rows = 40;  // a table up to here stands open, a longer one folded
+constexpr std::size_t open_rows = 40;  // largest number of rows of a table that is shown unfolded
 constexpr std::size_t open_rows_of_analysis = 60;
 constexpr std::size_t most_open_rows_in_text = 12;
 constexpr std::size_t most_runs_shown = 400;  // of thousands: runs.csv has them all
@@ -265,39 +266,38 @@ std::string value_list(const std::set<double, std::greater<>>& values) {
   return fmt::format("{} values from {} to {}", texts.size(), texts.front(), texts.back());
 }
 
-std::string options_html(const StudyView& study) {
-  std::set<double, std::greater<>> steps, tolerances, ends;
-  std::set<std::string> orientations, states, gyroscopic, normalise, rotation, precision, orders, summation, samples;
-  std::set<std::string> broad, narrow, responses, timings;
+/// Values of an option in the runs of the study.
+std::string values_of(const RunOption& option, const StudyView& study) {
+  std::set<double, std::greater<>> numbers;
+  std::set<std::string> texts;
   for (const auto& run : study.runs) {
-    const auto& c = run.config;
-    if (c.dt) steps.insert(*c.dt);
-    if (c.tolerance) tolerances.insert(*c.tolerance);
-    ends.insert(c.t_end);
-    orientations.emplace(name(c.formulation.orientation));
-    states.emplace(name(c.formulation.angular_state));
-    gyroscopic.emplace(c.formulation.gyroscopic ? "on" : "off");
-    normalise.emplace(c.normalise ? "step" : "never");
-    if (c.formulation.orientation == Orientation::quaternion) rotation.emplace(name(c.formulation.rotation_from));
-    precision.emplace(name(c.precision));
-    if (c.contact) {
-      broad.insert(c.contact->broad_phase);
-      narrow.insert(c.contact->narrow_phase);
-      responses.insert(c.contact->response);
-      timings.insert(c.contact->impact_timing);
+    const OptionValue value = option.value(run.config);
+    if (const auto* x = std::get_if<double>(&value)) {
+      numbers.insert(*x);
+    } else if (value != OptionValue{}) {
+      // The impact timing of a response that is a force has an empty name.
+      if (const std::string text = text_of(value); text.empty() || option.applies_to(run.config)) texts.insert(text);
+    } else if (!option.unsaid.empty()) {
+      texts.insert(option.unsaid);
     }
-    if (c.order.value_or(0) > 0) orders.insert(std::to_string(*c.order));
-    if (c.summation) summation.emplace(name(*c.summation));
-    samples.insert(c.samples ? std::to_string(*c.samples) : "every step");
   }
+  return option.kind == RunOption::Kind::number ? value_list(numbers) : fmt::format("{}", fmt::join(texts, ", "));
+}
+
+std::string options_html(const StudyView& study) {
+  using Role = RunOption::Role;
   std::string out = "<h3>Options</h3>\n<dl>\n";
-  const auto add = [&](const char* term, const std::string& text) {
+  const auto add = [&](const std::string& term, const std::string& text) {
     if (!text.empty()) out += fmt::format("<dt>{}</dt><dd>{}</dd>\n", term, html(text));
   };
-  const auto texts = [](const std::set<std::string>& all) { return fmt::format("{}", fmt::join(all, ", ")); };
-  add("dt (s), fixed-step methods", value_list(steps));
-  add("tolerance, relative and absolute alike, adaptive methods", value_list(tolerances));
-  add("t_end (s)", value_list(ends));
+  const auto add_options = [&](Role role, bool numbers) {
+    for (const RunOption* option : options_of_role(role)) {
+      if ((option->kind == RunOption::Kind::number) != numbers && role != Role::variant) continue;
+      add(option->term.empty() ? option->header : option->term, values_of(*option, study));
+    }
+  };
+  add_options(Role::size, true);
+  add_options(Role::duration, true);
   for (const auto& key : study.varied_keys) {
     std::set<std::string> values;
     for (const auto& run : study.runs) {
@@ -305,21 +305,11 @@ std::string options_html(const StudyView& study) {
         if (varied.key == key && !varied.value.empty()) values.insert(rounded(varied.value));
       }
     }
-    add(html(key).c_str(), values.size() <= 12 ? texts(values) : fmt::format("{} values", values.size()));
+    add(html(key),
+        values.size() <= 12 ? fmt::format("{}", fmt::join(values, ", ")) : fmt::format("{} values", values.size()));
   }
-  add("orientation", texts(orientations));
-  add("angular state", texts(states));
-  add("gyroscopic term", texts(gyroscopic));
-  add("normalize", texts(normalise));
-  add("rotation from (quaternions)", texts(rotation));
-  add("precision", texts(precision));
-  add("broad phase", texts(broad));
-  add("narrow phase", texts(narrow));
-  add("response to contact", texts(responses));
-  add("timing of impacts", texts(timings));
-  add("order, of methods that offer several", texts(orders));
-  add("summation of the state", texts(summation));
-  add("observed at (samples)", texts(samples));
+  add_options(Role::variant, false);
+  add_options(Role::duration, false);
   return out + "</dl>\n";
 }
 

@@ -9,14 +9,18 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string>
 #include <thread>
+#include <vector>
 
+#include "experiments/study/record/metric_table.hpp"
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/text/build_info.hpp"
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/text_file.hpp"
 #include "experiments/study/text/value_lists.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline report::inline tables {
 namespace {
 
 bool has_references(const StudyView& study) {
@@ -28,7 +32,20 @@ bool has_contact(const StudyView& study) {
                      [](const RunRecord& run) { return run.config.contact.has_value(); });
 }
 
-/// How uncertain each reference is, once for each variant of a scenario and each duration.
+/// The metrics that are defined for some run of the study.
+std::vector<const Metric*> metrics_of(const StudyView& study) {
+  const bool references = has_references(study), contact = has_contact(study);
+  std::vector<const Metric*> metrics;
+  for (const Metric& metric : study.metrics) {
+    const bool defined = metric.runs == Metric::Runs::with_reference ? references
+                         : metric.runs == Metric::Runs::with_contact ? contact
+                                                                     : true;
+    if (defined) metrics.push_back(&metric);
+  }
+  return metrics;
+}
+
+/// Uncertainty of each reference, once for each variant of a scenario and each duration.
 nlohmann::ordered_json references_of(const StudyView& study) {
   using Json = nlohmann::ordered_json;
   const auto number = [](const std::optional<double>& x) {
@@ -68,52 +85,13 @@ void write_runs_csv(const StudyView& study) {
     row.insert(row.end(), cells.begin(), cells.end());
   };
   add(header, config_columns(study.varied_keys, study.named));
-  add(header,
-      {"status", "message", "steps", "rhs_evaluations", "energy_initial_J", "energy_scale_J", "energy_drift_max_J",
-       "energy_round_off_J", "energy_drift_max_rel", "energy_drift_final_rel", "energy_drift_rate_W", "drift_class",
-       "energy_drift_rate_ci_W", "drift_exponent", "drift_exponent_low", "drift_exponent_high", "drift_decided_after_s",
-       "linear_momentum_drift_max_rel", "angular_momentum_drift_max_rel"});
-  for (const std::string& invariant : study.invariants) header.push_back(invariant + "_drift_max_rel");
-  add(header,
-      {"orientation_defect_max", "position_error_max_m", "attitude_error_max_rad", "angular_velocity_error_max_rel",
-       "polhode_phase_error_max_s", "polhode_phase_error_max_rad", "polhode_off_error_max_rel"});
-  const bool references = has_references(study);
-  if (references) add(header, {"position_reference_m", "attitude_reference_rad", "angular_velocity_reference_rel"});
-  const bool contact = has_contact(study);
-  if (contact) {
-    add(header, {"first_impact_s", "impact_loss_J", "friction_loss_J", "penetration_J", "energy_rise_max_J",
-                 "energy_change_max_J", "penetration_max_m", "penetration_end_m", "displacement_after_2s_max_m",
-                 "left_place_s"});
-  }
+  const auto metrics = metrics_of(study);
+  for (const Metric* metric : metrics) add(header, csv_columns(*metric, study.invariants));
   std::string text = csv_row(header);
   for (const RunRecord& run : study.runs) {
-    const RunResult& r = run.result;
     std::vector<std::string> row = {run.id};
-    add(row, config_cells(run.config));
-    add(row, {r.status, r.message, std::to_string(r.steps), std::to_string(r.evaluations), csv_cell(r.energy_initial),
-              csv_cell(r.energy_scale), csv_cell(r.energy_drift_max), csv_cell(r.energy_round_off),
-              csv_cell(r.energy_drift_max_rel), csv_cell(r.energy_drift_final_rel), csv_cell(r.energy_drift_rate),
-              r.drift_class, csv_cell(r.energy_drift_rate_ci), csv_cell(r.drift_exponent),
-              csv_cell(r.drift_exponent_low), csv_cell(r.drift_exponent_high), csv_cell(r.drift_decided_after),
-              csv_cell(r.linear_momentum_drift_max_rel), csv_cell(r.angular_momentum_drift_max_rel)});
-    for (const std::string& invariant : study.invariants) {
-      const auto found = r.invariant_drift_max_rel.find(invariant);
-      row.push_back(found == r.invariant_drift_max_rel.end() ? "" : exact(found->second));
-    }
-    add(row, {csv_cell(r.orientation_defect_max), csv_cell(r.position_error_max), csv_cell(r.attitude_error_max),
-              csv_cell(r.angular_velocity_error_max_rel), csv_cell(r.polhode_phase_error_max),
-              csv_cell(r.polhode_phase_error_max_rad), csv_cell(r.polhode_off_error_max_rel)});
-    if (references) {
-      add(row,
-          {csv_cell(r.position_reference), csv_cell(r.attitude_reference), csv_cell(r.angular_velocity_reference_rel)});
-    }
-    if (contact) {
-      const ContactMeasures& c = r.contact;
-      add(row,
-          {csv_cell(c.first_impact), csv_cell(c.impact_loss), csv_cell(c.friction_loss), csv_cell(c.penetration_energy),
-           csv_cell(c.energy_rise_max), csv_cell(c.energy_change_max), csv_cell(c.penetration_max),
-           csv_cell(c.penetration_end), csv_cell(c.displacement_max), csv_cell(c.left_place)});
-    }
+    add(row, config_cells(run.config, study.named));
+    for (const Metric* metric : metrics) add(row, csv_cells(*metric, run.result, study.invariants));
     text += csv_row(row);
   }
   write_text(study.folder / "runs.csv", text);

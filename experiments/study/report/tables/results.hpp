@@ -6,7 +6,7 @@
 #include "experiments/study/plan/plan.hpp"
 #include "experiments/study/record/study_view.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline report::inline tables {
 
 /// One row per run, sorted by configuration, no timings: the same bytes however the study was run.
 void write_runs_csv(const StudyView& study);

@@ -7,7 +7,7 @@
 #include "experiments/study/plot/table.hpp"
 #include "experiments/study/record/study_view.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline tables {
 
 enum class Extent {
   summary,  ///< what fits the width of a printed page

@@ -5,18 +5,18 @@
 
 #include <algorithm>
 
-#include "experiments/study/plan/plan.hpp"
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/text/notation.hpp"
 #include "experiments/study/text/value_lists.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline report::inline tables {
 namespace {
 
 constexpr std::size_t most_rows = 100;  // that a terminal shows in full
 constexpr std::size_t rows_of_more = 40;
 constexpr std::size_t most_reasons = 10;
 
-std::string number(const std::optional<double>& x) { return x ? fmt::format("{:.3g}", *x) : "-"; }
+std::string short_number(const std::optional<double>& x) { return x ? fmt::format("{:.3g}", *x) : "-"; }
 
 /// The columns of the configuration that differ between runs, and always the method and its step or tolerance.
 std::vector<std::size_t> shown_columns(const std::vector<std::vector<std::string>>& cells,
@@ -50,12 +50,12 @@ std::string left_out(std::size_t n, const char* what, const std::string& where) 
 std::string aligned(const std::vector<std::vector<std::string>>& table, const std::vector<bool>& left) {
   std::vector<std::size_t> width(table[0].size());
   for (const auto& row : table) {
-    for (std::size_t k = 0; k < row.size(); ++k) width[k] = std::max(width[k], report::length(row[k]));
+    for (std::size_t k = 0; k < row.size(); ++k) width[k] = std::max(width[k], length(row[k]));
   }
   std::string text;
   for (const auto& row : table) {
     for (std::size_t k = 0; k < row.size(); ++k) {
-      const std::string blanks(width[k] - report::length(row[k]), ' ');
+      const std::string blanks(width[k] - length(row[k]), ' ');
       text += (left[k] ? row[k] + blanks : blanks + row[k]) + "  ";
     }
     while (text.back() == ' ') text.pop_back();
@@ -64,12 +64,12 @@ std::string aligned(const std::vector<std::vector<std::string>>& table, const st
   return text;
 }
 
-std::string plain(const report::Table& table) {
+std::string plain(const Table& table) {
   std::vector<std::vector<std::string>> cells(1);
   std::vector<bool> left;
   for (const auto& column : table.columns) {
     cells[0].push_back(column.unit.empty() ? column.header : fmt::format("{} ({})", column.header, column.unit));
-    left.push_back(column.kind != report::Column::Kind::number);
+    left.push_back(column.kind != Column::Kind::number);
   }
   for (const std::size_t i : shown_rows(table.rows.size())) {
     auto& row = cells.emplace_back(table.rows[i]);
@@ -95,7 +95,7 @@ std::string reasons_of(const StudyView& study) {
 std::string analysis_summary(const Analysis& analysis) {
   std::string text;
   if (!analysis.tables.empty()) {
-    const report::Table& table = analysis.tables.front().table;
+    const Table& table = analysis.tables.front().table;
     text += plain(table);
     text += left_out(table.rows.size(), "rows", "tables/" + analysis.tables.front().name + ".md");
   }
@@ -112,7 +112,7 @@ std::string summary_table(const StudyView& study) {
   if (study.analysis) return analysis_summary(*study.analysis) + (study.analysis->alone ? "" : reasons_of(study));
   const std::vector<std::string> names = config_columns(study.varied_keys, study.named);
   std::vector<std::vector<std::string>> cells;
-  for (const RunRecord& run : study.runs) cells.push_back(config_cells(run.config));
+  for (const RunRecord& run : study.runs) cells.push_back(config_cells(run.config, study.named));
   const auto columns = shown_columns(cells, names);
   std::vector<std::vector<std::string>> table(1);
   for (const std::size_t k : columns) table[0].push_back(names[k]);
@@ -122,15 +122,15 @@ std::string summary_table(const StudyView& study) {
   for (const std::size_t i : rows) {
     const RunResult& r = study.runs[i].result;
     auto& row = table.emplace_back();
-    for (const std::size_t k : columns) row.push_back(report::rounded(cells[i][k]));
+    for (const std::size_t k : columns) row.push_back(rounded(cells[i][k]));
     row.push_back(r.status);
-    row.push_back(number(r.energy_drift_max_rel));
+    row.push_back(short_number(r.energy_drift_max_rel));
     row.push_back(r.drift_class.empty() ? "-"
                   : r.drift_decided_after
-                      ? fmt::format("{} (try {} s)", r.drift_class, report::number(*r.drift_decided_after, 2))
+                      ? fmt::format("{} (try {} s)", r.drift_class, number(*r.drift_decided_after, 2))
                       : r.drift_class);
     for (const auto& x : {r.angular_momentum_drift_max_rel, r.orientation_defect_max, r.attitude_error_max}) {
-      row.push_back(number(x));
+      row.push_back(short_number(x));
     }
   }
   std::vector<bool> left;
@@ -153,12 +153,11 @@ std::string reasons(const std::vector<Unfinished>& runs) {
   }
   std::string text;
   for (std::size_t i = 0; i < std::min(found.size(), most_reasons); ++i) {
-    text += fmt::format("{} {}: {}\n", report::count(found[i].second, "run"), found[i].first.status,
-                        found[i].first.message);
+    text += fmt::format("{} {}: {}\n", count(found[i].second, "run"), found[i].first.status, found[i].first.message);
   }
   if (found.size() > most_reasons) {
     text += fmt::format("… and {} more; all are in the column message of runs.csv\n",
-                        report::count(found.size() - most_reasons, "reason"));
+                        count(found.size() - most_reasons, "reason"));
   }
   return text;
 }

@@ -7,7 +7,7 @@
 
 #include "experiments/study/record/study_view.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline report::inline tables {
 
 std::string summary_table(const StudyView& study);
 

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tables/ of a study: the table of runs in LaTeX and Markdown, and every number as a LaTeX command.
+// Folder tables/ of a study: the table of runs in LaTeX and Markdown, and every number as a LaTeX command.
+#include "experiments/study/report/tables/tables.hpp"
+
 #include <fmt/format.h>
 
 #include <limits>
 
-#include "experiments/study/record/study_view.hpp"
 #include "experiments/study/report/tables/run_table.hpp"
 #include "experiments/study/report/tables/tex_values.hpp"
 #include "experiments/study/text/notation.hpp"
 #include "experiments/study/text/text_file.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline report::inline tables {
 
 namespace {
-
-using namespace report;
 
 std::string title_of(const StudyView& study) {
   return one_line(fmt::format("{}: {}", study.experiment, study.question));

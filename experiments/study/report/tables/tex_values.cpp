@@ -7,14 +7,20 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <map>
+#include <optional>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 
 #include "experiments/study/curves/error_ladder.hpp"
+#include "experiments/study/record/metric_table.hpp"
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline tables {
 
 namespace {
 
@@ -31,7 +37,7 @@ constexpr const char* explanation =
 constexpr std::array<std::string_view, 10> digits = {"Zero", "One", "Two",   "Three", "Four",
                                                      "Five", "Six", "Seven", "Eight", "Nine"};
 
-/// Letters with each word capitalised, digits and signs spelt; anything else parts words.
+/// Text in letters only: words are capitalised, digits and signs spelt; other characters separate words.
 std::string spelt(std::string_view text) {
   std::string out;
   bool begins_word = true;
@@ -56,16 +62,16 @@ std::string spelt_name(std::string text) {
   return spelt(text);
 }
 
-/// With an exponent, so that a number has one name: 0.001 and 1e-3 are both "OneEMinusThree". Four digits at most: a
-/// logarithmic range has values with seventeen.
+/// Number in letters, with an exponent, so that it has one name: 0.001 and 1e-3 are both "OneEMinusThree". Rounded to
+/// four digits, since values of a logarithmic range have seventeen.
 std::string spelt_number(double value) {
-  if (value == 0 || !std::isfinite(value)) return spelt(exact(value));
+  if (value == 0 || !std::isfinite(value)) return spelt(exact_number(value));
   const auto printed = scientific(std::strtod(fmt::format("{:.3e}", value).c_str(), nullptr));
   const auto e = printed.find('e');
   return spelt(printed.substr(0, e)) + "E" + spelt(printed.substr(e + 1));
 }
 
-/// A TOML value: numbers as numbers, the rest letter by letter.
+/// TOML value in letters: numbers by spelt_number(), anything else by spelt().
 std::string spelt_value(const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
@@ -78,19 +84,18 @@ double usual_t_end(const StudyView& study, const std::string& scenario) {
   return at == study.scenarios.end() ? std::nan("") : at->t_end;
 }
 
-std::string options_of(const RunConfig& c, double t_end) {
+/// Options of a role with values other than the usual ones: "MatrixGyroscopicOff", "Samples100".
+std::string spelt_options(RunOption::Role role, const RunConfig& config, double t_end) {
+  RunConfig usual;
+  usual.t_end = t_end;
   std::string out;
-  const Formulation usual;
-  if (c.formulation.orientation != usual.orientation) out += spelt_name(std::string(name(c.formulation.orientation)));
-  if (c.formulation.angular_state != usual.angular_state)
-    out += spelt_name(std::string(name(c.formulation.angular_state)));
-  if (!c.formulation.gyroscopic) out += "GyroscopicOff";
-  if (c.normalise) out += "NormalizeStep";
-  if (c.formulation.rotation_from != usual.rotation_from) out += "RotationStored";
-  if (c.precision != Precision::dual) out += spelt_name(std::string(name(c.precision)));
-  if (is_compensated(c)) out += "Compensated";
-  if (c.t_end != t_end) out += "TEnd" + spelt_number(c.t_end);
-  if (c.samples) out += "Samples" + spelt(std::to_string(*c.samples));
+  for (const RunOption* option : options_of_role(role)) {
+    if (!option->in_tex_names || is_usual(*option, config, usual)) continue;
+    const OptionValue value = option->value(config);
+    const auto* x = std::get_if<double>(&value);
+    if (option->kind == RunOption::Kind::name) out += spelt_name(label_of(*option, config));
+    else out += spelt_name(option->name) + (x ? spelt_number(*x) : spelt(text_of(value)));
+  }
   return out;
 }
 
@@ -99,9 +104,8 @@ std::string name_of(const RunConfig& c, double t_end) {
   for (const auto& varied : c.varied) {
     if (!varied.value.empty()) out += spelt_name(varied.key) + spelt_value(varied.value);
   }
-  out += options_of(c, t_end);
-  if (c.dt) out += "Dt" + spelt_number(*c.dt);
-  if (c.tolerance) out += "Tolerance" + spelt_number(*c.tolerance);
+  using Role = RunOption::Role;
+  for (const Role role : {Role::variant, Role::duration, Role::size}) out += spelt_options(role, c, t_end);
   return out;
 }
 
@@ -124,32 +128,23 @@ void define_count(std::string& out, const std::string& command, std::int64_t n) 
   if (n > 0) out += fmt::format("\\newcommand{{\\{}}}{{\\ensuremath{{{}}}}}\n", command, n);
 }
 
-void define_run(std::string& out, const std::string& run, const RunResult& r) {
-  define(out, run + "EnergyDriftMax", r.energy_drift_max_rel);
-  define(out, run + "EnergyDriftMaxJ", r.energy_drift_max);
-  define(out, run + "EnergyScale", r.energy_scale);
-  define(out, run + "EnergyDriftFinal", r.energy_drift_final_rel);
-  define(out, run + "EnergyDriftRate", r.energy_drift_rate);
-  define(out, run + "EnergyDriftRateInterval", r.energy_drift_rate_ci);
-  define(out, run + "DriftExponent", r.drift_exponent);
-  define(out, run + "DriftExponentLow", r.drift_exponent_low);
-  define(out, run + "DriftExponentHigh", r.drift_exponent_high);
-  define(out, run + "LinearMomentumDriftMax", r.linear_momentum_drift_max_rel);
-  define(out, run + "AngularMomentumDriftMax", r.angular_momentum_drift_max_rel);
-  for (const auto& [invariant, drift] : r.invariant_drift_max_rel)
-    define(out, run + spelt_name(invariant) + "DriftMax", drift);
-  define(out, run + "OrientationDefectMax", r.orientation_defect_max);
-  define(out, run + "PositionErrorMax", r.position_error_max);
-  define(out, run + "AttitudeErrorMax", r.attitude_error_max);
-  define(out, run + "AngularVelocityErrorMax", r.angular_velocity_error_max_rel);
-  define(out, run + "PolhodePhaseErrorMax", r.polhode_phase_error_max);
-  define(out, run + "PolhodeOffErrorMax", r.polhode_off_error_max_rel);
-  define(out, run + "EnergyInitial", r.energy_initial);
-  define_count(out, run + "Steps", r.steps);
-  define_count(out, run + "Evaluations", r.evaluations);
+void define_run(std::string& out, const std::string& run, const RunResult& r,
+                const std::vector<const Metric*>& metrics) {
+  for (const Metric* metric : metrics) {
+    if (metric->tex.empty()) continue;
+    with_value(*metric, r, [&]<class Value>(const Value& value) {
+      if constexpr (std::is_same_v<Value, std::optional<double>>) {
+        define(out, run + metric->tex, value);
+      } else if constexpr (std::is_same_v<Value, std::int64_t>) {
+        define_count(out, run + metric->tex, value);
+      } else if constexpr (std::is_same_v<Value, std::map<std::string, double>>) {
+        for (const auto& [invariant, drift] : value) define(out, run + spelt_name(invariant) + metric->tex, drift);
+      }
+    });
+  }
 }
 
-/// A curve's slopes, under the name of its runs without the step.
+/// Adds commands for the slopes of each curve, named like its runs but without the step.
 void define_slopes(std::string& out, const StudyView& study) {
   const auto grouping = group(study);
   std::map<std::string, int> uses;
@@ -191,13 +186,14 @@ std::string tex_values(const StudyView& study) {
                            : names[static_cast<std::size_t>(done - study.runs.begin())] + "EnergyDriftMax";
   std::string out = fmt::format(explanation, example);
   define_count(out, "polhodeRuns", static_cast<std::int64_t>(study.runs.size()));
+  const auto metrics = in_table_order(study.metrics);
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     out += fmt::format("\n% {}{}\n", one_line(study.runs[i].id),
                        completed(study.runs[i]) ? "" : ", " + one_line(study.runs[i].result.status));
-    define_run(out, names[i], study.runs[i].result);
+    define_run(out, names[i], study.runs[i].result, metrics);
   }
   define_slopes(out, study);
   return out;
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::tables

@@ -7,7 +7,7 @@
 
 #include "experiments/study/record/study_view.hpp"
 
-namespace polhode::study::report {
+namespace polhode::study::inline report::inline tables {
 
 /// What the commands of a run begin with, without the backslash and in letters only:
 /// "polhodeTumblingBoxRkFourDtOneEMinusThree". In this order: scenario, method, varied keys with their values, options

@@ -16,6 +16,8 @@
 namespace polhode::study {
 namespace {
 
+using namespace precision;
+
 /// The built-in scenarios whose bodies all turn without torque, and do not touch.
 std::vector<Scenario> free_scenarios() {
   std::vector<Scenario> free;

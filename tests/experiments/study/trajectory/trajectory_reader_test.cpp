@@ -17,6 +17,8 @@
 namespace polhode::study {
 namespace {
 
+using judge::score;
+
 using testing::HasSubstr;
 
 Problem bodies(std::size_t n) {
@@ -126,13 +128,13 @@ TEST(TrajectoryReader, NeverFallsOver) {
 }
 
 /// The exact motion of a scenario, as a file would have it.
-Trajectory exact_trajectory(const Scenario& scenario, double t_end, std::size_t n) {
+Trajectory exact_trajectory(const Scenario& scenario, double duration, std::size_t n) {
   const auto system = make_system<double>(scenario.problem, {});
   const ExactMotion exact(*system);
   Trajectory t;
   t.has_position = t.has_velocity = t.has_angular_velocity = true;
   for (std::size_t k = 0; k <= n; ++k) {
-    t.times.push_back(t_end * static_cast<double>(k) / static_cast<double>(n));
+    t.times.push_back(duration * static_cast<double>(k) / static_cast<double>(n));
     const auto at = exact.at(t.times.back(), 0);
     TrajectoryBody body;
     body.position = at.path->position;
@@ -166,6 +168,7 @@ TEST(TrajectoryScore, DerivesWhatIsMissingOrLeavesItEmpty) {
   EXPECT_FALSE(rotation_only.notes.empty());
   t.has_angular_velocity = false;
   const auto attitude_only = score(t, scenario, {});
+  EXPECT_FALSE(attitude_only.record.result.energy_drift_max || attitude_only.record.result.energy_round_off);
   EXPECT_FALSE(attitude_only.record.result.energy_drift_max_rel ||
                attitude_only.record.result.polhode_off_error_max_rel);
   EXPECT_LE(*attitude_only.record.result.attitude_error_max, 1e-14);

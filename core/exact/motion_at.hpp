@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The values of an exact motion at one instant.
+#pragma once
+
+#include "core/math/quaternion.hpp"
+
+namespace polhode {
+
+/// Position and velocity of a point.
+struct PathAt {
+  Vector3<double> position;  ///< m
+  Vector3<double> velocity;  ///< m/s
+};
+
+/// Orientation and angular velocity of a top.
+struct TopAt {
+  Quaternion<double> orientation;         ///< body to world
+  Vector3<double> angular_velocity_body;  ///< rad/s, body axes
+};
+
+}  // namespace polhode

@@ -1,0 +1,479 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/record/run_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "collision/broad_phase.hpp"
+#include "collision/contact/impact_timing.hpp"
+#include "collision/narrow_phase.hpp"
+#include "collision/response.hpp"
+#include "experiments/study/scenario/narrow_phase_choice.hpp"
+#include "experiments/study/text/value_lists.hpp"
+#include "integrators/catalogue.hpp"
+
+namespace polhode::study::inline record {
+namespace {
+
+using Kind = RunOption::Kind;
+using Role = RunOption::Role;
+
+template <class T>
+using Names = std::vector<std::pair<std::string, T>>;
+
+template <class T>
+Names<T> names_of(std::initializer_list<T> values) {
+  Names<T> names;
+  for (const T value : values) names.emplace_back(std::string(name(value)), value);
+  return names;
+}
+
+/// An option with few values. `member` returns a reference to its value in a RunConfig.
+template <class T, class Member>
+RunOption choice(RunOption option, Member member, Names<T> all) {
+  option.known = [all] {
+    std::vector<std::string> known;
+    for (const auto& [text, value] : all) known.push_back(text);
+    return known;
+  };
+  option.value = [member, all](const RunConfig& config) -> OptionValue {
+    for (const auto& [text, value] : all) {
+      if (member(config) == value) return text;
+    }
+    return {};
+  };
+  option.set = [member, all](RunConfig& config, const OptionValue& said) {
+    for (const auto& [text, value] : all) {
+      if (text == std::get<std::string>(said)) member(config) = value;
+    }
+  };
+  return option;
+}
+
+/// An option whose value in a RunConfig is a std::optional. `member` returns a reference to it.
+template <class Member>
+RunOption optional(RunOption option, Member member) {
+  option.value = [member](const RunConfig& config) -> OptionValue {
+    if (const auto& value = member(config)) return *value;
+    return {};
+  };
+  option.set = [member](RunConfig& config, const OptionValue& said) {
+    using Value = typename std::remove_reference_t<decltype(member(config))>::value_type;
+    member(config) = std::get<Value>(said);
+  };
+  return option;
+}
+
+/// An option of contact detection or response; its values are the names in a catalogue.
+template <class Entry>
+RunOption contact(RunOption option, std::string ContactConfig::*member, const std::vector<Entry>& (*catalogue)()) {
+  option.takes_all = true;
+  option.in_tex_names = false;
+  option.known = [catalogue] {
+    std::vector<std::string> known;
+    for (const Entry& entry : catalogue()) known.push_back(entry.name);
+    return known;
+  };
+  option.value = [member](const RunConfig& config) -> OptionValue {
+    if (!config.contact) return {};
+    return (*config.contact).*member;
+  };
+  option.set = [member](RunConfig& config, const OptionValue& said) {
+    if (!config.contact) config.contact.emplace();
+    (*config.contact).*member = std::get<std::string>(said);
+  };
+  if (!option.applies) {
+    option.applies = [](const RunConfig& config) { return config.contact.has_value(); };
+    option.no_effect = "no scenario here has contact = true";
+    option.remedy = "or take a scenario with contact";
+  }
+  return option;
+}
+
+std::function<OptionValue(const Scenario&)> always(const char* name) {
+  return [name](const Scenario&) -> OptionValue { return std::string(name); };
+}
+
+bool is_adaptive(const RunConfig& config) {
+  const IntegratorEntry* method = find_integrator(config.integrator);
+  return method && method->declaration.adaptive;
+}
+bool has_orders(const RunConfig& config) {
+  const IntegratorEntry* method = find_integrator(config.integrator);
+  return method && method->declaration.highest_order > 0;
+}
+bool answers_impacts(const RunConfig& config) {
+  if (!config.contact) return false;
+  const ResponseEntry* response = find_response(config.contact->response);
+  return !config.contact->impact_timing.empty() || (response && response->make);
+}
+
+std::vector<RunOption> options_of_motion() {
+  RunOption scenario{.name = "scenario",
+                     .values = "NAME|FILE",
+                     .help = "scenario, built in or a TOML file (see --list scenarios)",
+                     .role = Role::scenario,
+                     .column = "scenario",
+                     .header = "scenario"};
+  scenario.value = [](const RunConfig& c) -> OptionValue { return c.scenario; };
+  scenario.set = [](RunConfig& c, const OptionValue& said) { c.scenario = std::get<std::string>(said); };
+  RunOption integrator{.name = "integrator",
+                       .values = "NAME",
+                       .help = "method, or all (see --list integrators)",
+                       .role = Role::method,
+                       .takes_all = true,
+                       .column = "integrator",
+                       .header = "method"};
+  integrator.known = [] {
+    std::vector<std::string> known;
+    for (const IntegratorEntry& entry : integrator_catalogue()) known.push_back(entry.declaration.name);
+    return known;
+  };
+  integrator.value = [](const RunConfig& c) -> OptionValue { return c.integrator; };
+  integrator.set = [](RunConfig& c, const OptionValue& said) { c.integrator = std::get<std::string>(said); };
+  return {scenario, integrator};
+}
+
+std::vector<RunOption> options_of_formulation() {
+  return {choice(
+              {.name = "orientation",
+               .values = "quaternion|matrix",
+               .help = "chart of the orientation (default: quaternion)",
+               .column = "orientation",
+               .header = "orientation"},
+              [](auto& c) -> auto& { return c.formulation.orientation; },
+              names_of({Orientation::quaternion, Orientation::matrix})),
+          choice(
+              {.name = "angular-state",
+               .values = "velocity_world|velocity_body|momentum_world",
+               .help = "what stands for the rotation in the state (default: velocity_world)",
+               .column = "angular_state",
+               .header = "angular state"},
+              [](auto& c) -> auto& { return c.formulation.angular_state; },
+              names_of({AngularState::velocity_world, AngularState::velocity_body, AngularState::momentum_world})),
+          choice(
+              {.name = "gyroscopic",
+               .values = "on|off",
+               .help = "the term w x Iw, which both source documents leave out (default: on)",
+               .column = "gyroscopic",
+               .header = "gyroscopic",
+               .term = "gyroscopic term",
+               .word = "gyroscopic"},
+              [](auto& c) -> auto& { return c.formulation.gyroscopic; }, Names<bool>{{"on", true}, {"off", false}}),
+          choice(
+              {.name = "normalize",
+               .values = "never|step",
+               .help = "project the orientation after each step (default: never)",
+               .column = "normalize",
+               .header = "normalize",
+               .word = "normalize"},
+              [](auto& c) -> auto& { return c.normalise; }, Names<bool>{{"never", false}, {"step", true}}),
+          // This option has no effect on a matrix, which is used as stored.
+          choice(
+              {.name = "rotation-from",
+               .values = "normalised|stored",
+               .help = "what a quaternion off the unit sphere stands for (default: normalised)",
+               .column = "rotation_from",
+               .header = "rotation from",
+               .term = "rotation from (quaternions)",
+               .word = "rotation",
+               .applies = [](const RunConfig& c) { return c.formulation.orientation == Orientation::quaternion; },
+               .no_effect = "a matrix is used as it is stored",
+               .remedy = "or take --orientation quaternion"},
+              [](auto& c) -> auto& { return c.formulation.rotation_from; },
+              names_of({RotationFrom::normalised, RotationFrom::stored})),
+          choice(
+              {.name = "precision",
+               .values = "float|double|long_double",
+               .help = "arithmetic; other than double for our own methods and Odeint's (default: double)",
+               .column = "precision",
+               .header = "precision"},
+              [](auto& c) -> auto& { return c.precision; },
+              names_of({Precision::single, Precision::dual, Precision::extended}))};
+}
+
+std::vector<RunOption> options_of_method() {
+  RunOption summation = choice(
+      {.name = "summation",
+       .values = "plain|compensated",
+       .help = "how increments are added to the state; compensated: what rounding loses is "
+               "kept and added to the next one (default: plain)",
+       .column = "summation",
+       .on_demand = true,
+       .header = "summation",
+       .term = "summation of the state",
+       .usual = std::string("plain")},
+      [](auto& c) -> auto& { return c.summation; }, names_of({Summation::plain, Summation::compensated}));
+  RunOption order{.name = "order",
+                  .values = "N",
+                  .help = "of methods that offer several, as --list integrators says",
+                  .kind = Kind::whole,
+                  .column = "order",
+                  .on_demand = true,
+                  .header = "order",
+                  .term = "order, of methods that offer several",
+                  .word = "order",
+                  .in_tex_names = false,
+                  .applies = [](const RunConfig& c) { return c.order.value_or(0) > 0 || has_orders(c); },
+                  .no_effect = "no method here offers several orders",
+                  .remedy = "or name one that does, such as arkode_erk"};
+  order.fault = [](double n) { return n != std::floor(n) || n > 100 ? "is not an order" : ""; };
+  order.value = [](const RunConfig& c) -> OptionValue {
+    if (c.order.value_or(0) > 0) return std::int64_t(*c.order);
+    return {};
+  };
+  order.set = [](RunConfig& c, const OptionValue& said) { c.order = static_cast<int>(std::get<std::int64_t>(said)); };
+  return {summation, order};
+}
+
+std::vector<RunOption> options_of_time() {
+  RunOption dt = optional(
+      {.name = "dt",
+       .values = "S",
+       .help = "step of fixed-step methods, in s",
+       .kind = Kind::number,
+       .role = Role::size,
+       .of_unit = " of seconds",
+       .column = "dt_s",
+       .header = "dt",
+       .unit = "s",
+       .term = "dt (s), fixed-step methods",
+       .applies = [](const RunConfig& c) { return c.dt || !is_adaptive(c); },
+       .no_effect = "every method here chooses its own steps, by --tolerance",
+       .remedy = "or name a method of a fixed step",
+       .needed = true},
+      [](auto& c) -> auto& { return c.dt; });
+  RunOption tolerance = optional(
+      {.name = "tolerance",
+       .values = "X",
+       .help = "relative and absolute tolerance of adaptive methods",
+       .kind = Kind::number,
+       .role = Role::size,
+       .column = "tolerance",
+       .header = "tolerance",
+       .term = "tolerance, relative and absolute alike, adaptive methods",
+       .applies = [](const RunConfig& c) { return c.tolerance || is_adaptive(c); },
+       .no_effect = "every method here has a fixed step, --dt",
+       .remedy = "or name a method that chooses its own steps",
+       .needed = true},
+      [](auto& c) -> auto& { return c.tolerance; });
+  tolerance.fault = [](double x) { return x < 1 ? "" : "is too large; it must be below 1"; };
+  RunOption t_end{.name = "t-end",
+                  .values = "S",
+                  .help = "duration in s (default: the scenario's)",
+                  .kind = Kind::number,
+                  .role = Role::duration,
+                  .of_unit = " of seconds",
+                  .column = "t_end_s",
+                  .header = "t_end",
+                  .unit = "s",
+                  .term = "t_end (s)"};
+  t_end.value = [](const RunConfig& c) -> OptionValue { return c.t_end; };
+  t_end.set = [](RunConfig& c, const OptionValue& said) { c.t_end = std::get<double>(said); };
+  t_end.preset = [](const Scenario& scenario) -> OptionValue { return scenario.t_end; };
+  RunOption samples = optional(
+      {.name = "samples",
+       .values = "N",
+       .help = "measure at k t_end/N only (default: after every step)",
+       .kind = Kind::whole,
+       .role = Role::duration,
+       .header = "samples",
+       .term = "observed at (samples)",
+       .unsaid = "every step"},
+      [](auto& c) -> auto& { return c.samples; });
+  samples.fault = [](double n) { return n != std::floor(n) || n > 1e9 ? "is not a whole number below 1e9" : ""; };
+  return {dt, tolerance, t_end, samples};
+}
+
+std::vector<RunOption> options_of_contact() {
+  return {contact<BroadPhaseEntry>({.name = "broad-phase",
+                                    .values = "NAME",
+                                    .help = "broad phase of scenarios with contact, a list or all (default: "
+                                            "sweep_and_prune)",
+                                    .column = "broad_phase",
+                                    .header = "broad phase",
+                                    .preset = always("sweep_and_prune")},
+                                   &ContactConfig::broad_phase, broad_phase_catalogue),
+          contact<NarrowPhaseEntry>({.name = "narrow-phase",
+                                     .values = "NAME",
+                                     .help = "narrow phase of them (default: sat, or gjk where shapes have no "
+                                             "separating axes)",
+                                     .column = "narrow_phase",
+                                     .header = "narrow phase",
+                                     .preset = [](const Scenario& s) -> OptionValue { return narrow_phase_for(s); }},
+                                    &ContactConfig::narrow_phase, narrow_phase_catalogue),
+          contact<ResponseEntry>({.name = "response",
+                                  .values = "NAME",
+                                  .help = "contact response (default: sequential_impulses)",
+                                  .column = "response",
+                                  .header = "response",
+                                  .term = "response to contact",
+                                  .preset = always("sequential_impulses")},
+                                 &ContactConfig::response, response_catalogue),
+          // This option has no effect on a compliant response, which is a force.
+          contact<ImpactTimingEntry>({.name = "impact-timing",
+                                      .values = "NAME",
+                                      .help = "when impacts are answered (default: time_stepping)",
+                                      .column = "impact_timing",
+                                      .header = "timing of impacts",
+                                      .applies = answers_impacts,
+                                      .no_effect = "no run here answers impacts one by one",
+                                      .remedy = "or take a scenario with contact and a response other than compliant",
+                                      .preset = always("time_stepping")},
+                                     &ContactConfig::impact_timing, impact_timing_catalogue)};
+}
+
+std::vector<RunOption>& table() {
+  static std::vector<RunOption> all = [] {
+    std::vector<RunOption> options;
+    for (const auto& part :
+         {options_of_motion(), options_of_formulation(), options_of_method(), options_of_time(), options_of_contact()})
+      options.insert(options.end(), part.begin(), part.end());
+    return options;
+  }();
+  return all;
+}
+
+/// The text as a number if it is one, so that 9 is sorted before 10.
+OptionValue value_in(const std::string& text) {
+  if (text.empty()) return {};
+  double x = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), x);
+  if (read.ec == std::errc() && read.ptr == text.data() + text.size() && !std::isnan(x)) return x;
+  return text;
+}
+
+/// The value that runs.csv and the identity contain; empty if the option does not apply.
+OptionValue applied(const RunOption& option, const RunConfig& config) {
+  OptionValue value = option.value(config);
+  if (value == OptionValue{} || option.applies_to(config)) return value;
+  return {};
+}
+
+bool has_column(const RunOption& option, const NamedOptions& named) {
+  return !option.column.empty() && (!option.on_demand || named.contains(option.name));
+}
+
+}  // namespace
+
+const std::vector<RunOption>& run_options() { return table(); }
+
+std::vector<const RunOption*> options_by_column() {
+  std::vector<const RunOption*> all;
+  for (const RunOption& option : run_options()) all.push_back(&option);
+  std::stable_sort(all.begin(), all.end(), [](const RunOption* a, const RunOption* b) {
+    return a->on_demand != b->on_demand ? b->on_demand : a->on_demand && a->column < b->column;
+  });
+  return all;
+}
+
+std::vector<const RunOption*> options_of_role(RunOption::Role role) {
+  auto all = options_by_column();
+  std::erase_if(all, [&](const RunOption* option) { return option->role != role; });
+  return all;
+}
+
+NamedOptions options_on_demand() {
+  NamedOptions names;
+  for (const RunOption& option : run_options()) {
+    if (option.on_demand) names.insert(option.name);
+  }
+  return names;
+}
+
+const RunOption& run_option(const std::string& name) {
+  for (const RunOption& option : run_options()) {
+    if (option.name == name) return option;
+  }
+  throw std::logic_error("there is no run option " + name);
+}
+
+RunOption without_member(RunOption option) {
+  option.value = [name = option.name](const RunConfig& config) -> OptionValue {
+    const auto found = config.further.find(name);
+    return found == config.further.end() ? OptionValue{} : found->second;
+  };
+  option.set = [name = option.name](RunConfig& config, const OptionValue& said) { config.further[name] = said; };
+  return option;
+}
+
+AddedRunOption::AddedRunOption(RunOption option) { table().push_back(std::move(option)); }
+AddedRunOption::~AddedRunOption() { table().pop_back(); }
+
+std::string file_key(const RunOption& option) {
+  std::string key = option.name;
+  std::replace(key.begin(), key.end(), '-', '_');
+  return key;
+}
+
+std::string text_of(const OptionValue& value) {
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
+  if (const auto* number = std::get_if<double>(&value)) return exact(*number);
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  return {};
+}
+
+std::string label_of(const RunOption& option, const RunConfig& config) {
+  const std::string text = text_of(option.value(config));
+  return text.empty() || option.word.empty() ? text : option.word + " " + text;
+}
+
+bool is_usual(const RunOption& option, const RunConfig& config, const RunConfig& usual) {
+  const OptionValue value = option.value(config);
+  return value == OptionValue{} || value == option.usual || value == option.value(usual);
+}
+
+std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys, const NamedOptions& named) {
+  std::vector<std::string> columns;
+  for (const RunOption* option : options_by_column()) {
+    if (has_column(*option, named)) columns.push_back(option->column);
+  }
+  columns.insert(columns.end(), varied_keys.begin(), varied_keys.end());
+  return columns;
+}
+
+std::vector<std::string> config_cells(const RunConfig& config, const NamedOptions& named) {
+  std::vector<std::string> cells;
+  for (const RunOption* option : options_by_column()) {
+    if (has_column(*option, named)) cells.push_back(text_of(applied(*option, config)));
+  }
+  for (const Override& o : config.varied) cells.push_back(o.value);
+  return cells;
+}
+
+std::string identity_of(const RunConfig& config) {
+  std::string text;
+  for (const std::string& cell : config_cells(config, {})) text += cell + "\n";
+  for (const RunOption& option : run_options()) {
+    if (option.column.empty()) text += text_of(applied(option, config));
+  }
+  for (const RunOption* option : options_by_column()) {
+    if (option->on_demand && !is_usual(*option, config)) text += "\n" + label_of(*option, config);
+  }
+  return text;
+}
+
+std::vector<OptionValue> sort_key(const RunConfig& config) {
+  std::vector<OptionValue> key;
+  for (const RunOption* option : options_by_column()) {
+    if (option->column.empty()) continue;
+    OptionValue value = applied(*option, config);
+    if (option->role == Role::scenario) {
+      key.push_back(value_in(text_of(value)));
+    }
+    key.push_back(std::move(value));
+  }
+  for (const Override& o : config.varied) {
+    key.push_back(value_in(o.value));
+    key.emplace_back(o.value);
+  }
+  return key;
+}
+
+}  // namespace polhode::study::record

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The table of run options: one entry holds everything about an option of a run.
+//
+// The command line, study files, the planner, the identity and the order of runs, runs.csv, the tables, figures and
+// report, session files and replays loop over this table. To add an option: add an entry, and the code that implements
+// it. Make an option that stored studies do not contain `on_demand`: it then changes neither their columns nor their
+// ids.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "experiments/study/record/run_record.hpp"
+
+namespace polhode::study::inline record {
+
+struct RunOption {
+  enum class Kind { name, whole, number };
+  /// Property of a run that the option determines. Figures have one curve for each scenario, variant and method.
+  enum class Role {
+    scenario,
+    method,
+    variant,   ///< formulation, arithmetic or contact algorithm
+    size,      ///< step or tolerance: the points of a curve
+    duration,  ///< duration of the run, or number of measurements
+  };
+
+  // On the command line, in study files and in session files.
+  std::string name;    ///< name on the command line, without leading dashes; in files with '_' for '-'
+  std::string values;  ///< values as shown after the name in --help: "quaternion|matrix"
+  std::string help;    ///< meaning and default, in --help
+  Kind kind = Kind::name;
+  Role role = Role::variant;
+  std::function<std::vector<std::string>()> known{};  ///< the valid names
+  bool takes_all = false;                             ///< "all" stands for all valid names
+  std::string of_unit{};                              ///< appended to "it must be a positive number": " of seconds"
+  /// Reason for which a positive number is invalid: "is not an order"; empty: it is valid.
+  std::function<std::string(double)> fault{};
+
+  // In runs.csv, tables and figures.
+  std::string column{};      ///< column of runs.csv, with the unit; empty: none
+  bool on_demand = false;    ///< only studies that give the option have its column
+  std::string header{};      ///< heading of its column in the table of runs
+  std::string unit{};        ///< unit after that heading; empty: none
+  std::string term{};        ///< name in the report's list of options; empty: the header
+  std::string unsaid{};      ///< value in that list for a run without a value of the option
+  std::string word{};        ///< word before a value that is shown alone: "gyroscopic on"; empty: none
+  bool in_tex_names = true;  ///< values other than the usual one are part of the names of LaTeX values
+  OptionValue usual{};       ///< value that is equivalent to no value in the RunConfig
+
+  // In the configuration of a run.
+  std::function<OptionValue(const RunConfig&)> value{};
+  std::function<void(RunConfig&, const OptionValue&)> set{};
+  /// True if the option affects the run, decided by the options before it in the table; empty: affects every run.
+  std::function<bool(const RunConfig&)> applies{};
+  std::string no_effect{}, remedy{};  ///< reason for which no run of a study is affected; remedy other than omitting it
+  bool needed = false;                ///< mandatory for a run to which it applies
+  /// Default in a run of the scenario, if the option applies; empty: the default of RunConfig.
+  std::function<OptionValue(const Scenario&)> preset{};
+
+  bool applies_to(const RunConfig& config) const { return !applies || applies(config); }
+};
+
+/// All options, in the order in which the planner varies them (slowest first) and --help lists them.
+const std::vector<RunOption>& run_options();
+
+/// All options in the order of the columns of runs.csv: options on demand come last, sorted by column name.
+std::vector<const RunOption*> options_by_column();
+std::vector<const RunOption*> options_of_role(RunOption::Role role);  ///< in the order of options_by_column()
+
+NamedOptions options_on_demand();  ///< names of all options on demand
+
+/// The option with this name on the command line. Throws std::logic_error if there is none.
+const RunOption& run_option(const std::string& name);
+
+/// Returns the option with accessors that store its value in RunConfig::further.
+RunOption without_member(RunOption option);
+
+/// Adds an option to the table during its lifetime; for tests. No other thread may read the table meanwhile.
+class AddedRunOption {
+ public:
+  explicit AddedRunOption(RunOption option);
+  ~AddedRunOption();
+  AddedRunOption(const AddedRunOption&) = delete;
+  AddedRunOption& operator=(const AddedRunOption&) = delete;
+};
+
+/// Name of an option in files: "angular_state".
+std::string file_key(const RunOption& option);
+
+/// The value as text, with all digits; empty if there is no value.
+std::string text_of(const OptionValue& value);
+/// The value for readers: "gyroscopic on", "matrix", "order 5"; empty if the run has no value of the option.
+std::string label_of(const RunOption& option, const RunConfig& config);
+/// True if the run has no value of the option, the option's usual value, or the value that the run `usual` has.
+bool is_usual(const RunOption& option, const RunConfig& config, const RunConfig& usual = {});
+
+/// Names of the columns of runs.csv that hold the configuration of a run; the varied keys come last.
+std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys, const NamedOptions& named);
+/// The cells below config_columns().
+std::vector<std::string> config_cells(const RunConfig& config, const NamedOptions& named);
+
+/// The configuration as text. It does not depend on the study that contains the run.
+std::string identity_of(const RunConfig& config);
+
+/// The values of a configuration by which runs are sorted. Keys are comparable if both runs vary the same keys.
+std::vector<OptionValue> sort_key(const RunConfig& config);
+
+}  // namespace polhode::study::record

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The symmetric logarithmic axis.
+#include "experiments/study/plot/axis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace polhode::study::report_tests {
+namespace {
+
+TEST(ReportAxis, SymlogGoesThereAndBack) {
+  const auto axis = symlog_axis("y", -1e-3, 1e2, 1e-9);
+  EXPECT_DOUBLE_EQ(axis.threshold, 1e-11);
+  for (const double y : {-1e-3, -1e-12, 0.0, 1e-11, 3e-5, 99.0})
+    EXPECT_NEAR(axis.value_at(axis.place(y)), y, 1e-12 * std::abs(y));
+  EXPECT_LT(axis.low, -1e-3);
+  EXPECT_GT(axis.high, 1e2);
+  EXPECT_LE(axis.ticks.size(), 12U);
+}
+
+}  // namespace
+}  // namespace polhode::study::report_tests
