@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The port of broad phases: which of many boxes may touch. One catalogue, interchangeable by name, all with the same
-// answer.
+// The port of broad phases: finds which of many boxes overlap. All entries of the catalogue give the same answer.
 #pragma once
 
 #include <cstdint>
@@ -23,26 +22,27 @@ class BroadPhase {
  public:
   virtual ~BroadPhase() = default;
 
-  /// The bounds of all bodies at this step, by number; the same number of bodies as before, or a new scene. Bounds may
-  /// be infinite (a half-space); a NaN is refused by std::invalid_argument.
+  /// Sets the bounds of all bodies, by number, at this step. Another number of bodies starts a new scene. Bounds may be
+  /// infinite (a half-space). Throws std::invalid_argument on NaN.
   virtual void update(std::span<const Bounds> bounds) = 0;
 
-  /// All pairs whose closed bounds overlap, sorted, none twice; valid until the next update().
+  /// All pairs whose closed bounds overlap, sorted, each once; valid until the next update().
   virtual std::span<const BodyPair> pairs() = 0;
 
-  /// Appends the boxes into which it divides space, or the nodes of its tree, for drawing: finite ones, which hold
-  /// every finite box of the last update(); after pairs(). None where it divides nothing.
+  /// Appends the cells of the structure (boxes of a grid, nodes of a tree) for drawing. Call after pairs(). The cells
+  /// are finite and together contain every finite box of the last update(). A broad phase without cells appends
+  /// nothing.
   virtual void cells(std::vector<Bounds>&) const {}
 };
 
 struct BroadPhaseEntry {
-  std::string name;     ///< as in the catalogue: "sweep_and_prune"
-  std::string summary;  ///< one line of how it works
+  std::string name;     ///< name in the catalogue: "sweep_and_prune"
+  std::string summary;  ///< one line on the algorithm
   std::unique_ptr<BroadPhase> (*make)();
 };
 
-/// Those of the catalogue, one line each.
+/// All broad phases.
 const std::vector<BroadPhaseEntry>& broad_phase_catalogue();
 const BroadPhaseEntry* find_broad_phase(std::string_view name);
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where and how two bodies touch, as the slides define it.
+// Contact points, contact normal and signed distance of two bodies, as the slides define them.
 #pragma once
 
 #include <array>
@@ -10,38 +10,38 @@
 
 namespace polhode::inline collision {
 
-/// Which parts of two shapes touch. The numbers are those of the shapes' own faces, edges and vertices, and stay the
-/// same while the contact does: warm starting knows a contact by them.
+/// The parts of two shapes that touch. The numbers are those of the shapes' own faces, edges and vertices. They stay
+/// the same as long as the contact lasts, so that warm starting identifies a contact by them.
 struct Feature {
-  /// A vertex of A and a face of B, a face of A and a vertex of B, an edge of each, anything else.
+  /// A vertex of A and a face of B; a face of A and a vertex of B; an edge of each; anything else.
   enum class Kind : std::uint8_t { vertex_face, face_vertex, edge_edge, other };
   Kind kind;
   std::uint32_t of_a, of_b;
   bool operator==(const Feature&) const = default;
 };
 
-/// One point of a contact patch. Without values of its own, so that a manifold without contact costs next to nothing.
+/// One point of a contact patch. It has no default values, so that a manifold without contact costs next to nothing.
 struct ContactPoint {
-  Vector3<double> point;  ///< m, world, half way between the two surfaces
-  double depth;           ///< m along the normal, positive when overlapping
+  Vector3<double> point;  ///< m, world, midway between the two surfaces
+  double depth;           ///< m, along the normal; positive if the shapes overlap
   Feature feature;
 };
 
-/// The contact patch of two convex shapes: one normal, and the points that matter.
+/// The contact patch of two convex shapes: one normal, and the points that determine the contact.
 struct Manifold {
   static constexpr std::size_t capacity = 8;
-  Vector3<double> normal = Vector3<double>::Zero();  ///< unit, world, from B to A: the impulse on A is +j n
+  Vector3<double> normal = Vector3<double>::Zero();  ///< unit, world, from B to A; the impulse on A is +j n
   std::array<ContactPoint, capacity> points{};
   std::size_t count = 0;  ///< 0: no contact
 };
 
-/// Signed distance of two shapes: positive apart, negative the depth of overlap, the smallest translation that
-/// separates.
+/// Signed distance of two shapes: positive if they are apart; if they overlap, minus the length of the smallest
+/// translation that separates them.
 struct Distance {
   double distance = 0;                               ///< m
   Vector3<double> normal = Vector3<double>::Zero();  ///< unit, world, from B to A
-  Vector3<double> on_a = Vector3<double>::Zero();    ///< m, world: the witness points
+  Vector3<double> on_a = Vector3<double>::Zero();    ///< m, world: witness point on A
   Vector3<double> on_b = Vector3<double>::Zero();
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a shape stands in the world.
+// Position and rotation of a shape in the world.
 #pragma once
 
 #include "core/math/linear_algebra.hpp"
@@ -16,4 +16,4 @@ struct Pose {
   Vector3<double> to_body(const Vector3<double>& x) const { return rotation.transpose() * (x - position); }
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

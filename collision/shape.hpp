@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The port of shapes: what broad and narrow phases ask of a solid, in its own axes. A new shape is one file and one
-// line in the catalogue.
+// The port of shapes: the queries of broad and narrow phases to a solid, in its own axes. A new shape is one file and
+// one line in the catalogue.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -21,7 +21,7 @@ struct MassProperties {
   Matrix3<double> inertia = Matrix3<double>::Zero();
 };
 
-/// The shapes that narrow phases know in closed form; any other convex shape they know by its support function alone.
+/// The shapes that narrow phases treat in closed form. Any other convex shape is treated by its support function alone.
 enum class ShapeTag : std::uint8_t {
   sphere,
   box,
@@ -34,8 +34,8 @@ enum class ShapeTag : std::uint8_t {
   other
 };
 
-/// A closed convex solid, or a compound of such. Built once and never changed; a size that is zero, negative or not
-/// finite is refused when it is built, by std::invalid_argument with the reason.
+/// A closed convex solid, or a compound of such solids. Immutable. Constructors throw std::invalid_argument, with the
+/// reason, if a size is zero, negative or not finite.
 class Shape {
  public:
   Shape(const Shape&) = delete;
@@ -43,16 +43,16 @@ class Shape {
   virtual ~Shape() = default;
 
   ShapeTag tag() const { return tag_; }
-  virtual std::string_view kind() const = 0;  ///< as in the catalogue: "box"
+  virtual std::string_view kind() const = 0;  ///< name in the catalogue: "box"
 
-  /// A point of the shape that is furthest along the direction d, which is not zero and need not be of unit length.
-  /// A half-space has one along its normal only, and refuses other directions.
+  /// A point of the shape that is furthest along the direction d, which is not zero and need not be of unit length. A
+  /// half-space has such a point along its normal only, and throws for other directions.
   virtual Vector3<double> support(const Vector3<double>& d) const = 0;
 
   /// The smallest axis-aligned box around the shape at a pose.
   virtual Bounds bounds(const Pose& pose) const = 0;
 
-  /// False for a half-space only, which has no volume and never moves.
+  /// False only for a half-space, which has no volume and never moves.
   virtual bool finite() const { return true; }
   virtual MassProperties mass_properties() const = 0;
 
@@ -65,4 +65,4 @@ class Shape {
 
 using ShapePointer = std::shared_ptr<const Shape>;
 
-}  // namespace polhode
+}  // namespace polhode::collision

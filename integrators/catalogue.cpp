@@ -66,4 +66,4 @@ const IntegratorEntry* find_integrator(std::string_view name) {
   return find_entry(integrator_catalogue(), name, [](const auto& entry) { return entry.declaration.name; });
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

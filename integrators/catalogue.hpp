@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The catalogue of integrators: everything that lists methods, the help text, the studies and the conformance tests,
-// reads it.
+// The catalogue of integrators. Help text, studies and conformance tests read their lists of methods from it.
 #pragma once
 
 #include <functional>
@@ -16,21 +15,23 @@ namespace polhode::inline integrators {
 
 template <class S>
 using IntegratorPointer = std::unique_ptr<Integrator<S>>;
+/// Builds a method for a system.
 template <class S>
 using IntegratorMaker = std::function<IntegratorPointer<S>(const System<S>&, const IntegratorSettings&)>;
 /// Builds a fixed-step method for the ODE of the change of the state (ShiftedSystem).
 template <class S>
 using IncrementMaker = std::function<IntegratorPointer<S>(const ShiftedSystem<S>&)>;
 
-/// A method with its builders, one for each scalar that it works in; an empty one means that it does not.
-/// The system must outlive the integrator.
+/// A method with one builder for each supported scalar. An empty builder means that the scalar is not supported. The
+/// system must outlive the integrator.
 struct IntegratorEntry {
   Declaration declaration;
   IntegratorMaker<double> make;
   IntegratorMaker<float> make_float{};
   IntegratorMaker<long double> make_long_double{};
-  IntegratorMaker<Lanes> make_lanes{};  ///< in the lanes of an ensemble
-  /// Why it makes no sense with this problem in this formulation; empty, or an empty answer: it does.
+  IntegratorMaker<Lanes> make_lanes{};  ///< for the lanes of an ensemble
+  /// Returns why the method does not apply to this problem in this formulation; an empty string if it does. An empty
+  /// function means that it always applies.
   std::function<std::string(const Problem&, const Formulation&)> refusal{};
 
   /// Builders of an additive method for the change of the state (integrators/compensated.hpp); empty for other methods.
@@ -50,9 +51,10 @@ struct IntegratorEntry {
   }
 };
 
+/// All methods.
 const std::vector<IntegratorEntry>& integrator_catalogue();
 
-/// The entry of that name, or null.
+/// The entry with this name, or null.
 const IntegratorEntry* find_integrator(std::string_view name);
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -8,7 +8,7 @@
 namespace polhode::inline integrators {
 namespace {
 
-/// sum ← fl(sum + carried + addend); carried ← what is missing there.
+/// sum ← fl(sum + carried + addend); carried ← the round-off of that sum.
 template <class S>
 void add(S& sum, S& carried, S addend) {
   const S a = addend + carried;
@@ -72,4 +72,4 @@ template IntegratorPointer<float> make_compensated(const IntegratorEntry&, const
 template IntegratorPointer<double> make_compensated(const IntegratorEntry&, const System<double>&);
 template IntegratorPointer<long double> make_compensated(const IntegratorEntry&, const System<long double>&);
 
-}  // namespace polhode
+}  // namespace polhode::integrators

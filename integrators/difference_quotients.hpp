@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The derivatives of the flat ODE ẏ = f(t, y) by central difference quotients, accurate to about eps^(2/3).
+// Derivatives of the flat ODE ẏ = f(t, y) by central difference quotients. The relative error is about eps^(2/3).
 #pragma once
 
 #include <algorithm>
@@ -8,14 +8,15 @@
 
 namespace polhode::inline integrators {
 
-/// The step over which to take the quotient in a number near x: eps^(1/3) max(|x|, 1), such that x + step is exact.
+/// Increment of a central difference quotient at x: eps^(1/3) max(|x|, 1), rounded so that x + increment is exact.
 inline double quotient_step(double x) {
   const double step = std::cbrt(std::numeric_limits<double>::epsilon()) * std::max(std::abs(x), 1.0);
   const volatile double ahead = x + step;
   return ahead - x;
 }
 
-/// put(i, j, ∂f_i/∂y_j) for all i and j. rate(t, y, dy) is f; y comes back as it was; plus and minus are scratch.
+/// Calls put(i, j, ∂f_i/∂y_j) for all i and j. rate(t, y, dy) evaluates f. y is modified and restored; plus and minus
+/// are scratch vectors.
 template <class Rate, class Vector, class Put>
 void jacobian_by_quotients(const Rate& rate, double t, Vector& y, Vector& plus, Vector& minus, const Put& put) {
   const auto n = y.size();
@@ -30,7 +31,7 @@ void jacobian_by_quotients(const Rate& rate, double t, Vector& y, Vector& plus, 
   }
 }
 
-/// dt = ∂f/∂t.
+/// Writes ∂f/∂t to dt. plus and minus are scratch vectors.
 template <class Rate, class Vector, class Out>
 void time_derivative_by_quotients(const Rate& rate, double t, const Vector& y, Vector& plus, Vector& minus, Out& dt) {
   const double step = quotient_step(t);
@@ -39,4 +40,4 @@ void time_derivative_by_quotients(const Rate& rate, double t, const Vector& y, V
   for (decltype(y.size()) i = 0; i < y.size(); ++i) dt[i] = (plus[i] - minus[i]) / (2 * step);
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a fixed-step method written as a template becomes an entry of the catalogue.
+// Adapter that turns a fixed-step method, written as a class template, into an entry of the catalogue.
 //
-// Method<System> has a constructor Method(const System&) and step(system, t, h, y), which advances the flat state y by
-// h. The step sees the concrete system, so it inlines; the state of one body stays in registers and on the stack while
-// a run advances, through projection and measurement too. A step that can fail returns a const char*: null, or why; it
-// may leave y as it likes. A method whose evaluations differ from step to step counts them: evaluations(). One whose
-// members are scratch, with no memory of the steps before, may say `static constexpr bool remembers_nothing = true;`:
-// then the stages of one body need not outlive a step, and stay in registers.
+// Requirements on a method:
+//   Method(const System&)    constructor.
+//   step(system, t, h, y)    advances the flat state y from time t (s) by h (s). A step that can fail returns a
+//                            const char*: null on success, otherwise the reason; y is then unspecified.
+//   static_assert(…)         states the concept of core/system/concepts.hpp that the method uses, for example
+//                            LieGroup<System>.
+//   evaluations()            optional: number of right-hand side evaluations, if it differs from step to step.
+//   static constexpr bool remembers_nothing = true;
+//                            optional, if all members are scratch storage: the stages of one body then stay in
+//                            registers.
+//
+// The step is compiled for the concrete system, so that it inlines. The state of one body stays in registers and on the
+// stack during a batch of steps, including projection and measurement.
 #pragma once
 
 #include <type_traits>
@@ -76,7 +83,7 @@ class FixedStep final : public Integrator<typename System::Scalar> {
   // and long double are not flattened: that would add a third to the compile time of a method.
   POLHODE_FLATTEN void take_inlined(State<S>& state, const StepBatch& batch) {
     if constexpr (System::is_one) {
-      // Local copies, which the compiler can keep in registers.
+      // Local copies can stay in registers.
       Flat y = Eigen::Map<const Flat>(state.y.data());
       if constexpr (requires { Method::remembers_nothing; }) {
         take([this] { return Method(system_); }, batch, y);
@@ -130,7 +137,8 @@ class FixedStep final : public Integrator<typename System::Scalar> {
     }
   }
 
-  /// Of a copy, and not inlined: rarely called, and the state above stays in registers.
+  /// Energy of a copy of the state, J. The function is rarely called and not inlined, so that the state of the caller
+  /// stays in registers.
   [[gnu::noinline]] S energy(Flat y) const { return system_.measure_flat(y.data()).energy(); }
 
   const System& system_;
@@ -139,8 +147,8 @@ class FixedStep final : public Integrator<typename System::Scalar> {
   std::int64_t steps_ = 0;
 };
 
-/// The one line that registers a fixed-step method: fixed_step<Rk4>({.name = "rk4", …}). A method whose step does not
-/// branch on its numbers can work in the lanes of an ensemble too: fixed_step<Rk4, in_lanes>.
+/// Builds the catalogue entry of a fixed-step method: fixed_step<Rk4>({.name = "rk4", …}). A method without branches
+/// that depend on the state can also run in the lanes of an ensemble: fixed_step<Rk4, in_lanes>.
 template <template <class> class Method, bool with_lanes = false>
 IntegratorEntry fixed_step(Declaration declaration) {
   const int evaluations = declaration.evaluations_per_step;

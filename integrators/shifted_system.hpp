@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The flat ODE of a system as seen from one of its states y0: ż = f(t, y0 + z). Its solution from z = 0 is the change
-// of the state, and what a method computes of it carries rounding errors in proportion to the change alone.
+// The flat ODE of a system relative to a base state y0: ż = f(t, y0 + z). Its solution from z = 0 is the change of the
+// state. The round-off of a method applied to it is proportional to that change instead of the state.
 #pragma once
 
 #include "core/system/concepts.hpp"

@@ -47,4 +47,4 @@ BroadPhaseEntry all_pairs() {
   return {"all_pairs", "every box against every other", [] { return std::unique_ptr<BroadPhase>(new AllPairs); }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -36,4 +36,4 @@ void take(std::span<const Bounds> bounds, std::vector<PlainBox>& boxes) {
   for (std::size_t i = 0; i < bounds.size(); ++i) boxes[i] = box_of(bounds[i]);
 }
 
-}  // namespace polhode::broad
+}  // namespace polhode::collision::broad

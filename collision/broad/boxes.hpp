@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boxes as plain numbers, which is what the inner loops of the broad phases read.
+// Axis-aligned boxes as plain numbers, the form that the inner loops of the broad phases read.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ inline Bounds bounds_of(const PlainBox& b) {
   return {Vector3<double>(b.low[0], b.low[1], b.low[2]), Vector3<double>(b.high[0], b.high[1], b.high[2])};
 }
 
-/// Without the branches that && would bring.
+/// Evaluates both conditions without the branch of &&.
 template <class... Truth>
 constexpr bool all(Truth... truths) {
   return (int(truths) & ...) != 0;
@@ -65,7 +65,7 @@ inline double centre(const PlainBox& b, std::size_t axis) {
   return std::isnan(c) ? 0 : c;
 }
 
-/// Asks memory for what is read soon. Broad phases are slow where they wait for it, and know beforehand what for.
+/// Prefetches memory that is read soon.
 template <class T>
 void fetch(const T& soon) {
   constexpr std::size_t line = 64;
@@ -74,17 +74,17 @@ void fetch(const T& soon) {
   if (alignof(T) < line) __builtin_prefetch(begin + sizeof(T) - 1);
 }
 
-/// Throws std::invalid_argument where one has a NaN or ends before it begins.
+/// Throws std::invalid_argument if a box has a NaN, or an end before its beginning.
 void check(std::span<const Bounds> bounds);
 
 /// Checks all bounds, then copies them. If check() throws, `boxes` is unchanged.
 void take(std::span<const Bounds> bounds, std::vector<PlainBox>& boxes);
 
-/// Once a list is nearly full, room for twice of what is there: a scene that goes on as it began allocates no more.
+/// Doubles the capacity of a list that is nearly full, so that a scene in a steady state allocates no more.
 template <class T>
 void leave_room(std::vector<T>& v, std::size_t at_least = 64) {
   if (v.capacity() >= at_least && v.size() <= v.capacity() / 4 * 3) return;
   v.reserve(std::max(2 * v.size(), at_least));
 }
 
-}  // namespace polhode::broad
+}  // namespace polhode::collision::broad

@@ -26,4 +26,4 @@ const std::vector<BroadPhaseEntry>& broad_phase_catalogue() {
 
 const BroadPhaseEntry* find_broad_phase(std::string_view name) { return find_entry(broad_phase_catalogue(), name); }
 
-}  // namespace polhode
+}  // namespace polhode::collision

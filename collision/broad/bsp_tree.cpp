@@ -38,7 +38,7 @@ constexpr double both_sides = 1.7;   // entries on both sides together, over tho
 
 constexpr std::size_t leaves_ahead = 24, heads_ahead = 16, chunks_ahead = 8;  // visits, when memory is asked for them
 
-/// What is read on the way down.
+/// The part of a node that is read while descending.
 struct Node {
   double plane = 0;
   Index child = none;  // below the plane; the next one is the rest; none: a leaf
@@ -71,7 +71,7 @@ struct Frame {
   }
 };
 
-/// What else there is of a node.
+/// The rest of a node.
 struct alignas(32) Leaf {
   Index head = none;  // the entries, in chunks of which only the first may have room
   Index count = 0;
@@ -260,7 +260,7 @@ class BspTree final : public BroadPhase {
     Index chunk;
     std::size_t entry;
   };
-  /// Of a body that is listed.
+  /// The place of a body that is in the leaf.
   Place place_of(Index v, Index body) const {
     Place p{leaves_[v].head, 0};
     while ((p.entry = place_in(p.chunk, body)) == chunks_[p.chunk].count) p.chunk = chunks_[p.chunk].next;
@@ -431,7 +431,7 @@ class BspTree final : public BroadPhase {
     }
   }
 
-  /// What may be a pair is looked at later, many together, so that memory is not waited for each time.
+  /// Stores a candidate pair. Candidates are tested later, many together, so that memory latencies overlap.
   void hit(Index body, Index other) {
     if (other == body || (other > body && fat_.has_left(other))) return;
     broad::fetch(last_question_[other]);
@@ -489,4 +489,4 @@ BroadPhaseEntry bsp_tree() {
           [] { return std::unique_ptr<BroadPhase>(new BspTree); }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -326,4 +326,4 @@ BroadPhaseEntry bvh() {
           [] { return std::unique_ptr<BroadPhase>(new Bvh); }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -14,15 +14,15 @@
 namespace polhode::inline collision::broad::cells {
 
 using Index = std::uint32_t;
-inline constexpr Index no_block = 0;  ///< stands for all that are not there, and stays empty
+inline constexpr Index no_block = 0;  ///< stands for a missing block; stays empty
 
-/// Where a box begins and ends, in units of which a cell has 64, a half cell 32.
+/// Beginning and end of a box in units of 1/64 of a cell; a half cell has 32.
 struct Reach {
   std::array<std::int64_t, 3> low, high;
 };
 inline constexpr int half_cell_bits = 5, cell_bits = half_cell_bits + 1;
 
-/// A cell's level and its numbers along the axes, of which 20 bits count: cells of one key are far apart.
+/// Hash key of a cell: its level and its numbers along the axes, 20 bits each. Cells with equal keys are far apart.
 using Key = std::uint64_t;
 inline constexpr Key no_key = ~Key(0);
 inline constexpr int key_bits = 20;
@@ -33,7 +33,7 @@ inline Key key_part(std::int64_t number, std::size_t axis) {
 inline Key key_part(std::size_t level) { return Key(level) << (3 * key_bits); }
 inline std::size_t level_of(Key key) { return static_cast<std::size_t>(key >> (3 * key_bits)); }
 
-/// Sixteen lanes of a byte each, as two words.
+/// Sixteen lanes of one byte each, in two words.
 using Word = std::uint64_t;
 using Words [[gnu::vector_size(16)]] = Word;
 inline constexpr std::size_t lanes = 16, lanes_of_word = 8;
@@ -42,7 +42,7 @@ inline constexpr std::int64_t largest = 127;  // below the top bit
 
 inline Words both(Word word) { return Words{word, word}; }
 
-/// Calls visit(lane) where a lane has its one bit set.
+/// Calls visit(lane) for each lane whose bit is set.
 template <class Visit>
 void for_lanes(Words bits, const Visit& visit) {
   for (std::size_t half = 0; half < 2; ++half) {
@@ -52,8 +52,8 @@ void for_lanes(Words bits, const Visit& visit) {
   }
 }
 
-/// What a side of a box in a cell may come to where that overlaps the box in question: once for each lane, with the top
-/// bits set. Of what is beyond the cell's reach, that much is kept.
+/// Limits for the sides of a box that overlaps the queried box, one byte for each lane, with the top bits set. Sides
+/// beyond the reach of the cell are clamped.
 struct Limits {
   Limits() = default;
   Limits(std::int64_t low, std::int64_t high)
@@ -65,9 +65,9 @@ struct Limits {
   Words begins{}, ends{};
 };
 
-/// The sides of up to sixteen boxes, as counted from where their cell begins.
+/// The sides of up to sixteen boxes, relative to the beginning of their cell.
 struct Sides {
-  std::array<Words, 3> begins, ends;  // by lane; the end as what is left to the largest number
+  std::array<Words, 3> begins, ends;  // by lane; the end is stored as its distance from the largest number
 
   void set(std::size_t lane, const Reach& in_cell) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -75,7 +75,7 @@ struct Sides {
       set(ends[k], lane, largest - in_cell.high[k]);
     }
   }
-  /// Takes over one of another's, or of its own.
+  /// Copies the box in lane `from` of `other`, which may be this block.
   void set(std::size_t lane, const Sides& other, std::size_t from) {
     const std::size_t half = from / lanes_of_word, at = 8 * (from % lanes_of_word);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -83,7 +83,7 @@ struct Sides {
       set(ends[k], lane, static_cast<std::int64_t>(other.ends[k][half] >> at & 0xFF));
     }
   }
-  /// An empty lane begins too late for any question, and beyond its cell.
+  /// Marks a lane as empty: its box begins beyond the cell and after every query.
   void hide(std::size_t lane) { set(begins[0], lane, largest); }
   void hide_all() {
     begins.fill(both(largest * in_all_lanes));
@@ -96,8 +96,8 @@ struct Sides {
     return lanes_of_word * half + static_cast<std::size_t>(std::countr_zero(free(half))) / 8;
   }
 
-  /// The top bits of those lanes that overlap the box: where a side is no more than it may be, nothing is borrowed from
-  /// them.
+  /// The top bits of the lanes whose box overlaps the queried one: a subtraction that borrows nothing from the top bit
+  /// means that the side is within its limit.
   Words overlapping(const Limits& x, const Limits& y, const Limits& z) const {
     return (x.begins - begins[0]) & (x.ends - ends[0]) & (y.begins - begins[1]) & (y.ends - ends[1]) &
            (z.begins - begins[2]) & (z.ends - ends[2]) & both(top_bits);
@@ -115,8 +115,8 @@ struct Sides {
 /// Up to sixteen fat boxes of one cell; a cell that holds more has several blocks.
 struct alignas(64) Block : Sides {
   Key key;
-  Index next;  // cell with the same hash; of the first block of a cell
-  Index more;  // boxes of this cell
+  Index next;  // next cell with the same hash; set in the first block of a cell
+  Index more;  // next block of this cell
 
   std::size_t level() const { return level_of(key); }
 
@@ -131,4 +131,4 @@ struct alignas(64) Block : Sides {
 };
 static_assert(sizeof(Block) == 128);
 
-}  // namespace polhode::broad::cells
+}  // namespace polhode::collision::broad::cells

@@ -103,4 +103,4 @@ void FatBoxes::renew(std::uint32_t body, const PlainBox& now, double fewest_step
   }
 }
 
-}  // namespace polhode::broad
+}  // namespace polhode::collision::broad

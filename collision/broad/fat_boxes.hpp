@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boxes with room around them, which need no care while the true box stays within: what makes structures over moving
-// bodies cheap to keep (van den Bergen 1999; Bullet's and Box2D's dynamic trees). The room reaches ahead, a number of
-// steps of the body's own mean motion since it got its last one; a thin margin on all sides is for what jitters. Bodies
-// that each step carries far have none.
+// Boxes enlarged by a margin, which need no update while the true box stays inside: this makes structures over moving
+// bodies cheap to maintain (van den Bergen 1999; the dynamic trees of Bullet and Box2D). The margin reaches ahead by a
+// number of steps of the mean motion of the body since its last fat box; a thin margin on all sides absorbs jitter.
+// Bodies that move far in each step get no margin.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@ namespace polhode::inline collision::broad {
 
 class FatBoxes {
  public:
-  /// The bodies of a step. True where it is a new scene, and everything is to be built anew; then left() are all
-  /// bodies, otherwise those whose true box left its fat one. They have a new one. Throws std::invalid_argument as
-  /// check() does.
+  /// Sets the true boxes of a step. Returns true for a new scene: everything must be built anew, and left() are all
+  /// bodies. Otherwise left() are the bodies whose true box left its fat box; these have got a new one. Throws
+  /// std::invalid_argument like check().
   bool update(std::span<const Bounds> bounds);
 
   std::size_t size() const { return fat_.size(); }
@@ -25,7 +25,7 @@ class FatBoxes {
   const PlainBox& before(std::size_t k) const {
     return before_[k];
   }  ///< the fat box that left()[k] had; of a new scene none
-  std::span<const std::uint32_t> left() const { return left_; }  ///< in order
+  std::span<const std::uint32_t> left() const { return left_; }  ///< sorted
   bool has_left(std::uint32_t body) const { return has_left_[body] != 0; }
 
   /// True if the box is infinite, or so large that its surface area is not finite: such a body is kept out of trees.
@@ -36,7 +36,7 @@ class FatBoxes {
   }
 
  private:
-  /// Where a body was when it got its fat box.
+  /// Position of a body when it got its fat box.
   struct Origin {
     PlainBox box;
     std::uint32_t step;
@@ -53,4 +53,4 @@ class FatBoxes {
   std::uint32_t step_ = 0;
 };
 
-}  // namespace polhode::broad
+}  // namespace polhode::collision::broad

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cells of a hierarchical grid that boxes reach, each once, for drawing.
+// The cells of a hierarchical grid that some boxes overlap, each once, for drawing.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace polhode::inline collision::broad {
 
 class GridCells {
  public:
-  /// Those of a box that reaches two of them along each axis at most.
+  /// Adds the cells of a box that overlaps at most two cells along each axis.
   void add(std::size_t level, const cells::Reach& reach) {
     for (int corner = 0; corner < 8; ++corner) {
       Cell cell{static_cast<std::int64_t>(level)};
@@ -23,7 +23,7 @@ class GridCells {
     }
   }
 
-  /// `edge_of(level)`: m.
+  /// Appends all cells as boxes; `edge_of(level)` is the edge length (m) of a cell.
   template <class EdgeOf>
   void append_to(std::vector<Bounds>& all, const EdgeOf& edge_of) {
     std::sort(reached_.begin(), reached_.end());
@@ -36,8 +36,8 @@ class GridCells {
   }
 
  private:
-  using Cell = std::array<std::int64_t, 4>;  // the level, and the numbers along the axes
+  using Cell = std::array<std::int64_t, 4>;  // level, then the numbers along the axes
   std::vector<Cell> reached_;
 };
 
-}  // namespace polhode::broad
+}  // namespace polhode::collision::broad

@@ -53,4 +53,4 @@ std::span<const BodyPair> KeptPairs::renew(const FatBoxes& boxes, std::span<cons
   return {pairs_.data(), static_cast<std::size_t>(pairs_end - pairs_.data())};
 }
 
-}  // namespace polhode::broad
+}  // namespace polhode::collision::broad

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pairs whose fat boxes overlap, kept from step to step, as the neighbour lists of molecular dynamics are (Verlet,
-// "Computer 'experiments' on classical fluids", 1967). A structure over the fat boxes is asked only about bodies that
-// left theirs; all other pairs are those of the step before, and their true boxes are tested as they come.
+// Pairs whose fat boxes overlap, kept from step to step like the neighbour lists of molecular dynamics (Verlet,
+// "Computer 'experiments' on classical fluids", 1967). Only bodies that left their fat boxes are queried again; all
+// other pairs are those of the previous step. The true boxes of all pairs are tested in each step.
 #pragma once
 
 #include <cstddef>
@@ -16,13 +16,13 @@ namespace polhode::inline collision::broad {
 
 class KeptPairs {
  public:
-  /// Nothing is known any more; add() gets all pairs of fat boxes.
+  /// Clears everything; add() must then be given all pairs of fat boxes.
   void forget() { kept_count_ = 0; }
 
-  /// A pair of fat boxes, at least one of which is new in this step; each pair once.
+  /// Adds a pair of fat boxes of which at least one is new in this step; each pair once.
   void add(std::uint32_t a, std::uint32_t b) { fresh_.add(a, b); }
 
-  /// After all calls of add() of a step: the pairs whose true boxes overlap, sorted; valid until the next call.
+  /// After all calls of add() in a step: the pairs whose true boxes overlap, sorted; valid until the next call.
   std::span<const BodyPair> renew(const FatBoxes& boxes, std::span<const Bounds> bounds);
 
  private:
@@ -31,4 +31,4 @@ class KeptPairs {
   std::size_t kept_count_ = 0;
 };
 
-}  // namespace polhode::broad
+}  // namespace polhode::collision::broad

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The loose quadtree (Dim 2: halves along x and y) and octree (Dim 3): Ulrich, "Loose Octrees", Game Programming Gems
-// (2000); the trees are those of Finkel and Bentley (1974) and of Meagher (1980). A body stands in the node that holds
-// its centre, no deeper than where cells are as wide as the body, so that large bodies stay in inner nodes and the
-// boxes of a cell reach out of it by half a cell at most. Nodes are split where many bodies gather and joined where
-// they leave.
+// (2000); the trees are those of Finkel and Bentley (1974) and of Meagher (1980). A body is stored in the node that
+// contains its centre, no deeper than the level whose cells are as wide as the body. Large bodies therefore stay in
+// inner nodes, and a body extends beyond its cell by at most half a cell. Nodes with many bodies are split, and joined
+// again when bodies leave.
 //
-// A body that stays in its cell stays in its node. Each step the bodies are laid out in the order of the tree, with the
-// box around all that a node and those below it hold; the tree is then traversed against itself. That the pairs are
-// right rests on these boxes alone, never on where a body stands.
+// A body that stays in its cell stays in its node. In each step the bodies are laid out in the order of the tree, with
+// the bounding box of each node and everything below it; the tree is then traversed against itself. Correctness of the
+// pairs depends on these boxes alone, not on the nodes in which bodies are stored.
 #pragma once
 
 #include <algorithm>
@@ -58,8 +58,8 @@ class LooseTree final : public BroadPhase {
     return sorted_;
   }
 
-  /// The loose cells of the nodes that hold something: a half wider on each side. A quadtree's reach over the height of
-  /// the scene.
+  /// The loose cells of the nodes that contain bodies: extended by half a cell on each side. Cells of a quadtree extend
+  /// over the height of the scene.
   void cells(std::vector<Bounds>& all) const override {
     if (nodes_.empty()) return;
     Extent heights;
@@ -71,22 +71,23 @@ class LooseTree final : public BroadPhase {
   using Index = std::uint32_t;
   static constexpr Index none = ~Index(0);
   static constexpr Index children = Index(1) << Dim;
-  static constexpr std::size_t capacity = 8;  // of a leaf whose bodies could stand deeper
+  static constexpr std::size_t capacity =
+      8;  // bodies in a leaf before it is split; bodies too large for a child do not count
   static constexpr int deepest = 40;
 
   struct Node {
     std::array<double, Dim> middle{};
-    double half = 0;  // of the cell's edge
+    double half = 0;  // half the edge length of the cell
     int depth = 0;
-    Index parent = none, child = none;  // the first of its children, which stand side by side
-    Index head = none;                  // the list of its bodies
+    Index parent = none, child = none;  // the first of its children, which are adjacent
+    Index head = none;                  // head of the list of its bodies
     Index count = 0;
     Index begin = 0, own_end = 0;  // range of its own bodies in the layout
     PlainBox box{};                // bounding box of its bodies and of everything below
     bool empty = true;
   };
 
-  /// A root cell around the centres of all bodies that are somewhere.
+  /// Sets the root cell around the centres of all bodies with finite bounds.
   void plant() {
     std::array<double, Dim> low, high;
     low.fill(far);
@@ -166,7 +167,7 @@ class LooseTree final : public BroadPhase {
     --node.count;
   }
 
-  /// Hands down what fits, where enough does.
+  /// Moves bodies that fit into children, if there are enough of them.
   void split(Index v) {
     std::size_t fitting = 0;
     for (Index i = nodes_[v].head; i != none; i = next_[i]) fitting += fits_below(boxes_[i], nodes_[v]);
@@ -201,7 +202,7 @@ class LooseTree final : public BroadPhase {
     }
   }
 
-  /// Below a node, in the order of the tree. Returns how many bodies there are.
+  /// Lays out the bodies of a node and below, in the order of the tree. Returns their number.
   Index lay_out(Index v) {
     const auto begin = static_cast<Index>(laid_.size());
     PlainBox box{};
@@ -233,7 +234,7 @@ class LooseTree final : public BroadPhase {
     return count;
   }
 
-  /// Takes the few bodies of its children back.
+  /// Moves the bodies of the children back to the node, if they are few.
   void join(Index v) {
     const Index first = nodes_[v].child;
     for (Index c = first; c < first + children; ++c) {
@@ -247,7 +248,7 @@ class LooseTree final : public BroadPhase {
     free_.push_back(first);
   }
 
-  /// All pairs at and below a node.
+  /// Finds all pairs at and below a node.
   void traverse(Index v) {
     const Node& node = nodes_[v];
     if (node.empty) return;
@@ -262,7 +263,7 @@ class LooseTree final : public BroadPhase {
     }
   }
 
-  /// All pairs of one body at or below u and one at or below v, neither of which is below the other.
+  /// Finds all pairs of a body at or below u and a body at or below v; neither node is below the other.
   void traverse(Index u, Index v) {
     const Node &a = nodes_[u], &b = nodes_[v];
     if (a.empty || b.empty || !overlap(a.box, b.box)) return;
@@ -271,7 +272,7 @@ class LooseTree final : public BroadPhase {
     for (Index c = a.child; c < a.child + children; ++c) traverse(v, c);
   }
 
-  /// All pairs of a laid-out body with those at and below a node.
+  /// Finds all pairs of a laid-out body with bodies at and below a node.
   void search(Index v, Index i) {
     const Node& node = nodes_[v];
     if (node.empty || !overlap(node.box, laid_[i])) return;
@@ -280,7 +281,7 @@ class LooseTree final : public BroadPhase {
     for (Index c = node.child; c < node.child + children; ++c) search(c, i);
   }
 
-  /// How far what is finite reaches along an axis.
+  /// Extent of all finite bounds along an axis.
   struct Extent {
     double low = far, high = -far;
     void add(const PlainBox& b, std::size_t axis) {
@@ -290,7 +291,7 @@ class LooseTree final : public BroadPhase {
     }
   };
 
-  /// A node's cell is what its bodies may reach, stretched where one of them reaches further, as in the root.
+  /// The loose cell of a node, enlarged to contain bodies that extend further, as happens in the root.
   void cells_below(Index v, const Extent& heights, std::vector<Bounds>& all) const {
     const Node& node = nodes_[v];
     if (node.empty) return;
@@ -328,4 +329,4 @@ class LooseTree final : public BroadPhase {
   bool stale_ = false;
 };
 
-}  // namespace polhode::broad
+}  // namespace polhode::collision::broad

@@ -9,4 +9,4 @@ BroadPhaseEntry octree() {
           [] { return std::unique_ptr<BroadPhase>(new broad::LooseTree<3>); }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

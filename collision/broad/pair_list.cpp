@@ -39,4 +39,4 @@ std::span<const BodyPair> PairList::sorted(std::size_t bodies) {
   return sorted_;
 }
 
-}  // namespace polhode::broad
+}  // namespace polhode::collision::broad

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pairs as a broad phase finds them, in any order but none twice, and sorted in the end: counted by their first body,
-// which takes linear time, and the few of each body as they come. Where pairs are few, bodies are counted together, so
-// that the time goes with the pairs, not with the bodies.
+// Collects pairs in any order, each once, and sorts them: a counting sort by the first body, in linear time, then the
+// few pairs of each body by comparison. If there are few pairs, several bodies share a counter, so that the time is
+// proportional to the pairs.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace polhode::inline collision::broad {
 
-/// Their number grows with the square of the bodies in one place: more than so many would end in want of memory.
+/// Limit of the number of pairs, which grows with the square of the bodies in one place and would exhaust memory.
 inline constexpr std::size_t most_pairs = 50'000'000;
 /// Throws std::length_error, which names the cause and the remedy.
 [[noreturn]] void too_many_pairs();
@@ -26,12 +26,12 @@ class PairList {
     found_.push_back(a < b ? BodyPair{a, b} : BodyPair{b, a});
   }
 
-  /// Of `bodies` bodies; valid until the next call.
+  /// The sorted pairs of `bodies` bodies; valid until the next call.
   std::span<const BodyPair> sorted(std::size_t bodies);
 
  private:
   std::vector<BodyPair> found_, sorted_;
-  std::vector<std::uint32_t> place_;  // of each first body, or of a few, where the next pair goes
+  std::vector<std::uint32_t> place_;  // place of the next pair for each first body, or for each few
 };
 
-}  // namespace polhode::broad
+}  // namespace polhode::collision::broad

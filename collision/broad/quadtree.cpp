@@ -12,4 +12,4 @@ BroadPhaseEntry quadtree() {
       [] { return std::unique_ptr<BroadPhase>(new broad::LooseTree<2>); }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A box in single precision, half as large in memory. Rounding keeps the order of numbers, so that boxes that overlap
-// overlap also as rounded, and boxes that overlap as rounded with some room to spare do so indeed. What is between the
-// two must be asked of the boxes themselves.
+// A box in single precision, half as large in memory. Rounding is monotonic: boxes that overlap also overlap when
+// rounded, and rounded boxes that overlap by some margin do overlap. Cases in between must be decided with the boxes
+// themselves.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace polhode::inline collision::broad {
 
-/// To the nearest; beyond single precision, its largest number.
+/// Rounds to nearest; values beyond single precision become its largest number.
 inline float rounded(double x) {
   constexpr double most = std::numeric_limits<float>::max();
   return static_cast<float>(std::clamp(x, -most, most));
@@ -35,4 +35,4 @@ inline bool surely_overlap(const RoundedBox& a, const RoundedBox& b) {
              a.low[2] < b.high[2], b.low[2] < a.high[2]);
 }
 
-}  // namespace polhode::broad
+}  // namespace polhode::collision::broad

@@ -74,7 +74,7 @@ class SweepAndPrune final : public BroadPhase {
     return true;
   }
 
-  /// What is infinite or absurd shall not make a mean or a spread infinite.
+  /// Clamps infinite and extreme numbers, so that means and variances stay finite.
   static double clamped(double x) { return std::clamp(x, -1e150, 1e150); }
 
   void sort(bool anew) {
@@ -170,4 +170,4 @@ BroadPhaseEntry sweep_and_prune() {
           [] { return std::unique_ptr<BroadPhase>(new SweepAndPrune); }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -64,7 +64,7 @@ class UniformGrid final : public BroadPhase {
 
   std::span<const BodyPair> pairs() override { return pairs_; }
 
-  /// Those that bodies reach, on all levels.
+  /// The cells that bodies overlap, on all levels.
   void cells(std::vector<Bounds>& all) const override {
     broad::GridCells reached;
     for (Index body = 0; body < fat_.size(); ++body) {
@@ -130,7 +130,7 @@ class UniformGrid final : public BroadPhase {
     return true;
   }
 
-  /// Of a sample; negative where there is none.
+  /// The median size of a sample of the bodies; negative if there is none.
   double median_size() {
     constexpr std::size_t most_samples = 512;
     sample_.clear();
@@ -426,7 +426,7 @@ class UniformGrid final : public BroadPhase {
     }
   }
 
-  /// What a question met is looked at later, many together, so that memory is not waited for each time.
+  /// Stores a candidate pair. Candidates are tested later, many together, so that memory latencies overlap.
   void hit(Index body, Index place) {
     broad::fetch(bodies_in_[place]);
     hits_[hit_count_++] = {body, place};
@@ -447,7 +447,7 @@ class UniformGrid final : public BroadPhase {
     hit_count_ = 0;
   }
 
-  /// Of two that both left their fat boxes, the later one finds the pair.
+  /// If both bodies left their fat boxes, the pair is reported for the later one only.
   bool is_fresh(Index body, Index other) const {
     return (int(other < body) | (int(other > body) & int(!fat_.has_left(other)))) != 0;
   }
@@ -499,4 +499,4 @@ BroadPhaseEntry uniform_grid() {
           [] { return std::unique_ptr<BroadPhase>(new UniformGrid); }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

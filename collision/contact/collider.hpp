@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What of a body can touch.
+// Shape and surface of a body in contact.
 #pragma once
 
 #include "collision/shape.hpp"
 
 namespace polhode::inline collision {
 
-/// The shape of a body and its surface; without a shape the body touches nothing.
+/// Shape and surface properties of a body; a body without a shape touches nothing.
 struct Collider {
   ShapePointer shape;
-  double restitution = 0;  ///< Newton's, of a pair the larger
-  double friction = 0;     ///< Coulomb's, of a pair the geometric mean
+  double restitution = 0;  ///< Newton's; a pair has the larger of its two
+  double friction = 0;     ///< Coulomb's; a pair has the geometric mean of its two
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

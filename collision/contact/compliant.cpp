@@ -131,4 +131,4 @@ ResponseEntry compliant() {
           }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

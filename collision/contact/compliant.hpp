@@ -1,33 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The response `compliant`: each point of contact is a spring and a damper, and its friction a smooth function of slip.
-// It is a force like any other, so that every method integrates through the impact.
+// The response `compliant`: each contact point is a spring and a damper; friction is a smooth function of slip. It is a
+// force like any other, so that every method integrates through the impact.
 //
 // With d the depth of a point, n the normal from B to A, and u the slip of A on B:
 //   normal    f = max(0, k d + c ḋ)           Kelvin and Voigt's, kept from pulling
-//   friction  −μ f u/√(|u|² + s²)             Coulomb's, regularised (Oden & Martins, Computer Methods in Applied
-//   Mechanics
-//                                             and Engineering 52, 1985)
-// The damper is c = 2 ζ √(k m), m the mass that a push along n finds at the point, and ζ that with which the rebound of
-// two bodies that meet head on has the pair's restitution e, at any speed (Schwager & Pöschel, Granular Matter 9,
-// 2007):
+//   friction  −μ f u/√(|u|² + s²)             Coulomb's, regularised
+// (Oden & Martins, Computer Methods in Applied Mechanics and Engineering 52, 1985.)
+// The damper is c = 2 ζ √(k m), m the effective mass along n at the point. ζ gives a head-on rebound of two bodies the
+// restitution e of the pair, at any speed (Schwager & Pöschel, Granular Matter 9, 2007):
 //   e = exp(−2 ζ arccos(ζ)/√(1 − ζ²))
 // The damper of Hunt & Crossley (Journal of Applied Mechanics 42, 1975), c ~ d, would start smoothly, but on this
 // spring its restitution tends to 1 as the impact becomes slow. A pair whose e is below e⁻² = 0.135 is damped
-// critically, and so rebounds by that much. What presses on a surface that is pulled sideways creeps: under a share q <
-// 1 of what friction can bear, by the slip s q/√(1 − q²).
+// critically, and so rebounds by that much. A body at rest under a tangential load creeps: at a share q < 1 of the
+// friction limit, with the slip s q/√(1 − q²).
 //
-// Without a stiffness k is such that an elastic impact of the two would last 5 ms: π √(m'/k), m' their reduced mass. A
-// face that lies on another is one spring for each corner of their patch.
+// The default stiffness k makes an elastic impact of the two bodies last 5 ms: π √(m'/k), m' their reduced mass. Two
+// faces in contact have one spring at each corner of their patch.
 //
-// How smooth: while the same points touch, as of a ball on a plane, the force is smooth, and a method keeps its order.
-// Where a point begins to touch or ceases to, the spring's force has a kink, and fixed steps across it have order 2;
-// the damper's jumps by c ḋ where the point begins to touch, and order 1 is left. Patches of two faces change their
-// points at some depth too, by jumps. A method that chooses its steps makes them short at all these; what begins and
-// ends within one of them it does not see.
+// Smoothness: as long as the same points touch, as for a ball on a plane, the force is smooth, and a method has its
+// order. When a point begins or ceases to touch, the force of the spring has a kink, and fixed steps across it have
+// order 2; the force of the damper jumps by c ḋ when the point begins to touch, which leaves order 1. Patches of two
+// faces also change their points at some depth, by jumps. An adaptive method takes short steps there; it misses a
+// contact that begins and ends within one step.
 //
 // Energy: the spring's, ½ k d², is potential energy where the depth of each point depends on the poses alone and
-// smoothly: of spheres and ellipsoids, and of boxes and capsules on half-spaces. The rest is work: what damper and
-// friction take, and of other pairs the springs' too.
+// smoothly: spheres and ellipsoids, boxes and capsules on half-spaces. The rest is work: that of damper and friction,
+// and for other pairs that of the springs too.
 #pragma once
 
 #include <vector>
@@ -57,7 +55,7 @@ class Compliant final : public ForceModel<double> {
     Vector3<double> center;           ///< m, body axes: of the mass, from the reference point
     double damping_ratio;             ///< ζ
   };
-  /// What one point does to A, in its parts.
+  /// The force of one point on A, by parts.
   struct Push {
     double spring = 0, normal = 0;   ///< N: k d, and f
     double sinking = 0;              ///< m/s: ḋ
@@ -73,7 +71,7 @@ class Compliant final : public ForceModel<double> {
   ContactScene& scene_;
   Compliance compliance_;
   std::vector<Matter> matter_;
-  // What was found last; an evaluation of the force asks for it more than once.
+  // The result of the last query; one evaluation of the force needs it more than once.
   mutable std::vector<Pose> poses_, seen_;
   mutable std::span<const ImpulseContact> contacts_;
 };
@@ -81,4 +79,4 @@ class Compliant final : public ForceModel<double> {
 /// ζ, from 0 to 1, of the damper with which a head-on rebound has the restitution e.
 double damping_ratio(double restitution);
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The impulses of a step as forces that are held through it: both bodies feel, equal and opposite and along one line,
-// the force whose time integral is the impulse, so that momentum and angular momentum are left alone. The line goes
-// with the mass centre of the two, and with a body that touches what cannot move: a ball that rolls keeps its arm. A
-// body at rest stays at rest under any method, which a jump of its velocity before or after the step would not let it.
+// The impulses of a step as forces that are constant during the step. Both bodies get the force whose time integral is
+// the impulse, equal and opposite and along one line, so that momentum and angular momentum are conserved. The line of
+// action moves with the mass centre of the two bodies, or with the one body that moves if the other is static: a
+// rolling ball keeps its lever arm about the contact. A body at rest stays at rest under any method; with a jump of its
+// velocity before or after the step it would not.
 #pragma once
 
 #include <vector>
@@ -20,7 +21,7 @@ class ConstantContactForces final : public ForceModel<double> {
 
   void release() { pairs_.clear(); }
 
-  /// Through a step of h (s); the bodies are where it starts.
+  /// Applies the impulses during a step of h (s); the bodies are at the start of the step.
   void hold(std::span<const ImpulseContact> contacts, std::span<const ImpulseBody> bodies, double h) {
     release();
     for (const ImpulseContact& c : contacts) {
@@ -52,7 +53,7 @@ class ConstantContactForces final : public ForceModel<double> {
  private:
   struct Pair {
     std::uint32_t a, b;
-    double share;                                      ///< of A in the point that the line goes with
+    double share;                                      ///< weight of A in the point that moves with the line of action
     Vector3<double> force = Vector3<double>::Zero();   ///< N, on A
     Vector3<double> torque = Vector3<double>::Zero();  ///< N m, on A, about that point
   };
@@ -60,4 +61,4 @@ class ConstantContactForces final : public ForceModel<double> {
   std::vector<Pair> pairs_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

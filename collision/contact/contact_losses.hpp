@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The work of an impulse at a contact, parted into what restitution takes and what friction takes; and the line on
-// which it acts while it is held.
+// Splits the work of an impulse at a contact into the parts of restitution and of friction, and tracks the line of
+// action of an impulse that acts as a constant force.
 #pragma once
 
 #include <span>
@@ -10,22 +10,22 @@
 
 namespace polhode::inline collision {
 
-/// Of A's position in the point that the line of a held impulse goes with: the mass centre of the two, or that which
-/// can move.
+/// Weight of A in the point that moves with the line of action of a constant contact force: the common mass centre of
+/// the two bodies, or the body that can move.
 inline double line_share(const ImpulseBody& a, const ImpulseBody& b) {
   if (!(a.inverse_mass > 0) || !(b.inverse_mass > 0)) return a.inverse_mass > 0 ? 1 : 0;
   return b.inverse_mass / (a.inverse_mass + b.inverse_mass);
 }
 
-/// m: how far that line has gone.
+/// Displacement (m) of the line of action since the start of the step.
 inline Vector3<double> line_shift(std::size_t a, std::size_t b, std::span<const ImpulseBody> before,
                                   std::span<const ImpulseBody> after) {
   const double share = line_share(before[a], before[b]);
   return share * (after[a].position - before[a].position) + (1 - share) * (after[b].position - before[b].position);
 }
 
-/// Books the work of the impulse between two instants by the mean of the velocities of A relative to B where it acts.
-/// For a jump, between which nothing moves, that is exact. Returns the energy lost, J.
+/// Adds the work of the impulse between two instants to the losses, by the mean of the relative velocities of A and B
+/// at the two instants. This is exact for a jump, during which nothing moves. Returns the energy lost (J).
 inline double book(const ImpulseContact& c, std::span<const ImpulseBody> before, std::span<const ImpulseBody> after,
                    ContactLosses& losses) {
   const Vector3<double> later = c.point + line_shift(c.a, c.b, before, after);
@@ -37,4 +37,4 @@ inline double book(const ImpulseContact& c, std::span<const ImpulseBody> before,
   return -whole;
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -169,4 +169,4 @@ void impulse_motions(const System<double>& system, const VectorX<double>& y, std
   }
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

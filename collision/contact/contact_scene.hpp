@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What of the bodies can touch, and the way from where they stand to the points where they do: broad phase, narrow
-// phase, and what a pair remembers from one step to the next.
+// The colliding bodies of a problem, and the way from their poses to contact points: broad phase, narrow phase, and the
+// data that each pair keeps between steps.
 #pragma once
 
 #include <memory>
@@ -18,38 +18,38 @@ namespace polhode::inline collision {
 
 class ContactScene {
  public:
-  /// One collider for each body of the problem. Throws std::invalid_argument for names that the catalogues do not have,
-  /// and for another number of colliders.
+  /// Takes one collider for each body of the problem. Throws std::invalid_argument for unknown names of broad and
+  /// narrow phases and for a wrong number of colliders.
   ContactScene(const Problem& problem, std::vector<Collider> colliders, std::string_view broad_phase,
                std::string_view narrow_phase);
 
-  /// The pairs with a moving body of which some two points may come closer than `margin` (m) while each body goes from
-  /// one of its poses to the other, on a path that leaves the chord by at most `bulge` (m); sorted.
+  /// Pairs, sorted, with at least one moving body, that may come closer than `margin` (m) while each body moves from
+  /// its pose in `from` to that in `to`, on a path that deviates from the chord by at most `bulge` (m).
   std::span<const BodyPair> near_pairs(std::span<const Pose> from, std::span<const Pose> to,
                                        std::span<const double> bulge, double margin);
 
-  /// The points of the near pairs that were found last where surfaces are no further apart than `margin` and what both
-  /// bodies `reach` (m, by body; none: 0); sorted by pairs. Depth, point, normal, feature and the pair's surface are
-  /// filled in; approach and wanted are left to the caller.
+  /// Contact points of the pairs found by the last near_pairs(), sorted by pairs: points where the gap is at most
+  /// `margin` (m) plus the `reach` (m, by body; empty: 0) of both bodies. Depth, point, normal, feature, friction and
+  /// restitution are set; the caller sets approach and wanted.
   std::span<ImpulseContact> contacts(std::span<const Pose> poses, double margin, std::span<const double> reach = {});
 
-  /// Of the near pair number k.
+  /// Signed distance of the k-th near pair.
   Distance distance(std::size_t k, std::span<const Pose> poses);
 
-  /// Appends the cells of the broad phase as near_pairs() left them, for drawing.
+  /// Appends the cells of the broad phase after the last near_pairs(), for drawing.
   void cells(std::vector<Bounds>& all) const { broad_->cells(all); }
 
   std::size_t size() const { return colliders_.size(); }
   const Collider& collider(std::size_t body) const { return colliders_[body]; }
-  /// True where everything that can touch is a body that moves freely.
+  /// True if every body with a shape moves freely.
   bool all_free() const { return all_free_; }
-  /// m, the radius about the mass centre that holds the body; 0 without a shape and of what has no end.
+  /// Radius (m) about the mass centre that contains the body; 0 without a shape and for an infinite shape.
   double radius(std::size_t body) const { return radii_[body]; }
 
  private:
   struct NearPair {
     BodyPair pair;
-    std::uint32_t memory;  ///< which of the memories is the pair's
+    std::uint32_t memory;  ///< index of the memory of the pair
   };
 
   std::uint32_t new_memory();
@@ -64,17 +64,17 @@ class ContactScene {
   std::vector<BodyPair> pairs_;
   std::vector<NearPair> near_, before_;
   std::vector<PairMemory> memories_;
-  std::vector<std::uint32_t> free_memories_;  ///< of pairs that are no longer near
+  std::vector<std::uint32_t> free_memories_;  ///< memories of pairs that are no longer near
   std::vector<ImpulseContact> contacts_;
 };
 
-/// The poses of the shapes in a state: at the mass centre.
+/// Poses of the shapes in a state: the origin of a shape is the mass centre of its body.
 void shape_poses(const System<double>& system, const VectorX<double>& y, std::vector<Pose>& poses);
 
-/// The bodies as impulses see them.
+/// Positions, velocities and inverse masses of all bodies.
 void impulse_bodies(const System<double>& system, const VectorX<double>& y, std::vector<ImpulseBody>& bodies);
 
-/// Their places and velocities alone, of bodies that were made by that.
+/// Updates positions and velocities of bodies made by impulse_bodies().
 void impulse_motions(const System<double>& system, const VectorX<double>& y, std::vector<ImpulseBody>& bodies);
 
-}  // namespace polhode
+}  // namespace polhode::collision

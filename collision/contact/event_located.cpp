@@ -46,7 +46,8 @@ void EventLocated::begin(Integrator<double>& method, const State<double>& state)
   }
 }
 
-/// The contact points where surfaces touch, with the speed at which they approach.
+/// The contact points where surfaces touch. Removes all guards, because their indices refer to the list of near pairs,
+/// which this call replaces.
 std::span<ImpulseContact> EventLocated::touching(const State<double>& state) {
   guards_.clear();
   return kinematics_.touching(state);
@@ -205,4 +206,4 @@ StepResult EventLocated::step(Integrator<double>& method, State<double>& state, 
   return {};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact as events: between impacts the bodies fly as the method makes them, and an impact is found where a signed
-// distance crosses zero. A method with roots of its own (CVODE) finds it by these, one with dense output on that, any
-// other by a bracketing search over re-taken steps (TOMS 748: Alefeld, Potra & Shi, Algorithm 748, 1995). So the flight
-// keeps the order of the method, and the error of an event's time falls with it.
+// Contact model with located events. Between impacts the method integrates the free flight of the bodies. An impact is
+// the root of a signed distance. A method with native event location (CVODE) ends its step at the root. Otherwise
+// TOMS 748 (Alefeld, Potra & Shi, Algorithm 748, 1995) brackets the root, on the dense output of the method if it has
+// one, else over repeated steps from the start of the flight. The flight therefore has the order of the method, and the
+// error of the event time decreases accordingly.
 //
-// Policies. Several impacts at one instant go to the response together. A distance that may have dipped below zero
-// between two instants, by the bounds of guards.hpp, is looked at between them, until the dip is shorter than 1e-6 of
-// the step. A bounce that would rise by less than a hop, 1e-11 of the largest body, or that the method is too
-// inaccurate to tell from rest, is not flown: the contact rests (Zeno). A contact that rests is held through the step
-// by the impulses that the response asks for, as in time stepping, but no longer than it slides: the end of a pair's
-// slide is found by the same search, over re-taken holds, where the slip that is left crosses zero. A pair that is held
-// may sink by 1e-7 of the largest body before it is looked at again. After 1000 impacts in one step the run fails and
-// says so: it never hangs. So it ends with single_impulse where a body settles on a face: with one impulse for a pair
-// it rocks from side to side, ever faster, and no point of it rests before the others.
+// Simultaneous impacts: the response resolves all impacts of one instant together.
+// Missed roots: if the bounds of guards.hpp allow a distance to be negative between two evaluations, the interval is
+// halved until it is shorter than 1e-6 of the step.
+// Zeno sequences: a bounce lower than the minimum bounce height (1e-11 of the largest body), or one that the method
+// cannot resolve, is not simulated. The contact then rests.
+// Resting contacts: the response computes impulses that hold the contact during the step, as in time stepping. The hold
+// ends when a pair stops sliding. That time is the root of the remaining slip, found by TOMS 748 over repeated holds.
+// Penetration: a held pair may penetrate by 1e-7 of the largest body before it counts as an impact again.
+// Limit: after 1000 impacts in one step the run fails with a message. This occurs with the response single_impulse when
+// a body settles on a face: with one impulse per pair the body rocks from side to side with increasing frequency, and
+// no contact point comes to rest before the others.
 #pragma once
 
 #include "collision/contact/constant_contact_forces.hpp"
@@ -26,9 +29,10 @@
 
 namespace polhode::inline collision {
 
+/// The contact model with located events.
 class EventLocated final : public ContactModel {
  public:
-  /// Registers the held impulses with the system as a force. All must outlive it but the response.
+  /// Adds the constant contact forces to the system. System and scene must outlive this object.
   EventLocated(System<double>& system, ContactScene& scene, std::unique_ptr<Response> response);
 
   void begin(Integrator<double>& method, const State<double>& state) override;
@@ -66,4 +70,4 @@ class EventLocated final : public ContactModel {
   State<double> ahead_, start_, at_impact_, step_start_, before_impacts_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

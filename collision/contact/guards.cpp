@@ -138,4 +138,4 @@ bool Guards::may_dip(const Look& from, const Look& to, double length) const {
   return false;
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The guards of a flight: of each near pair its signed distance, above an allowance, whose first zero is an impact; and
-// what they may do between two instants at which they were looked at.
+// The guards of a step: for each near pair its signed distance plus an allowance, whose first zero is an impact; and
+// bounds of the guards between two instants at which they were evaluated.
 //
-// Two bounds say that a guard stays positive between two looks, h apart. The distance changes no faster than the two
-// bodies' points, at L in all: it stays so where the values at both ends are more than L h together. Along a fixed
-// direction n, A is beyond B by s(t) = min over A of x·n − max over B of x·n, never more than the distance; along n the
-// points' accelerations are at most a in all, so that s stays above the lower of its values at both ends less a h²/8.
-// With n the normal at either end, which Mirtich (Impulse-based Dynamic Simulation of Rigid Body Systems, 1996)
-// advances along, that is next to nothing for bodies that skim past each other, however fast. What turning does along n
-// is |ω × n| |ω| times a radius; of a ball nothing.
+// Two bounds prove that a guard stays positive between two evaluations, h apart. First: the distance changes at most at
+// the rate L of the points of the two bodies, so that it stays positive if the sum of the values at both ends is more
+// than L h. Second: along a fixed direction n, the separation is s(t) = min over A of x·n − max over B of x·n, a lower
+// bound of the distance. The accelerations of the points along n are at most a in all, so that s stays above the lower
+// of its two end values minus a h²/8. With n the normal at either end, along which Mirtich (Impulse-based Dynamic
+// Simulation of Rigid Body Systems, 1996) advances, this term is small even for bodies that pass each other fast.
+// Rotation contributes |ω × n| |ω| times a radius to a; for a ball, nothing.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace polhode::inline collision {
 
-/// m: what counts as near, from coarse to fine.
+/// Tolerances (m), from coarse to fine.
 struct ContactLengths {
   explicit ContactLengths(const ContactScene& scene);
   double contact_tolerance;      ///< surfaces closer than this touch
@@ -28,45 +28,46 @@ struct ContactLengths {
 
 class Guards {
  public:
-  /// What is seen of the guards at an instant.
+  /// Values of the guards at an instant.
   struct Look {
-    double least = 0;  ///< m, of all values
+    double least = 0;  ///< m, the smallest value
     std::vector<Pose> poses;
-    std::vector<double> values;  ///< m: positive where the pair has not met
+    std::vector<double> values;  ///< m; positive if the pair has not met
     std::vector<Vector3<double>> normals;
   };
 
   Guards(const System<double>& system, ContactScene& scene);
 
-  /// Guards nothing.
+  /// Removes all guards.
   void clear() { guards_.clear(); }
 
-  /// The pairs that may meet on the way from one state to the other. A pair that rests may sink by `deeper` (m) from
-  /// where it is.
+  /// Sets guards for the pairs that may meet between the two states. A pair at rest may sink by `deeper` (m) below its
+  /// present depth.
   void watch(const State<double>& from, const State<double>& to, std::span<const ImpulseContact> resting,
              double deeper);
 
   bool empty() const { return guards_.empty(); }
-  /// Whether some pair touches and comes apart where the flight starts.
+  /// True if some pair touches and separates at the start.
   bool some_leave() const;
 
-  /// m: the least value; 1 without guards.
+  /// The smallest value (m); 1 without guards.
   double least(const State<double>& state);
   void look(const State<double>& state, Look& seen);
 
-  /// Whether some guard may be negative between two looks, `length` (s) apart, at both of which all are positive.
+  /// True if some guard may become negative between two evaluations, `length` (s) apart, at both of which all guards
+  /// are positive.
   bool may_dip(const Look& from, const Look& to, double length) const;
 
  private:
   struct Guard {
     BodyPair pair;
-    double allowance = 0;  ///< m: the pair may be as deep before it counts
-    double speed = 0;      ///< m/s, at most, of what its distance changes by; 0: not looked at between
-    bool leaving = false;  ///< it touches and comes apart where the flight starts
+    double allowance = 0;  ///< m, depth up to which the pair does not count as met
+    double speed = 0;      ///< m/s, upper bound of the rate of the distance; 0: not checked between evaluations
+    bool leaving = false;  ///< the pair touches and separates at the start
   };
-  /// How fast a body's points are accelerated, at most.
+  /// Upper bounds of the acceleration of a body's points.
   struct Pull {
-    double steady = 0;                        ///< m/s²: of its centre, and by the change of its turning
+    double steady = 0;                        ///< m/s², of the mass centre, plus the part due to angular acceleration
     double radius = 0, rate = 0, turned = 0;  ///< m, rad/s at most, rad/s between the ends
     std::array<Vector3<double>, 2> turning;   ///< rad/s, at both ends
     double along(const Vector3<double>& n) const;
@@ -83,4 +84,4 @@ class Guards {
   std::vector<Pull> pulls_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

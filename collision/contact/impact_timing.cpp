@@ -36,4 +36,4 @@ const ImpactTimingEntry* find_impact_timing(std::string_view name) {
   return find_entry(impact_timing_catalogue(), name);
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -23,4 +23,4 @@ struct ImpactTimingEntry {
 const std::vector<ImpactTimingEntry>& impact_timing_catalogue();
 const ImpactTimingEntry* find_impact_timing(std::string_view name);
 
-}  // namespace polhode
+}  // namespace polhode::collision

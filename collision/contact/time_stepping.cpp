@@ -40,7 +40,7 @@ std::span<ImpulseContact> TimeStepping::find_contacts(const State<double>& start
   for (ImpulseContact c : all) {
     const double at_start = normal_speed(start_, c), at_end = normal_speed(bodies_, c);
     c.approach = reflected_ == Reflected::at_start ? at_start : at_end;
-    // What one step of the forces makes of a contact at rest is no impact.
+    // A velocity that the forces cause within one step of rest is no impact.
     const double slow = 2 * std::abs(at_end - at_start);
     if (!(c.approach < -slow)) c.restitution = 0;
     if (c.depth < 0) {
@@ -116,4 +116,4 @@ void TimeStepping::undo_penetration(State<double>& state) {
   if (moved) losses_.penetration += system_.measure(state.y).energy() - before;
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

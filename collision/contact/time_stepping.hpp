@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact at the step: no impact is looked for within it. The method takes the step once without contact; the response
-// says which impulses its end velocities need to obey the contacts where the step begins; and the method takes the step
-// again with these impulses held as forces. With semi-implicit Euler that is the scheme of game engines (Stewart &
-// Trinkle, An implicit time-stepping scheme for rigid body dynamics, 1996; Catto, Iterative dynamics with temporal
-// coherence, 2005), digit for digit but for the order of sums.
+// Contact at the start of a step; impacts within the step are not located. The method takes the step once without
+// contact. The response computes the impulses with which its final velocities obey the contacts found at the start of
+// the step. The method then takes the step again with these impulses as constant forces. With semi-implicit Euler this
+// is the scheme of game engines (Stewart & Trinkle, An implicit time-stepping scheme for rigid body dynamics, 1996;
+// Catto, Iterative dynamics with temporal coherence, 2005), with the same digits up to the order of sums.
 #pragma once
 
 #include "collision/contact/constant_contact_forces.hpp"
@@ -12,14 +12,14 @@
 
 namespace polhode::inline collision {
 
-/// Which velocity restitution reflects: that at the start of the step, or that which its end would have without
-/// contact. A bouncing ball keeps the modified energy of semi-implicit Euler with the first; the second adds a step of
-/// gravity.
+/// The velocity that restitution reflects: the velocity at the start of the step, or the velocity that the step would
+/// end with without contact. With the first, a bouncing ball conserves the modified energy of semi-implicit Euler; the
+/// second adds one step of gravity.
 enum class Reflected { at_start, at_free_end };
 
 class TimeStepping final : public ContactModel {
  public:
-  /// Registers the held impulses with the system as a force. All must outlive it but the response.
+  /// Registers the constant contact forces with the system. System and scene must outlive it.
   TimeStepping(System<double>& system, ContactScene& scene, std::unique_ptr<Response> response,
                Reflected reflected = Reflected::at_start);
 
@@ -42,8 +42,8 @@ class TimeStepping final : public ContactModel {
   std::vector<Impact> impacts_;
   std::vector<Pose> poses_;
   std::vector<ImpulseBody> bodies_, start_, end_;
-  std::vector<double> reach_;  ///< m, of each body: how far it may come in the step
+  std::vector<double> reach_;  ///< m, by body: largest distance that it may move in the step
   State<double> free_, before_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -32,8 +32,8 @@ constexpr Parts parts_of(std::uint32_t face) {
 }
 constexpr Parts parts[6] = {parts_of(0), parts_of(1), parts_of(2), parts_of(3), parts_of(4), parts_of(5)};
 
-/// What a point of the patch may be, sorted by features: a corner of the reference face, a corner of the incident face,
-/// a side of each.
+/// Kinds of points of the patch, sorted by features: a corner of the reference face, a corner of the incident face, a
+/// crossing of a side of each.
 constexpr int kinds_of_point = 24;
 struct Meeting {
   Feature::Kind kind, mirrored;
@@ -56,7 +56,7 @@ struct Points {
   double x[kinds_of_point], y[kinds_of_point], height[kinds_of_point];
 };
 
-/// Where the sides of the incident face cross the line of a reference side: place along it, and height.
+/// Crossings of the sides of the incident face with the line of a reference side: position along it, and height.
 struct Crossings {
   Four along, height;
   FourBits there;
@@ -181,4 +181,4 @@ bool faces_patch(const ReferenceFace& reference, const IncidentBox& incident, do
   return true;
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

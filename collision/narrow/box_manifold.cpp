@@ -39,7 +39,7 @@ void edge_point(const RelativeBoxes& boxes, const Pose& pose, const BoxAxis& axi
       pose.to_world(middle), -axis.separation, {Feature::Kind::edge_edge, edge_from[of_a][i], edge_from[of_b][j]}};
 }
 
-/// What of a box a point on its surface is part of.
+/// The feature of a box that a point on its surface belongs to.
 struct Part {
   int faces = 0;             // how many it lies on: 1 a face, 2 an edge, 3 a vertex
   int along = 0;             // axis of the edge, or of the face's normal
@@ -58,7 +58,7 @@ struct Part {
     along = faces == 1 ? on : in;
   }
   std::uint32_t face() const { return std::uint32_t(2 * along) + (vertex >> along & 1); }
-  /// Of a vertex, the edge that is most nearly parallel to d.
+  /// For a vertex: its edge that is most nearly parallel to d.
   std::uint32_t edge(const BoxAt& box, const Vector3<double>& d) const {
     return edge_from[vertex & ~(1u << axis(box, d))][axis(box, d)];
   }
@@ -69,8 +69,8 @@ struct Part {
   }
 };
 
-/// Where neither faces nor edges that cross meet: the nearest points. An edge beside an edge is nearest at an end of
-/// one.
+/// The contact at the nearest points, if neither faces nor crossing edges meet. For two adjacent edges the nearest
+/// point is an end of one of them.
 void nearest_point(const BoxAt& a, const BoxAt& b, const Distance& d, Manifold& manifold) {
   const Part of_a(a, d.on_a), of_b(b, d.on_b);
   Feature feature{Feature::Kind::other, 0, 0};
@@ -138,4 +138,4 @@ Manifold boxes_manifold(const BoxAt& a, const BoxAt& b, double margin) {
   return manifold;
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

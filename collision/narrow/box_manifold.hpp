@@ -6,8 +6,8 @@
 
 namespace polhode::inline collision {
 
-/// Empty where the boxes are further apart than `margin` (m). Two faces that are almost parallel (0.1 rad) meet as
-/// faces even where an edge axis has a little less depth. Throws std::invalid_argument if a pose is not finite.
+/// The contact patch; empty if the boxes are more than `margin` (m) apart. Two almost parallel faces (0.1 rad) meet as
+/// faces even if an edge axis has slightly less depth. Throws std::invalid_argument if a pose is not finite.
 Manifold boxes_manifold(const BoxAt& a, const BoxAt& b, double margin);
 
-}  // namespace polhode
+}  // namespace polhode::collision

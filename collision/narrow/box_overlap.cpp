@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether two boxes overlap. First a witness: the point of A nearest to B's centre, if B has it too. That needs no
-// relative rotation, and tells for most boxes that overlap. Then the fifteen axes without normalising any, with a bound
-// on the round-off. Where that does not decide either, the axes are taken with care. Three axes stand side by side in a
-// register for one pair; for many pairs, one pair in each lane. Source of the axes: Gottschalk, Lin & Manocha, OBBTree,
-// 1996.
+// Decides whether two boxes overlap. First a witness: the point of A nearest to B's centre, if B contains it too. This
+// needs no relative rotation, and decides most overlapping pairs. Then the fifteen axes without normalizing them, with
+// a bound on the round-off. If that does not decide either, the axes are evaluated with care. For one pair, three axes
+// stand side by side in a register; for many pairs, one pair in each lane. Source of the axes: Gottschalk, Lin &
+// Manocha, OBBTree, 1996.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -381,4 +381,4 @@ void boxes_overlap(std::span<const PosedBox> boxes, std::span<const BodyPair> pa
     answer[left] = overlap_alone(all[pair[left].a], all[pair[left].b]);
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

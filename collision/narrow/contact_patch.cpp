@@ -25,7 +25,7 @@ constexpr double parallel = 1e-5;   // of edges side by side: how far they part,
 constexpr double as_deep = 1e-3;    // how much depth, of the least, a normal may have too much to be as good
 constexpr double round_off = 1e-9;  // of a face's size
 
-/// What is taken up anew for each pair.
+/// Buffers that are filled anew for each pair.
 struct Scratch {
   SupportFeature of_a, of_b, incident;
   std::vector<PatchSide> sides;
@@ -99,9 +99,9 @@ std::size_t clip_segment(std::span<const PatchSide> sides, double tolerance, std
   return from == to ? 1 : 2;
 }
 
-/// What the incident shape turns towards the face, clipped. `turn` and `offset` place it in the reference shape's axes.
-/// The features of the manifold are the reference shape's first. False where nothing is left that is near enough, or
-/// less deep than `depth`.
+/// Clips the feature of the incident shape that faces the reference face. `turn` and `offset` place it in the reference
+/// shape's axes. The features of the manifold list the reference shape first. Returns false if nothing is left that is
+/// near enough, or if the rest is less deep than `depth`.
 bool against_face(const Reference& reference, const Pose& pose, const Shape& incident, const Matrix3<double>& turn,
                   const Vector3<double>& offset, double margin, double depth, Manifold& manifold) {
   Scratch& s = scratch();
@@ -148,7 +148,7 @@ struct Placed {
   const Pose& pose;
 };
 
-/// How far the other shape is beyond the plane of a face.
+/// Distance of the other shape beyond the plane of a face.
 double separation(const SupportFeature& face, const Placed& of, const Placed& other) {
   const Vector3<double> n = of.pose.rotation * face.normal;
   const Vector3<double> nearest = other.pose.rotation * other.shape.support(-(other.pose.rotation.transpose() * n));
@@ -380,4 +380,4 @@ Manifold compound_patch(const NarrowPhase& phase, const Shape& a, const Pose& at
   return manifold;
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -56,7 +56,7 @@ class Expansion {
     }
     found[0] = count > 0 ? given[0] : pair_.support(Vector3<double>::UnitX());
 
-    // Of the simplex's own corners and of those furthest along some directions, the one that is furthest off.
+    // Chooses, among the simplex's own corners and the corners furthest along some directions, the one furthest off.
     const auto choose = [&](const auto& directions, MinkowskiCorner& best, const auto& off) {
       double most = -1;
       const auto consider = [&](const MinkowskiCorner& c) {
@@ -140,8 +140,9 @@ class Expansion {
     return result;
   }
 
-  /// Where a surface bends, an inscribed polytope comes near to it only slowly. The point a little further out than the
-  /// depth has its foot on the surface; the normal there is better, by the ratio of depth and radius of curvature.
+  /// Improves the normal on a curved surface, which an inscribed polytope approaches only slowly. The point slightly
+  /// further out than the depth projects onto the surface; the normal there is better, by the ratio of depth and radius
+  /// of curvature.
   void descend(Penetration& result) const {
     MinkowskiPair shifted = pair_;
     const double scale = polytope_.scale(), further = 0.1 * scale;
@@ -154,7 +155,7 @@ class Expansion {
       result.on_b = r.simplex.turned_on_b() + pair_.offset;
       const Vector3<double> step = r.v / r.distance - result.normal;
       const double before = result.distance;
-      // Where depth and radius are nearly the same the steps are short: longer ones as long as they gain.
+      // If depth and radius are nearly equal the steps are short: lengthens them as long as that improves the result.
       const Vector3<double> from = result.normal;
       for (double stretch = 1; stretch < 1e6; stretch *= 2) {
         const Vector3<double> n = (from + stretch * step).normalized();
@@ -239,4 +240,4 @@ std::optional<Penetration> epa_again(const MinkowskiPair& pair, PairMemory::Shel
   return expansion.run(shell);
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

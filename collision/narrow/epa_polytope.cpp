@@ -177,4 +177,4 @@ bool EpaPolytope::load(const MinkowskiPair& pair, const PairMemory::Shell& shell
   return true;
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

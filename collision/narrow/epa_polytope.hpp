@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The polytope that EPA expands: triangles on corners of the difference, with who is next to whom.
+// The polytope that EPA expands: triangles whose corners are points of the difference, with their adjacency.
 //
-// As long as the triangles close, and each has the origin behind it, the polytope holds the ball around the origin that
-// reaches to the nearest of their planes: the winding number about every point of that ball is not zero. It need not be
-// convex for that, so what a pair remembers of it proves as much after the shapes have moved.
+// If the triangles form a closed surface, and the origin is behind each of them, the polytope contains the ball about
+// the origin that reaches to the nearest of their planes: the winding number about every point of that ball is not
+// zero. The polytope need not be convex for that, so a polytope kept from an earlier query proves as much after the
+// shapes have moved.
 #pragma once
 
 #include <array>
@@ -25,15 +26,15 @@ class EpaPolytope {
     Vector3<double> normal;       ///< unit, outward; zero: the face has no area
     double offset;                ///< normal·x on the face
     std::array<Index, 3> corner;  ///< counter-clockwise seen from outside
-    std::array<Index, 3> across;  ///< the side that is the one from corner i to corner i + 1, of the face beyond it
+    std::array<Index, 3> across;  ///< for side i, from corner i to corner i + 1: the same side in the adjacent face
   };
 
   int corner_count() const { return corner_count_; }
   int face_count() const { return face_count_; }
   const MinkowskiCorner& corner(Index i) const { return corners_[i]; }
-  bool gone(Index i) const { return gone_[i]; }  ///< its place is free
+  bool gone(Index i) const { return gone_[i]; }  ///< the face was removed, and its slot is free
   const Face& face(Index i) const { return faces_[i]; }
-  double scale() const { return scale_; }  ///< m: the largest |w| met, what round-off is measured by
+  double scale() const { return scale_; }  ///< m: the largest |w| so far, which round-off is relative to
 
   void met(double size) { scale_ = std::max(scale_, size); }
   void clear() { corner_count_ = face_count_ = free_count_ = 0; }
@@ -41,20 +42,20 @@ class EpaPolytope {
   bool has_corner(const MinkowskiCorner& c) const;
   bool full() const { return corner_count_ == corner_room; }
 
-  /// The first four corners as a tetrahedron.
+  /// Makes a tetrahedron of the first four corners.
   void close_tetrahedron();
 
-  /// The face that is nearest to the origin of those that are not retired.
+  /// The face nearest to the origin among those that are not retired.
   std::optional<Index> nearest_face() const;
   void retire(Index face) { key_[face] = std::numeric_limits<double>::infinity(); }
 
-  /// Puts a cone from the new corner in the place of all faces that it sees. False where the rim is no simple loop or
-  /// the room is full.
+  /// Replaces all faces visible from the new corner by a cone from it. Returns false if their rim is no simple loop, or
+  /// if there is no room left.
   bool grow(Index seen, const MinkowskiCorner& next);
 
-  /// False where it was not small enough.
+  /// Copies the polytope to the shell. Returns false if it has too many corners or faces.
   bool save(PairMemory::Shell& shell) const;
-  /// False where the origin is not behind all faces.
+  /// Restores the polytope. Returns false if the origin is not behind all faces.
   bool load(const MinkowskiPair& pair, const PairMemory::Shell& shell);
 
  private:
@@ -65,7 +66,7 @@ class EpaPolytope {
 
   double scale_ = 0;
   int corner_count_ = 0, face_count_ = 0, free_count_ = 0;
-  std::array<double, face_room + 8> key_;  ///< the offset; infinite for a face that is retired or has no area
+  std::array<double, face_room + 8> key_;  ///< offset; +inf for a face that is retired or has no area
   std::array<bool, face_room> gone_;
   std::array<Face, face_room> faces_;
   std::array<MinkowskiCorner, corner_room> corners_;
@@ -73,4 +74,4 @@ class EpaPolytope {
   std::array<Index, 3 * face_room> open_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

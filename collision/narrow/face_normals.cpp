@@ -61,4 +61,4 @@ Vector3<double> nearest_edge_product(const MinkowskiCorner& c0, const MinkowskiC
   return best;
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Three numbers side by side in a register of four: of the last there are two.
+// Three numbers side by side in a register of four; the last number is stored twice.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,8 @@
 
 #include "core/math/linear_algebra.hpp"
 
-// Where the processor has narrower registers, GCC warns of how such numbers are passed. They pass within a file only.
+// On processors with narrower registers, GCC warns about the calling convention of such vectors. They are passed within
+// one file only.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace polhode::inline collision {
@@ -35,12 +36,12 @@ inline Four next(Four x) { return __builtin_shufflevector(x, x, 1, 2, 0, 0); }
 inline Four after_next(Four x) { return __builtin_shufflevector(x, x, 2, 0, 1, 1); }
 inline Four larger(Four a, Four b) { return a > b ? a : b; }
 inline Four smaller(Four a, Four b) { return a < b ? a : b; }
-/// Of all four.
+/// The largest of the four numbers.
 inline double highest(Four x) {
   const Four pairs = larger(x, __builtin_shufflevector(x, x, 2, 3, 0, 1));
   return std::max(pairs[0], pairs[1]);
 }
-/// Bit k of the k-th truth.
+/// Bit k is the k-th truth value.
 inline std::uint32_t bits(FourBits truth) {
 #ifdef __AVX__
   return std::uint32_t(_mm256_movemask_pd(__m256d(truth)));
@@ -51,4 +52,4 @@ inline std::uint32_t bits(FourBits truth) {
 inline void put(Four x, double* numbers) { std::memcpy(numbers, &x, sizeof x); }
 inline double largest(Four x) { return std::max(std::max(x[0], x[1]), x[2]); }
 
-}  // namespace polhode
+}  // namespace polhode::collision

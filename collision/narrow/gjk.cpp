@@ -99,9 +99,9 @@ void refine(const MinkowskiPair& pair, GjkResult& r) {
   s.weight[k] = share[2];
 }
 
-/// Where v is short beside the shapes, or they have faces that are nearly parallel, rounding turns it so far that it
-/// parts the shapes less than they are apart. Then the features know the normal: those at hand, or those that EPA finds
-/// where the shapes are moved until they touch.
+/// The distance if v is short compared with the shapes, or if they have nearly parallel faces: rounding then rotates v
+/// so far that the separation along it is less than the distance. The normal is taken from the features: those at hand,
+/// or those that EPA finds after moving the shapes until they touch.
 Penetration with_sure_normal(const MinkowskiPair& pair, const GjkResult& r, const Penetration& unsure) {
   std::array<MinkowskiCorner, 3> corners;
   unsigned left = r.simplex.used;
@@ -159,7 +159,7 @@ std::optional<Penetration> signed_distance(const MinkowskiPair& pair, PairMemory
   return r.gap > near_share * r.scale ? with_sure_normal(pair, r, p) : p;
 }
 
-/// Where rounding hides from the simplices which features are nearest, all of them are looked at.
+/// The distance by all features, if rounding hides from the simplices which features are nearest.
 Distance by_features(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b) {
   if (a.tag() != ShapeTag::box || b.tag() != ShapeTag::box) return hulls_distance(a, at_a, b, at_b);
   return boxes_distance({static_cast<const Box&>(a).half_extents(), at_a},
@@ -269,4 +269,4 @@ NarrowPhaseEntry gjk() {
           []() -> std::unique_ptr<NarrowPhase> { return std::make_unique<Gjk>(); }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

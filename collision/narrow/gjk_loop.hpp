@@ -15,32 +15,34 @@ namespace polhode::inline collision {
 struct GjkResult {
   enum class State {
     apart,      ///< v is the nearest point
-    separated,  ///< some direction separates; asked only whether they overlap
-    near,       ///< the origin is in the difference, or so near that rounding hides on which side
-    inside,     ///< the origin is within a tetrahedron of the difference, further than rounding reaches
+    separated,  ///< a separating direction was found; for queries of overlap only
+    near,       ///< the origin is in the difference, or so close to its surface that rounding hides on which side
+    inside,     ///< the origin is within a tetrahedron of the difference, by more than round-off
   };
   State state = State::near;
   Vector3<double> v = Vector3<double>::Zero();
   double distance = 0;  ///< |v|
-  double gap = 0;       ///< by how much less the shapes are apart along v, where that is more than round-off
-  double scale = 0;     ///< the largest number that a corner is made of, what round-off is measured by
-  int steps = 0;        ///< corners that were added
+  double gap = 0;  ///< difference between |v| and the lower bound of the distance along v, if it is more than round-off
+  double scale = 0;  ///< the largest number in a corner, which round-off is relative to
+  int steps = 0;     ///< number of corners added
   Simplex simplex;
 };
 
-/// Round-off of a corner, as a share of the largest: below `near_share` of it the sign of a distance is not trusted.
+/// Round-off relative to the largest number of a corner: below `near_share` of it the sign of a distance is not
+/// reliable.
 inline constexpr double near_share = 1e-13;
 inline constexpr double stop_share = 16 * std::numeric_limits<double>::epsilon();
-inline constexpr double sure_share = 4 * stop_share;  ///< a wider gap between the bounds is more than round-off
+inline constexpr double sure_share =
+    4 * stop_share;  ///< a gap between the bounds that is wider than this is more than round-off
 inline constexpr int gjk_limit = 100, stall_limit = 10;
 
-/// From the simplex in `r`, which may be empty. With `early` it stops at the first direction along which the shapes,
-/// with the radii around their cores, are apart.
+/// Starts from the simplex in `r`, which may be empty. With `early` it stops at the first direction along which the
+/// shapes, including the radii around their cores, are apart.
 template <bool early>
 void gjk_loop(const MinkowskiPair& pair, GjkResult& r) {
   NearestPoint nearest;
   Simplex& s = r.simplex;
-  double scale2 = pair.offset.squaredNorm();  // of the largest number that a corner is made of
+  double scale2 = pair.offset.squaredNorm();  // square of the largest number in a corner
   const double radius = early ? pair.radius() : 0;
   const auto separates = [&](double reach, double square) {
     if (!(reach > 0)) return false;
@@ -49,7 +51,7 @@ void gjk_loop(const MinkowskiPair& pair, GjkResult& r) {
     return reach > std::sqrt(square) * (radius + std::sqrt(rounding));
   };
   if (s.used == 0) {
-    // From the point of the difference that the origins of the shapes make.
+    // Starts from the point of the difference given by the origins of the two shapes.
     const Vector3<double> first = scale2 > 0 ? Vector3<double>(-pair.offset) : Vector3<double>(-1, 0, 0);
     const Vector3<double>& w = s.corners[0].w;
     pair.support_against(first, s.corners[0]);
@@ -117,4 +119,4 @@ void gjk_loop(const MinkowskiPair& pair, GjkResult& r) {
   else r.state = GjkResult::State::apart;
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

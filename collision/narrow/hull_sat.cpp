@@ -43,7 +43,7 @@ struct Core {
   }
   double lowest(const Vector& n) const { return -highest(-n); }
 
-  /// How far out face f is along its own normal.
+  /// Height of face f along its own normal.
   double height(std::uint32_t f) const {
     double most = -infinity;
     for (const Polytope::Corner c : polytope->corners_of(f)) most = std::max(most, normals[f].dot(vertices[c.vertex]));
@@ -85,7 +85,7 @@ struct Axis {
   Vector normal = Vector::Zero();  // unit, in A's axes, from A to B; zero: none
 };
 
-/// What of a core the nearest point may be in.
+/// Features of a core that may contain the nearest point.
 struct Near {
   std::vector<std::uint8_t> vertex;
   std::vector<std::uint32_t> edges, faces;
@@ -96,7 +96,7 @@ struct Near {
     faces.reserve(core.normals.size());
   }
 
-  /// Those with a vertex no lower than `least` along n.
+  /// Selects the features with a vertex at height `least` or more along n.
   void set(const Core& core, const Vector& n, double least) {
     vertex.clear();
     edges.clear();
@@ -224,8 +224,9 @@ struct Pair {
 
   double as_near() const { return 1e-13 * nearest + 0.5 * round_off * scale; }
 
-  /// Of two pairs of points that are as near, but for round-off, the difference may point anywhere that is nearly
-  /// upright; then that one counts on which the shadows are further apart, as a normal must have it.
+  /// Offers a pair of points. If two pairs are equally near up to round-off, their difference may be any direction
+  /// close to the normal; the direction with the larger gap between the projections is then chosen, since a normal
+  /// maximises it.
   void offer(const Vector& x, const Vector& y, const Vector& difference) {
     const double d = difference.stableNorm(), slack = as_near();
     if (!(d <= nearest + slack)) return;
@@ -277,7 +278,8 @@ struct Pair {
     const Vector x = p + s * u, y = q + t * v;
     const Vector difference = upright(y - x, line, length, same),
                  straight = product * (product.dot(difference) / square);
-    // Of nearly parallel edges that are well apart the points tell the direction better than the product.
+    // For nearly parallel edges that are well apart, the difference of the points gives a better direction than the
+    // product.
     offer(x, y, (difference - straight).norm() <= 2 * round_off * scale ? straight : difference);
   }
 
@@ -310,7 +312,7 @@ struct Pair {
   }
 };
 
-/// Where the segments or points of A and B meet: across both.
+/// The direction across both edges, if segments or points of A and B meet.
 Vector across(const Pair& pair) {
   const Vector u = pair.a.along(pair.a.edges[0]), v = pair.b.along(pair.b.edges[0]);
   const Vector n = u.cross(v);
@@ -328,7 +330,7 @@ Distance ordered_distance(const Shape& a, const Pose& at_a, const Shape& b, cons
   if (axis.normal.isZero(0) || axis.separation > 0) {
     pair.find_nearest(axis.normal, axis.separation);
     distance = std::max({axis.separation, pair.apart.stableNorm()});
-    // Where they touch but for round-off, the axis knows the direction better.
+    // If the shapes touch up to round-off, the axis gives the better direction.
     const Vector towards = pair.apart.stableNormalized();
     if (axis.normal.isZero(0)) {
       normal = pair.nearest > 2 * round_off * pair.scale ? towards : across(pair);
@@ -377,4 +379,4 @@ Distance above_half_space(const Shape& a, const Pose& at_a, const Shape& half_sp
   return {distance, n, on_a, on_a - distance * n};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -57,4 +57,4 @@ void ConvexCore::vertex_of_others(std::uint32_t i, Vector3<double>& x) const {
   }
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The Minkowski difference A ⊖ B = {a − b} of two convex shapes, by its support function, in the axes of A with the
-// origin at A. A ball is the point at its centre with a radius around it, a capsule its segment: what is left, the
-// core, has corners only, and its distance is exact.
+// origin at A. The core of a ball is its centre, that of a capsule its segment, both with a radius around them. Cores
+// have corners only, so the distance of two cores is exact.
 #pragma once
 
 #include <cmath>
@@ -13,21 +13,23 @@ namespace polhode::inline collision {
 
 struct ConvexCore {
   enum class Kind : std::uint8_t { point, segment, box, hull, smooth };
-  static constexpr std::uint32_t no_vertex = 0xffffffff;  ///< the number of a point that is no vertex, of a smooth core
+  static constexpr std::uint32_t no_vertex =
+      0xffffffff;  ///< vertex number of a point that is no vertex, on a smooth core
 
   Kind kind = Kind::point;
-  double radius = 0;                               ///< m, around the core
-  Vector3<double> half = Vector3<double>::Zero();  ///< m: of the box; of the segment the last counts
+  double radius = 0;  ///< m, around the core
+  Vector3<double> half =
+      Vector3<double>::Zero();  ///< m: half extents of a box; for a segment only the last one is used
   const Shape* shape = nullptr;
 
-  explicit ConvexCore(const Shape& s);  ///< of a convex, finite shape
+  explicit ConvexCore(const Shape& s);  ///< s must be convex and finite
 
   bool smooth() const { return kind == Kind::smooth; }
   bool has_faces() const { return kind == Kind::box || kind == Kind::hull; }
   const ConvexHull& hull() const { return static_cast<const ConvexHull&>(*shape); }
 
-  /// x becomes the point furthest along d; the number of the vertex that it is. Numbers are written one by one: a copy
-  /// of three at once would have to wait for them.
+  /// Sets x to the point furthest along d; returns its vertex number. The components are written one by one: a copy of
+  /// all three at once would have to wait for them.
   std::uint32_t support(const Vector3<double>& d, Vector3<double>& x) const {
     if (kind != Kind::box) return support_of_others(d, x);
     for (int i = 0; i < 3; ++i) x[i] = std::copysign(half[i], d[i]);
@@ -35,7 +37,7 @@ struct ConvexCore {
   }
 
   std::uint32_t vertex_count() const { return kind == Kind::box ? 8 : vertex_count_of_others(); }
-  /// x becomes vertex i, in the order of `Box` and `ConvexHull`.
+  /// Sets x to vertex i, in the order of `Box` and `ConvexHull`.
   void vertex(std::uint32_t i, Vector3<double>& x) const {
     if (kind != Kind::box) return vertex_of_others(i, x);
     constexpr double sign[2] = {-1, 1};
@@ -48,11 +50,11 @@ struct ConvexCore {
   void vertex_of_others(std::uint32_t i, Vector3<double>& x) const;
 };
 
-/// A corner w = a − (R b + p) of the difference. The edges between corners are differences of a and of R b, which keeps
-/// them exact beside a far larger partner.
+/// A corner w = a − (R b + p) of the difference. Edges between corners are differences of a and of R b, which keeps
+/// them exact if the other shape is much larger.
 struct MinkowskiCorner {
   Vector3<double> w;
-  Vector3<double> a, turned_b;  ///< in A's axes, each about its own origin
+  Vector3<double> a, turned_b;  ///< in A's axes, each relative to its own origin
   std::uint32_t vertex_a, vertex_b;
 
   bool operator==(const MinkowskiCorner& o) const {
@@ -60,7 +62,7 @@ struct MinkowskiCorner {
   }
 };
 
-/// From corner i to corner j.
+/// The edge from corner i to corner j.
 inline Vector3<double> edge(const MinkowskiCorner& i, const MinkowskiCorner& j) {
   return (j.a - i.a) - (j.turned_b - i.turned_b);
 }
@@ -79,7 +81,7 @@ struct MinkowskiPair {
   bool smooth() const { return a.smooth() || b.smooth(); }
   double radius() const { return a.radius + b.radius; }
 
-  /// c.a is given; the rest of the corner that it makes with a point of B.
+  /// Completes a corner whose c.a is given by a point of B.
   void complete(MinkowskiCorner& c, const Vector3<double>& of_b) const {
     for (int i = 0; i < 3; ++i) {
       const double turned = rotation(i, 0) * of_b[0] + rotation(i, 1) * of_b[1] + rotation(i, 2) * of_b[2];
@@ -87,7 +89,7 @@ struct MinkowskiPair {
       c.w[i] = c.a[i] - (turned + offset[i]);
     }
   }
-  /// c becomes the corner of a vertex of A and one of B.
+  /// Sets c to the corner of a vertex of A and a vertex of B.
   void corner(std::uint32_t of_a, std::uint32_t of_b, MinkowskiCorner& c) const {
     Vector3<double> x;
     a.vertex(of_a, c.a);
@@ -96,7 +98,7 @@ struct MinkowskiPair {
     c.vertex_a = of_a;
     c.vertex_b = of_b;
   }
-  /// c becomes the corner furthest along −d.
+  /// Sets c to the corner furthest along −d.
   void support_against(const Vector3<double>& d, MinkowskiCorner& c) const {
     Vector3<double> of_b;
     c.vertex_a = a.support(-d, c.a);
@@ -112,4 +114,4 @@ struct MinkowskiPair {
   Vector3<double> in_b(const Vector3<double>& turned) const { return rotation.transpose() * turned; }
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -22,4 +22,4 @@ const std::vector<NarrowPhaseEntry>& narrow_phase_catalogue() {
 
 const NarrowPhaseEntry* find_narrow_phase(std::string_view name) { return find_entry(narrow_phase_catalogue(), name); }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -45,4 +45,4 @@ bool exchanged_at_equal_x(const Shape& a, const Pose& at_a, const Shape& b, cons
   return c > 0;
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double least_gain = 1.0 / 32;  // of the patch's area, for a point beside four others to matter
 
-/// Where the edge that leaves a corner meets a side: another side's edge (then it is a vertex of the reference face),
-/// or an edge of the incident face.
+/// The feature at which the edge that leaves a corner crosses a side: another side's edge (then it is a vertex of the
+/// reference face), or an edge of the incident face.
 Feature crossing(const PatchCorner& from, std::span<const PatchSide> sides, std::size_t side,
                  std::uint32_t incident_face) {
   if (!from.along_side) return {Feature::Kind::edge_edge, sides[side].edge, from.edge};
@@ -26,7 +26,7 @@ Feature crossing(const PatchCorner& from, std::span<const PatchSide> sides, std:
   return {Feature::Kind::other, sides[side].edge, sides[from.edge].edge};
 }
 
-/// Of four corners from number k on: how far from corner `from` they are, squared.
+/// Squared distances of four corners, from number k on, from corner `from`.
 [[gnu::always_inline]] inline Four squared_distances(const CornersInLanes& c, std::size_t from, std::size_t k) {
   const Four dx = four(c.x + k) - all(c.x[from]), dy = four(c.y + k) - all(c.y[from]);
   return dx * dx + dy * dy;
@@ -188,4 +188,4 @@ void mirror(Manifold& manifold) {
   }
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

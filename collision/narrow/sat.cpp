@@ -81,4 +81,4 @@ NarrowPhaseEntry sat() {
           [] { return std::unique_ptr<NarrowPhase>(new Sat); }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -76,4 +76,4 @@ NarrowPhaseEntry sat_course_report() {
           [] { return std::unique_ptr<NarrowPhase>(new SatCourseReport); }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The point of a simplex that is nearest to the origin, by signed volumes: which of its faces holds the point is told
-// by the signs of barycentric coordinates, not by differences of nearly equal numbers. Source: Montanari, Petrinic &
-// Barbieri, Improving the GJK algorithm for faster and more reliable distance queries between convex objects, ACM
-// Transactions on Graphics 36(3), 2017. Volumes and areas are taken about the newest corner, whose edges are short
-// beside the distance where the shapes are far apart.
+// The point of a simplex nearest to the origin, by signed volumes: the signs of barycentric coordinates decide which
+// face contains the point, not differences of nearly equal numbers. Source: Montanari, Petrinic & Barbieri, Improving
+// the GJK algorithm for faster and more reliable distance queries between convex objects, ACM Transactions on Graphics
+// 36(3), 2017. Volumes and areas are taken about the newest corner, whose edges are short compared with the distance if
+// the shapes are far apart.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,8 @@
 
 namespace polhode::inline collision {
 
-/// Up to four corners in fixed places; a bit of `used` for each place, and its share λ of the nearest point Σ λ w.
+/// Up to four corners in fixed slots. `used` has a bit for each slot; `weight` is the barycentric coordinate λ of the
+/// nearest point Σ λ w.
 struct Simplex {
   unsigned used = 0;
   std::array<MinkowskiCorner, 4> corners;
@@ -42,17 +43,17 @@ struct Simplex {
   }
 };
 
-/// The nearest point of a simplex; `used` are the corners that it needs.
+/// The nearest point of a simplex; `used` are the corners that it depends on.
 struct NearestPoint {
   Vector3<double> v = Vector3<double>::Zero();
   double square = 0;  ///< |v|²
   unsigned used = 0;
-  bool inside = false;  ///< the origin is within the tetrahedron,
-  bool sure = false;    ///< and further from its faces than rounding reaches
+  bool inside = false;  ///< the origin is within the tetrahedron
+  bool sure = false;    ///< the origin is inside by more than round-off
 };
 
-/// One step of iterative refinement of the shares of three corners, so that they give the point of their plane below x
-/// to the last digit also where the triangle is thin: what they miss of it is small, and split as the whole was.
+/// One step of iterative refinement of the barycentric coordinates of three corners, so that they give the projection
+/// of x on their plane to the last digit even for a thin triangle: the residual is small, and is split like the whole.
 inline void refine(const MinkowskiCorner& s0, const MinkowskiCorner& s1, const MinkowskiCorner& p,
                    const Vector3<double>& x, std::array<double, 4>& share) {
   const Vector3<double> e0 = edge(p, s0), e1 = edge(p, s1), n = e0.cross(e1);
@@ -68,7 +69,7 @@ class SignedVolumes {
  public:
   using Corner = Vector3<double>;
 
-  /// The nearest of all the points that it is offered; i, j, k are the places of the corners, which get their shares in
+  /// Keeps the nearest of all candidate points; i, j, k are the slots of their corners, whose coordinates go to
   /// `weight`.
   SignedVolumes(NearestPoint& nearest, std::array<double, 4>& weight) : nearest_(nearest), weight_(weight) {
     nearest.square = std::numeric_limits<double>::infinity();
@@ -87,7 +88,7 @@ class SignedVolumes {
     const double along = -p.dot(t), length = t.squaredNorm();
     if (!(along > 0)) return point(p, j);
     if (!(along < length)) return point(s, i);
-    // From the nearer end, where less cancels.
+    // Computed from the nearer end, where less cancellation occurs.
     const double u = along / length;
     const Vector3<double> v = u < 0.5 ? Vector3<double>(p + u * t) : Vector3<double>(s - (s.dot(t) / length) * t);
     const double square = v.squaredNorm();
@@ -102,7 +103,7 @@ class SignedVolumes {
     triangle(s0, s1, p, e0, e1, e0.cross(e1), i, j, k);
   }
 
-  /// Of the origin, the four shares are volumes over the whole one.
+  /// Barycentric coordinates of the origin: four volumes over the whole volume.
   void tetrahedron(const Corner& s0, const Corner& s1, const Corner& s2, const Corner& p, unsigned i, unsigned j,
                    unsigned k, unsigned l) {
     const Vector3<double> e0 = s0 - p, e1 = s1 - p, e2 = s2 - p;
@@ -132,8 +133,8 @@ class SignedVolumes {
   }
 
  private:
-  /// e0, e1: the edges from p, n their product. The shares are areas of what the projection of the origin on the plane
-  /// makes with the sides.
+  /// e0, e1: the edges from p, n: their product. The coordinates are areas of the triangles between the sides and the
+  /// projection of the origin on the plane.
   void triangle(const Corner& s0, const Corner& s1, const Corner& p, const Vector3<double>& e0,
                 const Vector3<double>& e1, const Vector3<double>& n, unsigned i, unsigned j, unsigned k) {
     const double nn = n.squaredNorm();
@@ -162,7 +163,7 @@ class SignedVolumes {
   std::array<double, 4>& weight_;
 };
 
-/// The nearest point of all corners in use, and their shares.
+/// The nearest point of all corners in use, and its coordinates.
 inline void solve(Simplex& s, unsigned newest, NearestPoint& nearest) {
   SignedVolumes volumes(nearest, s.weight);
   const auto w = [&](unsigned i) -> const Vector3<double>& { return s.corners[i].w; };
@@ -189,4 +190,4 @@ inline void solve(Simplex& s, unsigned newest, NearestPoint& nearest) {
   }
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

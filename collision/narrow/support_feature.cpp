@@ -92,7 +92,7 @@ void end_of_cylinder(double radius, double half, const Vector3<double>& d, Suppo
     f.corners.push_back(
         {{radius * std::cos(angle), up * radius * std::sin(angle), up * half}, numbers * face + k, numbers * face + k});
   };
-  // Of a corner that is lower than its neighbours by round-off only, nothing would be gained.
+  // A corner that is lower than its neighbours by round-off only is not worth an additional corner.
   const double lowest = tilt > 1e-6 ? std::atan2(up * d[1], d[0]) : -1;
   const double place = (lowest < 0 ? lowest + 2 * std::numbers::pi : lowest) / step;
   const bool between = tilt > 1e-6 && std::abs(place - std::round(place)) > 1e-6;
@@ -136,4 +136,4 @@ void support_feature(const Shape& shape, const Vector3<double>& d, SupportFeatur
   }
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a convex shape turns towards another one: a face, an edge, or a point. Round shapes are cut into what matters:
-// the side of a capsule or a cylinder is an edge, the end of a cylinder a face with corners on its rim.
+// The feature of a convex shape in a direction: a face, an edge, or a point. Round shapes have these features: the side
+// of a capsule or a cylinder is an edge, the end of a cylinder a face with corners on its rim.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,10 @@
 
 namespace polhode::inline collision {
 
-/// Numbers are those of the polytope of a box or a hull. A capsule's ends are vertices 0 (below) and 1, its side edge
-/// 0. A cylinder's ends are faces 0 (below) and 1 and edges as their corners, from 32 times the face on; its side is
-/// edge 64 with the ends 64 and 65; any other point of a rim is vertex 96 or 97. All else has vertex 0 only.
+/// Features of boxes and hulls are numbered as in their polytope. The ends of a capsule are vertices 0 (below) and 1,
+/// its side is edge 0. The ends of a cylinder are faces 0 (below) and 1; their corners and edges are numbered from 32
+/// times the face on. Its side is edge 64 with the ends 64 and 65; any other point of a rim is vertex 96 or 97. All
+/// other shapes have vertex 0 only.
 struct SupportFeature {
   enum class Kind : std::uint8_t { point, edge, face };
   struct Corner {
@@ -22,13 +23,13 @@ struct SupportFeature {
   };
   Kind kind = Kind::point;
   std::uint32_t face = 0;
-  Vector3<double> normal;       ///< of the face: unit, outward, in the shape's axes
-  std::vector<Corner> corners;  ///< of a face counter-clockwise, seen from outside
+  Vector3<double> normal;       ///< of a face: unit, outward, in the shape's axes
+  std::vector<Corner> corners;  ///< of a face: counter-clockwise seen from outside
 };
 
-/// Of a convex, finite shape along the unit direction d in its axes: the face that looks along it or at most 0.1 rad
-/// beside it, else an edge as much across it, else the furthest point. Takes no memory once `feature` has had as many
-/// corners.
+/// Finds the feature of a finite convex shape along the unit direction d, in its axes: the face whose normal is at most
+/// 0.1 rad from d; else an edge at most 0.1 rad from perpendicular to d; else the furthest point. Allocates no memory
+/// once `feature` has had as many corners.
 void support_feature(const Shape& shape, const Vector3<double>& d, SupportFeature& feature);
 
-}  // namespace polhode
+}  // namespace polhode::collision

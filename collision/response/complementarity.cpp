@@ -8,9 +8,9 @@
 namespace polhode::inline collision {
 namespace {
 
-/// Of a diagonal element: what is left of a column that depends on others.
+/// Relative to a diagonal element: the pivot below which a column counts as linearly dependent.
 constexpr double dependent = 1e-11;
-/// Of what cancels in w.
+/// Relative to the terms that cancel in w: the rounding of w.
 constexpr double rounding = 1e-13;
 
 }  // namespace
@@ -30,7 +30,7 @@ bool Complementarity::factor_row(const Matrix& a, std::size_t row) {
   return true;
 }
 
-/// Whether the column does not depend on the basis; then it joins it.
+/// Adds the column to the basis, unless it depends linearly on the basis. Returns whether it was added.
 bool Complementarity::append(const Matrix& a, Eigen::Index i) {
   basis_.push_back(i);
   if (!factor_row(a, basis_.size() - 1)) {
@@ -174,4 +174,4 @@ bool Complementarity::solve(const Matrix& a, const Eigen::Ref<const Eigen::Vecto
   return false;
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -8,12 +8,14 @@
 
 namespace polhode::inline collision {
 
-/// By principal pivoting (Dantzig & Cottle, 1968; Cottle, Pang & Stone, 1992, section 4.3), in the order of Lawson &
-/// Hanson (1974): each pivot lowers ½ j·A j + b·j, so no set of positive impulses comes twice, and it ends. Of columns
-/// that depend on each other, as those of the corners of a face, only independent ones carry; w is the same whichever.
+/// Solves it by principal pivoting (Dantzig & Cottle, 1968; Cottle, Pang & Stone, 1992, section 4.3), in the order of
+/// Lawson & Hanson (1974). Each pivot lowers ½ j·A j + b·j, so no set of positive impulses recurs, and the method
+/// terminates. Of linearly dependent columns, such as those of the corners of a face, only independent ones are in the
+/// basis; w does not depend on the choice.
 class Complementarity {
  public:
-  /// From the j that is given, which is not negative, to the one sought. False: there is none, or rounding hides it.
+  /// Starts from the given j, which must be non-negative, and replaces it by the solution. False: there is no solution,
+  /// or rounding hides it.
   bool solve(const Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>& a,
              const Eigen::Ref<const Eigen::VectorXd>& b, Eigen::Ref<Eigen::VectorXd> j);
 
@@ -27,10 +29,10 @@ class Complementarity {
   void solve_upper(std::size_t count);
   void settle(const Matrix& a, const Eigen::Ref<const Eigen::VectorXd>& b, Eigen::Ref<Eigen::VectorXd> j);
 
-  std::vector<Eigen::Index> basis_;  ///< those that carry
+  std::vector<Eigen::Index> basis_;  ///< indices of the positive impulses
   std::vector<std::uint8_t> carries_, barred_;
   Eigen::MatrixXd lower_;  ///< Cholesky's factor of A on the basis
   Eigen::VectorXd x_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

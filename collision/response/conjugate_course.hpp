@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What makes sweeps of Gauss–Seidel converge in fewer: nonsmooth nonlinear conjugate gradients (Silcowitz-Hansen, Niebe
-// & Erleben, "A nonsmooth nonlinear conjugate gradient method for interactive contact force problems", 2010). What a
-// sweep changes, to the last point and back, stands for the negative gradient g (in one direction alone it would be
-// none, of no quadratic form); after the sweep the impulses go on by β p, with β = |g|²/|g before|² (Fletcher & Reeves)
-// and p = g + β p the course; where the sweeps do not become smaller, or go against the course (O'Donoghue & Candès,
-// "Adaptive restart for accelerated gradient schemes", 2015), it starts anew. A sweep comes last, so that
-// the impulses are ones that the contacts allow.
+// Accelerates the convergence of Gauss–Seidel sweeps: nonsmooth nonlinear conjugate gradients (Silcowitz-Hansen, Niebe
+// & Erleben, "A nonsmooth nonlinear conjugate gradient method for interactive contact force problems", 2010). The
+// change made by a sweep, forwards and backwards over the points, replaces the negative gradient g (a sweep in one
+// direction alone would not be the gradient of a quadratic form). After a sweep the impulses advance by β p, with β =
+// |g|²/|g before|² (Fletcher & Reeves) and p = g + β p the search direction. If the sweeps do not become smaller, or
+// oppose the direction (O'Donoghue & Candès, "Adaptive restart for accelerated gradient schemes", 2015), the search
+// restarts. The last operation is a sweep, so that the impulses obey the law of contact.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@
 
 namespace polhode::inline collision {
 
-/// The course of the motions, and β. Those of the impulses the solver keeps beside them.
+/// The search direction of the motions, and β. The solver keeps that of the impulses.
 class ConjugateCourse {
  public:
   void start(std::size_t bodies) {
@@ -23,11 +23,11 @@ class ConjugateCourse {
     size_ = 0;
   }
 
-  /// Before a sweep.
+  /// Call before a sweep.
   void mark(std::span<const ImpulseMotion> motions) { marked_.assign(motions.begin(), motions.end()); }
 
-  /// Of what a sweep changed, with itself and with the course; summed patch by patch, so that the digits do not depend
-  /// on the registers.
+  /// Inner products of the change made by a sweep, with itself and with the search direction; summed patch by patch, so
+  /// that the digits do not depend on the width of the registers.
   struct Products {
     double size = 0, along = 0;
     void add(const Lanes& of_size, const Lanes& of_along) {
@@ -38,14 +38,14 @@ class ConjugateCourse {
     }
   };
 
-  /// After a sweep: β.
+  /// Call after a sweep; returns β.
   double share(const Products& changes) {
     const double before = size_;
     size_ = changes.size;
     return changes.size < before && changes.along >= 0 ? changes.size / before : 0;
   }
 
-  /// Takes the motions along the course.
+  /// Advances the motions along the search direction.
   void advance(std::span<ImpulseMotion> motions, double share) {
     for (std::size_t i = 0; i < motions.size(); ++i) {
       for (const auto part : {&ImpulseMotion::linear, &ImpulseMotion::angular}) {
@@ -64,4 +64,4 @@ class ConjugateCourse {
   double size_ = 0;
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

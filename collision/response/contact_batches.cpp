@@ -123,4 +123,4 @@ void ContactBatches::add_batch(std::span<const ImpulseBody> bodies, std::span<co
   }
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

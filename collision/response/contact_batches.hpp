@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contacts in lanes: patches that share no moving body stand side by side, one a lane, so that a sweep of Gauss–Seidel
-// treats as many at once as a register has numbers. Which patches may stand together, colours tell (Fratarcangeli,
-// Tibaldi & Pellacini, "Vivace", 2016); the order of the colours is the order of the sweep, and does not depend on the
-// registers.
+// Contacts in SIMD lanes: patches that share no moving body stand side by side, one in each lane, so that a
+// Gauss–Seidel sweep treats several at once. A graph colouring decides which patches may stand together (Fratarcangeli,
+// Tibaldi & Pellacini, "Vivace", 2016). The order of the colours is the order of the sweep, and does not depend on the
+// width of the registers.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace polhode::inline collision {
 
-/// A velocity, or a displacement: what a sweep changes of a body. One line of the cache.
+/// A velocity, or a displacement, of a body: the quantity that a sweep changes. One cache line.
 struct alignas(64) ImpulseMotion {
   std::array<double, 3> linear{}, angular{};
 };
@@ -45,22 +45,22 @@ struct SymmetricLanes {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Patches of different bodies, one a lane.
+/// Patches of different bodies, one in each lane.
 struct PatchBatch {
-  std::array<std::uint32_t, lane_count> a{}, b{};  ///< the bodies; past the last body where a lane is empty
+  std::array<std::uint32_t, lane_count> a{}, b{};  ///< the bodies; one past the last body in an empty lane
   std::uint32_t first_point = 0, point_count = 0;  ///< of the largest patch; the others have points without effect
   Vector3<Lanes> normal = zero_lanes(), tangent = zero_lanes(), bitangent = zero_lanes();
   Lanes inverse_mass_a = 0, inverse_mass_b = 0;
   SymmetricLanes inverse_inertia_a, inverse_inertia_b;
 };
 
-/// A point of each patch of a batch. Without effect: at the mass centres, with no mass.
+/// One point of each patch of a batch. A point without effect lies at the mass centres and has no mass.
 struct PointBatch {
   Vector3<Lanes> lever_a = zero_lanes(), lever_b = zero_lanes();  ///< m, from the bodies' positions
-  Lanes normal_mass = 0;                                          ///< 1/K_nn, 0 where no impulse can change anything
+  Lanes normal_mass = 0;                                          ///< 1/K_nn; 0 if no impulse can change the velocities
 };
 
-/// The velocity of A relative to B at a point that an impulse there gives: K j.
+/// The change of the relative velocity of A and B at a point by an impulse there, K j.
 inline Vector3<Lanes> mobility_along(const PatchBatch& patch, const PointBatch& point, const Vector3<Lanes>& j) {
   return (patch.inverse_mass_a + patch.inverse_mass_b) * j +
          cross(patch.inverse_inertia_a * cross(point.lever_a, j), point.lever_a) +
@@ -75,7 +75,7 @@ class ContactBatches {
 
   std::span<const PatchBatch> patches() const { return patches_; }
   std::span<const PointBatch> points() const { return points_; }
-  /// Which contact is in each lane of a point; none, where it has no effect.
+  /// The contact in each lane of a point; none in a lane without effect.
   std::span<const std::array<std::uint32_t, lane_count>> contacts() const { return contacts_; }
 
  private:
@@ -89,8 +89,8 @@ class ContactBatches {
                  std::span<const Patch> lanes);
 
   std::vector<Patch> found_, sorted_;
-  std::vector<std::uint32_t> starts_;      ///< of the groups that are sorted
-  std::vector<std::uint64_t> colours_of_;  ///< of each body: which it has
+  std::vector<std::uint32_t> starts_;      ///< beginnings of the groups to be sorted
+  std::vector<std::uint64_t> colours_of_;  ///< for each body, the colours that it has
   std::vector<PatchBatch> patches_;
   std::vector<PointBatch> points_;
   std::vector<std::array<std::uint32_t, lane_count>> contacts_;
@@ -116,11 +116,11 @@ struct PairMotion {
       }
     }
   }
-  /// Of A relative to B.
+  /// Relative velocity of A and B.
   [[gnu::always_inline]] Vector3<Lanes> at(const PointBatch& point) const {
     return (va + cross(wa, point.lever_a)) - (vb + cross(wb, point.lever_b));
   }
-  /// An impulse on A, and its reaction on B.
+  /// Applies an impulse to A and its reaction to B.
   [[gnu::always_inline]] void push(const PatchBatch& patch, const PointBatch& point, const Vector3<Lanes>& impulse) {
     va += patch.inverse_mass_a * impulse;
     wa += patch.inverse_inertia_a * cross(point.lever_a, impulse);
@@ -143,4 +143,4 @@ struct PairMotion {
   }
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

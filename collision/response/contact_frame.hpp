@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The axes of a contact, and how easily it gives way.
+// The axes of a contact, and its compliance to an impulse.
 #pragma once
 
 #include "collision/response.hpp"
@@ -10,7 +10,7 @@ struct ContactFrame {
   Vector3<double> normal, tangent, bitangent;
 };
 
-/// Right-handed. A normal that is none gives zeros: nothing acts there.
+/// Right-handed axes. A zero or invalid normal gives zeros: such a contact has no effect.
 inline ContactFrame contact_frame(const Vector3<double>& normal) {
   const double length = normal.norm();
   if (!(length > 0.5 && length < 2)) return {Vector3<double>::Zero(), Vector3<double>::Zero(), Vector3<double>::Zero()};
@@ -18,7 +18,7 @@ inline ContactFrame contact_frame(const Vector3<double>& normal) {
   return {n, t, n.cross(t)};
 }
 
-/// The velocity of A relative to B at a point that an impulse there gives: K j.
+/// The change of the relative velocity of A and B at a point by an impulse there, K j.
 inline Vector3<double> mobility_along(const ImpulseBody& a, const ImpulseBody& b, const Vector3<double>& point,
                                       const Vector3<double>& impulse) {
   const Vector3<double> ra = point - a.position, rb = point - b.position;
@@ -26,4 +26,4 @@ inline Vector3<double> mobility_along(const ImpulseBody& a, const ImpulseBody& b
          (b.inverse_inertia * rb.cross(impulse)).cross(rb);
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -68,4 +68,4 @@ void EnergyGuard::limit(std::span<const ImpulseBody> bodies, std::span<ImpulseCo
   }
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

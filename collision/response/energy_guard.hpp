@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// No contact gives energy. Newton's restitution can, with friction or where contacts of an island have different ones
-// (Kane, 1984; Stronge, 1990); so can a sum of impulses that is not found to the end. Then the impulses are drawn
-// towards others that take energy, no further than needed: kinetic energy is a convex parabola along the way. Discs and
-// cones are convex, so friction stays in them.
+// Contacts must not add energy. Newton's restitution can do so, with friction or if contacts of an island have
+// different coefficients (Kane, 1984; Stronge, 1990); so can impulses from an iteration that was stopped early. The
+// impulses are then moved towards others that dissipate energy, no further than necessary: kinetic energy is a convex
+// parabola along the way. Discs and cones are convex, so friction stays within them.
 #pragma once
 
 #include <span>
@@ -12,15 +12,15 @@
 
 namespace polhode::inline collision {
 
-/// The largest s in [0, 1] at which start + s slope + s² (end − start − slope), which is `end` at 1, is at most zero;
-/// start is not above zero.
+/// The largest s in [0, 1] with start + s slope + s² (end − start − slope) <= 0, a parabola that is `end` at s = 1;
+/// start must not be positive.
 double share_without_gain(double start, double slope, double end);
 
 class EnergyGuard {
  public:
-  /// Whether the impulses of an island give energy to the bodies, which have the velocities before.
+  /// True if the impulses of some island add energy to the bodies, which have the velocities before the impulses.
   bool gains(std::span<const ImpulseBody> bodies, std::span<const ImpulseContact> contacts);
-  /// Draws the impulses of those islands towards `reference`, or towards none where that gives energy too; after
+  /// Moves the impulses of those islands towards `reference`, or towards zero if that adds energy too. Call after
   /// gains().
   void limit(std::span<const ImpulseBody> bodies, std::span<ImpulseContact> contacts,
              std::span<const Vector3<double>> reference);
@@ -28,7 +28,7 @@ class EnergyGuard {
  private:
   struct Gain {
     double energy = 0;  ///< J
-    double scale = 0;   ///< J, of what cancels in it
+    double scale = 0;   ///< J, magnitude of the terms that cancel in it
     bool rises() const { return energy > 1e-11 * scale; }
   };
 
@@ -37,4 +37,4 @@ class EnergyGuard {
   std::vector<std::uint32_t> gaining_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -9,13 +9,13 @@
 
 namespace polhode::inline collision {
 
-/// The tangential impulse of one point, two components.
+/// The two components of the tangential impulse at one point.
 template <class S>
 struct Tangential {
   S t, b;
 };
 
-/// How a point slips under a tangential impulse: s' = s + K j with K symmetric, 2 by 2.
+/// Response of the slip to a tangential impulse: s' = s + K j with K symmetric, 2 by 2.
 template <class S>
 class FrictionCone {
  public:
@@ -26,16 +26,16 @@ class FrictionCone {
     const S largest = S(0.5) * (k_tt + k_bb) + sqrt(half * half + k_tb * k_tb);
     const S determinant = k_tt * k_bb - k_tb * k_tb;
     least_ = select(largest > S(0), S(1) / largest, S(0));
-    // Of a matrix that is singular but for rounding, what its largest value alone gives.
+    // If K is singular up to rounding, its largest eigenvalue alone is used.
     const auto regular = determinant > S(1e-12) * largest * largest;
     tt_ = select(regular, k_bb / determinant, least_);
     bb_ = select(regular, k_tt / determinant, least_);
     tb_ = select(regular, -k_tb / determinant, S(0));
   }
 
-  /// A step from impulse j at slip s. Where the disc holds the impulse that stops the slip, that one. Elsewhere a step
-  /// of steepest descent, projected onto the disc: the same length in all directions, so that where it comes to rest
-  /// the impulse opposes the slip.
+  /// One step from impulse j at slip s. If the impulse that stops the slip is in the disc, the result is that impulse.
+  /// Otherwise it is a step of steepest descent, projected onto the disc; the step length is the same in all
+  /// directions, so that at a fixed point the impulse opposes the slip.
   Tangential<S> step(const Tangential<S>& j, const Tangential<S>& s, S radius) const {
     using std::sqrt;
     const Tangential<S> stop{j.t - (tt_ * s.t + tb_ * s.b), j.b - (tb_ * s.t + bb_ * s.b)};
@@ -49,7 +49,7 @@ class FrictionCone {
 
  private:
   S tt_, tb_, bb_;  ///< K⁻¹
-  S least_;         ///< the reciprocal of K's largest eigenvalue
+  S least_;         ///< 1 over the largest eigenvalue of K
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -41,4 +41,4 @@ void Islands::build(std::span<const ImpulseBody> bodies, std::span<const Impulse
   }
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Islands: contacts that moving bodies connect. What happens in one has no influence on another.
+// Islands: sets of contacts connected by moving bodies. Islands do not affect each other.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class Islands {
   void build(std::span<const ImpulseBody> bodies, std::span<const ImpulseContact> contacts);
 
   std::size_t count() const { return starts_.empty() ? 0 : starts_.size() - 1; }
-  /// The contacts of one, in their order. Contacts of two bodies that do not move are in none.
+  /// The contacts of one island, in their order. Contacts between two static bodies are in none.
   std::span<const std::uint32_t> contacts(std::size_t island) const {
     return std::span(members_).subspan(starts_[island], starts_[island + 1] - starts_[island]);
   }
@@ -26,4 +26,4 @@ class Islands {
   std::vector<std::uint32_t> parents_, numbers_, starts_, members_, island_of_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -88,4 +88,4 @@ void PositionCorrection::visit(const ContactBatches& batches, std::size_t number
   motion.store(patch, motions_.data());
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

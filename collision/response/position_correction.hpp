@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How bodies that overlap are moved apart: by displacements that know nothing of the velocities ("split impulses";
-// after the pseudo-velocities of Guendelman, Bridson & Fedkiw, "Nonconvex rigid bodies with stacking", 2003). No
-// velocity changes.
+// Moves overlapping bodies apart by displacements that are independent of the velocities ("split impulses"; after the
+// pseudo-velocities of Guendelman, Bridson & Fedkiw, "Nonconvex rigid bodies with stacking", 2003). Velocities do not
+// change.
 #pragma once
 
 #include <span>
@@ -25,20 +25,20 @@ class PositionCorrection {
 
   /// Sets shift and turn of all bodies.
   void undo(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts);
-  /// The same, with the batches of these contacts.
+  /// The same with existing batches of these contacts.
   void undo(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts, const ContactBatches& batches);
 
  private:
   bool too_deep(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts) const;
   void solve(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts, const ContactBatches& batches);
-  /// All points of a batch of patches, from the first to the last or back.
+  /// Visits all points of a batch of patches, forwards or backwards.
   template <bool back>
   void visit(const ContactBatches& batches, std::size_t number);
 
   struct Point {
-    Lanes wanted;          ///< m that the two are to move apart
+    Lanes wanted;          ///< m, distance that the two bodies are to move apart
     Lanes impulse;         ///< kg m
-    Lanes change, course;  ///< of a sweep, and conjugate
+    Lanes change, course;  ///< change by a sweep, and conjugate direction
   };
 
   PositionCorrectionSettings settings_;
@@ -48,4 +48,4 @@ class PositionCorrection {
   ConjugateCourse course_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

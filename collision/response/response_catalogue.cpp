@@ -29,4 +29,4 @@ std::vector<ResponseEntry> impulse_responses() {
   return some;
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -62,7 +62,8 @@ class SequentialImpulses final : public Response {
     if (std::any_of(contacts.begin(), contacts.end(), [](const auto& c) { return c.wanted > 0; })) {
       return {settings_.at_instant, settings_.instant_tolerance};
     }
-    // What is slower than a tenth of what a step of the forces makes of rest does not strike.
+    // A contact strikes if its speed is more than a tenth of the velocity that a step of the forces gives to bodies at
+    // rest.
     double fastest = 0, forced = 0;
     for (const ImpulseContact& c : contacts) {
       const double now = (bodies[c.a].velocity_at(c.point) - bodies[c.b].velocity_at(c.point)).dot(c.normal);
@@ -73,7 +74,7 @@ class SequentialImpulses final : public Response {
     return {strikes ? settings_.in_step : settings_.at_rest, settings_.step_tolerance};
   }
 
-  /// What a point of each patch of a batch needs, beside its geometry.
+  /// Data of a point of each patch of a batch, besides its geometry.
   struct Point {
     Lanes wanted, friction;
     Lanes mobility_tn, mobility_bn;  ///< how a normal impulse changes the slip
@@ -193,7 +194,7 @@ class SequentialImpulses final : public Response {
     }
   }
 
-  /// Of what a sweep changed.
+  /// Inner products of the change made by a sweep.
   ConjugateCourse::Products products() const {
     ConjugateCourse::Products sum;
     for (const PatchBatch& patch : batches_.patches()) {
@@ -320,4 +321,4 @@ ResponseEntry sequential_impulses() {
           [] { return make_sequential_impulses({}); }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -19,4 +19,4 @@ struct SequentialSettings {
 
 std::unique_ptr<Response> make_sequential_impulses(const SequentialSettings& settings);
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -62,7 +62,7 @@ class Simultaneous final : public Response {
       const ImpulseContact& c = contacts[members[std::size_t(i)]];
       double& e = points_[std::size_t(i)].restitution;
       if (c.wanted < 0) e = 0;
-      // What a force has added to the approach since is not reflected.
+      // The part of the approach that a force has added since is not reflected.
       if (c.approach < 0 && v[i] < c.approach) e *= c.approach / v[i];
     }
     given.setZero();
@@ -96,7 +96,7 @@ class Simultaneous final : public Response {
       v->resize(n);
   }
 
-  /// How the velocities at the contacts are, and how they answer to impulses.
+  /// Sets the velocities at the contacts and their response to impulses.
   void assemble(std::span<const ImpulseBody> bodies, std::span<const ImpulseContact> contacts,
                 std::span<const std::uint32_t> members) {
     const Index m = Index(members.size());
@@ -248,4 +248,4 @@ ResponseEntry simultaneous() {
       [] { return std::unique_ptr<Response>(new Simultaneous); }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

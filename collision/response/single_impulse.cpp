@@ -36,7 +36,7 @@ class SingleImpulse final : public Response {
 
  private:
   static constexpr int most_passes = 100;
-  /// Of the velocity with which a pair met: slower is no approach, but what rounding leaves.
+  /// Relative to the velocity of approach: a slower approach is rounding.
   static constexpr double rounding = 1e-13;
 
   struct Patch {
@@ -77,7 +77,7 @@ class SingleImpulse final : public Response {
     }
   }
 
-  /// Whether the pair approached.
+  /// Answers the impact; returns whether the pair approached.
   static bool treat(std::span<ImpulseBody> bodies, Patch& p) {
     const double v = normal_velocity(bodies, p);
     if (p.mass == 0 || !(v < std::min(p.wanted, 0.0) - rounding * p.scale)) return false;
@@ -101,4 +101,4 @@ ResponseEntry single_impulse() {
           [] { return std::unique_ptr<Response>(new SingleImpulse); }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

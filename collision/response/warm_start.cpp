@@ -51,4 +51,4 @@ void WarmStart::remember(std::span<const ImpulseBody> bodies, std::span<const Im
   }
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The forces of the step before, found again: of the same two bodies by the feature; of corners that lie on each other,
-// whose features change with every rounding, by the place. A merge of two sorted lists.
+// Finds the contact forces of the previous step again: contacts of the same two bodies by their feature; coinciding
+// corners, whose features change with every rounding, by their position. A merge of two sorted lists.
 #pragma once
 
 #include <span>
@@ -12,9 +12,9 @@ namespace polhode::inline collision {
 
 class WarmStart {
  public:
-  /// Gives each contact that there was a step ago the force that it had, as an impulse of this step; others none.
+  /// Sets the impulse of each contact that existed in the previous step from its force then; of all others to zero.
   void recall(std::span<const ImpulseBody> bodies, std::span<ImpulseContact> contacts, double step);
-  /// Remembers the impulses of contacts that rest. Those of an impact do not come again.
+  /// Stores the impulses of resting contacts. Those of impacts are not reused.
   void remember(std::span<const ImpulseBody> bodies, std::span<const ImpulseContact> contacts, double step);
   void forget() { known_.clear(); }
 
@@ -22,13 +22,13 @@ class WarmStart {
   struct Known {
     std::uint32_t a, b;
     Feature feature;
-    Vector3<double> place;  ///< m, from A's position
+    Vector3<double> place;  ///< m, relative to A's position
     Vector3<double> force;  ///< N
     bool taken = false;
   };
 
   std::vector<Known> known_;
-  std::vector<std::uint32_t> new_;  ///< contacts of a pair with features that were not there
+  std::vector<std::uint32_t> new_;  ///< contacts of a pair whose features are new
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -43,4 +43,4 @@ ShapeEntry box() {
           "I1 = m (b^2 + c^2)/12, ..."};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -15,7 +15,8 @@ class Box final : public Shape {
 
   const Vector3<double>& half_extents() const { return half_; }
 
-  /// Vertex k is at ±h: bit i of k set means + on axis i. Face 2i looks along −axis i, face 2i + 1 along +.
+  /// Vertex k is at ±h: bit i of k set means + on axis i. Face 2i has the normal −axis i, face 2i + 1 the normal +axis
+  /// i.
   const Polytope& polytope() const { return polytope_; }
 
   std::string_view kind() const override { return "box"; }
@@ -30,4 +31,4 @@ class Box final : public Shape {
   Polytope polytope_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -38,4 +38,4 @@ ShapeEntry capsule() {
           "a cylinder between two half balls, as their sum; its axis is body axis 3"};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

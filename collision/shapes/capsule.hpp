@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All points no further than r from a segment of length l on body axis 3; l = 0 is a ball.
+// All points at most r away from a segment of length l on body axis 3; a ball if l = 0.
 #pragma once
 
 #include <cmath>
@@ -26,4 +26,4 @@ class Capsule final : public Shape {
   double radius_, half_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

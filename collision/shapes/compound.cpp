@@ -120,4 +120,4 @@ ShapeEntry compound() {
           }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several convex hulls as one solid. Where they overlap, their mass counts twice.
+// Several convex hulls as one solid. Mass counts twice in regions where they overlap.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ class Compound final : public Shape {
 
   explicit Compound(std::vector<Part> parts);  ///< at least one, each in the axes of the compound
 
-  /// The pieces (lines `o` or `g`) of an OBJ mesh, coordinates in m. Refuses a piece that is not closed or not convex,
-  /// with file and line.
+  /// Builds a compound from the pieces (lines `o` or `g`) of an OBJ mesh, coordinates in m. Throws, with file and line,
+  /// for a piece that is not closed or not convex.
   static std::vector<Part> parts_of_obj(const std::string& path);
 
   const std::vector<Part>& parts() const { return parts_; }
@@ -31,4 +31,4 @@ class Compound final : public Shape {
   MassProperties mass_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -125,7 +125,7 @@ ConvexHull::ConvexHull(std::span<const Vector3<double>> points)
   }
 }
 
-// Of equals the one with the smallest number, whatever the width of a register.
+// Among equally high vertices, the one with the smallest number, for every width of registers.
 std::uint32_t ConvexHull::support_vertex(const Vector3<double>& d) const {
   if (polytope_.vertices.size() > scan_limit) return climb(d);
   const Lanes x = d[0], y = d[1], z = d[2];
@@ -177,4 +177,4 @@ ShapeEntry convex_hull() {
           }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

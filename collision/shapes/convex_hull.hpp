@@ -13,11 +13,11 @@ namespace polhode::inline collision {
 
 class ConvexHull final : public Shape {
  public:
-  /// Points in m; those inside are left out, the others keep their order. Refuses fewer than 4 points, points that are
-  /// not finite, and points that all lie in a plane, to 1e-10 of their spread.
+  /// Points in m. Points inside the hull are left out; the others keep their order. Throws for fewer than 4 points, for
+  /// points that are not finite, and for points in a plane, to 1e-10 of their extent.
   explicit ConvexHull(std::span<const Vector3<double>> points);
 
-  /// Coplanar facets are one face.
+  /// The surface of the hull; coplanar facets are one face.
   const Polytope& polytope() const { return polytope_; }
 
   std::string_view kind() const override { return "convex_hull"; }
@@ -31,8 +31,8 @@ class ConvexHull final : public Shape {
 
   Polytope polytope_;
   MassProperties mass_;
-  std::vector<Vector3<Lanes>> packs_;       ///< the vertices, lane_count at a time; the last one repeats vertex 0
-  std::array<std::uint32_t, 6> extreme_{};  ///< the vertices furthest along ± each axis, where a climb starts
+  std::vector<Vector3<Lanes>> packs_;  ///< the vertices in groups of lane_count; the last group is filled with vertex 0
+  std::array<std::uint32_t, 6> extreme_{};  ///< vertices furthest along ± each axis; hill climbing starts there
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -47,4 +47,4 @@ ShapeEntry cylinder() {
           "I1 = I2 = m (3 r^2 + l^2)/12, I3 = m r^2/2; its axis is body axis 3"};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

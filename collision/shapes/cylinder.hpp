@@ -22,4 +22,4 @@ class Cylinder final : public Shape {
   double radius_, half_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -36,4 +36,4 @@ ShapeEntry ellipsoid() {
           "I1 = m (b^2 + c^2)/5, ..."};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

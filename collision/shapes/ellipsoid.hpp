@@ -21,4 +21,4 @@ class Ellipsoid final : public Shape {
   Vector3<double> semi_axes_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

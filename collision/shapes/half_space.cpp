@@ -62,4 +62,4 @@ ShapeEntry half_space() {
           }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -8,8 +8,8 @@ namespace polhode::inline collision {
 
 class HalfSpace final : public Shape {
  public:
-  /// n, out of the solid and of any length but 0, and c, body axes; the plane is c/|n| m from the origin along n.
-  /// Throws std::invalid_argument where that is no place.
+  /// normal: n, outward, of any length but 0; offset: c, body axes; the plane is c/|n| (m) from the origin along n.
+  /// Throws std::invalid_argument if that distance is not finite.
   explicit HalfSpace(const Vector3<double>& normal, double offset = 0);
 
   const Vector3<double>& normal() const { return normal_; }  ///< unit
@@ -26,4 +26,4 @@ class HalfSpace final : public Shape {
   double offset_ = 0;
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

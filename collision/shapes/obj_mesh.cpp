@@ -52,7 +52,7 @@ class Reader {
       if (key == "v") vertex(words);
       else if (key == "f") face(words);
       else if (key == "o" || key == "g") piece(words);
-      // What concerns looks only (vt, vn, s, usemtl, mtllib, …) has no part in the solid.
+      // Lines about appearance (vt, vn, s, usemtl, mtllib, …) are ignored.
     }
     if (mesh_.vertices.empty()) throw std::invalid_argument(path_ + ": has no vertices (lines `v x y z`)");
     std::erase_if(mesh_.pieces, [](const ObjMesh::Piece& p) { return p.faces.empty(); });
@@ -110,4 +110,4 @@ class Reader {
 
 ObjMesh read_obj_mesh(const std::string& path) { return Reader(path).read(); }
 
-}  // namespace polhode
+}  // namespace polhode::collision

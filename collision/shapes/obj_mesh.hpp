@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The polygon mesh of a Wavefront OBJ file, in its pieces: the lines v, f, o and g. Every fault is named with its line,
-// which readers that are made to forgive do not do.
+// The polygon mesh of a Wavefront OBJ file by pieces: lines v, f, o and g. Errors name their line, which lenient OBJ
+// readers do not do.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,19 @@ namespace polhode::inline collision {
 
 struct ObjMesh {
   struct Face {
-    std::vector<std::uint32_t> loop;  ///< of vertices, counter-clockwise seen from outside
-    int line = 0;                     ///< of the file
+    std::vector<std::uint32_t> loop;  ///< vertex numbers, counter-clockwise seen from outside
+    int line = 0;                     ///< line in the file
   };
   struct Piece {
-    std::string name;  ///< of the object or group; may be empty
+    std::string name;  ///< name of the object or group; may be empty
     int line = 0;
     std::vector<Face> faces;
   };
   std::vector<Vector3<double>> vertices;  ///< m
-  std::vector<Piece> pieces;              ///< those with faces
+  std::vector<Piece> pieces;              ///< the pieces that have faces
 };
 
-/// Throws std::invalid_argument, "table.obj:12: …".
+/// Reads a mesh. Throws std::invalid_argument: "table.obj:12: …".
 ObjMesh read_obj_mesh(const std::string& path);
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -116,4 +116,4 @@ MassProperties polyhedron_mass(const Polytope& polytope) {
   return {T0 * volume_unit, middle + unit * r, inertia * (volume_unit * unit * unit)};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

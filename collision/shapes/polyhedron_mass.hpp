@@ -10,4 +10,4 @@ namespace polhode::inline collision {
 
 MassProperties polyhedron_mass(const Polytope& polytope);
 
-}  // namespace polhode
+}  // namespace polhode::collision

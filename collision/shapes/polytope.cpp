@@ -78,4 +78,4 @@ Polytope make_polytope(std::vector<Vector3<double>> vertices, const std::vector<
   return p;
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

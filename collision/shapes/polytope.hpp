@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The surface of a convex polytope: vertices, faces as polygons, edges with their two faces, and who is next to whom.
+// The surface of a convex polytope: vertices, polygonal faces, edges with their two faces, and adjacency.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,10 @@ struct Polytope {
   struct Face {
     Vector3<double> normal = Vector3<double>::Zero();  ///< unit, outward
     double offset = 0;                                 ///< m: normal·x ≤ offset for all points of the polytope
-    std::uint32_t first = 0, count = 0;                ///< its corners in `corners`
+    std::uint32_t first = 0, count = 0;                ///< its corners in `corners`: the first, and how many
   };
-  /// Seen from outside, `left` goes round from `from` to `to`, and `right` back; from < to.
+  /// An edge; from < to. Seen from outside, face `left` passes it from `from` to `to`, face `right` in the opposite
+  /// direction.
   struct Edge {
     std::uint32_t from = 0, to = 0, left = 0, right = 0;
   };
@@ -27,13 +28,13 @@ struct Polytope {
 
   std::vector<Vector3<double>> vertices;
   std::vector<Face> faces;
-  std::vector<Corner> corners;  ///< of all faces, one face after the other, counter-clockwise seen from outside
-  std::vector<Edge> edges;      ///< sorted by from, to
+  std::vector<Corner> corners;  ///< corners of all faces, face after face, counter-clockwise seen from outside
+  std::vector<Edge> edges;      ///< sorted by from, then to
 
   std::span<const Corner> corners_of(std::uint32_t face) const {
     return {&corners[faces[face].first], faces[face].count};
   }
-  /// Vertices joined to a vertex by an edge, and the faces around it, each sorted.
+  /// For each vertex: the vertices at the other ends of its edges, and its faces, both sorted.
   std::span<const std::uint32_t> neighbours_of(std::uint32_t vertex) const { return row(neighbours_, vertex); }
   std::span<const std::uint32_t> faces_of(std::uint32_t vertex) const { return row(vertex_faces_, vertex); }
 
@@ -48,8 +49,8 @@ struct Polytope {
   Rows neighbours_, vertex_faces_;
 };
 
-/// From faces as loops of vertex numbers, counter-clockwise seen from outside. Throws std::invalid_argument unless
-/// every edge has exactly two faces, which pass it in opposite directions.
+/// Builds the surface from faces as loops of vertex numbers, counter-clockwise seen from outside. Throws
+/// std::invalid_argument unless every edge has exactly two faces that pass it in opposite directions.
 Polytope make_polytope(std::vector<Vector3<double>> vertices, const std::vector<std::vector<std::uint32_t>>& loops);
 
-}  // namespace polhode
+}  // namespace polhode::collision

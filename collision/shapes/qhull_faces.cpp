@@ -69,4 +69,4 @@ std::vector<std::vector<std::uint32_t>> qhull_faces(std::span<const Vector3<doub
   return loops;
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The facets of the convex hull of points, as qhull finds them.
+// The facets of the convex hull of points, computed by qhull.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace polhode::inline collision {
 
-/// Loops of point numbers, counter-clockwise seen from outside. Coplanar facets are one loop, or with `triangulated`
-/// several triangles. Throws std::invalid_argument where qhull gives up.
+/// Facets as loops of point numbers, counter-clockwise seen from outside. Coplanar facets are merged into one loop, or
+/// with `triangulated` split into triangles. Throws std::invalid_argument if qhull fails.
 std::vector<std::vector<std::uint32_t>> qhull_faces(std::span<const Vector3<double>> points, bool triangulated);
 
-}  // namespace polhode
+}  // namespace polhode::collision

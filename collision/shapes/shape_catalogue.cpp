@@ -35,4 +35,4 @@ Parameter lengths_parameter(const char* key, const char* meaning) {
   return {key, Vector3<double>(0, 0, 0), "m", meaning, Parameter::Need::required, Parameter::Range::positive};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

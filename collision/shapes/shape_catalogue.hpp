@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The catalogue of shapes: a name, its sizes, and how it is built from them.
+// The catalogue of shapes: name, sizes, and how to build a shape from its sizes.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace polhode::inline collision {
 
-/// The values of a shape's sizes, every key of its entry present.
+/// The sizes of a shape; every key of its entry is present.
 struct ShapeParameters {
   std::map<std::string, ParameterValue> values;
 
@@ -21,11 +21,12 @@ struct ShapeParameters {
   const std::string& text(const std::string& key) const { return std::get<std::string>(values.at(key)); }
 };
 
+/// A shape as a scenario names it: shape = { kind = "box", size = [0.1, 0.4, 0.9] }.
 struct ShapeEntry {
   std::string name;
-  std::string summary;                ///< one line: which points it holds
-  std::vector<Parameter> parameters;  ///< as a scenario gives them
-  /// Throws std::invalid_argument with the reason.
+  std::string summary;                ///< one line: the points that the shape consists of
+  std::vector<Parameter> parameters;  ///< sizes as a scenario gives them
+  /// Builds the shape. Throws std::invalid_argument with the reason.
   ShapePointer (*make)(const ShapeParameters&);
 
   /// Principal moments (kg m²) about the mass centre from the mass (kg), also for sizes that `make` refuses. Null: the
@@ -42,4 +43,4 @@ Parameter length_parameter(const char* key, const char* meaning, Parameter::Rang
 /// Three positive lengths (m) that a scenario must give.
 Parameter lengths_parameter(const char* key, const char* meaning);
 
-}  // namespace polhode
+}  // namespace polhode::collision

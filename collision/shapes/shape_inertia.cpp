@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The catalogue of shapes. Each formula is the integral of the slides' sums over a body of even density.
+// Each formula is the integral of the slides' sums over a body of even density.
 #include "collision/shapes/shape_inertia.hpp"
 
 namespace polhode::inline collision {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inertia of simple shapes about their mass centre, kg m², in their own axes, from mass (kg) and sizes (m).
+// Moments of inertia of simple shapes (kg m²) about their mass centre, in their own axes, from mass (kg) and sizes (m).
 #pragma once
 
 #include "core/math/linear_algebra.hpp"

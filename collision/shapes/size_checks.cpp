@@ -51,4 +51,4 @@ MassProperties centered_mass(double volume, const Vector3<double>& moments) {
   return {volume, Vector3<double>::Zero(), moments.asDiagonal()};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every shape asks of its sizes when it is built, with the reason where it refuses.
+// Checks of the sizes of shapes, with the reason if a size is refused.
 #pragma once
 
 #include <string>
@@ -8,18 +8,19 @@
 
 namespace polhode::inline collision {
 
-/// The sizes that are taken, m: products of five of them, and more, stay far from what double cannot hold.
+/// The accepted range of sizes (m). Products of five and more of them stay far from overflow and underflow.
 inline constexpr double smallest_size = 1e-50, largest_size = 1e50;
 
-/// Throws std::invalid_argument, "a sphere needs a positive, finite radius in m, not -1", unless it is so.
+/// Returns the value. Throws std::invalid_argument if it is not positive (non-negative, below) and in the range: "a
+/// sphere needs a positive, finite radius in m, not -1".
 double positive_size(const char* shape, const char* size, double value);
 double non_negative_size(const char* shape, const char* size, double value);
 Vector3<double> positive_sizes(const char* shape, const char* sizes, const Vector3<double>& values);
 
-/// The mass properties of a body with its mass centre at the origin and its principal axes along the axes.
+/// Mass properties of a body with its mass centre at the origin and its principal axes along the coordinate axes.
 MassProperties centered_mass(double volume, const Vector3<double>& moments);
 
-/// A number in words, all its digits.
+/// A number as text, with all its digits.
 std::string in_words(double value);
 
-}  // namespace polhode
+}  // namespace polhode::collision

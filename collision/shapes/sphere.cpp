@@ -30,4 +30,4 @@ ShapeEntry sphere() {
           "I = 2 m r^2/5"};
 }
 
-}  // namespace polhode
+}  // namespace polhode::collision

@@ -21,4 +21,4 @@ class Sphere final : public Shape {
   double radius_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::collision

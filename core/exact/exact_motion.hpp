@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The exact motion of a problem, where there is one: of each body the rotation (core/exact/exact_rotation.hpp) and the
-// path of the mass centre (core/exact/exact_path.hpp), each on its own, since they decouple in all motions that are
-// known here.
+// The exact motion of a problem, if one is known: for each body the rotation (core/exact/exact_rotation.hpp) and the
+// path of the mass centre (core/exact/exact_path.hpp), separately, since they decouple in all motions known here.
 #pragma once
 
 #include <optional>
@@ -15,13 +14,14 @@ namespace polhode {
 
 class ExactMotion {
  public:
-  /// Looks at what the forces of the system can do; the motion is that of the full equations, with the gyroscopic term.
+  /// Recognises the motion from the effects of the forces of the system. It is the motion of the full equations, with
+  /// the gyroscopic term.
   explicit ExactMotion(const System<double>& system);
 
   bool has_attitude() const { return has_attitude_; }                  ///< for every moving body
   bool has_angular_velocity() const { return has_angular_velocity_; }  ///< for every moving body
   bool has_position() const { return has_position_; }  ///< for every moving body that is not pinned, if there is one
-  /// Attitude and position of every moving body.
+  /// Attitude and position are known for every moving body.
   bool is_complete() const { return has_attitude_ && (has_position_ || !any_path_); }
   bool has_anything() const { return has_attitude_ || has_angular_velocity_ || has_position_; }
 
@@ -29,7 +29,7 @@ class ExactMotion {
     std::optional<PathAt> path;
     std::optional<RotationAt> rotation;
   };
-  /// What is known of a moving body at t (s), also where it is not known of every body.
+  /// The known parts of the motion of one body at t (s), also if they are not known for every body.
   BodyAt at(double t, std::size_t body) const;
 
   struct Error {
@@ -47,10 +47,10 @@ class ExactMotion {
   double speed_scale_ = 1;  ///< rad/s
 };
 
-/// Which of a problem's momenta its forces conserve.
+/// The momenta that the forces of a problem conserve.
 struct ConservedMomenta {
   bool linear = false;
-  bool angular = false;  ///< of one body about its reference point, of several about the world's origin
+  bool angular = false;  ///< of one body about its reference point; of several about the world's origin
 };
 ConservedMomenta conserved_momenta(const System<double>& system);
 

@@ -13,11 +13,11 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// The forces on a mass centre: the sum of the constant ones, N, and those that vary.
+/// The forces on a mass centre: the sum of the constant forces (N) and the list of the varying forces.
 struct Forces {
   Vector constant = Vector::Zero();
   std::vector<const ForceParameters*> varying;
-  bool all_known = true;  ///< none that varies comes from outside the problem
+  bool all_known = true;  ///< false: some varying force was added with add_force()
 
   Forces(const System<double>& system, std::size_t body) {
     for (std::size_t k = 0; k < system.forces().size(); ++k) {
@@ -29,7 +29,8 @@ struct Forces {
   }
 };
 
-/// The point of the world, m, to which this two-ended force holds the mass centre of the body; absent if it is not so.
+/// Fixed end point (world axes, m) of a two-ended force whose other end is the mass centre of the body. Absent if the
+/// force has no such ends.
 std::optional<Vector> fixed_end(const Problem& problem, const ForceParameters& f, std::size_t body) {
   if (f.bodies[0] != body || !f.vector("anchor_body").isZero(0)) return std::nullopt;
   if (f.bodies.size() == 1) return f.vector("anchor_world");

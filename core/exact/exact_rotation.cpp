@@ -19,13 +19,13 @@ bool parallel(const Vector3<double>& a, const Vector3<double>& unit) {
   return a.cross(unit).norm() <= round_off * a.norm();
 }
 
-/// A body at its start, and the forces of the problem that exert a torque on it.
+/// A body in its initial state and the forces of the problem that exert a torque on it.
 struct Torques {
   const Body& body;
   Quaternion<double> orientation;
   Vector3<double> omega_body;
   std::vector<const ForceParameters*> forces;
-  bool all_known = true;  ///< none comes from outside the problem
+  bool all_known = true;  ///< false: some such force was added with add_force()
 
   Torques(const System<double>& system, std::size_t i) : body(system.problem().bodies[i]) {
     const Problem& problem = system.problem();

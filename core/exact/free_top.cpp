@@ -12,14 +12,15 @@ namespace polhode {
 
 namespace {
 
-// An unevaluated sum hi + lo, about 32 digits: near the separatrix Δ_B is a small difference, and in doubles the
-// distance from the separatrix, hence the period, would be lost (Dekker, Numerische Mathematik 18 (1971) 224–242).
+// Double-double number: the unevaluated sum hi + lo, about 32 digits. Near the separatrix Δ_B is a small difference of
+// large terms. In double the distance from the separatrix, and with it the period, would be lost to round-off.
+// Source: Dekker, Numerische Mathematik 18 (1971) 224–242.
 struct DoubleDouble {
   double hi = 0, lo = 0;
 
   DoubleDouble() = default;
   DoubleDouble(double x) : hi(x) {}
-  DoubleDouble(double high, double low) : hi(high + low), lo(low - (hi - high)) {}  // |high| ≥ |low|
+  DoubleDouble(double high, double low) : hi(high + low), lo(low - (hi - high)) {}  // requires |high| ≥ |low|
 };
 
 DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
@@ -51,11 +52,11 @@ Vector3<double> rounded(const DoubleDouble3& v) { return {v[0].hi, v[1].hi, v[2]
 
 struct PrincipalAxes {
   DoubleDouble3 moment;
-  std::array<DoubleDouble3, 3> axis;  // axis[j]: of moment[j], in the body
-  bool given = true;                  // the matrix was diagonal
+  std::array<DoubleDouble3, 3> axis;  // axis[j] belongs to moment[j], body axes
+  bool given = true;                  // true: the inertia matrix is diagonal
 };
 
-// Jacobi's rotations, cyclically (Golub and Van Loan, Matrix Computations, section 8.5).
+// Principal axes by the cyclic Jacobi method (Golub and Van Loan, Matrix Computations, section 8.5).
 PrincipalAxes principal_axes(const Matrix3<double>& inertia) {
   std::array<DoubleDouble3, 3> a;
   PrincipalAxes found;
@@ -68,13 +69,13 @@ PrincipalAxes principal_axes(const Matrix3<double>& inertia) {
   }
   const double negligible = 1e-33 * inertia.trace();
   bool turned = true;
-  for (int sweep = 0; sweep < 20 && turned; ++sweep) {  // the convergence is quadratic: five or six do
+  for (int sweep = 0; sweep < 20 && turned; ++sweep) {  // quadratic convergence: five or six suffice
     turned = false;
     for (const auto [p, q, r] : {std::array<std::size_t, 3>{0, 1, 2}, {0, 2, 1}, {1, 2, 0}}) {
       if (std::abs(a[p][q].hi) <= negligible) continue;
       turned = true;
       found.given = false;
-      const DoubleDouble cot = (a[q][q] - a[p][p]) / (a[p][q] * 2.0);  // of twice the angle
+      const DoubleDouble cot = (a[q][q] - a[p][p]) / (a[p][q] * 2.0);  // cotangent of twice the angle
       const double sign = cot.hi < 0 ? -1 : 1;
       const DoubleDouble tangent = DoubleDouble(sign) / (cot * sign + sqrt(cot * cot + 1.0));
       const DoubleDouble cosine = DoubleDouble(1) / sqrt(tangent * tangent + 1.0), sine = tangent * cosine;
@@ -97,17 +98,18 @@ PrincipalAxes principal_axes(const Matrix3<double>& inertia) {
   return found;
 }
 
-// The top at t = 0 in its principal axes, moments in ascending order, scaled by powers of two to be near 1: the motion
-// depends on ratios of moments only, and the angular velocity sets the unit of time.
+// The top at t = 0 in principal axes, with the moments in ascending order. Moments and angular velocity are scaled by
+// powers of two to be near 1. The motion depends only on ratios of moments, and the angular velocity sets the time
+// unit.
 struct PrincipalTop {
   DoubleDouble3 moment, omega;
-  std::array<Vector3<double>, 3> axis;  // of each moment, in the body
-  DoubleDouble i21, i32, i31;           // differences of moments, none negative
-  int time_scale;                       // 1 s is 2^time_scale units of time
+  std::array<Vector3<double>, 3> axis;  // principal axis of each moment, body axes
+  DoubleDouble i21, i32, i31;           // differences of moments, all ≥ 0
+  int time_scale;                       // 1 s = 2^time_scale time units
 
   PrincipalTop(const Matrix3<double>& inertia, const Vector3<double>& angular_velocity);
 
-  // Euler's equations give ω̇ = 0.
+  // True if ω̇ = 0 in Euler's equations.
   bool steady() const {
     const auto zero = [&](DoubleDouble d, std::size_t j, std::size_t k) {
       return d.hi == 0 || omega[j].hi == 0 || omega[k].hi == 0;
@@ -124,7 +126,8 @@ PrincipalTop::PrincipalTop(const Matrix3<double>& inertia, const Vector3<double>
   const double negligible_omega = found.given ? 1e-120 : 1e-30, negligible_difference = found.given ? 0 : 1e-30;
 
   std::array<std::size_t, 3> order{0, 1, 2};
-  std::sort(order.begin(), order.end(), [&](std::size_t j, std::size_t k) {  // stable, and without memory of its own
+  // Equal moments keep their order. std::stable_sort would allocate memory.
+  std::sort(order.begin(), order.end(), [&](std::size_t j, std::size_t k) {
     const double ahead = (found.moment[k] - found.moment[j]).hi;
     return ahead > 0 || (ahead == 0 && j < k);
   });
@@ -175,12 +178,12 @@ FreeTop::FreeTop(const Matrix3<double>& inertia_body, const Quaternion<double>& 
     return;
   }
 
-  // |Δ1|, |Δ3| and Δ2 by differences of moments: only that between the last two can cancel
+  // |Δ1|, |Δ3| and Δ2 from differences of moments. Cancellation is possible only in towards3 − towards1.
   const double delta1 = (i2 * top.i21 * w2 * w2 + i3 * top.i31 * w3 * w3).hi;
   const double delta3 = (i1 * top.i31 * w1 * w1 + i2 * top.i32 * w2 * w2).hi;
   const DoubleDouble towards3 = i3 * top.i32 * w3 * w3, towards1 = i1 * top.i21 * w1 * w1;
   double delta2 = (towards3 - towards1).hi;
-  if (std::abs(delta2) < 1e-30 * (towards3.hi + towards1.hi)) delta2 = 0;  // the digits end here
+  if (std::abs(delta2) < 1e-30 * (towards3.hi + towards1.hi)) delta2 = 0;  // below the accuracy of double-double
 
   const bool about_smallest = delta2 <= 0;
   regime_ = sphere           ? "sphere"
@@ -198,7 +201,7 @@ FreeTop::FreeTop(const Matrix3<double>& inertia_body, const Quaternion<double>& 
   axes_.col(1) = top.axis[1];
   axes_.col(2) = axes_.col(0).cross(axes_.col(1));
   double omega_b = w2.hi, omega_c = axes_.col(2).dot(top.axis[other]) < 0 ? -top.omega[other].hi : top.omega[other].hi;
-  if (omega_c < 0) {  // half a turn about A, since on the separatrix y_C = Y_C sech u is never negative
+  if (omega_c < 0) {  // rotate by π about A: on the separatrix y_C = Y_C sech u ≥ 0
     axes_.rightCols<2>() *= -1;
     omega_b = -omega_b;
     omega_c = -omega_c;
@@ -213,7 +216,7 @@ FreeTop::FreeTop(const Matrix3<double>& inertia_body, const Quaternion<double>& 
   const double lambda = std::copysign(std::sqrt(delta_c * ba / (a * b * c)), about_smallest ? 1 : -1);
   jacobi_ = JacobiElliptic(m_c);
   theta_ = ThetaDirection(m, m_c, m == 0 ? 0 : elliptic_f(std::sqrt(c * ba), std::sqrt(a * cb), m));
-  // ψ̇ at u = 0 less the part of θ
+  // ψ̇ at u = 0 minus the contribution of θ
   const double precession =
       (twice_energy + momentum * y_a / a) / (momentum + y_a) - 2 * lambda * theta_.slope_at_zero();
 

@@ -37,9 +37,10 @@ class FreeTop {
   using Motion = TopAt;
 
   /// The motion at t (s, of either sign), to a few units of round-off times 1 + (|ω| + |λ|) |t|. Costs about 0.15 µs.
+  /// The orientation is continuous in t, also in its sign.
   Motion at(double t) const;
 
-  /// Its angular velocity alone, for less than half of that.
+  /// The angular velocity alone, in less than half of that time.
   Vector3<double> angular_velocity_body(double t) const {
     if (steady_) return angular_velocity_;
     return axes_ * momentum_direction(phase_ + phase_rate_ * t).cwiseProduct(rate_per_momentum_);
@@ -49,8 +50,7 @@ class FreeTop {
   /// "about the smallest axis", "about the largest axis": where the momentum goes round in the body.
   std::string_view regime() const { return regime_; }
 
-  /// s, after which the angular velocity in the body is the same again: 0 where it is constant, infinite on the
-  /// separatrix.
+  /// Period (s) of the angular velocity in the body: 0 if it is constant, +inf on the separatrix.
   double period() const { return steady_ ? 0 : 4 * jacobi_.quarter_period() / std::abs(phase_rate_); }
 
  private:
@@ -60,10 +60,10 @@ class FreeTop {
   std::string_view regime_;
   Quaternion<double> left_;
   bool steady_ = false;
-  // where ω is constant
+  // Used if ω is constant.
   Vector3<double> angular_velocity_, axis_;
   double speed_ = 0;  // rad/s
-  // where it is not
+  // Used if ω varies.
   Quaternion<double> body_to_frame_;
   Matrix3<double> axes_;                // columns: the axes A, B, C in the body
   Vector3<double> momentum_amplitude_;  // Y/G

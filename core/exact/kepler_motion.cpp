@@ -27,12 +27,13 @@ Vector3<long double> rounded(const Precise3& a) {
   return {static_cast<long double>(a[0]), static_cast<long double>(a[1]), static_cast<long double>(a[2])};
 }
 
+/// Values of the universal functions U0 to U3.
 template <class T>
 struct Universal {
   T u0, u1, u2, u3;
 };
 
-/// U0 to U3; by their series while |βs²| < 1.
+/// The universal functions U0 to U3 of s. For |βs²| < 1 they are computed by their power series.
 template <class T>
 Universal<T> universal(const T& beta, const T& s) {
   using std::abs, std::cos, std::cosh, std::sin, std::sinh, std::sqrt;
@@ -69,7 +70,7 @@ KeplerMotion::KeplerMotion(double mu, const Vector3<double>& position, const Vec
   const Precise eccentricity = sqrt(dot(e, e)), l2 = dot(l, l), q = l2 / (mu * (1 + eccentricity));
   const bool circle = eccentricity < Precise("1e-60");
 
-  Precise s = 0;  // at t = 0, from s: U1 = η/μe and U2 = (r − q)/μe
+  Precise s = 0;  // s at t = 0, from U1 = η/μe and U2 = (r − q)/μe
   if (!circle) {
     const Precise u1 = eta / (mu * eccentricity), u2 = (distance - q) / (mu * eccentricity);
     if (abs(beta) * u1 * u1 < 1e-6 && abs(beta) * u2 < 1) {
@@ -105,7 +106,8 @@ double KeplerMotion::period() const {
 KeplerMotion::Real KeplerMotion::solve(Real since) const {
   const Real t = std::abs(since);
   if (t == 0) return 0;
-  // U3 ≥ 0.6 s³/6 up to half a revolution; hyperbolas: N = (e sinh H − H) μ/√|β|³ ≥ (sinh H)/3 where H > 2
+  // Upper bound of s. Ellipses: U3 ≥ 0.6 s³/6 up to half a revolution. Hyperbolas: N = (e sinh H − H) μ/√|β|³ ≥
+  // (sinh H)/3 for H > 2.
   Real most = std::cbrt(10 * t / mu_);
   if (beta_ > 0) most = std::min(most, std::numbers::pi_v<Real> / std::sqrt(beta_) * (1 + Real(1e-15)));
   if (beta_ < 0) {
@@ -116,7 +118,7 @@ KeplerMotion::Real KeplerMotion::solve(Real since) const {
     const Universal<Real> u = universal(beta_, s);
     return std::make_tuple(q_ * u.u1 + mu_ * u.u3 - t, q_ * u.u0 + mu_ * u.u2);
   };
-  // from the cubic of the parabola, t = q s + μ s³/6
+  // Initial guess from the cubic equation of the parabola, t = q s + μ s³/6.
   const Real guess = std::min(most, q_ > 0 ? std::min(t / q_, std::cbrt(6 * t / mu_)) : std::cbrt(6 * t / mu_));
   std::uintmax_t iterations = 200;
   const Real s = boost::math::tools::newton_raphson_iterate(equation, guess, Real(0), most,

@@ -16,8 +16,8 @@ namespace polhode {
 /// 0) the bodies bounce off each other, which is the limit of ever thinner ellipses or hyperbolas.
 class KeplerMotion {
  public:
-  /// μ in m³/s², positive; position (m, not zero) and velocity (m/s) of one body relative to the other at t = 0.
-  /// The numbers are taken as exact; costs about 0.2 ms. Throws std::invalid_argument.
+  /// mu: m³/s², positive; position (m, not zero) and velocity (m/s) of one body relative to the other at t = 0. The
+  /// numbers are taken as exact. Costs about 0.2 ms. Throws std::invalid_argument.
   KeplerMotion(double mu, const Vector3<double>& position, const Vector3<double>& velocity);
 
   using Motion = PathAt;

@@ -17,7 +17,7 @@ using Precise3 = std::array<Precise, 3>;
 using Precise4 = std::array<Precise, 4>;
 using Complex = std::complex<double>;
 
-/// Below this, what is left of a difference of roots is rounding of the 100 digits.
+/// Threshold below which a difference of roots is round-off of the 100 digits.
 const Precise nothing("1e-44");
 
 double positive(const Precise& x) { return x > nothing ? static_cast<double>(x) : 0.0; }
@@ -39,7 +39,8 @@ Precise3 direction(const Vector3<double>& v) {
   const Precise length = norm(v);
   return {v[0] / length, v[1] / length, v[2] / length};
 }
-/// The rotation that takes e3 to v; half a turn about e1 and the least one after it where v points down.
+/// Rotation that maps e3 to the unit vector v. If v points down, it is a rotation by π about e1 followed by the
+/// smallest rotation to v.
 Precise4 from_third_axis(const Precise3& v) {
   if (v[2] >= 0) return unit({1 + v[2], -v[1], v[0], 0});
   return product(unit({1 - v[2], v[1], -v[0], 0}), {0, 1, 0, 0});
@@ -70,7 +71,8 @@ bool symmetric_about(const Matrix3<double>& inertia, const Vector3<double>& axis
   return (inertia - ideal).cwiseAbs().maxCoeff() <= 8 * std::numeric_limits<double>::epsilon() * inertia.trace();
 }
 
-/// The axis of a planar swing, in the body: of the angular velocity or, at rest, of the torque. Zero: there is none.
+/// Unit axis of a planar swing, body axes: parallel to the angular velocity or, at rest, to the torque. Zero if the
+/// motion is not a planar swing.
 Vector3<double> swing_axis(const Matrix3<double>& inertia, const Vector3<double>& center,
                            const Vector3<double>& gravity, const Quaternion<double>& orientation,
                            const Vector3<double>& omega) {
@@ -124,11 +126,11 @@ LagrangeTop::LagrangeTop(double mass, const Matrix3<double>& inertia_body, const
   const Precise u = (above - below) / 2;
   const Precise a = i3 * w3 / i1, beta = 2 * mass * norm(gravity) * norm(center_of_mass) / i1;
   const Precise b = w1 * g1 + w2 * g2 + a * u, alpha = w1 * w1 + w2 * w2 + beta * u;
-  const Precise rising = g1 * w2 - g2 * w1;  // u̇
+  const Precise rising = g1 * w2 - g2 * w1;  // rate u̇
 
   const Precise u_alpha = alpha / beta;
   Precise3 roots = cubic_roots(u_alpha + a * a / beta, 2 * a * b / beta - 1, u_alpha - b * b / beta);
-  const bool at_rest = w1 == 0 && w2 == 0 && g1 == 0 && g2 == 0;  // upright or hanging, and spinning
+  const bool at_rest = w1 == 0 && w2 == 0 && g1 == 0 && g2 == 0;  // a spinning top that is upright or hanging
   if (at_rest || roots[1] - roots[0] <= nothing) roots[0] = roots[1] = u;
   const auto& [u1, u2, u3] = roots;
   const Precise range = u2 - u1;
@@ -136,7 +138,7 @@ LagrangeTop::LagrangeTop(double mass, const Matrix3<double>& inertia_body, const
   const double m = positive(range / (u3 - u1)), m_c = steady ? 1 : positive((u3 - u2) / (u3 - u1));
   lowest_ = static_cast<double>(u1);
   highest_ = static_cast<double>(u2);
-  double to_highest = 0;  // λt + δ − K at t = 0, or + K
+  double to_highest = 0;  // λt + δ − K or λt + δ + K at t = 0
   if (!steady) {
     phase_rate_ = static_cast<double>(sqrt(beta * (u3 - u1))) / 2;
     jacobi_ = JacobiElliptic(m_c);
@@ -145,7 +147,8 @@ LagrangeTop::LagrangeTop(double mass, const Matrix3<double>& inertia_body, const
     to_highest = -sign * elliptic_f(cosine, std::sqrt(m_c) * sine, m_c);
   }
 
-  // |z|² from least to least + gain, the angle of ż/z where |z| is largest, κ with the sign of the turn near the zero.
+  // Builds the complex amplitude z(t). |z|² varies from `least` to `least` + `gain`. `rate` is the angular rate of z
+  // (rad/s) at the largest |z|. The sign of `kappa` is the sense of rotation near the zero.
   const auto make = [&](const Precise& least, const Precise& gain, const Precise& rate, const Precise& kappa,
                         double beta_of_zero, double phase, Complex z, Complex z_dot) {
     Amplitude f;

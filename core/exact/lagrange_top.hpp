@@ -33,7 +33,7 @@ class LagrangeTop {
               const Vector3<double>& gravity, const Quaternion<double>& orientation,
               const Vector3<double>& angular_velocity_body);
 
-  /// True if this body is such a top to round-off, or swings in a plane.
+  /// True if the body is such a top to round-off, or swings in a plane.
   static bool applies(const Matrix3<double>& inertia_body, const Vector3<double>& center_of_mass,
                       const Vector3<double>& gravity, const Quaternion<double>& orientation,
                       const Vector3<double>& angular_velocity_body);
@@ -41,9 +41,10 @@ class LagrangeTop {
   using Motion = TopAt;
 
   /// The motion at t (s, of either sign), to a few units of round-off times 1 + (|ω| + λ) |t|. Costs about 0.2 µs.
+  /// The orientation has length 1 and is continuous in t.
   Motion at(double t) const;
 
-  /// The nutation: cos θ goes between these.
+  /// Range of cos θ, the nutation.
   double lowest_cosine() const { return lowest_; }
   double highest_cosine() const { return highest_; }
 

@@ -13,7 +13,7 @@ LinearMotion::LinearMotion(double stiffness, double damping)
 LinearMotion::Response LinearMotion::at(double t) const {
   const double speed = std::sqrt(std::abs(gap_)), angle = speed * t;
   if ((std::sqrt(stiffness_) + half_damping_) * std::abs(t) < 1) {
-    // by_acceleration as a power series: (n + 1)(n + 2) c_(n+2) = −2γ (n + 1) c_(n+1) − ω² c_n, in powers of t
+    // Power series of by_acceleration in t: (n + 1)(n + 2) c_(n+2) = −2γ (n + 1) c_(n+1) − ω² c_n.
     double before = 0, now = t * t / 2;  // terms n + 1 and n + 2
     Response r{t, now, 1};
     for (int n = 1; n < 30; ++n) {
@@ -27,7 +27,7 @@ LinearMotion::Response LinearMotion::at(double t) const {
     return t == 0 ? Response{0, 0, 1} : r;
   }
   if (gap_ < 0 && angle > 0.5) {
-    // two decays apart, the slower one by the product of the roots
+    // Overdamped: two decay rates. The slower one follows from the product of the roots, without cancellation.
     const double fast = half_damping_ + speed, slow = stiffness_ / fast, apart = 2 * speed;
     const auto part = [t](double rate) { return rate == 0 ? t : -std::expm1(-rate * t) / rate; };
     return {(std::exp(-slow * t) - std::exp(-fast * t)) / apart, (part(slow) - part(fast)) / apart,
@@ -35,7 +35,7 @@ LinearMotion::Response LinearMotion::at(double t) const {
   }
   const double decay = std::exp(-half_damping_ * t);
   const double cosine = gap_ < 0 ? std::cosh(angle) : std::cos(angle);
-  const double sine = angle == 0 ? t : (gap_ < 0 ? std::sinh(angle) : std::sin(angle)) / speed;  // over ν
+  const double sine = angle == 0 ? t : (gap_ < 0 ? std::sinh(angle) : std::sin(angle)) / speed;  // divided by ν
   if (half_damping_ == 0) {
     const double half_sine = std::sin(angle / 2);
     return {sine, 2 * half_sine * half_sine / stiffness_, cosine};

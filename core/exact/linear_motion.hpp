@@ -8,17 +8,18 @@ namespace polhode {
 
 class LinearMotion {
  public:
-  /// ω² in 1/s², 2γ in 1/s, neither negative.
+  /// stiffness: ω² (1/s²); damping: 2γ (1/s); neither negative.
   LinearMotion(double stiffness, double damping);
 
-  /// What of x(t) and ẋ(t) is due to x(0) = 0, ẋ(0) = v and to the acceleration A = a − ω² x(0) at the start:
+  /// Response of x(t) and ẋ(t) to the initial velocity v = ẋ(0) and to the initial acceleration A = a − ω² x(0), for
+  /// x(0) = 0:
   ///   x(t) = x(0) + v by_velocity + A by_acceleration,  ẋ(t) = v rate_by_velocity + A by_velocity.
   struct Response {
     double by_velocity;      ///< s
     double by_acceleration;  ///< s²
     double rate_by_velocity;
   };
-  /// To a few units of round-off times 1 + (ω + γ) t, for t ≥ 0.
+  /// The response at t ≥ 0 (s), to a few units of round-off times 1 + (ω + γ) t.
   Response at(double t) const;
 
  private:

@@ -13,20 +13,21 @@ namespace {
 using Real = long double;
 using Flat = VectorX<Real>;
 
-constexpr int columns = 8;  // the order is twice this
+constexpr int columns = 8;  // columns of the extrapolation; its order is twice this number
 constexpr int rates_per_step = columns * columns + 1;
-/// Right-hand sides of one body in the finest attempt: about two seconds.
+/// Limit of right-hand sides of one body in the finest attempt; about two seconds of computation.
 constexpr double budget = 4e6;
-/// rad and relative: round-off of the doubles that are judged, divided by the 100 by which a judge must be better.
+/// Sufficient uncertainty (rad, or relative): the round-off of double divided by 100, because a reference must be 100
+/// times more accurate than the results that it judges.
 constexpr double enough = 1e-17;
 
-/// The midpoint rule by 2, 4, … 16 substeps, and its extrapolation.
+/// Extrapolation of the midpoint rule with 2, 4, … 16 substeps.
 class Stepper {
  public:
   explicit Stepper(const System<Real>& system) : system_(system) {}
 
-  /// One step of size `big` from y at t. All is in increments over y, so that the extrapolation magnifies their
-  /// round-off and not that of y.
+  /// Advances y by one step of size `big` (s) from time t (s). The extrapolation works on increments of y, so that it
+  /// amplifies their round-off and not the round-off of y.
   void step(Real t, Real big, Flat& y) {
     rate(t, y);
     const Flat first = rate_;
@@ -41,7 +42,7 @@ class Stepper {
         before_ += 2 * h * rate_;
         before_.swap(now_);
       }
-      for (int k = 0; k < j; ++k) {  // Aitken and Neville, with n_j² as abscissae
+      for (int k = 0; k < j; ++k) {  // Aitken–Neville with the abscissae n_j²
         const Real ratio = Real(j + 1) / Real(j - k);
         Flat& behind = row_[std::size_t(k)];
         at_ = now_ + (now_ - behind) / (ratio * ratio - 1);
@@ -61,7 +62,7 @@ class Stepper {
 
   const System<Real>& system_;
   Flat rate_, before_, now_, at_;
-  std::array<Flat, columns> row_;  // T_{j,1} … T_{j,j} of the last j
+  std::array<Flat, columns> row_;  // row T_{j,1} … T_{j,j} of the extrapolation table for the last j
 };
 
 void raise(double& worst, Real x) {
@@ -91,7 +92,7 @@ ReferenceMotion::ReferenceMotion(const Problem& problem, bool gyroscopic, double
     if (stop && *stop) break;
     const Uncertainty change = difference(*system, states_, states);
     const double now = change.largest();
-    if (now >= before && before < 1e-10) break;  // round-off: what there is was better
+    if (now >= before && before < 1e-10) break;  // round-off dominates: keep the previous states
     uncertainty_ = change;
     states_ = std::move(states);
     steps_ = finer;

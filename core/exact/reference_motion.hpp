@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A motion computed in extended precision, for problems without an exact solution, which proves its own digits: it is
-// made with ever smaller steps, and its uncertainty is what the last halving of the step changed.
+// A motion computed in extended precision, for problems without an exact solution. It proves its own digits: it is
+// computed with ever smaller steps, and its uncertainty is the change made by the last halving of the step.
 // Source: Gragg's extrapolated midpoint rule (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, 2nd
 // ed., section II.9), of order 16, in long double.
 #pragma once
@@ -17,14 +17,14 @@ namespace polhode {
 
 class ReferenceMotion {
  public:
-  /// Of the equations as they are with or without the gyroscopic term, from t = 0 to t_end (s). It takes what work it
-  /// needs to reach round-off, up to some seconds; with `stop` set it ends at once, as uncertain as it is. `prepare`
-  /// adds forces beyond those of the problem.
+  /// Computes the motion from t = 0 to t_end (s); `gyroscopic`: by the equations with the gyroscopic term. Refines
+  /// until round-off is reached or some seconds have passed; with `stop` set it returns at once, with the uncertainty
+  /// reached so far. `prepare` adds forces beyond those of the problem.
   ReferenceMotion(const Problem& problem, bool gyroscopic, double t_end, const std::atomic<bool>* stop = nullptr,
                   std::function<void(System<long double>&)> prepare = {});
 
-  /// The largest change by the last halving, over the bodies and over 50 instants and the end; infinite where a motion
-  /// could not be followed.
+  /// The largest change by the last halving, over the bodies, at 50 instants and the end; +inf if a motion could not be
+  /// followed.
   struct Uncertainty {
     double position = 0;          ///< m
     double attitude = 0;          ///< rad
@@ -33,11 +33,11 @@ class ReferenceMotion {
   };
   const Uncertainty& uncertainty() const { return uncertainty_; }
 
-  /// Follows one run, forwards in time, and says how far it is from the reference. One thread each.
+  /// Follows one run, forwards in time, and measures its distance from the reference. Use one Follower per thread.
   class Follower {
    public:
     explicit Follower(std::shared_ptr<const ReferenceMotion> reference);
-    /// All of it: position (absent if every body is pinned), attitude, angular velocity.
+    /// All errors: position (absent if every body is pinned), attitude, angular velocity.
     ExactMotion::Error error(const System<double>& system, const State<double>& state);
 
    private:
@@ -53,7 +53,7 @@ class ReferenceMotion {
 
   std::unique_ptr<System<long double>> make() const;
   double instant(std::size_t k) const { return static_cast<double>(k) * t_end_ / intervals; }
-  /// The states at the instants, by `steps` steps to the next one; fewer when they cease to be finite.
+  /// The states at the instants, with `steps` steps between two of them; fewer states if they cease to be finite.
   std::vector<Flat> march(const System<long double>& system, int steps, const std::atomic<bool>* stop) const;
   Uncertainty difference(const System<long double>& system, const std::vector<Flat>& a,
                          const std::vector<Flat>& b) const;
@@ -63,7 +63,7 @@ class ReferenceMotion {
   std::function<void(System<long double>&)> prepare_;
   double t_end_;
   double speed_scale_ = 1;  ///< rad/s
-  int steps_ = 1;           ///< in an interval
+  int steps_ = 1;           ///< steps between two instants
   std::vector<Flat> states_;
   Uncertainty uncertainty_;
 };

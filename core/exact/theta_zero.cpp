@@ -15,9 +15,9 @@ ThetaZeroDirection::ThetaZeroDirection(double m, double m_c, double beta) : cons
   half_period_ = k;
   transformed_ = !(k < k_prime);
   if (!transformed_) {
-    // Σ (−1)^n q^(n(n+1)) (sin νx cosh νy − i cos νx sinh νy), ν = 2n + 1, x = πu/2K, y = πβ/2K, over exp(y)/2
+    // Series: Σ (−1)^n q^(n(n+1)) (sin νx cosh νy − i cos νx sinh νy), ν = 2n + 1, x = πu/2K, y = πβ/2K, over exp(y)/2
     frequency_ = pi / (2 * k);
-    double re = 0, im = 0;  // at u = K: the real part, and the derivative of the imaginary part
+    double re = 0, im = 0;  // at u = K: real part, derivative of the imaginary part
     for (std::size_t n = 0; n < terms; ++n) {
       const double order = static_cast<double>(n), odd = 2 * order + 1, sign = n % 2 == 0 ? 1 : -1;
       const double decayed = std::exp(-2 * odd * frequency_ * beta);
@@ -29,11 +29,11 @@ ThetaZeroDirection::ThetaZeroDirection(double m, double m_c, double beta) : cons
     }
     slope_at_k_ = im / re;
   } else {
-    // exp(iπuβ/2KK') Σ (−1)^n p^(n(n+1)) (sinh νy cos νx − i cosh νy sin νx), x = πβ/2K', y = πu/2K'
+    // Series: exp(iπuβ/2KK') Σ (−1)^n p^(n(n+1)) (sinh νy cos νx − i cosh νy sin νx), x = πβ/2K', y = πu/2K'
     frequency_ = pi / (2 * k_prime);
     const double x = frequency_ * beta, p = std::exp(-2 * frequency_ * k);
     turn_ = std::isfinite(k) ? frequency_ * beta / k : 0;
-    double re = 0, im = 0, re_rate = 0, im_rate = 0, power = 1;  // at u = K, over exp(y)/2
+    double re = 0, im = 0, re_rate = 0, im_rate = 0, power = 1;  // values and rates at u = K, divided by exp(y)/2
     for (std::size_t n = 0; n < terms; ++n) {
       const double order = static_cast<double>(n), odd = 2 * order + 1, sign = n % 2 == 0 ? 1 : -1;
       const double decay = n == 0 ? 1 : std::exp(-2 * frequency_ * k * order * order);
@@ -65,7 +65,7 @@ ThetaZeroDirection::Values ThetaZeroDirection::operator()(double u) const {
       s = next;
     }
   } else {
-    double sign = 1;  // to [−K, K]: each period 2K turns the sign
+    double sign = 1;  // reduction of u to [−K, K]: each period 2K changes the sign
     if (std::isfinite(half_period_)) {
       const double periods = std::nearbyint(u / (2 * half_period_));
       if (std::remainder(periods, 2) != 0) sign = -1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The direction of a theta function whose zero comes as near to the real axis as one likes: the angle of a complex
-// function of time that is doubly periodic but for a factor, as those of a heavy symmetric top are.
+// The direction of a theta function whose zero may come arbitrarily near to the real axis: the angle of a complex
+// function of time that is doubly periodic up to a factor, as those of a heavy symmetric top are.
 // Sources: NIST Digital Library of Mathematical Functions, sections 20.2 (series) and 20.7(viii) (imaginary
 // transformation); Whittaker & Watson, A Course of Modern Analysis, section 22.74, for the integrals of the third kind.
 #pragma once

@@ -11,7 +11,7 @@ namespace polhode {
 template <class S>
 class Attachment {
  public:
-  /// The keys that every two-ended force has.
+  /// The keys that every force with two ends has.
   static std::vector<Parameter> parameters() {
     const Vector3<double> zero = Vector3<double>::Zero();
     return {{"anchor_body", zero, "m", "end on the first body, its axes, from its reference point"},
@@ -41,7 +41,7 @@ class Attachment {
     }
   }
 
-  /// From the end on the first body to the other end, m, world; and its rate of change, m/s.
+  /// Vector (m, world) from the end on the first body to the other end, and its rate of change (m/s).
   struct Span {
     Vector3<S> from, to, d;
   };
@@ -57,7 +57,7 @@ class Attachment {
     return two_ ? Vector3<S>(bodies[other_].point_velocity(s.to) - v) : Vector3<S>(-v);
   }
 
-  /// f on the first body, −f on the second.
+  /// Applies f to the first body and −f to the second.
   void apply(const Span& s, const Vector3<S>& f, std::span<const BodyMotion<S>> bodies,
              std::span<Wrench<S>> wrenches) const {
     if (off_center_) {
@@ -68,8 +68,8 @@ class Attachment {
     if (two_) wrenches[other_].add_at_point(bodies[other_], s.to, -f);
   }
 
-  /// The commonest case on its own, since a step of one body feels every load and store: from the reference point of
-  /// one body to a point of the world.
+  /// Fast path for the commonest case, from the reference point of one body to a point of the world: in a step of one
+  /// body each load and store counts.
   bool one_center() const { return !two_ && !off_center_; }
   Vector3<S> from_center(std::span<const BodyMotion<S>> bodies) const { return far_ - bodies[body_].position; }
   void apply_at_center(const Vector3<S>& f, std::span<Wrench<S>> wrenches) const { wrenches[body_].force += f; }

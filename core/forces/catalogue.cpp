@@ -17,11 +17,18 @@
 namespace polhode {
 
 const std::vector<ForceEntry>& force_catalogue() {
+  // One line for each force.
+  // clang-format off
   static const std::vector<ForceEntry> entries = {
-      force_entry<UniformGravity, in_lanes>(), force_entry<PointGravity>(),   force_entry<Spring, in_lanes>(),
-      force_entry<Damper, in_lanes>(),         force_entry<Drag, in_lanes>(), force_entry<ConstantForce, in_lanes>(),
+      force_entry<UniformGravity, in_lanes>(),
+      force_entry<PointGravity>(),
+      force_entry<Spring, in_lanes>(),
+      force_entry<Damper, in_lanes>(),
+      force_entry<Drag, in_lanes>(),
+      force_entry<ConstantForce, in_lanes>(),
       force_entry<ConstantTorque, in_lanes>(),
   };
+  // clang-format on
   return entries;
 }
 

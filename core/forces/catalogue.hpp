@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The catalogue of forces: what a scenario may name under [[force]].
+// The catalogue of forces: the kinds that a scenario may name under [[force]].
 #pragma once
 
 #include <string_view>
@@ -25,7 +25,7 @@ ForcePointer<double> make_force(const ForceParameters& parameters, std::span<con
 template <>
 ForcePointer<long double> make_force(const ForceParameters& parameters, std::span<const Body> bodies);
 
-/// The k-th force of each of the problems, of one free body each, in the lanes of an ensemble.
+/// The k-th force of each problem in the lanes of an ensemble; each problem has one free body.
 ForcePointer<Lanes> make_force_in_lanes(std::span<const Problem> problems, std::size_t k);
 
 }  // namespace polhode

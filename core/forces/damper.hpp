@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A dashpot between a point of a body and a point of the world or of another body: f = c ḋ, with d from the first end
-// to the other. Unlike a spring's damping it acts in every direction, so that it also works when the ends meet.
+// A dashpot between a point of a body and a point of the world or of another body: f = c ḋ, d from the first end to the
+// other. Unlike the damping of a spring it acts in every direction, also when the ends coincide.
 #pragma once
 
 #include "core/forces/attachment.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A force in the lanes of an ensemble, lane by lane: one of its own in each, with its own parameters, called in turn.
-// Every force works in lanes so, whatever it branches on, and gives the digits that it gives alone.
+// A force in the lanes of an ensemble, evaluated lane by lane: each lane has a force with parameters of its own. Every
+// force works in lanes this way, even if it branches on its numbers, with the digits of a run alone.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace polhode {
 
 class LaneForce final : public ForceModel<Lanes> {
  public:
-  /// The k-th force of each problem; one body each.
+  /// The k-th force of each problem; each problem has one body.
   LaneForce(std::span<const Problem> problems, std::size_t k) {
     for (const Problem& p : problems) forces_.push_back(make_force<double>(p.forces[k], p.bodies));
     rotation_ = forces_.front()->reads_rotation();

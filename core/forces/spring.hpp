@@ -44,7 +44,7 @@ class Spring final : public ForceModel<S> {
     }
     using std::sqrt;
     const S length = sqrt(s.d.squaredNorm());
-    const Vector3<S> n = s.d / nonzero(length);  // of length 0 it pushes nowhere
+    const Vector3<S> n = s.d / nonzero(length);  // a spring of length 0 exerts no force
     const S tension = stiffness_ * (length - rest_length_) + (damped_ ? damping_ * n.dot(ends_.rate(s, bodies)) : S(0));
     ends_.apply(s, tension * n, bodies, wrenches);
   }

@@ -14,10 +14,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Carlson's R_F(x, y, z) = ½ ∫ ds/√((s + x)(s + y)(s + z)) over [0, ∞), at most one argument zero (DLMF 19.36.1).
+// Carlson's R_F(x, y, z) = ½ ∫ ds/√((s + x)(s + y)(s + z)) over [0, ∞), with at most one zero argument (DLMF 19.36.1).
 double carlson_rf(double x, double y, double z) {
   const double mean0 = (x + y + z) / 3;
-  // (relative error)^(−1/8), where the first term left out of the series is of order 8
+  // 90 ≈ ε^(−1/8) for the relative error ε; the first omitted term of the series has order 8
   const double spread = 90 * std::max({std::abs(mean0 - x), std::abs(mean0 - y), std::abs(mean0 - z)});
   double mean = mean0, shrink = 1, x_n = x, y_n = y;
   double z_n = z;
@@ -74,7 +74,7 @@ JacobiElliptic::JacobiElliptic(double m_c) {
     geometric_[level] = b;
     ++levels_;
     mean_ = (a + b) / 2;
-    // what one more level would change is of the order of the square of this
+    // The change by one more level is of the order of the square of this difference.
     if (std::abs(a - b) <= 1e-9 * a || levels_ == max_levels) break;
     b = std::sqrt(a * b);
     a = mean_;
@@ -88,7 +88,7 @@ JacobiElliptic::Values JacobiElliptic::operator()(double u) const {
     const double sech = 2 * e / (1 + e * e);
     return {std::tanh(u), sech, sech};
   }
-  // to [−K, K], by whole periods 4K and then a half one
+  // Reduce u to [−K, K] by whole periods 4K, then by a half period with a change of sign.
   u -= 4 * quarter_period_ * std::nearbyint(u / (4 * quarter_period_));
   double sign = 1;
   if (std::abs(u) > quarter_period_) {
@@ -96,7 +96,7 @@ JacobiElliptic::Values JacobiElliptic::operator()(double u) const {
     sign = -1;
   }
   if (std::abs(u) < 1e-8) return {sign * u, sign, 1};
-  // c climbs from cot(mean u) to cn/sn (Bulirsch)
+  // Recurrence for c from cot(mean u) to cn/sn (Bulirsch).
   const double phase = mean_ * u, sine = std::sin(phase);
   double a = std::cos(phase) / sine, c = mean_ * a, dn = 1;
   for (int n = levels_ - 1; n >= 0; --n) {
@@ -114,15 +114,15 @@ ThetaDirection::ThetaDirection(double m, double m_c, double beta) {
   const double k = elliptic_k(m_c), k_prime = elliptic_k(m);
   half_period_ = k;
   transformed_ = !(k < 2 * k_prime);
-  double re = 0, im = 0;  // at u = 0, of θ and of its derivative
+  double re = 0, im = 0;  // at u = 0: real part of θ, imaginary part of its derivative
   if (!transformed_) {
-    // 1 + 2 Σ (−1)^n q^(n²) cos(2nπ(u + iβ)/2K)
+    // Series: 1 + 2 Σ (−1)^n q^(n²) cos(2nπ(u + iβ)/2K)
     frequency_ = pi / k;
     re_[0] = re = 1;
-    if (m == 0) return;  // a constant
+    if (m == 0) return;  // θ = 1 is constant
     for (std::size_t n = 1; n <= terms; ++n) {
       const double order = static_cast<double>(n), sign = n % 2 == 0 ? 1 : -1;
-      // q^(n²) exp(±2nπβ/2K), in which 2n² K' ≥ n β
+      // q^(n²) exp(±2nπβ/2K). No overflow: 2n² K' ≥ n β.
       const double grown = std::exp(-pi * order / k * (2 * order * k_prime - beta));
       const double decayed = std::exp(-pi * order / k * (2 * order * k_prime + beta));
       re_[n] = sign * (grown + decayed);
@@ -132,7 +132,7 @@ ThetaDirection::ThetaDirection(double m, double m_c, double beta) {
     }
     slope_at_zero_ = im / re;
   } else {
-    // exp(−iπuβ/4KK') Σ p^(n(n+1)) cos((2n+1)(x − iy)), x = πβ/4K', y = πu/4K', p = exp(−πK/2K')
+    // Series: exp(−iπuβ/4KK') Σ p^(n(n+1)) cos((2n+1)(x − iy)), x = πβ/4K', y = πu/4K', p = exp(−πK/2K')
     frequency_ = pi / (2 * k_prime);
     turn_ = -pi * beta / (4 * k * k_prime);
     const double x = frequency_ * beta / 2, p = std::exp(-frequency_ * k);

@@ -16,7 +16,7 @@ double elliptic_k(double m_c);
 /// any common factor. The cosine carries the digits near φ = π/2, where F grows like log(1/√m_c).
 double elliptic_f(double sine, double cosine, double m_c);
 
-/// The same for any phase φ in rad.
+/// The same integral for any phase φ (rad).
 double elliptic_f(double phi, double m_c);
 
 /// sn, cn and dn of any real u for one 0 ≤ m_c ≤ 1; at m_c = 0 they are tanh, sech, sech.
@@ -31,7 +31,7 @@ class JacobiElliptic {
   /// Costs one sine, one cosine and two divisions per level: about 0.1 µs.
   Values operator()(double u) const;
 
-  /// K, infinite at m_c = 0.
+  /// The complete integral K(m); +inf at m_c = 0.
   double quarter_period() const { return quarter_period_; }
 
  private:
@@ -48,12 +48,12 @@ class JacobiElliptic {
 /// arg θ is odd and has the period 2K.
 class ThetaDirection {
  public:
-  /// The angle of θ is `turn` + atan2(im, re), of which no caller needs the arctangent.
+  /// The angle of θ is `turn` + atan2(im, re). No caller needs the arctangent itself.
   struct Values {
     double turn, re, im;
   };
 
-  /// m and m_c = 1 − m each with its own digits.
+  /// m and m_c = 1 − m are both passed, so that each keeps its own digits.
   ThetaDirection(double m, double m_c, double beta);
 
   Values operator()(double u) const;

@@ -17,7 +17,7 @@
 
 namespace polhode {
 
-/// How many: the width of the registers that the program is compiled for.
+/// Number of lanes: the width of the SIMD registers that the program is compiled for.
 #if defined(__AVX512F__)
 inline constexpr int lane_count = 8;
 #elif defined(__AVX__)
@@ -31,7 +31,7 @@ class Lanes {
   using Pack [[gnu::vector_size(lane_count * sizeof(double))]] = double;
   using Bits [[gnu::vector_size(lane_count * sizeof(double))]] = std::int64_t;
 
-  /// A truth in each lane.
+  /// One truth value for each lane.
   struct Mask {
     Bits bits;
     Mask() = default;
@@ -107,7 +107,7 @@ class Lanes {
 template <class S>
 inline constexpr bool is_lanes = std::same_as<S, Lanes>;
 
-/// The number type of one lane; of a plain scalar itself.
+/// The number type of one lane; for a plain scalar, the scalar itself.
 template <class S>
 struct LaneType {
   using type = S;
@@ -121,7 +121,7 @@ struct LaneType<Lanes> {
 template <class S>
 inline constexpr auto rounding_unit = std::numeric_limits<typename LaneType<S>::type>::epsilon();
 
-/// What select and any are for lanes, for a plain scalar.
+/// Overloads of select and any for plain scalars, so that templates work with both.
 template <std::floating_point S>
 S select(bool where, S a, S b) {
   return where ? a : b;

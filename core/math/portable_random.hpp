@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random numbers, directions and turns, the same for a seed with every standard library, which the distributions of
-// <random> are not.
+// Portable random numbers, directions and rotations: the same for a seed with every standard library, which the
+// distributions of <random> are not.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ class PortableRandom {
   int below(int n) { return std::min(int(uniform(0, n)), n - 1); }
   double angle() { return uniform(-std::numbers::pi, std::numbers::pi); }
 
-  /// Normally distributed (Box & Muller, 1958).
+  /// Standard normal distribution (Box & Muller, 1958).
   double bell() {
     const double radius = std::sqrt(-2 * std::log(1 - uniform(0, 1)));
     return radius * std::cos(angle());
@@ -35,12 +35,12 @@ class PortableRandom {
     const double x = uniform(low, high), y = uniform(low, high);
     return {x, y, uniform(low, high)};
   }
-  /// Evenly over the sphere.
+  /// Uniform distribution on the unit sphere.
   Vector3<double> direction() {
     const double z = uniform(-1, 1), around = angle(), radius = std::sqrt(1 - z * z);
     return {radius * std::cos(around), radius * std::sin(around), z};
   }
-  /// Evenly over all turns.
+  /// Uniform distribution on the rotations.
   Quaternion<double> turn() {
     const double w = bell(), x = bell(), y = bell();
     return Quaternion<double>(w, x, y, bell()).normalized();
@@ -51,4 +51,4 @@ class PortableRandom {
   std::mt19937_64 engine_;
 };
 
-}  // namespace polhode::study
+}  // namespace polhode

@@ -10,7 +10,7 @@
 
 namespace polhode {
 
-/// (w, x, y, z). A plain 4-vector, so that a state that has left the unit sphere is still a quaternion.
+/// (w, x, y, z). A plain 4-vector, so that it can also hold a quaternion whose length is not 1.
 template <class S>
 using Quaternion = Eigen::Matrix<S, 4, 1>;
 
@@ -38,7 +38,7 @@ Quaternion<S> pure(const Vector3<S>& v) {
   return Quaternion<S>(S(0), v[0], v[1], v[2]);
 }
 
-/// The formula R = 1 − 2(y² + z²) … with q as stored, body to world: orthonormal only if |q| = 1.
+/// Body to world, by the formula R = 1 − 2(y² + z²) … with q as stored: orthonormal only if |q| = 1.
 template <class S>
 Matrix3<S> rotation_matrix_stored(const Quaternion<S>& q) {
   const S w = q[0], x = q[1], y = q[2], z = q[3];
@@ -76,7 +76,7 @@ Quaternion<S> quaternion_from_rotation_vector(const Vector3<S>& phi) {
   return Quaternion<S>(cos(half), scale * phi[0], scale * phi[1], scale * phi[2]);
 }
 
-/// The rotation vector (rad, of length at most π) of the rotation of q/|q|; q and −q give the same.
+/// The rotation vector (rad, length at most π) of the rotation of q/|q|; q and −q give the same vector.
 template <class S>
 Vector3<S> rotation_vector(const Quaternion<S>& q) {
   using std::atan2, std::sqrt;
@@ -94,7 +94,7 @@ Vector3<S> angular_velocity_from_axis_rate(const Vector3<S>& axis, S rate) {
   return axis * (rate / axis.norm());
 }
 
-/// The unit quaternion of a rotation matrix (Shepperd 1978: the largest of the four components first).
+/// The unit quaternion of a rotation matrix (Shepperd 1978: computed from the largest of the four components).
 template <class S>
 Quaternion<S> quaternion_from_rotation_matrix(const Matrix3<S>& r) {
   using std::sqrt;
@@ -112,7 +112,7 @@ Quaternion<S> quaternion_from_rotation_matrix(const Matrix3<S>& r) {
   return q / sqrt(q.squaredNorm());
 }
 
-/// The same, lane by lane.
+/// Lane-by-lane overload of the function above.
 template <>
 inline Quaternion<Lanes> quaternion_from_rotation_matrix(const Matrix3<Lanes>& r) {
   Quaternion<Lanes> q;
@@ -124,7 +124,8 @@ inline Quaternion<Lanes> quaternion_from_rotation_matrix(const Matrix3<Lanes>& r
   return q;
 }
 
-/// Angle in rad, in [0, π], of the rotation that takes the attitude of a to that of b; signs and lengths do not matter.
+/// Angle (rad, in [0, π]) of the rotation from the attitude of a to that of b; signs and lengths of a and b do not
+/// matter.
 template <class S>
 S angle_between(const Quaternion<S>& a, const Quaternion<S>& b) {
   using std::abs, std::atan2, std::sqrt;

@@ -21,7 +21,7 @@ Matrix4<S> body_to_world(const Vector3<S>& position, const Matrix3<S>& rotation)
   return m;
 }
 
-/// The same with the rotation of q/|q|.
+/// The same transform with the rotation of q/|q|.
 template <class S>
 Matrix4<S> body_to_world(const Vector3<S>& position, const Quaternion<S>& orientation) {
   return body_to_world<S>(position, rotation_matrix<S>(orientation));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a rigid body is, apart from how it moves: mass, inertia, and whether it is free, pinned or static.
+// A rigid body apart from its motion: mass, inertia, and whether it is free, pinned or static.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ struct Body {
   Vector3<double> center_of_mass = Vector3<double>::Zero();  ///< m, body axes, from the pivot; pinned only
 };
 
-/// Where a body is and how it moves at one instant.
+/// Position and motion of a body at one instant.
 struct BodyStart {
   Vector3<double> position = Vector3<double>::Zero();              ///< m, world, of the reference point
   Quaternion<double> orientation = identity_quaternion<double>();  ///< body to world

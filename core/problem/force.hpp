@@ -10,7 +10,8 @@
 
 namespace polhode {
 
-/// A body as forces see it, all in world axes: the reference point is the mass centre, or the pivot when pinned.
+/// Position and motion of a body as forces read them, world axes. The reference point is the mass centre, or the pivot
+/// of a pinned body.
 template <class S>
 struct BodyMotion {
   Vector3<S> position;          ///< m, of the reference point
@@ -37,15 +38,15 @@ struct Wrench {
   }
 };
 
-/// What a force can do to a momentum; decides which momenta a run may call invariants.
+/// The effect of a force on the momenta of one body; it decides which momenta are conserved.
 struct Effect {
   bool torque = false;  ///< it may exert a torque about the body's reference point
-  /// N, world: the force on the body where it is the same at all times and places; absent where it varies.
+  /// Force on the body (N, world) if it is the same at all times and places; absent if it varies.
   std::optional<Vector3<double>> constant_force = Vector3<double>::Zero();
 };
 
-/// A force or torque generator. The spans hold the moving bodies in the scenario's order, then the static ones.
-/// A force is conservative in part or whole: what potential_energy covers must not be in power.
+/// A force or torque generator. The spans hold the moving bodies in the scenario's order, then the static ones. A force
+/// may have a potential in part: work counted in potential_energy() must not be counted in power() too.
 template <class S>
 class ForceModel {
  public:
@@ -56,27 +57,27 @@ class ForceModel {
 
   virtual void add_wrench(S t, std::span<const BodyMotion<S>> bodies, std::span<Wrench<S>> wrenches) const = 0;
 
-  /// J; of the part of the force that has a potential.
+  /// Potential energy (J) of the part of the force that has a potential.
   virtual S potential_energy(std::span<const BodyMotion<S>>) const { return S(0); }
 
   /// True when power() is not identically zero.
   virtual bool does_work() const { return false; }
 
-  /// W; the rate at which the part without a potential does work on the bodies.
+  /// Power (W) with which the part of the force without a potential does work on the bodies.
   virtual S power(S, std::span<const BodyMotion<S>>) const { return S(0); }
 
-  /// True when it acts between moving bodies in equal and opposite forces along the line between their points, so
-  /// that total linear momentum and angular momentum about the world's origin are conserved.
+  /// True if the force acts between moving bodies in equal and opposite forces along the line between their points.
+  /// Total linear momentum and angular momentum about the world's origin are then conserved.
   virtual bool internal() const { return false; }
 
-  /// False when neither wrench nor energy depends on rotation or angular velocity of the bodies: they may then be left
-  /// out of the BodyMotions, which saves a third of an RK4 step in body axes.
+  /// False if neither wrench nor energy depends on rotation or angular velocity of the bodies. BodyMotion may then
+  /// leave them out, which saves a third of an RK4 step in body axes.
   virtual bool reads_rotation() const { return true; }
 
-  /// False when the wrench does not depend on velocities: a kick then takes one evaluation.
+  /// False if the wrench does not depend on velocities; a kick then takes one evaluation.
   virtual bool reads_velocity() const { return true; }
 
-  /// What it does to the body of that index.
+  /// The effect of the force on one body, by index.
   virtual Effect effect_on(std::size_t body) const = 0;
 };
 

@@ -17,18 +17,18 @@ namespace polhode {
 
 using ParameterValue = std::variant<double, Vector3<double>, std::string>;
 
-/// One key of a force. The default's type is the type that the key takes.
+/// One key of a force. The type of the default value is the type of the key.
 struct Parameter {
   enum class Need { required, optional };
   enum class Range { any, non_negative, positive };
   std::string key;
-  ParameterValue value;  ///< the default; of a required key only the type counts
+  ParameterValue value;  ///< the default; for a required key only its type is used
   std::string unit;      ///< as printed: "N/m"
   std::string meaning;
   Need need = Need::optional;
-  Range range = Range::any;            ///< of a number
-  std::vector<std::string> choices{};  ///< of a text
-  int needs_bodies = 0;                ///< the key makes sense only with this many bodies (0: any)
+  Range range = Range::any;            ///< allowed range of a number
+  std::vector<std::string> choices{};  ///< allowed values of a text
+  int needs_bodies = 0;                ///< number of bodies that the key requires; 0: any number
 };
 
 /// The values of one force, every key of its kind present, and the indices of its bodies (moving ones first, in the

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double tolerance = 1e-9;
 
-/// m (|d|² 1 − d dᵀ): the inertia of a point mass at d.
+/// Inertia tensor of a point mass (kg) at d (m): m (|d|² 1 − d dᵀ), kg m².
 Matrix3<double> point_inertia(double mass, const Vector3<double>& d) {
   return mass * (d.squaredNorm() * Matrix3<double>::Identity() - d * d.transpose());
 }
@@ -27,7 +27,8 @@ std::string text(double x) {
 
 std::string text(const Vector3<double>& v) { return "(" + text(v[0]) + ", " + text(v[1]) + ", " + text(v[2]) + ")"; }
 
-/// Ascending. A diagonal matrix needs no eigenvalue solver, and loses no digit to one.
+/// Principal moments in ascending order, kg m². For a diagonal matrix they are its diagonal entries,
+/// free of the round-off of an eigenvalue solver.
 Vector3<double> principal_moments(const Matrix3<double>& inertia) {
   if (!inertia.isDiagonal(0)) return principal_axes(inertia).moments;
   Vector3<double> moments = inertia.diagonal();
@@ -100,7 +101,7 @@ std::string equations_inertia_fault(const Matrix3<double>& inertia) {
     return "is not symmetric: " + text(inertia(i, j)) + " faces " + text(inertia(j, i));
   }
   const Vector3<double> moments = principal_moments(inertia);
-  // The eigenvalues of a matrix that is not diagonal carry round-off of its size.
+  // The eigenvalues of a non-diagonal matrix have an error proportional to its size.
   const double noise = inertia.isDiagonal(0) ? 0 : 8 * std::numeric_limits<double>::epsilon() * size;
   if (!(moments[0] > noise) || !std::isfinite(1 / moments[0])) {
     return "is not positive: its principal moments are " + text(moments) + " kg m^2";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An initial value problem of mechanics: bodies, where they start, and the forces between them.
+// An initial value problem of mechanics: bodies, their initial states, and the forces on them.
 #pragma once
 
 #include <vector>

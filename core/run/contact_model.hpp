@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The port of contact: what the loop asks of bodies that meet. It takes a step in the method's place, with the method,
-// and says where energy went. Methods know nothing of it.
+// The port of contact models. A contact model takes each step in place of the method: it calls the method, resolves the
+// contacts and reports the energy that they dissipated or injected. Methods do not depend on it.
 #pragma once
 
 #include <cstdint>
@@ -10,35 +10,37 @@
 
 namespace polhode {
 
-/// Where energy went in contacts, J since the start.
+/// Energy balance of the contacts since the start of the run, J.
 struct ContactLosses {
-  double impact = 0;       ///< lost along normals: what restitution below 1 takes
-  double friction = 0;     ///< lost against slip
-  double penetration = 0;  ///< injected by pushing bodies out of each other; lifting them costs
+  double impact = 0;       ///< dissipated along the normals by restitution below 1
+  double friction = 0;     ///< dissipated by friction against slip
+  double penetration = 0;  ///< injected by corrections that separate penetrating bodies
+  /// Net energy (J) that contacts removed: impact + friction − penetration.
   double total() const { return impact + friction - penetration; }
 };
 
-/// An impact, as events.csv shows it.
+/// An impact; one row of events.csv.
 struct Impact {
-  double t = 0;                                       ///< s
-  std::size_t a = 0, b = 0;                           ///< bodies, a < b, in the problem's order
-  Vector3<double> point = Vector3<double>::Zero();    ///< m, world
-  Vector3<double> normal = Vector3<double>::Zero();   ///< unit, world, from B to A
-  Vector3<double> impulse = Vector3<double>::Zero();  ///< N s, on A
-  double energy_lost = 0;                             ///< J
-  /// s: where the bounces that follow are too low to be flown, when the last of them would end if nothing else
-  /// happened; else infinite.
+  double t = 0;                                       ///< time, s
+  std::size_t a = 0, b = 0;                           ///< indices of the bodies in the problem, a < b
+  Vector3<double> point = Vector3<double>::Zero();    ///< contact point, world axes, m
+  Vector3<double> normal = Vector3<double>::Zero();   ///< unit contact normal from B to A, world axes
+  Vector3<double> impulse = Vector3<double>::Zero();  ///< impulse on A, world axes, N s
+  double energy_lost = 0;                             ///< dissipated energy, J
+  /// Time (s) at which a truncated Zeno sequence of bounces would have ended without any other event; +inf if it was
+  /// not truncated. A sequence is truncated when its bounces are too low to be simulated one by one.
   double rests_from = std::numeric_limits<double>::infinity();
 };
 
-/// Where the slide of two bodies on each other ends: from here on they stick, or roll, or slide another way.
+/// End of a sliding phase of two bodies. After it they stick, roll, or slide in another direction.
 struct Transition {
-  double t = 0;                                      ///< s
-  std::size_t a = 0, b = 0;                          ///< bodies, a < b, in the problem's order
-  Vector3<double> point = Vector3<double>::Zero();   ///< m, world
-  Vector3<double> normal = Vector3<double>::Zero();  ///< unit, world, from B to A
+  double t = 0;                                      ///< time, s
+  std::size_t a = 0, b = 0;                          ///< indices of the bodies in the problem, a < b
+  Vector3<double> point = Vector3<double>::Zero();   ///< contact point, world axes, m
+  Vector3<double> normal = Vector3<double>::Zero();  ///< unit contact normal from B to A, world axes
 };
 
+/// Interface of a contact model. One object serves one run.
 class ContactModel {
  public:
   ContactModel() = default;
@@ -46,24 +48,25 @@ class ContactModel {
   ContactModel& operator=(const ContactModel&) = delete;
   virtual ~ContactModel() = default;
 
-  /// Prepares a run that starts at this state; called once, before the method's begin(), which may get events to look
-  /// for.
+  /// Prepares a run from the initial `state`. Called once, before the method's begin(). The model may register event
+  /// functions with the method here.
   virtual void begin(Integrator<double>& method, const State<double>& state) = 0;
 
-  /// A step of the method in which bodies do not pass through each other: by h, or by at most h of a method that
-  /// chooses its steps. A failed step leaves the state as it was.
+  /// Advances `state` by one step of the method with contacts resolved, so that bodies do not pass through each other.
+  /// The step length is h (s) for a fixed-step method and at most h for an adaptive one. A failed step leaves the state
+  /// unchanged.
   virtual StepResult step(Integrator<double>& method, State<double>& state, double h) = 0;
 
-  /// Where energy went since begin().
+  /// Energy balance of the contacts since begin().
   virtual const ContactLosses& losses() const = 0;
 
-  /// The impacts of the last step.
+  /// Impacts that occurred in the last step.
   virtual std::span<const Impact> impacts() const = 0;
 
-  /// The transitions of the last step, of a model that finds their time.
+  /// Ends of sliding phases in the last step. Empty for a model that does not locate their times.
   virtual std::span<const Transition> transitions() const { return {}; }
 
-  /// True where the run is over with the last step, at whatever time that ended.
+  /// True if the last step ended the run, even before the requested end time.
   virtual bool ended() const { return false; }
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The port of integrators: what the driver asks of a method, with the type of the method erased per step.
+// The port of integrators: the interface between the simulation loop and a numerical method. Its calls are virtual, one
+// for each step or batch of steps.
 #pragma once
 
 #include <cstdint>
@@ -13,61 +14,65 @@
 
 namespace polhode {
 
-/// The outcome of a step. A failed step leaves the state as it was and says why.
+/// Outcome of a step. A failed step leaves the state unchanged and gives the reason.
 struct StepResult {
-  std::string failure;  ///< empty: done
+  std::string failure;  ///< reason for the failure; empty on success
   bool ok() const { return failure.empty(); }
 };
 
-/// What a method says of itself; the conformance tests measure each line.
+/// Declared properties of a method. The conformance tests verify each of them by measurement.
 struct Declaration {
-  std::string name;     ///< as in the catalogue
-  std::string family;   ///< textbook, SUNDIALS, Boost.Odeint, …
-  std::string summary;  ///< one line of mathematics
-  int order = 0;        ///< of the global error under forces; 0: variable
-  int free_order = 0;   ///< of bodies without forces where it is another one: exact_order means exact; 0: the same
-  int lowest_order = 0, highest_order = 0;  ///< where IntegratorSettings::order chooses among several; 0: it does not
-  bool adaptive = false;                    ///< takes a tolerance and chooses its steps; otherwise it takes a step h
-  bool implicit = false;
-  int evaluations_per_step = 0;  ///< right-hand sides; 0: not constant, the method counts them
-  bool multi_step = false;       ///< has a history, which an impact or a projection makes worthless
-  /// Its step adds an increment to the flat state, y' = y + Δ(t, h, y), so that these sums can be compensated.
+  std::string name;                         ///< name in the catalogue
+  std::string family;                       ///< for example textbook, SUNDIALS, Boost.Odeint
+  std::string summary;                      ///< formula or principle in one line
+  int order = 0;                            ///< order of the global error under forces; 0: variable
+  int free_order = 0;                       ///< order for bodies without forces; exact_order: exact; 0: same as `order`
+  int lowest_order = 0, highest_order = 0;  ///< range of IntegratorSettings::order; 0: the order is fixed
+  bool adaptive = false;                    ///< controls its step size by a tolerance; false: fixed step h
+  bool implicit = false;                    ///< solves equations in each step
+  int evaluations_per_step = 0;             ///< right-hand sides per step; 0: not constant, counted by the method
+  bool multi_step = false;                  ///< uses past steps, which an impact or a projection invalidates
+  /// The step adds an increment to the flat state, y' = y + Δ(t, h, y), so that the sum can be compensated.
   bool additive = false;
-  bool lie_group = false;   ///< moves orientations by group steps: they stay on their manifold without projection
-  bool normalises = false;  ///< ends its own step with a normalisation
-  /// Conserves every quadratic invariant of the flat ODE, as Gauss's methods do: |q|² and RᵀR among them.
+  bool lie_group = false;   ///< updates orientations by group elements, so that they stay on their manifold
+  bool normalises = false;  ///< normalizes the orientations at the end of its own step
+  /// Conserves every quadratic invariant of the flat ODE, among them |q|² and RᵀR. Gauss methods do.
   bool conserves_quadratics = false;
-  bool symplectic = false;  ///< its map keeps the canonical two-form where forces have a potential
-  bool symmetric = false;   ///< a step of −h undoes one of h
-  /// Of free bodies, to round-off or to the tolerance of its iteration, in every formulation that it takes.
+  bool symplectic = false;  ///< preserves the canonical two-form if the forces have a potential
+  bool symmetric = false;   ///< a step of −h is the inverse of a step of h
+  /// Conserves the energy of free bodies, to round-off or to the tolerance of its iteration, in every formulation that
+  /// the method supports. The next two properties hold for free bodies in the same sense.
   bool conserves_energy = false;
-  bool conserves_momentum = false;  ///< the angular momentum in the world
-  bool conserves_casimir = false;   ///< |IΩ|, the length of the angular momentum in the body
+  bool conserves_momentum = false;  ///< conserves the angular momentum in world axes
+  bool conserves_casimir = false;   ///< conserves |IΩ|, the length of the angular momentum in body axes
 
-  static constexpr int exact_order = 1000;
+  static constexpr int exact_order = 1000;  ///< value of free_order of a method that is exact for free bodies
 };
 
-/// The settings that a method may read: h belongs to fixed-step methods, the tolerance to adaptive ones.
+/// Settings of a method. Fixed-step methods read the step size, adaptive ones the tolerance.
 struct IntegratorSettings {
-  double dt = 1e-3;         ///< s
-  double tolerance = 1e-8;  ///< relative and absolute alike
-  double t_end = 1;         ///< s; sets the sign and scale of a first step, nothing else
-  bool project = false;     ///< each step ends in a projection: within it by methods that can, else by the driver
-  int order = 0;            ///< of methods that offer several; 0: their own choice
+  double dt = 1e-3;         ///< step size, s
+  double tolerance = 1e-8;  ///< both relative and absolute tolerance
+  double t_end = 1;         ///< end time, s; only sets the sign and scale of the first step
+  bool project = false;     ///< project after each step: by the method if it can, else by the loop
+  int order = 0;            ///< order of a method that offers several; 0: the method's default
 };
 
-/// A function of the state whose zeros are events.
+/// Scalar function of the state whose zeros are events.
 template <class S>
 using EventFunction = std::function<double(const State<S>&)>;
 
-/// What is seen of a state after a step: enough for every ledger, without the state itself.
+/// Measurements of the state after a step. They suffice for every energy ledger without the state itself.
 struct Sample {
-  double t = 0;  ///< s
-  Measurement<double> seen;
-  double work = 0;        ///< J, done by non-conservative forces since the start
-  double projection = 0;  ///< J, that the projection after this step injected
+  double t = 0;              ///< time, s
+  Measurement<double> seen;  ///< energies, momenta and orientation defect of the state
+  double work = 0;           ///< work of the non-conservative forces since the start, J
+  /// Energy injected by projection, J: by the projection after this step in a batch of steps, by all projections since
+  /// the start in the samples that an observer gets.
+  double projection = 0;
 
-  /// J, what a ledger without errors keeps: kinetic + potential − work + lost in contact − injected by projection.
+  /// Balance of the energy ledger, J: kinetic + potential − work + lost in contact − injected by projection. It is
+  /// constant along the exact motion.
   double ledger(double lost_in_contact) const { return seen.energy() - work - projection + lost_in_contact; }
 };
 
@@ -82,6 +87,7 @@ struct StepBatch {
   int lanes = 0;                 ///< ensembles only: number of leading lanes that are sampled
   std::int64_t lane_stride = 0;  ///< ensembles only: the samples of lane i start at samples + i · lane_stride
 
+  /// Time (s) at the end of step k.
   double time(std::int64_t k) const { return t0 + static_cast<double>(first + k) * h; }
 };
 
@@ -131,11 +137,11 @@ class Integrator {
   Integrator& operator=(const Integrator&) = delete;
   virtual ~Integrator() = default;
 
-  /// Prepares a run that starts at this state; called once, before any step.
+  /// Prepares a run from the initial `state`. Called once, before any step.
   virtual void begin(const State<S>& state) = 0;
 
-  /// Fixed-step methods advance by exactly h; adaptive ones by at most h, as far as their tolerance lets them.
-  /// state.t is advanced alike.
+  /// Advances `state` and its time by one step. The step length is exactly h (s) for fixed-step methods. For adaptive
+  /// methods it is at most h and limited by their tolerance.
   virtual StepResult step(State<S>& state, double h) = 0;
 
   /// True for a method whose advance() projects and fills samples itself, which lets the compiler inline the whole
@@ -152,15 +158,16 @@ class Integrator {
     return result;
   }
 
-  /// n steps of h, without looking at the state between them.
+  /// Takes n steps of size h (s) without samples or projection.
   StepResult advance(State<S>& state, double h, std::int64_t n) {
     return advance(state, StepBatch{.h = h, .count = n, .t0 = state.t});
   }
 
-  /// Right-hand sides evaluated since begin().
+  /// Number of right-hand side evaluations since begin().
   virtual std::int64_t evaluations() const = 0;
 
-  /// The state was changed from outside (projection, impact): forget what was remembered of its past.
+  /// Discards the history of a multi-step method after the state was changed from outside, by a projection or an
+  /// impact.
   virtual void discard_history(const State<S>&) {}
 
   /// Abilities of the method in this run; null: the method does not have this one.

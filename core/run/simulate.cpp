@@ -15,10 +15,11 @@
 namespace polhode {
 namespace {
 
-// t_end counts as a whole number of steps when it is one to this relative accuracy: 10/0.1 must not leave a step of
-// 1e-15 s behind.
+// Relative tolerance within which t_end/dt counts as a whole number. Without it the round-off of 10/0.1 would add a
+// step of 1e-15 s.
 constexpr double whole_tolerance = 1e-9;
-// An adaptive method whose steps stay below this share of the run for so many steps will not get there.
+// Stall detection of adaptive methods: a run fails after more than `patience` consecutive steps that are each shorter
+// than least_progress × t_end.
 constexpr double least_progress = 1e-14;
 constexpr int patience = 1000;
 
@@ -28,7 +29,8 @@ std::string number(double x) {
   return text;
 }
 
-// Positive numbers only, so that a NaN or an infinity anywhere makes it false; no short circuit, so that it vectorises.
+// True if all entries are finite. Comparing |y_i| with the largest number is false for NaN and infinity. The loop has
+// no early exit, so that it vectorizes.
 template <class S>
 bool is_finite(const VectorX<S>& y) {
   constexpr S largest = std::numeric_limits<S>::max();
@@ -37,7 +39,7 @@ bool is_finite(const VectorX<S>& y) {
   return finite;
 }
 
-// The double state that observers see: the run's own one, or a copy.
+// The state in double for observers: the run's own state, or a converted copy.
 template <class S>
 struct View {
   State<double> copy;
@@ -52,6 +54,7 @@ struct View<double> {
   const State<double>& of(const State<double>& state) { return state; }
 };
 
+/// The loop of one run in the scalar S.
 template <class S>
 class Loop {
  public:
@@ -84,7 +87,7 @@ class Loop {
       else fixed();
     }
     outcome_.t = state_.t;
-    // A stretch may have gone on beyond the step at which the run was called off.
+    // The last batch may contain steps after the one at which the observer ended the run.
     const std::int64_t taken = outcome_.steps + surplus_steps_;
     outcome_.evaluations =
         surplus_steps_ > 0 ? integrator_.evaluations() / taken * outcome_.steps : integrator_.evaluations();
@@ -97,7 +100,7 @@ class Loop {
     return {seen.t, truth_.measure(seen.y), seen.y[seen.y.size() - 1], projection_energy_};
   }
 
-  /// Hands samples to the observer; false ends the run as diverged.
+  /// Passes samples to the observer. False ends the run as diverged.
   bool take_samples(std::span<const Sample> samples) {
     const TakenSamples taken = hand_over(samples, observer_);
     if (!taken.why) return true;
@@ -127,14 +130,14 @@ class Loop {
     return integrator_.step(state_, h);
   }
 
-  /// Takes steps by the method; false where it fails or throws, and the outcome says why.
+  /// Calls the method for some steps. Returns false if it fails or throws; the outcome then holds the reason.
   template <class Steps>
   bool done(const Steps& steps) {
     std::string why;
     try {
       why = steps().failure;
     } catch (const std::bad_alloc&) {
-      throw;  // no fault of the method
+      throw;  // lack of memory is not a failure of the method
     } catch (const std::exception& error) {
       why = error.what();
       if (!is_finite(state_.y)) {
@@ -152,7 +155,7 @@ class Loop {
     outcome_.message = at_time(std::move(why), state_.t);
   }
 
-  /// One step by the method, then projection and the check for NaN; false ends the run.
+  /// Takes one step, checks that the state is finite, and projects. False ends the run.
   bool take_step(double h, std::optional<double> t_after) {
     const double before_step = state_.t;
     if (!done([&] { return step(h); })) return false;
@@ -243,7 +246,7 @@ class Loop {
     return !interrupted();
   }
 
-  /// Steps of the sizes that are given; t adds them up.
+  /// Takes steps of the sizes from next_step; the time is their accumulated sum.
   void given() {
     if (schedule_.samples)
       throw std::invalid_argument("steps that are given one by one are all observed; ask for no samples");
@@ -301,9 +304,9 @@ class Loop {
   Observer& observer_;
   const std::atomic<bool>* stop_;
   ContactModel* contact_;
-  const double t0_;     ///< s, where the run starts
-  double observed_;     ///< s, when the last sample was seen that did not go by in a stretch
-  const bool account_;  ///< projections can change the energy, so it is measured around them
+  const double t0_;     ///< start time of the run, s
+  double observed_;     ///< time of the last sample outside a batch, s
+  const bool account_;  ///< projections can change the energy, which is measured before and after them
   View<S> view_;
   double projection_energy_ = 0;
   std::int64_t surplus_steps_ = 0;

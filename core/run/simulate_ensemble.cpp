@@ -9,6 +9,7 @@
 namespace polhode {
 namespace {
 
+/// The loop of one ensemble.
 class EnsembleLoop {
  public:
   EnsembleLoop(const System<Lanes>& system, Integrator<Lanes>& integrator, std::span<const LaneRun> runs,
@@ -41,9 +42,10 @@ class EnsembleLoop {
   }
 
  private:
+  /// The run in one lane.
   struct Lane {
     RunOutcome outcome;
-    State<double> state;  ///< for looks
+    State<double> state;  ///< full state for Observer::on_state()
     double projection_energy = 0;
     bool running = true;
   };
@@ -81,7 +83,7 @@ class EnsembleLoop {
     }
   }
 
-  /// The samples of lane i in the stretch that was taken last.
+  /// Passes the samples of lane i in the last batch of steps to its observer.
   void show(std::size_t i, std::int64_t count, bool last) {
     Lane& lane = lanes_[i];
     const std::span<Sample> samples(samples_.data() + i * std::size_t(longest_batch), static_cast<std::size_t>(count));
@@ -94,7 +96,8 @@ class EnsembleLoop {
     runs_[i].observer.on_state(lane.state, samples.back());
   }
 
-  /// False ends the run of the lane as diverged.
+  /// Passes samples of lane i to its observer and adds `steps` to the count of its steps. False ends the run of the
+  /// lane as diverged.
   bool take(std::size_t i, std::span<const Sample> samples, std::int64_t steps) {
     Lane& lane = lanes_[i];
     const TakenSamples taken = hand_over(samples, runs_[i].observer);

@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A formulation: which numbers stand for a body's orientation and rotation, and which equations move them.
+// A formulation of the equations of motion: the variables for the orientation and the rotation of a body, and their
+// differential equations.
 #pragma once
 
 #include <string_view>
 
 namespace polhode {
 
-/// The chart of SO(3) in which the orientation is stored, body to world.
+/// Representation of the orientation (body to world): unit quaternion or rotation matrix.
 enum class Orientation { quaternion, matrix };
 
-/// The angular part of the velocity v.
+/// Variable for the angular part of the velocity v.
 enum class AngularState {
-  velocity_world,  ///< ω in world axes, rad/s, as in both source documents
+  velocity_world,  ///< ω in world axes, rad/s; used by both source documents
   velocity_body,   ///< Ω = Rᵀω in body axes, rad/s
-  momentum_world   ///< L in world axes, kg m²/s, about the mass centre or the pivot
+  momentum_world   ///< L in world axes about the mass centre or the pivot, kg m²/s
 };
 
-/// The rotation that a quaternion off the unit sphere stands for.
+/// Rotation matrix of a quaternion q that is not of unit length.
 enum class RotationFrom {
-  normalised,  ///< that of q/|q|
-  stored       ///< the formula 1 − 2(y² + z²) … with q as it is
+  normalised,  ///< rotation of q/|q|
+  stored       ///< formula 1 − 2(y² + z²) … applied to q without normalization
 };
 
-/// The names that options, tables and files use.
+/// Names in options, tables and files.
 constexpr std::string_view name(Orientation o) { return o == Orientation::quaternion ? "quaternion" : "matrix"; }
 constexpr std::string_view name(AngularState a) {
   switch (a) {
@@ -33,11 +34,12 @@ constexpr std::string_view name(AngularState a) {
 }
 constexpr std::string_view name(RotationFrom r) { return r == RotationFrom::normalised ? "normalised" : "stored"; }
 
+/// Choice of variables and equations.
 struct Formulation {
   Orientation orientation = Orientation::quaternion;
   AngularState angular_state = AngularState::velocity_world;
-  bool gyroscopic = true;  ///< the term ω × Iω; both source documents leave it out. momentum_world has no such term.
-  RotationFrom rotation_from = RotationFrom::normalised;  ///< read by the quaternion chart only
+  bool gyroscopic = true;  ///< include the term ω × Iω; both source documents omit it. momentum_world has no such term.
+  RotationFrom rotation_from = RotationFrom::normalised;  ///< for quaternions only
 };
 
 }  // namespace polhode

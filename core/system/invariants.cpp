@@ -16,7 +16,7 @@ namespace {
 using Vector = Vector3<double>;
 using Snapshot = BodySnapshot<double>;
 
-// What the problem is like.
+// Properties of the problem.
 
 bool acts_on_first_body(const ForceParameters& f) {
   return std::find(f.bodies.begin(), f.bodies.end(), std::size_t{0}) != f.bodies.end();
@@ -24,7 +24,7 @@ bool acts_on_first_body(const ForceParameters& f) {
 
 bool is_gravity(const ForceParameters& f) { return f.kind == "uniform_gravity"; }
 
-/// m/s², world: of all uniform gravities that pull at the first body.
+/// Sum of all uniform gravities on the first body, world axes, m/s².
 Vector gravity(const Problem& problem) {
   Vector g = Vector::Zero();
   for (const ForceParameters& f : problem.forces) {
@@ -33,13 +33,13 @@ Vector gravity(const Problem& problem) {
   return g;
 }
 
-/// The vertical: against gravity, +z where there is none.
+/// Unit vertical vector, world axes: opposite to gravity, +z without gravity.
 Vector up(const Problem& problem) {
   const Vector g = gravity(problem);
   return g.isZero(0) ? Vector(Vector::UnitZ()) : Vector(-g.normalized());
 }
 
-/// Whether a force can exert a torque on the first body about its reference point.
+/// True if a force can exert a torque on the first body about its reference point. `gravity_too` includes gravity.
 bool has_torque(const Problem& problem, bool gravity_too) {
   for (const ForceParameters& f : problem.forces) {
     if (is_gravity(f) && !gravity_too) continue;
@@ -52,7 +52,7 @@ bool equal(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std:
 
 bool has_principal_axes(const Body& body) { return body.inertia.isDiagonal(0); }
 
-// Refusals: empty, or the reason.
+// Refusals: empty if the invariant applies to the problem; otherwise the reason why not.
 
 std::string refuse_unless_alone(const Problem& problem) {
   return problem.moving() == 1 ? "" : "it is of the only body that moves";
@@ -91,7 +91,7 @@ std::string refuse_casimir(const Problem& problem) {
   return has_torque(problem, true) ? "a force exerts a torque" : "";
 }
 
-// Values.
+// Values of the invariants.
 
 Vector angular_velocity_body(const Snapshot& s) { return s.rotation.transpose() * s.angular_velocity; }
 
@@ -101,7 +101,7 @@ double p_psi(const Problem& problem, const Snapshot& s) {
   return problem.bodies.front().inertia.row(2).dot(angular_velocity_body(s));
 }
 
-/// k = m g l/I3, 1/s², with l the mass centre's coordinate on body axis 1, of either sign.
+/// k = m g l/I3, 1/s². l is the signed coordinate of the mass centre along body axis 1, m.
 double kovalevskaya_k(const Problem& problem) {
   const Body& body = problem.bodies.front();
   return body.mass * gravity(problem).norm() * body.center_of_mass.x() / body.inertia(2, 2);
@@ -117,7 +117,7 @@ double kovalevskaya(const Problem& problem, const Snapshot& s) {
 
 double casimir(const Problem&, const Snapshot& s) { return s.angular_momentum.norm(); }
 
-// Scales: the size of the terms, never that of their difference.
+// Scales of the invariants: magnitude of the terms, which stays positive when the terms cancel.
 
 double momentum_scale(const Problem&, const Snapshot& s) { return s.angular_momentum.norm(); }
 

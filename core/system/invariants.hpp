@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Further invariants that a scenario may declare by name: momenta about the axes of a top, Kovalevskaya's integral,
-// Casimirs. Each is a number of the state with a unit and a scale against which its drift is taken.
+// Catalogue of additional invariants that a scenario may declare by name: momenta about the axes of a top,
+// Kovalevskaya's integral, Casimirs. Each is a scalar function of the state with a unit and a scale for relative drift.
 #pragma once
 
 #include <string>
@@ -11,19 +11,22 @@
 
 namespace polhode {
 
+/// An invariant of the first body.
 struct InvariantKind {
-  std::string name;     ///< "p_phi": also the column <name>_drift_max_rel
-  std::string unit;     ///< "kg m^2/s"
+  std::string name;     ///< for example "p_phi"; names the column <name>_drift_max_rel
+  std::string unit;     ///< for example "kg m^2/s"
   std::string summary;  ///< formula and meaning
-  /// Empty if it makes sense for the problem; otherwise the reason (it wants one pinned body, say).
+  /// Empty if the invariant applies to the problem; otherwise the reason, for example that the body is not pinned.
   std::string (*refusal)(const Problem&);
+  /// Value of the invariant, in `unit`.
   double (*value)(const Problem&, const BodySnapshot<double>& first_body);
-  /// The size of the terms of the value in this state: what a drift is relative to is its largest along the true
-  /// motion.
+  /// Magnitude of the terms of the value in this state, in `unit`. A relative drift is divided by its maximum along the
+  /// exact motion.
   double (*scale)(const Problem&, const BodySnapshot<double>& first_body);
 };
 
 const std::vector<InvariantKind>& invariant_catalogue();
+/// The entry with this name, or null.
 const InvariantKind* find_invariant(std::string_view name);
 
 }  // namespace polhode

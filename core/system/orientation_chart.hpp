@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two charts of SO(3): how an orientation is stored, what rotation it stands for, and how ω moves it.
+// The two representations of SO(3): storage of an orientation, its rotation matrix, and its rate under ω.
 //   quaternion: q̇ = ½ ω q (world ω; engine slides, θ' = ½ω θ), q̇ = ½ q Ω (body Ω)
 //   matrix:     Ṙ = ω* R (world ω; course report, 2.1),         Ṙ = R Ω*  (body Ω)
 #pragma once
@@ -12,6 +12,7 @@
 
 namespace polhode {
 
+/// Representation O of an orientation in the scalar S.
 template <class S, Orientation O>
 struct Chart;
 
@@ -42,12 +43,12 @@ struct Chart<S, Orientation::quaternion> {
                  a[2] * q[0] + a[1] * q[1] - a[0] * q[2]);
   }
 
-  /// The orientation turned by the unit quaternion d, given in world axes (d q) or in body axes (q d).
+  /// Left and right multiplication by the unit quaternion d: d q for a rotation in world axes, q d in body axes.
   static Value turned_in_world(const Value& q, const Quaternion<S>& d) { return product<S>(d, q); }
   static Value turned_in_body(const Value& q, const Quaternion<S>& d) { return product<S>(q, d); }
 
-  /// q d as q + q (d − 1), with 1 − d_w = |d_v|²/(1 + d_w): over many small turns the length of q keeps its digits, as
-  /// the round-off of |d| is not taken up.
+  /// q d computed as q + q (d − 1) with 1 − d_w = |d_v|²/(1 + d_w). Over many small rotations |q| then does not
+  /// accumulate the round-off of |d|.
   static Value carried_in_body(const Value& q, const Quaternion<S>& d) {
     if (!(d[0] > S(0))) return turned_in_body(q, d);
     const S versine = d.template tail<3>().squaredNorm() / (S(1) + d[0]);
@@ -98,7 +99,8 @@ struct Chart<S, Orientation::matrix> {
   static Value turned_in_world(const Value& r, const Quaternion<S>& d) { return rotation_matrix<S>(d) * r; }
   static Value turned_in_body(const Value& r, const Quaternion<S>& d) { return r * rotation_matrix<S>(d); }
 
-  /// R dR as R + R (dR − 1), dR − 1 = 2 (w + v*) v*: over many small turns R keeps its digits.
+  /// R dR computed as R + R (dR − 1) with dR − 1 = 2 (w + v*) v*, d = (w, v). This reduces the round-off over many
+  /// small rotations.
   static Value carried_in_body(const Value& r, const Quaternion<S>& d) {
     const Matrix3<S> v = skew<S>(d.template tail<3>());
     return r + r * (S(2) * (d[0] * v + v * v));
@@ -109,8 +111,8 @@ struct Chart<S, Orientation::matrix> {
     return sqrt((r.transpose() * r - Value::Identity()).squaredNorm());
   }
 
-  /// The polar factor of R, the nearest rotation in the Frobenius norm, by Higham's Newton iteration
-  /// R ← ½ (R + R⁻ᵀ) (Higham 1986), to round-off; a matrix that is not near any rotation comes back as it goes.
+  /// Polar factor of R, the nearest rotation in the Frobenius norm, to round-off. Computed by Newton iteration
+  /// R ← ½ (R + R⁻ᵀ) (Higham 1986). For a matrix far from every rotation the result is not a rotation in general.
   static Value project(const Value& start) {
     using std::sqrt;
     Value r = start;
@@ -124,7 +126,7 @@ struct Chart<S, Orientation::matrix> {
       const Value next = S(0.5) * (r + cofactors / determinant);
       const S change = (next - r).squaredNorm();
       r = next.binaryExpr(r, [going](const S& now, const S& old) { return select(going, now, old); });
-      // The error after a step is about half the square of the change: stop when that is below round-off.
+      // The error after an iteration is about half the square of the change. Stop once it is below round-off.
       going = going & (change > rounding_unit<S>);
       if (!any(going)) break;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts of RigidBodies that run once per run or per sample, and the choice of the instantiation.
+// Members of RigidBodies that are called once per run or per sample, and the choice of the instantiation.
 #include "core/system/rigid_bodies.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -98,7 +98,7 @@ BodyConstants<Lanes> constants_of<Lanes>(const std::vector<Problem>& problems, s
   return all;
 }
 
-/// A vector or quaternion of the start, of each lane.
+/// A vector or quaternion of the initial state of a body, gathered over the lanes.
 template <class S, class Value, class Member>
 Value start_of(const std::vector<Problem>& problems, std::size_t body, Member member) {
   Value v;
@@ -115,7 +115,7 @@ RigidBodies<S, O, A, N>::RigidBodies(std::vector<Problem> problems, const Formul
   const std::size_t all = this->problem().bodies.size();
   motions_.resize(all, {Vector::Zero(), Matrix::Identity(), Vector::Zero(), Vector::Zero()});
   wrenches_.resize(all);
-  for (std::size_t i = 0; i < all; ++i) {  // what static and pinned bodies keep
+  for (std::size_t i = 0; i < all; ++i) {  // constant for static bodies; positions constant for pinned ones
     motions_[i].position = start_of<S, Vector>(this->problems(), i, &BodyStart::position);
     motions_[i].rotation = rotation_matrix<S>(start_of<S, Quaternion<S>>(this->problems(), i, &BodyStart::orientation));
   }
@@ -248,7 +248,7 @@ std::string lane_key(const System<double>& system) {
   std::string key = system.problem().bodies.front().inertia.isDiagonal(0) ? "principal" : "general";
   if (system.problem().starts.front().angular_velocity_in_body) key += " body";
   for (std::size_t k = 0; k < system.forces().size(); ++k) {
-    if (k >= system.problem().forces.size()) return {};  // registered beyond the problem
+    if (k >= system.problem().forces.size()) return {};  // added by add_force()
     const auto& force = *system.forces()[k];
     key += ' ' + system.problem().forces[k].kind;
     for (const bool fact : {force.does_work(), force.effect_on(0).torque, force.reads_rotation()})
@@ -266,7 +266,7 @@ std::unique_ptr<System<Lanes>> make_ensemble(std::span<const Problem> problems, 
   });
 }
 
-// Every instantiation, so that the members above are compiled here and nowhere else.
+// Explicit instantiations: the members above are compiled only here.
 #define POLHODE_INSTANTIATE(S, N) \
   template class RigidBodies<S, Orientation::quaternion, AngularState::velocity_world, N>; \
   template class RigidBodies<S, Orientation::quaternion, AngularState::velocity_body, N>; \

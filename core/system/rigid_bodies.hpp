@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rigid bodies under forces as a mechanical system: Newton–Euler in the chosen formulation.
+// Rigid bodies under forces as a mechanical system: the Newton–Euler equations in the chosen formulation.
 //
 //   velocity_world:  ω̇ = R I⁻¹ Rᵀ (τ − ω × R I Rᵀ ω)      velocity_body:  Ω̇ = I⁻¹ (Rᵀτ − Ω × I Ω)
 //   momentum_world:  L̇ = τ, ω = R I⁻¹ Rᵀ L                free bodies:    v̇ = f/m, ṗ = v
 //
-// The middle products (the gyroscopic term) can be left out, as both source documents do. R is taken as stored, so
-// that every scheme is exactly what it names when R has left its manifold. Source: Goldstein, Poole & Safko,
-// Classical Mechanics, 3rd ed., ch. 5; course report, section 2.1; engine slides, "Integration".
+// The gyroscopic term (the products ω × R I Rᵀ ω and Ω × I Ω) can be omitted, as in both source documents. R is used as
+// stored, so that the equations hold as written even if R has left its manifold.
+// Source: Goldstein, Poole & Safko, Classical Mechanics, 3rd ed., ch. 5; course report, section 2.1; engine slides,
+// "Integration".
 //
-// One template serves one body, whose state has a size known to the compiler, and many. Integrators of ours are
-// written against the concept MechanicalSystem below and see the concrete type.
+// One template covers a single body, whose state size is known at compile time, and many bodies. Polhode's own methods
+// are written against the concepts of core/system/concepts.hpp and are instantiated for the concrete type.
 #pragma once
 
 #include <array>
@@ -31,23 +32,25 @@ enum class BodyCount { one, many };
 /// The constants of one body in the scalar S.
 template <class S>
 struct BodyConstants {
-  // What a rate of a free body reads stands together, in one line of the cache.
-  bool principal = true;  ///< body axes are principal axes: the products below are three multiplications
+  // The members that the rate of a free body reads come first, so that they share a cache line.
+  bool principal = true;  ///< body axes are principal axes, so that I is diagonal
   bool pinned = false;
   S inverse_mass{};
-  Vector3<S> moments, inverse_moments;  ///< principal
+  Vector3<S> moments, inverse_moments;  ///< principal moments of inertia, kg m², and their inverses
   S mass{};
   Matrix3<S> inertia, inverse_inertia;
-  Matrix3<S> axes;  ///< principal axes as columns, a rotation
+  Matrix3<S> axes;  ///< rotation matrix with the principal axes as columns
   Vector3<S> center_of_mass;
 
   BodyConstants() = default;
   explicit BodyConstants(const Body& b);
+  /// I ω in body axes.
   Vector3<S> momentum(const Vector3<S>& w) const {
     if (principal) [[likely]]
       return moments.cwiseProduct(w);
     return inertia * w;
   }
+  /// I⁻¹ l in body axes.
   Vector3<S> velocity(const Vector3<S>& l) const {
     if (principal) [[likely]]
       return inverse_moments.cwiseProduct(l);
@@ -55,7 +58,7 @@ struct BodyConstants {
   }
 };
 
-/// (1 − (θ/2) cot(θ/2))/θ² of dexp⁻¹, from θ²; by its series near 0.
+/// Coefficient (1 − (θ/2) cot(θ/2))/θ² of dexp⁻¹ as a function of θ². Near 0 it is computed by its power series.
 template <class S>
 S dexp_inverse_coefficient(S theta2) {
   using std::sqrt, std::tan;
@@ -69,13 +72,15 @@ S dexp_inverse_coefficient(S theta2) {
   return select(theta2 < S(1e-2), series, S((S(1) - half / tan(half)) / theta2));
 }
 
-/// (constants, h, m): what a rotor is to free_flow().
+/// Rotation of a free body over a step, used by free_flow(): dq = rotor(constants, h, m). h is in s. m is the angular
+/// momentum in principal axes, updated by the call. dq is the unit quaternion of the rotation.
 template <class S>
 using Rotor = std::function<Quaternion<S>(const BodyConstants<S>&, S, Vector3<S>&)>;
 
-/// Many bodies, or any number in float and long double, whatever the formulation: the concept with one virtual call for
-/// each operation on all the bodies. A method is compiled for it once; for one body such a call would cost as much as
-/// the work, so that one body is compiled for each formulation, and inlines.
+/// Interface of every system except a single free body in double, alone or in lanes; independent of the formulation.
+/// Each operation on all bodies is one virtual call, so that a method is compiled once for all formulations. For a
+/// single free body the call would cost as much as the operation itself. That case is compiled for each formulation,
+/// and its operations inline.
 template <class S>
 class ManyBodies : public System<S> {
  public:
@@ -117,7 +122,8 @@ class ManyBodies : public System<S> {
   using System<S>::System;
 };
 
-/// The members that ManyBodies declares override it; those of one body are called by their concrete type alone.
+/// Rigid bodies in one formulation. For many bodies the members override those of ManyBodies. For one body they are
+/// called through the concrete type only.
 template <class S, Orientation O, AngularState A, BodyCount N>
 class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<S>, ManyBodies<S>> {
  public:
@@ -132,14 +138,14 @@ class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<
   static constexpr bool is_one = N == BodyCount::one;
   static constexpr int one_configuration = 3 + ChartOf::size;
   static constexpr int one_size = one_configuration + 6 + 1;
-  /// The flat state: a fixed-size vector for one body, a dynamic one for many.
+  /// Flat state: a vector of fixed size for one body, of dynamic size for many.
   using Flat = Eigen::Matrix<S, is_one ? one_size : Eigen::Dynamic, 1>;
   using Tangent = Eigen::Matrix<S, is_one ? 6 : Eigen::Dynamic, 1>;
 
-  /// One problem, or one for each lane of the scalar.
+  /// Takes one problem, or for lanes one problem for each lane.
   RigidBodies(std::vector<Problem> problems, const Formulation& formulation);
 
-  // ---- the concept -------------------------------------------------------------------------------------------------
+  // ---- operations of the concepts -----------------------------------------------------------------------------------
 
   Flat zero() const { return Flat::Zero(this->layout().size()); }
 
@@ -166,53 +172,55 @@ class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<
     else kinematic_rate(t, y.data(), dy.data());
   }
 
-  // The group SO(3)ⁿ × R³ⁿ (Iserles, Munthe-Kaas, Nørsett & Zanna, Lie-group methods, Acta Numerica 2000).
+  // Lie group SO(3)ⁿ × R³ⁿ (Iserles, Munthe-Kaas, Nørsett & Zanna, Lie-group methods, Acta Numerica 2000).
 
   Tangent zero_tangent() const { return Tangent::Zero(this->layout().velocity_size); }
   void twist(const Flat& y, Tangent& xi) const;
   void retract(Flat& y, const Tangent& xi) const;
 
-  /// dexp⁻¹ of exp(θ) R is η − ½ θ × η + c θ × (θ × η), that of R exp(θ) has + ½; c = (1 − (θ/2) cot(θ/2))/θ².
+  /// out = η ∓ ½ θ × η + c θ × (θ × η), with − for exp(θ) R (world axes) and + for R exp(θ) (body axes).
+  /// c = (1 − (θ/2) cot(θ/2))/θ².
   void dexp_inverse(const Tangent& theta, const Tangent& eta, Tangent& out) const;
 
-  // The inertia map.
+  // Inertia map.
 
   void wrench(S t, const Flat& y, Tangent& w) const;
   void momentum(const Flat& y, Tangent& p) const;
   void set_momentum(const Tangent& p, Flat& y) const;
 
-  // The body's frame, whatever the formulation, for methods whose source writes them there.
+  // Body frame, in every formulation, for methods whose source is written in body axes.
 
   void body_twist(const Flat& y, Tangent& xi) const;
   void set_body_twist(const Tangent& xi, Flat& y) const;
   void body_acceleration(const Flat& y, const Tangent& wrench, Tangent& rate) const;
   void retract_in_body(Flat& y, const Tangent& xi) const;
 
-  /// In increments, so that a free body keeps its momentum R I Ω whatever the defect of R, and no product with I and
-  /// its inverse is repeated at every step.
+  /// Updates the velocity by increments. A free body then conserves its momentum R I Ω for every defect of R, and the
+  /// round-off of I I⁻¹ does not enter at every step.
   void carry_momentum(const Tangent& theta, const Tangent& impulse, Flat& y) const;
   void bracket(const Tangent& a, const Tangent& b, Tangent& out) const;
 
-  // The split T + V: the wrench turns the momentum of bodies at rest, and bodies without a wrench move freely.
+  // Splitting T + V: kicks change the momentum at fixed configuration, and free flow moves bodies without a wrench.
 
-  /// v ← v + h M⁻¹ (f, τ), without the gyroscopic term, and the work of the wrench by the trapezoidal rule.
+  /// v ← v + h M⁻¹ (f, τ) without the gyroscopic term. The work of the wrench follows by the trapezoidal rule.
   void kick(S t, S h, Flat& y) const;
 
-  /// The same increment of v with the wrench of the state `seen`, whose configuration is that of y, and its power in
-  /// that state: a stage of a rule for forces that depend on v.
+  /// Kick with the wrench and power of the state `seen`, whose configuration equals that of y. It is a stage of a
+  /// quadrature rule for forces that depend on v.
   void kick(S t, S h, const Flat& seen, Flat& y) const;
 
-  /// Free motion over h: mass centres go straight, and each body turns as `rotor` says:
-  /// Quaternion dq = rotor(constants, h, m) moves the angular momentum m, in principal axes, to that at the end of the
-  /// step and returns the unit quaternion of the turn, so that R' = R dR in the same axes. constants.moments are the
-  /// principal moments. With momentum_world L stays as it is, to the bit. All else is moved by
-  /// increments, and Ω of velocity_world is that with R Ω = ω, so that the way into the body and back takes nothing:
-  /// I I⁻¹ is 1 to round-off only, RᵀR to its defect, and over many steps such factors would be a drift. For the same
-  /// reason R of a quaternion is here that of q/|q| always, the only one with R(q dq) = R(q) R(dq).
+  /// Free motion over h (s). Mass centres move in straight lines. Each body rotates by dq = rotor(constants, h, m): the
+  /// call advances the angular momentum m (principal axes) over the step and returns the unit quaternion of the
+  /// rotation dR, R' = R dR in the same axes. constants.moments are the principal moments (kg m²).
+  ///
+  /// With momentum_world, L is bitwise unchanged. The other variables are updated by increments, and for velocity_world
+  /// Ω solves R Ω = ω. The transformation into body axes and back then cancels exactly. It would not otherwise, because
+  /// I I⁻¹ = 1 holds only to round-off and RᵀR = 1 only to the defect of R; over many steps these factors would cause a
+  /// drift. For the same reason R of a quaternion is always that of q/|q| here: only then R(q dq) = R(q) R(dq).
   template <class AnyRotor>
   requires(!is_lanes<S>) void free_flow(S h, Flat& y, AnyRotor&& rotor) const;
 
-  // ---- the erased interface ----------------------------------------------------------------------------------------
+  // ---- interface of System ------------------------------------------------------------------------------------------
 
   void rate(S t, const S* y, S* dy) const { full_rate(t, y, dy); }
   State<S> start() const;
@@ -225,7 +233,7 @@ class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<
   void displace(VectorX<S>& y, std::size_t body, const Vector3<S>& shift, const Vector3<S>& turn) const;
   void project(VectorX<S>& y) const;
 
-  /// What measure() and project() do, on the bare numbers, for callers that know the concrete type.
+  /// measure() and project() on the array of the state's numbers, for callers that know the concrete type.
   Measurement<S> measure_flat(const S* y) const {
     Measurement<S> m;
     const bool alone = count() == 1;
@@ -251,7 +259,7 @@ class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<
       }
       m.angular_momentum += l;
       const S defect = ChartOf::defect(ChartOf::load(y + s.orientation));
-      m.orientation_defect = select(defect <= m.orientation_defect, m.orientation_defect, defect);  // NaN stays
+      m.orientation_defect = select(defect <= m.orientation_defect, m.orientation_defect, defect);  // keeps a NaN
     }
     if (this->has_forces() && !this->forces_read_rotation()) fill_motions(y);
     for (const auto& force : this->forces()) m.potential += force->potential_energy(motions_);
@@ -295,9 +303,9 @@ class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<
     else return bodies_.size();
   }
 
-  static constexpr bool in_body_axes = A == AngularState::velocity_body;  ///< the frame of tangent vectors
+  static constexpr bool in_body_axes = A == AngularState::velocity_body;  ///< true: tangent vectors are in body axes
 
-  /// Where the parts of body i stand in a Tangent.
+  /// Pointers to the angular and linear parts of body i in a Tangent.
   template <class T>
   auto angular(T& xi, std::size_t i) const {
     return xi.data() + (slot(i).angular - configuration_size());
@@ -316,7 +324,7 @@ class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<
 
   Matrix rotation(const ChartValue& c) const { return ChartOf::rotation(c, this->formulation().rotation_from); }
 
-  /// True where R is a rotation by construction, whatever the state: that of q/|q|.
+  /// True if R is a rotation for every state by construction, as the rotation of q/|q| is.
   bool orthonormal() const {
     return O == Orientation::quaternion && this->formulation().rotation_from == RotationFrom::normalised;
   }
@@ -328,7 +336,7 @@ class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<
     else return r * b.velocity(r.transpose() * a);
   }
 
-  /// What the turn d adds to the vector v: d v d* − v.
+  /// Change of the vector v under the rotation by the unit quaternion d: d v d* − v.
   static Vector turning(const Quaternion<S>& d, const Vector& v) {
     const Vector u = d.template tail<3>();
     const Vector uv = u.cross(v);
@@ -342,26 +350,26 @@ class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<
     else return b.velocity(rotation(c).transpose() * a);
   }
 
-  /// R⁻¹ a of the rotation of a quaternion, or by Cramer's rule of a stored matrix.
+  /// R⁻¹ a: by the transpose for the rotation of a quaternion, by Cramer's rule for a stored matrix.
   static Vector unturned(const Matrix& r, const Vector& a) {
     if constexpr (O == Orientation::quaternion) return r.transpose() * a;
     const Vector c0 = r.col(1).cross(r.col(2)), c1 = r.col(2).cross(r.col(0)), c2 = r.col(0).cross(r.col(1));
     return Vector(c0.dot(a), c1.dot(a), c2.dot(a)) / c0.dot(r.col(0));
   }
 
-  /// Ω in body axes from an angular velocity a, in the frame of the formulation.
+  /// Ω in body axes from an angular velocity a in the frame of the formulation.
   static Vector body_velocity(const Matrix& r, const Vector& a) {
     if constexpr (A == AngularState::velocity_body) return a;
     else return r.transpose() * a;
   }
 
-  /// L about the reference point, world axes: R I Ω, or the state itself.
+  /// Angular momentum about the reference point, world axes: R I Ω, or the angular state itself for momentum_world.
   Vector angular_momentum(const Constants& b, const Matrix& r, const Vector& a) const {
     if constexpr (A == AngularState::momentum_world) return a;
     else return r * b.momentum(body_velocity(r, a));
   }
 
-  /// The angular state whose angular momentum is l; linear in l.
+  /// Angular state with the angular momentum l (world axes). Linear in l.
   Vector angular_state(const Constants& b, const Matrix& r, const Vector& l) const {
     if constexpr (A == AngularState::momentum_world) return l;
     else if constexpr (in_body_axes) return b.velocity(r.transpose() * l);
@@ -383,7 +391,7 @@ class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<
     return m;
   }
 
-  /// The motions that forces see; without rotation and angular velocity where no force reads them.
+  /// Fills the motions that are passed to forces. Skips rotations and angular velocities if no force reads them.
   void fill_motions(const S* y) const {
     for (std::size_t i = 0; i < count(); ++i) {
       if (this->forces_read_rotation()) {
@@ -400,7 +408,7 @@ class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<
     for (const auto& force : this->forces()) force->add_wrench(t, motions_, wrenches_);
   }
 
-  /// v ← v + h M⁻¹ (f, τ) with the wrenches that were filled last.
+  /// v ← v + h M⁻¹ (f, τ) with the wrenches of the last fill_wrenches().
   void push(S h, Flat& y) const {
     for (std::size_t i = 0; i < count(); ++i) {
       const Layout::Slot s = slot(i);
@@ -424,19 +432,20 @@ class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<
     return p;
   }
 
-  /// IΩ × Ω in body axes, or nothing where the formulation leaves it out.
+  /// Gyroscopic torque IΩ × Ω in body axes, N m; zero if the formulation omits it.
   Vector gyroscopic_torque(const Constants& b, const Vector& w) const {
     if (this->formulation().gyroscopic) [[likely]]
       return b.momentum(w).cross(w);
     return Vector::Zero();
   }
 
-  /// dω/dt, or dL/dt, of a body with rotation r under the torque about its reference point; null: no torque.
+  /// dω/dt or dL/dt in world axes of a body with rotation r under the torque about its reference point. A null torque
+  /// is zero.
   Vector angular_rate_world(const Constants& b, const Matrix& r, const Vector& a, const Vector* torque) const {
     if constexpr (A == AngularState::momentum_world) {
       return torque ? *torque : Vector(Vector::Zero());
     } else {
-      if (orthonormal()) {  // R RᵀR = R: the products with R around the gyroscopic term cancel
+      if (orthonormal()) {  // R RᵀR = R, so that products with R around the gyroscopic term cancel
         const Vector w = r.transpose() * a;
         const Vector m = gyroscopic_torque(b, w);
         return r * b.velocity(torque ? Vector(r.transpose() * *torque + m) : m);
@@ -472,7 +481,7 @@ class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<
         if constexpr (in_body_axes) ChartOf::store(ChartOf::rate_body(c, a), dy + s.orientation);
         if (!pinned(i)) store(load(y + s.velocity), dy + s.position);
       }
-      if constexpr (in_body_axes) {  // the matrix is needed for torques only
+      if constexpr (in_body_axes) {  // R is needed for torques only
         if constexpr (WithVelocity) {
           const Vector m = gyroscopic_torque(b, a);
           store(b.velocity(torque ? Vector(rotation_now().transpose() * *torque + m) : m), dy + s.angular);
@@ -499,20 +508,22 @@ class RigidBodies final : public std::conditional_t<N == BodyCount::one, System<
 
   std::vector<Constants> bodies_;
   Constants first_;
-  // Accumulators of the bodies (slides, "Rigid Body Data"): scratch, no state; a system serves one run on one thread.
+  // Accumulators of the bodies (engine slides, "Rigid Body Data"). Scratch storage; a system serves one run on one
+  // thread.
   mutable std::vector<BodyMotion<S>> motions_;
   mutable std::vector<Wrench<S>> wrenches_;
 };
 
-/// Only double, alone or in lanes, is worth an instantiation of its own for one body; float and long double are for
-/// studies of rounding.
+/// True for double, alone or in lanes: a single body then has instantiations of its own. Float and long double serve
+/// rounding studies, where speed matters less.
 template <class S>
 inline constexpr bool has_one_body_form = std::is_same_v<S, double> || is_lanes<S>;
+/// True for a problem with a single body that is free.
 inline bool fits_one_body_form(const Problem& problem) {
   return problem.bodies.size() == 1 && !problem.bodies.front().pinned;
 }
 
-/// build<O, A>() of the formulation.
+/// Calls build<O, A>() with the orientation chart and the angular state of the formulation.
 template <class Build>
 auto in_formulation(const Formulation& formulation, const Build& build) {
   const auto chart = [&]<Orientation O>() {
@@ -526,7 +537,7 @@ auto in_formulation(const Formulation& formulation, const Build& build) {
                                                             : chart.template operator()<Orientation::matrix>();
 }
 
-/// Calls f with the system behind the erased one: ManyBodies, or that of one body in its formulation.
+/// Calls f with the concrete system: ManyBodies, or RigidBodies of one body in its formulation.
 template <class S, class F>
 auto visit_system(const System<S>& system, F&& f) {
   const auto one = [&]<Orientation O, AngularState A>() {

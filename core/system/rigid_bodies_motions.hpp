@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The members of RigidBodies that Lie-group, conserving and splitting methods build on: group steps, the inertia map,
-// the body's frame, and the flows of kinetic and potential energy. Included by core/system/rigid_bodies.hpp alone.
+// Definitions of RigidBodies members for Lie-group, conserving and splitting methods: group operations, inertia map,
+// body frame, kicks and free flow. Included only by core/system/rigid_bodies.hpp.
 #pragma once
 
 #include "core/system/rigid_bodies.hpp"
 
 namespace polhode {
 
-// The group SO(3)ⁿ × R³ⁿ (Iserles, Munthe-Kaas, Nørsett & Zanna, Lie-group methods, Acta Numerica 2000).
+// Lie group SO(3)ⁿ × R³ⁿ (Iserles, Munthe-Kaas, Nørsett & Zanna, Lie-group methods, Acta Numerica 2000).
 
 template <class S, Orientation O, AngularState A, BodyCount N>
 void RigidBodies<S, O, A, N>::twist(const Flat& y, Tangent& xi) const {
@@ -46,7 +46,7 @@ void RigidBodies<S, O, A, N>::dexp_inverse(const Tangent& theta, const Tangent& 
   }
 }
 
-// The inertia map.
+// Inertia map.
 
 template <class S, Orientation O, AngularState A, BodyCount N>
 void RigidBodies<S, O, A, N>::wrench(S t, const Flat& y, Tangent& w) const {
@@ -80,7 +80,7 @@ void RigidBodies<S, O, A, N>::set_momentum(const Tangent& p, Flat& y) const {
   }
 }
 
-// The body's frame, whatever the formulation, for methods whose source writes them there.
+// Body frame, in every formulation, for methods whose source is written in body axes.
 
 template <class S, Orientation O, AngularState A, BodyCount N>
 void RigidBodies<S, O, A, N>::body_twist(const Flat& y, Tangent& xi) const {
@@ -165,7 +165,7 @@ void RigidBodies<S, O, A, N>::bracket(const Tangent& a, const Tangent& b, Tangen
   }
 }
 
-// The split T + V: the wrench turns the momentum of bodies at rest, and bodies without a wrench move freely.
+// Splitting T + V: kicks change the momentum at fixed configuration, and free flow moves bodies without a wrench.
 
 template <class S, Orientation O, AngularState A, BodyCount N>
 void RigidBodies<S, O, A, N>::kick(S t, S h, Flat& y) const {
@@ -198,7 +198,7 @@ requires(!is_lanes<S>) void RigidBodies<S, O, A, N>::free_flow(S h, Flat& y, Any
     S* c = y.data() + s.orientation;
     S* a = y.data() + s.angular;
     const ChartValue old = ChartOf::load(c);
-    Vector omega = load(a), m = omega;  // Ω, and the momentum in the body
+    Vector omega = load(a), m = omega;  // angular velocity Ω and angular momentum in body axes
     Matrix r = Matrix::Identity();
     if constexpr (!in_body_axes) r = ChartOf::rotation(old, RotationFrom::normalised);
     if constexpr (A == AngularState::velocity_world) omega = unturned(r, omega);

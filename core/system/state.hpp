@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The state of a system: time, configuration q and velocity v, one contiguous vector y = (q, v, work).
+// The state of a system: the time and one contiguous vector y = (q, v, work) of configuration, velocity and work.
 #pragma once
 
 #include <vector>
@@ -8,27 +8,29 @@
 
 namespace polhode {
 
-/// The flat vector y of a system holds the configurations of all bodies, then their velocities, then one number: the
-/// work in J that non-conservative forces have done, integrated by the method itself like everything else.
+/// State of a system. The flat vector y holds the configurations of all bodies, then their velocities, then the work of
+/// the non-conservative forces (J), which the method integrates together with the motion.
 template <class S>
 struct State {
-  double t = 0;  ///< s
+  double t = 0;  ///< time, s
   VectorX<S> y;
 };
 
-/// Where the numbers of each moving body stand in y. A free body has a position (3) and an orientation (4 or 9) in q,
-/// a linear (3) and an angular part (3) in v; a pinned body has its orientation and angular part only.
+/// Indices in y of the variables of each moving body. A free body has a position (3) and an orientation (4 or 9) in q,
+/// and a linear (3) and an angular part (3) in v. A pinned body has only an orientation and an angular part.
 struct Layout {
   struct Slot {
-    int position = -1;    ///< index in y of p, −1 when pinned
-    int orientation = 0;  ///< index in y of the chart
-    int velocity = -1;    ///< index in y of the linear velocity, −1 when pinned
-    int angular = 0;      ///< index in y of the angular state
+    int position = -1;    ///< index of the position p; −1 if pinned
+    int orientation = 0;  ///< index of the orientation
+    int velocity = -1;    ///< index of the linear velocity; −1 if pinned
+    int angular = 0;      ///< index of the angular state
   };
-  std::vector<Slot> slots;
+  std::vector<Slot> slots;  ///< one for each moving body
   int configuration_size = 0;
   int velocity_size = 0;
+  /// Number of entries of y.
   int size() const { return configuration_size + velocity_size + 1; }
+  /// Index of the work in y.
   int work() const { return configuration_size + velocity_size; }
 };
 

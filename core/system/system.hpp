@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mechanical system behind one type: what the driver, the library integrators and the measurements need of it.
-// Methods of our own are templates over the concrete RigidBodies (core/system/rigid_bodies.hpp), so that their loops
-// inline.
+// Interface of a mechanical system for the simulation loop, library integrators and measurements. Polhode's own methods
+// are templates over the concrete class RigidBodies (core/system/rigid_bodies.hpp), so that their loops inline.
 #pragma once
 
 #include <memory>
@@ -18,30 +17,35 @@
 
 namespace polhode {
 
-/// What can be said of a state without knowing its future or past.
+/// Quantities that are functions of a single state.
 template <class S>
 struct Measurement {
-  S kinetic{};  ///< J: ½ m v² + ½ Ω·IΩ, Ω = Rᵀω with R as stored; with L as the state ½ L·(R I⁻¹ Rᵀ L)
-  S potential{};                                    ///< J
-  Vector3<S> linear_momentum = Vector3<S>::Zero();  ///< kg m/s; pinned bodies count nothing
-  /// kg m²/s, world axes; of one body about its reference point, of several about the world's origin. L = R I Ω.
+  /// Kinetic energy ½ m v² + ½ Ω·IΩ, J. Ω = Rᵀω with R as stored. For momentum_world the second term is
+  /// ½ L·(R I⁻¹ Rᵀ L).
+  S kinetic{};
+  S potential{};                                    ///< potential energy, J
+  Vector3<S> linear_momentum = Vector3<S>::Zero();  ///< total of the free bodies, world axes, kg m/s
+  /// Angular momentum L = R I Ω, world axes, kg m²/s. A single body: about its reference point. Several bodies: total
+  /// about the origin of the world.
   Vector3<S> angular_momentum = Vector3<S>::Zero();
-  S orientation_defect{};  ///< largest over the bodies: | |q| − 1 |, or the Frobenius norm of RᵀR − 1
+  S orientation_defect{};  ///< maximum over the bodies of | |q| − 1 | or the Frobenius norm of RᵀR − 1
 
+  /// Total energy, J.
   S energy() const { return kinetic + potential; }
 };
 
-/// One body as a trajectory shows it, world axes, SI units.
+/// Motion of one body in world axes and SI units, for trajectories.
 template <class S>
 struct BodySnapshot {
-  Vector3<S> position;          ///< of the mass centre
-  Quaternion<S> orientation;    ///< as stored; from the matrix by Shepperd's method
-  Matrix3<S> rotation;          ///< the matrix that the equations use
-  Vector3<S> velocity;          ///< of the mass centre
-  Vector3<S> angular_velocity;  ///< ω
-  Vector3<S> angular_momentum;  ///< about the reference point
+  Vector3<S> position;          ///< position of the mass centre, m
+  Quaternion<S> orientation;    ///< quaternion as stored, or from the stored matrix by Shepperd's method
+  Matrix3<S> rotation;          ///< rotation matrix R in the equations of motion
+  Vector3<S> velocity;          ///< velocity of the mass centre, m/s
+  Vector3<S> angular_velocity;  ///< angular velocity ω, rad/s
+  Vector3<S> angular_momentum;  ///< angular momentum about the reference point, kg m²/s
 };
 
+/// Interface of a system of rigid bodies in the scalar S.
 template <class S>
 class System : public Ode<S> {
  public:
@@ -49,7 +53,7 @@ class System : public Ode<S> {
 
   /// The problem; in an ensemble the problem of lane 0.
   const Problem& problem() const { return problems_.front(); }
-  /// One, or as many as a pack has lanes.
+  /// One problem, or in an ensemble one for each lane.
   const std::vector<Problem>& problems() const { return problems_; }
   const Formulation& formulation() const { return formulation_; }
   const Layout& layout() const { return layout_; }
@@ -63,7 +67,7 @@ class System : public Ode<S> {
   bool forces_read_rotation() const { return forces_read_rotation_; }
   bool forces_read_velocity() const { return forces_read_velocity_; }
 
-  /// Registers a force beyond those that the problem names: before a run, never during one.
+  /// Adds a force to those of the problem. Call it only before a run.
   void add_force(ForcePointer<S> force) {
     forces_do_work_ = forces_do_work_ || force->does_work();
     for (std::size_t i = 0; i < moving(); ++i) {
@@ -74,28 +78,28 @@ class System : public Ode<S> {
     forces_.push_back(std::move(force));
   }
 
-  /// The state in which the problem starts, at t = 0.
+  /// Initial state of the problem, at t = 0.
   virtual State<S> start() const = 0;
 
   virtual Measurement<S> measure(const VectorX<S>& y) const = 0;
   virtual BodySnapshot<S> snapshot(const VectorX<S>& y, std::size_t body) const = 0;
 
-  /// Where a body is and how it moves, static ones too, as forces see it.
+  /// Position, rotation and velocities of a body, static bodies included, as passed to forces.
   virtual BodyMotion<S> motion_of(const VectorX<S>& y, std::size_t body) const = 0;
-  /// 1/(kg m²), body axes, about the reference point; of a moving body.
+  /// Inverse inertia tensor of a moving body about its reference point, body axes, 1/(kg m²).
   virtual const Matrix3<S>& inverse_inertia(std::size_t body) const = 0;
-  /// An impulse (N s) at the reference point and an angular one about it (N m s), both in world axes: what a contact
-  /// does at an instant. A pinned body takes the angular part alone.
+  /// Applies an impulse (N s) at the reference point and an angular impulse about it (N m s), both in world axes. A
+  /// pinned body receives the angular impulse only.
   virtual void apply_impulse(VectorX<S>& y, std::size_t body, const Vector3<S>& impulse,
                              const Vector3<S>& angular_impulse) const = 0;
-  /// Moves a body by `shift` (m) and the rotation vector `turn` (rad, world axes), and leaves its velocity and angular
-  /// velocity in the world as they are.
+  /// Displaces a body by `shift` (m) and the rotation vector `turn` (rad), both in world axes. Its velocity and angular
+  /// velocity in world axes are unchanged.
   virtual void displace(VectorX<S>& y, std::size_t body, const Vector3<S>& shift, const Vector3<S>& turn) const = 0;
 
-  /// Moves every orientation to the nearest one on its manifold: q/|q|, or the polar factor of R.
+  /// Projects every orientation onto its manifold: q/|q|, or the polar factor of R.
   virtual void project(VectorX<S>& y) const = 0;
 
-  /// True when project() can change the energy. It cannot where the equations read q/|q| only.
+  /// True if project() can change the energy. It cannot if the equations depend on q only through q/|q|.
   bool projection_changes_energy() const {
     return formulation_.orientation == Orientation::matrix || formulation_.rotation_from == RotationFrom::stored;
   }
@@ -114,15 +118,15 @@ class System : public Ode<S> {
   bool forces_read_velocity_ = false;
 };
 
-/// Builds the instantiation that fits: one free body, or many. Throws std::invalid_argument, with the reason, for a
-/// formulation that makes no sense (gyroscopic off with momentum_world) and for a problem without a moving body.
+/// Builds the system of a problem, specialized for one free body or general. Throws std::invalid_argument with the
+/// reason for an inconsistent formulation (gyroscopic off with momentum_world) and for a problem without a moving body.
 template <class S>
 std::unique_ptr<System<S>> make_system(const Problem& problem, const Formulation& formulation);
 
-/// Systems of the same non-empty key can go side by side in the lanes of an ensemble: one free body, with the same
-/// kinds of forces. Their inertias, starts and parameters are their own.
+/// Compatibility key for ensembles. Systems with equal non-empty keys can run side by side in lanes: each has one free
+/// body and the same kinds of forces. Inertias, initial states and parameters may differ.
 std::string lane_key(const System<double>& system);
-/// lane_count problems, whose systems have one key, side by side.
+/// Builds an ensemble of lane_count problems, one per lane. Their systems must have equal non-empty keys.
 std::unique_ptr<System<Lanes>> make_ensemble(std::span<const Problem> problems, const Formulation& formulation);
 
 }  // namespace polhode

@@ -264,4 +264,4 @@ int measure_costs(const BroadPhaseOptions& options) {
   return measurement.finish();
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::broad_phase

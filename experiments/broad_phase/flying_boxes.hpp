@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boxes of edges from 0.5 to 1 m that fly straight in a cube and bounce off its walls; the same ones for the same seed.
-// Their speeds are spread evenly from none to twice the mean: at one speed for all, boxes leave the margins that a
-// broad phase gives them together, and its work comes in bursts.
+// Boxes with edges from 0.5 to 1 m that move uniformly in a cube and bounce off its walls; deterministic for a seed.
+// Their speeds are distributed uniformly from 0 to twice the mean. With the same speed for all, all boxes would leave
+// their margins in the broad phase at about the same time, and its work would come in bursts.
 #pragma once
 
 #include <cmath>
@@ -60,4 +60,4 @@ class FlyingBoxes {
   std::vector<Bounds> bounds_;
 };
 
-}  // namespace polhode::study
+}  // namespace polhode::study::broad_phase

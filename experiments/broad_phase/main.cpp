@@ -26,7 +26,7 @@ int run_broad_phase(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::broad_phase
 
 int main(int argc, char** argv) {
   using namespace polhode::study;

@@ -106,4 +106,4 @@ BroadPhaseOptions parse_broad_phase_options(int argc, const char* const* argv) {
   return options;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::broad_phase

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The command line of broad_phase.
+// Command line of broad_phase.
 #pragma once
 
 #include <cstddef>
@@ -17,20 +17,20 @@ inline constexpr const char* broad_phase_question =
 
 struct BroadPhaseOptions {
   std::vector<const BroadPhaseEntry*> phases;
-  std::string boxes;  ///< recorded motion to answer; empty: measure made-up motion
-  std::string out;    ///< of recorded motion: the file of pairs; otherwise the folder of results
+  std::string boxes;  ///< file of a recorded motion whose pairs are computed; empty: measure FlyingBoxes
+  std::string out;    ///< for a recorded motion the file of pairs to write; otherwise the results folder
   std::vector<std::size_t> bodies;
-  double filling = 0.1;   ///< of the volume, by boxes
+  double filling = 0.1;   ///< volume of the boxes over that of the cube
   double motion = 0.02;   ///< mean path of a box in a step, over the mean edge
-  double patience = 0.5;  ///< s, the longest step that is worth waiting for
+  double patience = 0.5;  ///< longest wall time of a step to measure, s
   std::uint64_t seed = 1;
   bool figures = true;
   std::string command;
   std::optional<std::string> list;
-  std::optional<int> exit_status;  ///< the command line said it all (--help)
+  std::optional<int> exit_status;  ///< set if the program must end at once (--help)
 };
 
-/// Throws InputError.
+/// Parses the command line. Throws InputError.
 BroadPhaseOptions parse_broad_phase_options(int argc, const char* const* argv);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::broad_phase

@@ -92,4 +92,4 @@ void answer_recorded_motion(const std::vector<RecordedStep>& motion, const Broad
              number(1e9 * total / static_cast<double>(std::max<std::size_t>(boxes, 1))));
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::broad_phase

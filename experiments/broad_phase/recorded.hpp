@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Recorded motion of boxes: reads it, and answers each of its steps with a broad phase.
+// Recorded motions of boxes: reader, and computation of the pairs of each step by a broad phase.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,18 @@ namespace polhode::study::broad_phase {
 
 struct RecordedStep {
   std::int64_t step = 0;
-  std::vector<std::int64_t> ids;  ///< increasing; the body with number k is ids[k]
+  std::vector<std::int64_t> ids;  ///< ids of the boxes in ascending order
   std::vector<Bounds> boxes;
 };
 
-/// Columns step, id (whole numbers), hx, hy, hz (m, half extents, 0 or more, may be infinite), px, py, pz (m, centre),
-/// by name; others are passed over. Rows may stand in any order; steps come out in increasing order. Throws InputError,
-/// with file, line and column.
+/// Reads a CSV file with the columns step, id (whole numbers), hx, hy, hz (half extents, m, not negative, may be
+/// infinite) and px, py, pz (centre, m), found by name; other columns are ignored. Rows may be in any order; steps are
+/// returned in ascending order. Throws InputError, with file, line and column.
 std::vector<RecordedStep> read_recorded_motion(const std::string& path);
 
-/// Writes step,a,b with a < b, sorted, and prints what each step took. Throws std::runtime_error where it cannot write.
+/// Writes the pairs as rows step,a,b with ids a < b, sorted, and prints the wall time of each step. Throws
+/// std::runtime_error if the file cannot be written.
 void answer_recorded_motion(const std::vector<RecordedStep>& motion, const BroadPhaseEntry& phase,
                             const std::string& out);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::broad_phase

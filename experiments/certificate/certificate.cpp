@@ -97,4 +97,4 @@ std::vector<Certificate> certify(const StudyView& study, const Measures& measure
   return certificates;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::certificate

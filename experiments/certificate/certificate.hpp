@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The certificates of a study: of each method and formulation in it every trait, declared against measured.
+// Certificates of a study: for each method and formulation every trait, as declared and as measured.
 #pragma once
 
 #include <functional>
@@ -15,26 +15,26 @@ namespace polhode::study::certificate {
 
 struct Certificate {
   const IntegratorEntry* entry = nullptr;
-  RunConfig config;               ///< of one of its runs; what differs between them says nothing
-  std::string variant;            ///< "matrix, velocity_body"; empty where the study has one formulation
-  std::vector<Finding> findings;  ///< one for each of trait_columns()
+  RunConfig config;               ///< configuration of one of its runs; only what all runs share is meaningful
+  std::string variant;            ///< formulation: "matrix, velocity_body"; empty if the study has only one
+  std::vector<Finding> findings;  ///< one for each trait in trait_columns()
 };
 
-/// What the measurements beside the runs take from the study.
+/// Settings, taken from the study, of the measurements that are made in addition to the runs.
 struct Measures {
   std::vector<Stage> stages;
-  Course course;                          ///< that of the longest runs
-  std::vector<double> steps, tolerances;  ///< those of the shortest ladders
-  /// s: of maps. Half of that of the drifts, which is so large that a method does not keep by its order alone what it
-  /// does not conserve.
+  Course course;                          ///< settings of the longest runs
+  std::vector<double> steps, tolerances;  ///< steps (s) and tolerances of the runs of shortest duration
+  /// Step of measured maps, s: half the step for drifts. It is large enough that a method without a trait does not
+  /// appear to have it because of its order alone.
   double map_step() const { return course.step / 2; }
 };
 Measures measures_of(const StudyView& study);
 
 using FindEntry = std::function<const IntegratorEntry*(const std::string& name)>;
 
-/// In the order of the catalogue and then of the runs; on all cores. `find`: the entry of a name, that of the catalogue
-/// unless it is given.
+/// Makes the certificates, in the order of the catalogue and then of the runs; uses all cores. find: returns the entry
+/// of a method by name; default: find_integrator().
 std::vector<Certificate> certify(const StudyView& study, const Measures& measures, const FindEntry& find = {});
 
-}  // namespace polhode::study
+}  // namespace polhode::study::certificate

@@ -309,4 +309,4 @@ class Report {
 
 Analysis certificates(const StudyView& study) { return Report(study).analysis(); }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::certificate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The certificates of a study as tables, sentences and certificate.csv.
+// Report of the certificates of a study: tables, sentences and certificate.csv.
 #pragma once
 
 #include "experiments/study/record/study_view.hpp"
@@ -8,4 +8,4 @@ namespace polhode::study::certificate {
 
 Analysis certificates(const StudyView& study);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::certificate

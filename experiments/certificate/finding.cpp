@@ -84,4 +84,4 @@ Finding worst(const std::vector<Finding>& findings) {
                            [](const Finding& a, const Finding& b) { return worse(b, a); });
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::certificate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One line of a certificate: a trait of a method, what the method declares of it, and what was measured.
+// One line of a certificate: a trait of a method, as declared and as measured.
 #pragma once
 
 #include <optional>
@@ -9,41 +9,41 @@
 namespace polhode::study::certificate {
 
 enum class TraitVerdict {
-  holds,           ///< declared, and so it is
-  does_not_hold,   ///< declared, and it is not so
+  holds,           ///< declared, and measured to hold
+  does_not_hold,   ///< declared, but measured not to hold
   undeclared,      ///< not declared, but measured to hold
-  absent,          ///< neither declared nor so
-  undecided,       ///< the measurement says nothing either way
-  not_applicable,  ///< it makes no sense of this method, or on these motions
+  absent,          ///< neither declared nor measured to hold
+  undecided,       ///< the measurement does not decide
+  not_applicable,  ///< the trait is not defined for this method or these motions
 };
 std::string word_of(TraitVerdict verdict);
 
 struct Finding {
-  std::string trait;               ///< one of trait_columns(): "symplecticity"
-  std::string declared;            ///< "yes", "no", an order, a number; empty: nothing is declared of it
-  std::optional<double> measured;  ///< absent: at round-off, or not measured
-  std::string unit;                ///< "1", "rad", …
-  std::optional<double> limit;     ///< it holds up to here
+  std::string trait;               ///< name in trait_columns(): "symplecticity"
+  std::string declared;            ///< declared value: "yes", "no", an order, a number; empty: none
+  std::optional<double> measured;  ///< measured value; absent: at round-off, or not measured
+  std::string unit;                ///< unit of the measured value: "1", "rad", …
+  std::optional<double> limit;     ///< largest measured value at which the trait holds
   TraitVerdict verdict = TraitVerdict::not_applicable;
-  std::string on;    ///< the scenario that showed the worst
-  std::string note;  ///< why, or what else was seen
+  std::string on;    ///< scenario with the worst value
+  std::string note;  ///< reason of the verdict, or a further observation
 };
 
 struct TraitColumn {
-  std::string trait;    ///< as in certificate.csv
-  std::string heading;  ///< of a column: "angular momentum"
-  std::string meaning;  ///< one sentence
+  std::string trait;    ///< name in certificate.csv
+  std::string heading;  ///< heading of its column: "angular momentum"
+  std::string meaning;  ///< meaning in one sentence
 };
-/// Every trait in the order of a certificate.
+/// All traits in the order of a certificate.
 const std::vector<TraitColumn>& trait_columns();
 
 Finding not_applicable(std::string trait, std::string why);
 
-/// A trait that holds where a defect is no larger than a limit.
+/// The finding on a trait that holds if a defect does not exceed a limit.
 Finding kept(std::string trait, bool declared, double defect, double limit, std::string on);
 
-/// The worst of what several motions showed of one trait: the worst verdict, and among equals the largest number.
-/// Motions on which it could not be measured are left out unless there is no other.
+/// The worst of several motions' findings on one trait: that of the worst verdict, and among equals that of the largest
+/// value. Findings without a measurement are ignored unless there is no other.
 Finding worst(const std::vector<Finding>& findings);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::certificate

@@ -98,4 +98,4 @@ Finding order_finding(std::string trait, bool adaptive, int declared, std::vecto
   return finding;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::certificate

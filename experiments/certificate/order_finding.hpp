@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A ladder of errors as a line of a certificate.
+// Observed order of a ladder of errors as a line of a certificate.
 #pragma once
 
 #include <string>
@@ -10,16 +10,17 @@
 
 namespace polhode::study::certificate {
 
-/// Settings for the errors of one run after another; those of methods that choose their steps follow a line less
-/// closely, so that the whole ladder counts.
+/// Settings of the order estimate for errors of single runs. For adaptive methods, whose errors scatter more about a
+/// line, the whole ladder is used.
 OrderSettings order_settings(bool adaptive);
 
-/// Against a step: the declared order (Declaration::exact_order: exact) to within 0.25, from both sides. Against a
-/// tolerance: an error in proportion to it, the slope 1 to within 0.4.
+/// The finding on the order. A fixed-step method must have the declared order to within ±0.25
+/// (Declaration::exact_order: the method is exact). The error of an adaptive method must be proportional to the
+/// tolerance: slope 1 ± 0.4.
 Finding order_finding(std::string trait, bool adaptive, int declared, std::vector<LadderPoint> ladder,
                       OrderSettings settings);
 inline Finding order_finding(std::string trait, bool adaptive, int declared, std::vector<LadderPoint> ladder) {
   return order_finding(std::move(trait), adaptive, declared, std::move(ladder), order_settings(adaptive));
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::certificate

@@ -134,4 +134,4 @@ MatrixX<S> PhaseSpace<S>::two_form(const PhasePoint<S>& at) const {
 template class PhaseSpace<double>;
 template class PhaseSpace<long double>;
 
-}  // namespace polhode::study
+}  // namespace polhode::study::certificate

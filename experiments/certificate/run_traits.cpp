@@ -195,4 +195,4 @@ std::vector<Finding> run_traits(const Subject& subject, const std::vector<const 
                        [](const RunResult& r) { return r.orientation_defect_max; })};
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::certificate

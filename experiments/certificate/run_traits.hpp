@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Traits that the runs of a study show: orders, by its ladders of steps, and drifts.
+// Traits measured by the runs of a study: orders, from its ladders of steps, and drifts.
 #pragma once
 
 #include <vector>
@@ -17,4 +17,4 @@ namespace polhode::study::certificate {
 std::vector<Finding> run_traits(const Subject& subject, const std::vector<const Curve*>& curves,
                                 const std::vector<Stage>& stages, const std::vector<Scenario>& scenarios);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::certificate

@@ -92,4 +92,4 @@ template void shake(System<long double>&);
 template std::unique_ptr<System<double>> Stage::system(const Formulation&) const;
 template std::unique_ptr<System<long double>> Stage::system(const Formulation&) const;
 
-}  // namespace polhode::study
+}  // namespace polhode::study::certificate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The motions on which traits of a method are measured, and the methods of which they are.
+// Motions on which traits are measured (stages), and methods whose traits are measured (subjects).
 #pragma once
 
 #include <memory>
@@ -12,33 +12,34 @@
 
 namespace polhode::study::certificate {
 
-/// What is measured: a method in a formulation.
+/// A method in a formulation, whose traits are measured.
 struct Subject {
   const IntegratorEntry& entry;
   Formulation formulation;
   const Declaration& declaration() const { return entry.declaration; }
 };
 
-/// A scenario as a stage for measurements.
+/// A scenario on which traits are measured.
 struct Stage {
   std::string name;
   Problem problem;
   bool free = false;          ///< no force acts
   bool conservative = false;  ///< every force has a potential
-  bool shaken = false;        ///< a force and a torque that depend on time act on every body besides
+  bool shaken = false;        ///< a time-dependent force and torque also act on every body
 
   template <class S>
   std::unique_ptr<System<S>> system(const Formulation& formulation) const;
 
-  /// Why the method makes no sense here; empty if it does.
+  /// Reason for which the method cannot be used here; empty if it can.
   std::string refusal(const Subject& subject) const;
 };
 
-/// One for each scenario, and the first one with forces, or the first one of all, shaken besides.
+/// Stages of the scenarios: one for each scenario, and a shaken copy of the first one with forces (if there is none, of
+/// the first one).
 std::vector<Stage> stages_of(const std::vector<Scenario>& scenarios);
 
-/// Adds a force and a torque that depend on time, fixed in the world, on every moving body.
+/// Adds a time-dependent force and torque, in directions fixed in the world frame, on every moving body.
 template <class S>
 void shake(System<S>& system);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::certificate

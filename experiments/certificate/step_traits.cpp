@@ -347,4 +347,4 @@ double nanoseconds_per_step(const Subject& subject, std::span<const Stage> stage
   return least * 1e9;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::certificate

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Traits of the step itself, measured on stages without a run of the study: reversibility in time, symplecticity, the
-// Casimir, the order under forces that depend on time, and what a step asks for.
+// Traits of the step itself, measured on stages in addition to the runs of the study: reversibility in time,
+// symplecticity, the Casimir, the order under time-dependent forces, and the cost of a step.
 #pragma once
 
 #include <memory>
@@ -13,29 +13,32 @@
 
 namespace polhode::study::certificate {
 
-/// A number that is conserved may be off by round-off, or by the tolerance to which a step is iterated.
+/// Largest drift of a conserved number, relative: due to round-off, or to the tolerance to which a step is iterated.
 inline constexpr double kept_limit = 1e-11;
-inline constexpr double return_limit = 1e-12;       ///< of one step there and back
-inline constexpr double many_return_limit = 1e-10;  ///< of many: what is between them magnifies round-off
+inline constexpr double return_limit = 1e-12;       ///< largest error of one step forth and back
+inline constexpr double many_return_limit = 1e-10;  ///< largest error of many steps, which magnify round-off
 
-/// ‖Φ₋ₕ Φₕ y − y‖/(1 + ‖y‖) in the largest norm, from a generic point of each stage; `steps` there and as many back.
+/// Reversibility in time: ‖Φ₋ₕ Φₕ y − y‖/(1 + ‖y‖) in the maximum norm, from a generic point of each stage, with
+/// `steps` steps forth and as many back. h: step, s.
 Finding time_reversibility(const Subject& subject, std::span<const Stage> stages, double h, int steps = 1);
 
-/// Over the stages without friction, at h, h/2, h/4 and h/8: measured is the largest at h, the note has the power of h.
-/// In long double where the method works in it. It holds where all are below differentiation_floor.
+/// Symplecticity: the largest defect over the free and conservative stages at the step h (s). The note contains the
+/// power of h, from defects at h, h/2, h/4 and h/8. Measured in long double if the method supports it. The trait holds
+/// if all defects are below differentiation_floor.
 Finding symplecticity(const Subject& subject, std::span<const Stage> stages, double h);
 
-/// How far a run goes: fixed steps of `step`, or as far as `tolerance` lets an adaptive method.
+/// Settings of a run: its duration, the step of a fixed-step method, and the tolerance of an adaptive one.
 struct Course {
   double step = 0.05;  ///< s
   double tolerance = 1e-8;
   double t_end = 200;  ///< s
 };
-/// The largest drift of |I Rᵀω|, relative to the start, over the free stages.
+/// Casimir: the largest drift of |I Rᵀω|, relative to its value at the start, over the free stages.
 Finding casimir(const Subject& subject, std::span<const Stage> stages, const Course& course);
 
-/// The largest error at eight instants of one second on each shaken stage against its reference, in radians, metres or
-/// relative to the largest |ω|, whichever is most, down a ladder of steps or tolerances.
+/// Order under time-dependent forces. The error of a run is the largest against a reference at eight instants of one
+/// second on the shaken stages: of the attitude in rad, of the position in m, or of ω relative to the largest |ω|,
+/// whichever is largest. It is measured for a ladder of steps (s) or tolerances.
 class ShakenMotions {
  public:
   explicit ShakenMotions(std::span<const Stage> stages);
@@ -49,10 +52,10 @@ class ShakenMotions {
   std::vector<Motion> motions_;
 };
 
-/// The mean over some steps of how often the force is asked for, once a method of several steps has started.
+/// Mean number of force evaluations per step, after the starting phase of a multistep method.
 Finding evaluations_per_step(const Subject& subject, std::span<const Stage> stages, const Course& course);
 
-/// The least time of a step in ns, over some stretches of it on the first stage that the method takes.
+/// Least wall time per step, ns, over several batches of steps on the first stage that the method supports.
 double nanoseconds_per_step(const Subject& subject, std::span<const Stage> stages, const Course& course);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::certificate

@@ -49,4 +49,4 @@ template std::optional<double> symplecticity_defect(const PhaseSpace<double>&, c
 template std::optional<double> symplecticity_defect(const PhaseSpace<long double>&, const FlatMap<long double>&,
                                                     const PhasePoint<long double>&, double);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::certificate

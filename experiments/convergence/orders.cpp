@@ -309,4 +309,4 @@ class Orders {
 
 Analysis observed_orders(const StudyView& study) { return Orders(study).analysis(); }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::convergence

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The observed order of every curve of a study beside the declared one.
+// Observed order of every curve of a study, compared with the declared order.
 #pragma once
 
 #include "experiments/study/record/study_view.hpp"
 
 namespace polhode::study::convergence {
 
-/// Of fixed-step methods: the error against the step. Of adaptive ones: against the tolerance, to which it should be
-/// proportional.
+/// Orders of the error in the step (fixed-step methods) or in the tolerance (adaptive methods, whose error should be
+/// proportional to it).
 Analysis observed_orders(const StudyView& study);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::convergence

@@ -329,4 +329,4 @@ std::vector<RunConfig> exact_impacts(const StudyView& study) {
 
 Analysis errors_of_impacts(const StudyView& study) { return Impacts(study).analysis(); }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::impact

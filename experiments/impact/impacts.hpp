@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Errors of impacts: their energy, the momenta and the time of the first, against the step.
+// Errors of impacts against the step: energy, momenta, and the time of the first impact.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,11 @@
 
 namespace polhode::study::impact {
 
-/// For each motion a run that stands for the exact one up to its first impact: located impacts, a method of order 8 and
-/// a tolerance at round-off.
+/// For each motion, a run that replaces the exact solution up to the first impact: impacts located in time, a method of
+/// order 8, and a tolerance at round-off.
 std::vector<RunConfig> exact_impacts(const StudyView& study);
 
+/// The analysis: errors of energy, momenta and first impact time against the step.
 Analysis errors_of_impacts(const StudyView& study);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::impact

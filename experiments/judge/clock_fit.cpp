@@ -130,4 +130,4 @@ Hypothesis fitted_rate(const RowStates& rows, const Hypothesis& base) {
   return h;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A wrong clock that explains the rows: the shift, or the rate, of t_s that fits best.
+// Fit of a wrong clock to the rows of a trajectory: the shift, or the rate, of t_s that fits best.
 #pragma once
 
 #include <optional>
@@ -8,15 +8,16 @@
 
 namespace polhode::study::judge {
 
-/// Adds the shift that fits best to a hypothesis: the row at t_s shows the motion of another time. Empty where fewer
-/// than three of the first rows are compared or the motion cannot be followed to the last of them.
+/// Adds the shift that fits best to a hypothesis: the row at t_s shows the motion at another time. Absent if fewer than
+/// three of the first rows are compared, or if the motion cannot be computed up to the last of them.
 std::optional<Hypothesis> fitted_shift(const RowStates& rows, const Hypothesis& base);
 
 /// Adds the rate that fits best to a hypothesis: the motion runs faster or slower than t_s.
 ///
-/// A method of second order that turns by x rad in a step is slow or fast by x²/12 to x²/4, dmv exactly so but for the
-/// attitude. A rate that steps as large as the rows are apart excuse is no sign of a wrong clock, unless the fit is far
-/// better than the fit of such a method and the axis moves.
+/// The rate is excused if the truncation error of a second-order method explains it: with a rotation of x rad per step,
+/// its motion is slow or fast by x²/12 to x²/4 (for dmv this is its whole error except that of the attitude). The steps
+/// are assumed to be as long as the spacing of the rows. A rate in this range is not excused if the fit is far better
+/// than that of such a method and the axis of rotation moves.
 Hypothesis fitted_rate(const RowStates& rows, const Hypothesis& base);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

@@ -236,4 +236,4 @@ Diagnosis diagnose(const Trajectory& trajectory, const Scenario& scenario, const
   return result;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is wrong with a trajectory, found by trying: each reading of its columns, each fault in the equations of
-// rotation and each first-order step implies a motion, and the rows either follow that motion or do not.
+// Diagnosis of the fault of a trajectory by trial: each reading of its columns, each fault in the equations of rotation
+// and each first-order step implies a motion, with which the rows are compared.
 //
-// hypothesis.hpp has what is tried, clock_fit.hpp and step_fit.hpp what is fitted, miss.hpp how far rows are from a
-// motion; the decision is here.
+// Hypotheses: hypothesis.hpp; fitted parameters: clock_fit.hpp and step_fit.hpp; distance of the rows from a motion:
+// miss.hpp. The decision is made here.
 #pragma once
 
 #include <optional>
@@ -15,24 +15,25 @@
 
 namespace polhode::study::judge {
 
-/// How many times better a reading must fit than the plain one, and than every other one, to be named.
+/// Smallest ratio of misses for a hypothesis to be named: it must fit this many times better than the plain reading,
+/// and than every other hypothesis.
 inline constexpr double naming_factor = 10;
 
 struct Diagnosis {
-  /// Of scores.csv: "none", "unexplained", names of causes with "+" between two at once and "|" between two that the
-  /// rows do not tell apart; empty where nothing could be tried.
+  /// Name in scores.csv: "none", "unexplained", or names of causes, with "+" between two that occur together and "|"
+  /// between two that the rows do not distinguish; empty if nothing could be tried.
   std::string name;
-  std::string words;                ///< what is wrong, as a clause; empty for "none"
-  std::string untried;              ///< why nothing, or not all, could be tried; may be empty
-  std::string remark;               ///< what fits but may have another cause than a fault; may be empty
-  double miss = 0;                  ///< rad, of the plain reading, see miss.hpp
-  double span = 0;                  ///< rad, of the spans over which it was taken
-  std::optional<double> factor;     ///< how much better the named reading fits than the plain one
-  std::optional<double> margin;     ///< and than the best one of another cause
-  std::optional<Trajectory> meant;  ///< the trajectory as it was meant, where a reading of its columns is named
+  std::string words;                ///< description of the fault, as a clause; empty for "none"
+  std::string untried;              ///< reason for which no hypothesis, or not all, could be tried; may be empty
+  std::string remark;               ///< hypothesis that fits but may have a cause other than a fault; may be empty
+  double miss = 0;                  ///< miss of the plain reading (miss.hpp), rad
+  double span = 0;                  ///< rotation over the spans on which the miss was measured, rad
+  std::optional<double> factor;     ///< miss of the plain reading over that of the named hypothesis
+  std::optional<double> margin;     ///< least miss of the hypotheses with another cause over that of the named one
+  std::optional<Trajectory> meant;  ///< corrected trajectory, if the fault is a reading of its columns
 };
 
-/// `plain`: the score of the trajectory as it stands.
+/// Diagnoses a trajectory. plain: its score without correction.
 Diagnosis diagnose(const Trajectory& trajectory, const Scenario& scenario, const TrajectoryScore& plain);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

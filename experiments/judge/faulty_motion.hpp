@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The motion of a problem as a program with a fault would compute it: with a wrong term, frame or factor in the
-// equations of rotation, exactly, or with the right or wrong ones by the steps of a first-order method.
+// Motion of a problem as computed by a program with a fault: either the exact solution of equations of rotation with a
+// wrong term, frame or factor, or the steps of a first-order method.
 //
-// States are flat, of the formulation (quaternion, velocity_world), with ω as the program would write it down.
+// States are flat, in the formulation (quaternion, velocity_world), with ω as the program would write it to a file.
 #pragma once
 
 #include <memory>
@@ -12,42 +12,44 @@
 
 namespace polhode::study::judge {
 
-/// What was made of I Ω̇ = Rᵀτ − Ω × I Ω and q̇ = ½ ω q.
+/// Equations of rotation, modified from I Ω̇ = Rᵀτ − Ω × I Ω and q̇ = ½ ω q. Ω: angular velocity in the body frame, ω: in
+/// the world frame.
 struct Equations {
-  /// Which ω turns what.
+  /// Frames of the angular velocity and of the inertia.
   enum class Frame {
     right,
-    inertia_not_turned,  ///< ω̇ = I⁻¹(τ − ω × I ω) with the constant inertia of the body in world axes
-    body_turns_world,    ///< Ω as it should be, but q̇ = ½ Ω q; written down as R Ω
-    world_turns_body     ///< ω as it should be, but q̇ = ½ q ω
+    inertia_not_turned,  ///< ω̇ = I⁻¹(τ − ω × I ω) with the constant body-frame inertia
+    body_turns_world,    ///< right equation of Ω, but q̇ = ½ Ω q; Ω is written to files as R Ω
+    world_turns_body     ///< right equation of ω, but q̇ = ½ q ω
   };
-  double gyroscopic = 1;  ///< factor of Ω × I Ω: 0 leaves it out, −1 has the wrong sign
+  double gyroscopic = 1;  ///< factor of Ω × I Ω; 0: term left out, −1: wrong sign
   Frame frame = Frame::right;
   double turning = 1;  ///< factor of ω in q̇
 };
 
-/// A step of a first-order method.
+/// A first-order method.
 struct FirstOrderStep {
   enum class State { velocity_world, velocity_body, momentum_world };
-  enum class Order { together, velocity_first, attitude_first };  ///< which half sees the other's new value
-  enum class Turn { exponential, quaternion, matrix };  ///< exp(hω), q + ½hω q, R + h[ω]R, brought back to a rotation
+  enum class Order { together, velocity_first, attitude_first };  ///< order of updates; the second uses the first
+  enum class Turn { exponential, quaternion, matrix };  ///< exp(hω); q + ½hω q; R + h[ω]R, projected to a rotation
   State state = State::velocity_world;
   Order order = Order::together;
   Turn turn = Turn::quaternion;
 
-  std::string words() const;  ///< "explicit Euler on q and ω"
+  std::string words() const;  ///< name of the method: "explicit Euler on q and ω"
 };
 
 class FaultyMotion {
  public:
-  /// The inertia is that of the problem. FirstOrderStep::State::momentum_world asks for the right equations.
+  /// The inertia is that of the problem. FirstOrderStep::State::momentum_world requires the right equations.
   FaultyMotion(const Problem& problem, const Equations& equations);
 
   const System<double>& system() const { return *system_; }
 
-  /// The motion over `span` (s, of either sign) to about 1e-11, by Gragg's extrapolated midpoint rule of order 8. False
-  /// where it takes too long or overflows.
+  /// Advances y from time t (s) by `span` (s, of either sign) with errors of about 1e-11, by Gragg's extrapolated
+  /// midpoint rule of order 8. Returns false if it takes too many steps or overflows.
   bool advance(double t, double span, VectorX<double>& y) const;
+  /// Advances y from time t (s) by one step h (s) of a first-order method.
 
   void step(double t, double h, const FirstOrderStep& by, VectorX<double>& y) const;
 
@@ -60,4 +62,4 @@ class FaultyMotion {
   std::unique_ptr<System<double>> system_;  ///< without the gyroscopic term
 };
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

@@ -167,4 +167,4 @@ std::string first_line(const Judged& judged) {
   return text + ".";
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What judge says of a trajectory before anything else.
+// First line of judge's report about a trajectory.
 #pragma once
 
 #include <optional>
@@ -9,18 +9,18 @@
 
 namespace polhode::study::judge {
 
-/// A trajectory with all that is said of it.
+/// Results of judge for one trajectory.
 struct Judged {
   TrajectoryScore score;
   Diagnosis diagnosis;
   std::optional<TrajectoryScore> meant;  ///< the score of diagnosis.meant
 };
 
-/// How the motion goes along its polhode: "on_time", "early", "late", "standing", "backwards", or "off" where it has
-/// left it; empty where there is none.
+/// Motion along the polhode: "on_time", "early", "late", "standing", "backwards", or "off" if the motion has left its
+/// polhode; empty if there is none.
 std::string polhode_pace(const TrajectoryScore& score);
 
-/// "engine: ω × Iω has the wrong sign: …. Energy holds to 1e-11, …": one line without its end.
+/// The line, without a line break: "engine: ω × Iω has the wrong sign: …. Energy holds to 1e-11, …".
 std::string first_line(const Judged& judged);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

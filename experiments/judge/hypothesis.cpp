@@ -162,4 +162,4 @@ std::vector<Hypothesis> other_motions(const Hypothesis& plain, std::size_t movin
   return std::move(changes.list);
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

@@ -183,4 +183,4 @@ Analysis judgement(const StudyView& study, const std::vector<Judged>& judged) {
   return analysis;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What judge makes of its scores: the table, scores.csv, the figure of the errors against time, and what is seen.
+// Report of judge about its scores: the table, scores.csv, the figure of errors against time, and the findings.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,8 @@
 
 namespace polhode::study::judge {
 
-/// The trajectories in the order of the runs of the study. Its first sentences are their first lines.
+/// The analysis. judged: one entry for each run of the study, in the same order. The first sentences of the analysis
+/// are the first lines of the trajectories.
 Analysis judgement(const StudyView& study, const std::vector<Judged>& judged);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

@@ -105,7 +105,7 @@ int judge(const JudgeOptions& options) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::judge
 
 int main(int argc, char** argv) {
   using namespace polhode::study;

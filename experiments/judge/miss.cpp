@@ -79,4 +79,4 @@ double miss_of(const RowStates& rows, const Hypothesis& h, std::size_t stride) {
   return std::hypot(over_spans, typical(std::move(misses)));
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The command line of judge.
+// Command line of judge.
 #pragma once
 
 #include <optional>
@@ -11,20 +11,20 @@
 namespace polhode::study::judge {
 
 struct JudgeOptions {
-  std::string scenario;            ///< a built-in name or a file
-  std::vector<std::string> files;  ///< trajectories, none twice
+  std::string scenario;            ///< built-in name or file
+  std::vector<std::string> files;  ///< trajectories, without duplicates
   bool reference = false;
   RotationFrom rotation_from = RotationFrom::normalised;
   std::string out;  ///< empty: results/judge-<scenario>-<hash>
   bool force = false, figures = true;
   std::string command;             ///< the command line, quoted for a shell
-  std::optional<int> exit_status;  ///< where the command line said it all
+  std::optional<int> exit_status;  ///< set if the program must end at once (--help)
 };
 
-/// Throws InputError.
+/// Parses the command line. Throws InputError.
 JudgeOptions parse_judge_options(int argc, const char* const* argv);
 
 inline constexpr const char* judge_question =
     "How far is a trajectory, from whatever program, from the exact motion, and what is wrong with it?";
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

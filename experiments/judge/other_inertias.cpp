@@ -71,4 +71,4 @@ std::vector<OtherInertia> other_inertias(const Body& body, bool forces_exert_tor
   return distinct;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

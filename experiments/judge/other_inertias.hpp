@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inertias that programs put in the place of a body's own by mistake.
+// Inertias that programs use by mistake instead of a body's inertia.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@
 namespace polhode::study::judge {
 
 struct OtherInertia {
-  Matrix3<double> inertia;  ///< kg m², body axes, about the body's reference point
-  std::string words;        ///< what it is, as a clause
+  Matrix3<double> inertia;  ///< about the body's reference point, body frame, kg m²
+  std::string words;        ///< description, as a clause
 };
 
-/// Each inertia that is possible and makes a difference to the motion, once. A motion without torques depends neither
-/// on a common factor of the inertia, nor on an isotropic inertia otherwise than by the absence of ω × Iω, which is
-/// another fault; these are left out.
+/// All physically possible wrong inertias that change the motion, without duplicates. If no forces exert torques, two
+/// kinds are left out: multiples of the inertia, which do not change the motion, and isotropic inertias, whose only
+/// effect is that ω × Iω vanishes, which is another fault.
 std::vector<OtherInertia> other_inertias(const Body& body, bool forces_exert_torques);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

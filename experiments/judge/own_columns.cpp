@@ -77,4 +77,4 @@ std::optional<ColumnFault> own_column_fault(const RowStates& rows) {
   return std::nullopt;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

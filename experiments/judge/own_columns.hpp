@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program's own angular momentum and energy beside those of its motion. A free motion is the same with half the
-// inertia; these columns are not.
+// Comparison of the angular momentum and energy columns of a trajectory with those of its motion. They reveal a wrong
+// inertia even in a free motion, which does not depend on a factor of the inertia.
 #pragma once
 
 #include <optional>
@@ -11,12 +11,12 @@
 namespace polhode::study::judge {
 
 struct ColumnFault {
-  std::string name;   ///< the cause, as in scores.csv
-  std::string words;  ///< what is wrong, as a clause
-  double factor;      ///< how many times better the column agrees if so
+  std::string name;   ///< name of the cause in scores.csv
+  std::string words;  ///< description of the fault, as a clause
+  double factor;      ///< disagreement of the column without this cause over that with it
 };
 
-/// What explains a column that is wrong though the motion is right; empty where nothing has to be or can be explained.
+/// The fault that explains a wrong column of a right motion; absent if no column is wrong or no fault explains it.
 std::optional<ColumnFault> own_column_fault(const RowStates& rows);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

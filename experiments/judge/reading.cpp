@@ -37,4 +37,4 @@ Trajectory retimed(Trajectory trajectory, double clock, double shift) {
   return trajectory;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the columns of a trajectory may mean other than the format says.
+// Readings of the columns of a trajectory that differ from the format.
 #pragma once
 
 #include "experiments/study/trajectory/trajectory_reader.hpp"
 
 namespace polhode::study::judge {
 
-/// How a program may have written its orientations and rates; as it stands, the format's own.
+/// Convention in which a program has written its orientations and angular velocities. Default: that of the format.
 struct Reading {
-  enum class Order { wxyz, xyzw, zwxy };  ///< what stands under qw, qx, qy, qz; the last is xyzw once too often
-  bool transposed = false;                ///< the orientation takes world to body
-  Order order = Order::wxyz;              ///< of a quaternion
-  bool rates_in_body = false;             ///< ω, or where there is none L, is in body axes
-  double rate_unit = 1;                   ///< ω in the file times this is in rad/s
+  enum class Order { wxyz, xyzw, zwxy };  ///< components in the columns qw, qx, qy, qz; zwxy: reordered twice
+  bool transposed = false;                ///< the orientation maps world to body
+  Order order = Order::wxyz;              ///< order of the components of quaternions
+  bool rates_in_body = false;             ///< ω (or L, if the file has no ω) is in the body frame
+  double rate_unit = 1;                   ///< factor from ω in the file to rad/s
 };
 
-/// The quaternion that was meant.
+/// The quaternion in the convention of the format.
 Quaternion<double> read_so(const Quaternion<double>& q, const Reading& reading);
 
-/// The trajectory that was meant, in the format's own terms. Derived ω (from L alone) goes by the orientation that was
-/// meant, as everywhere.
+/// The trajectory in the convention of the format. If ω is derived from L, it is derived with the corrected
+/// orientation.
 Trajectory read_so(Trajectory trajectory, const Reading& reading);
 
-/// The same motion at `clock` t_s + `shift` (s); what would lie before the scenario's start is left out.
+/// The trajectory with the times clock t_s + shift (s); rows before the scenario's start are left out.
 Trajectory retimed(Trajectory trajectory, double clock, double shift);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

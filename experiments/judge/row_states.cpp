@@ -131,4 +131,4 @@ bool RowStates::knows_paths() const {
 
 std::size_t RowStates::stride_for(std::size_t count) const { return std::max<std::size_t>(1, spans.size() / count); }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

@@ -171,4 +171,4 @@ std::optional<Hypothesis> fitted_steps_without_projection(const RowStates& rows,
   return with_cause(std::move(best), "first_order_step", std::move(words), Part::steps);
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

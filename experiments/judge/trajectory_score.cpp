@@ -243,4 +243,4 @@ TrajectoryScore score(const Trajectory& trajectory, const Scenario& scenario, Ru
   return result;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

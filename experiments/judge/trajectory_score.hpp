@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scores a trajectory that came from anywhere: measured by the scenario's own inertia and forces like a run of ours,
-// and set against the exact motion, or a reference.
+// Scores a trajectory of any origin: measures it like a run of a study, with the scenario's inertia and forces, and
+// compares it with the exact motion or a reference.
 #pragma once
 
 #include <atomic>
@@ -14,29 +14,29 @@
 
 namespace polhode::study::judge {
 
-/// The errors at one instant; absent where they are not known.
+/// Errors at one instant; absent if they are not known.
 struct ErrorPoint {
   double t = 0;                                                ///< s
   std::optional<double> position, attitude, angular_velocity;  ///< m, rad, relative
-  std::optional<double> phase, off;                            ///< along the polhode (s) and off it (relative)
+  std::optional<double> phase, off;                            ///< errors along the polhode (s) and off it (relative)
 };
 
 struct TrajectoryScore {
-  RunRecord record;  ///< its method is the file's label, its dt the largest spacing of the rows, its steps their number
+  RunRecord record;  ///< method: label of the file; dt: largest spacing of the rows; steps: their number
   std::size_t instants = 0;
-  double t_first = 0;              ///< s
-  std::vector<ErrorPoint> errors;  ///< at most 257, evenly over the instants, the last one among them
-  /// The largest difference between the file's own energy and ours, over the scale of energy drifts.
+  double t_first = 0;              ///< time of the first instant, s
+  std::vector<ErrorPoint> errors;  ///< at most 257, spread evenly over the instants, including the last one
+  /// Largest difference between the energy column of the file and the computed energy, over the energy scale.
   std::optional<double> energy_column_difference_max_rel;
-  std::vector<std::string> notes;  ///< what was derived, what is left empty and why
+  std::vector<std::string> notes;  ///< derived quantities, and missing ones with the reason
 };
 
-/// The formulation of `config` says how a quaternion off the unit sphere is read; its chart is chosen by the
-/// trajectory.
+/// Scores a trajectory. The formulation of `config` determines the rotation of a quaternion off the unit sphere; its
+/// chart is replaced by that of the trajectory.
 TrajectoryScore score(const Trajectory& trajectory, const Scenario& scenario, RunConfig config,
                       References* references = nullptr, const std::atomic<bool>* stop = nullptr);
 
-/// A name for a run from all that decides its result: 16 hexadecimal digits.
+/// Run id from a text with everything that determines the result: 16 hexadecimal digits.
 std::string identity_of(std::string_view text);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::judge

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random and degenerate pairs of boxes, the same ones for a number: sizes up to 1e4 apart, scales from 1e-3 to 1e3 m.
+// Random and degenerate pairs of boxes, deterministic for a seed: size ratios up to 1e4, scales from 1e-3 to 1e3 m.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +13,10 @@
 
 namespace polhode {
 
-/// A box as a user says it.
+/// A box as given by a user.
 struct TurnedBox {
   Vector3<double> half, position;  ///< m
-  Quaternion<double> orientation;  ///< of any length
+  Quaternion<double> orientation;  ///< any length
 
   PosedBox posed() const { return {half, {position, rotation_matrix<double>(orientation)}}; }
 };
@@ -116,7 +116,7 @@ class BoxPairs {
     q[axis + 1] = std::sin(angle / 2);
     return q;
   }
-  /// One of the turns that take a cube to itself, not normalised and so exact.
+  /// A random rotation of the symmetry group of the cube, as an exact quaternion, not normalised.
   Quaternion<double> cube_turn() {
     Quaternion<double> q(1, 0, 0, 0);
     for (int k = 0; k < 3; ++k) {
@@ -133,13 +133,13 @@ class BoxPairs {
   static Vector3<double> furthest(const Vector3<double>& half, const Vector3<double>& n) {
     return {std::copysign(half[0], n[0]), std::copysign(half[1], n[1]), std::copysign(half[2], n[2])};
   }
-  /// The offset along n at which the shadows of the boxes on n are `gap` apart.
+  /// Offset along n at which the projections of the boxes on n are a distance `gap` apart.
   static Vector3<double> along_a_line(const Vector3<double>& half_a, const Vector3<double>& half_b,
                                       const Quaternion<double>& turn, const Vector3<double>& n, double gap) {
     const Vector3<double> in_b = rotation_matrix<double>(turn).transpose() * n;
     return n * (half_a.dot(n.cwiseAbs()) + half_b.dot(in_b.cwiseAbs()) + gap);
   }
-  /// A third of the pairs stay in A's axes, where what is degenerate is so exactly.
+  /// The pair in the world frame. A third of the pairs stay in A's frame, in which degenerate positions are exact.
   BoxPairCase posed(const std::string& what, const Vector3<double>& half_a, const Vector3<double>& half_b,
                     const Quaternion<double>& turn, const Vector3<double>& offset, double scale) {
     if (chance(0.33)) return {what, {half_a, Vector3<double>::Zero(), {1, 0, 0, 0}}, {half_b, offset, turn}};

@@ -193,4 +193,4 @@ void measure_course_report(std::size_t count, std::uint64_t seed, Analysis& anal
   analysis.figures.push_back(figure);
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::narrow_phase

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The narrow phases side by side on random, touching and degenerate pairs of boxes: do they agree, and what do they
-// cost.
+// Comparison of narrow phases on random, touching and degenerate pairs of boxes: agreement and cost.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +11,14 @@
 
 namespace polhode::study::narrow_phase {
 
-/// comparison.csv and its table: of each class and narrow phase how often it differs from `sat`, by how much of the
-/// smaller box, and in timings/ what it costs. Tables and files of `analysis` are added to.
+/// Adds comparison.csv and its table to the analysis: for each class of pairs and each narrow phase the number of
+/// results that differ from `sat`, and the largest difference relative to the smaller box. Adds the cost to
+/// Analysis::timed.
 void compare_narrow_phases(const std::vector<const NarrowPhaseEntry*>& entries, std::size_t count, std::uint64_t seed,
                            Analysis& analysis);
 
-/// How often the course report's test calls two cubes overlapping that are not, against the angle by which one is
-/// turned.
+/// Adds the rate of false overlaps that the course report's test reports for two cubes, against the angle by which one
+/// of them is rotated.
 void measure_course_report(std::size_t count, std::uint64_t seed, Analysis& analysis);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::narrow_phase

@@ -80,7 +80,7 @@ int run_narrow_phase(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::narrow_phase
 
 int main(int argc, char** argv) {
   using namespace polhode::study;

@@ -38,4 +38,4 @@ NarrowPhaseOptions parse_narrow_phase_options(const std::string& question, int a
   return options;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::narrow_phase

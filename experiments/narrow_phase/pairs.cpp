@@ -92,4 +92,4 @@ std::string answers(const std::vector<BoxPair>& pairs, const NarrowPhase& narrow
   return text;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::narrow_phase

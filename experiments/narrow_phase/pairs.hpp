@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pairs of boxes from a CSV file, and what a narrow phase says of them.
+// Pairs of boxes from a CSV file, and the results of a narrow phase for them.
 #pragma once
 
 #include <string>
@@ -15,13 +15,13 @@ struct BoxPair {
   PosedBox a, b;
 };
 
-/// Columns id, class, then of A and of B half extents (3, m), position (3, m) and quaternion w x y z, which is
-/// normalised: ahx … aqz, bhx … bqz by name, or in this order where the header has none of these names. Further columns
+/// Reads the columns id, class, then for A and for B half extents (3, m), position (3, m) and quaternion w x y z, which
+/// is normalized: ahx … aqz, bhx … bqz by name, or in this order if the header has none of these names. Further columns
 /// are ignored. Throws InputError.
 std::vector<BoxPair> read_pairs(const std::string& path);
 
-/// results.csv: id, overlap (0 or 1), sdist (m, negative: depth), nx, ny, nz (unit, in which B leaves A). Throws
-/// InputError, naming the pair, where the narrow phase has no answer.
+/// Text of results.csv: id, overlap (0 or 1), sdist (signed distance, m; negative: depth), nx, ny, nz (unit normal, the
+/// direction in which B separates from A). Throws InputError, with the id, for a pair without a result.
 std::string answers(const std::vector<BoxPair>& pairs, const NarrowPhase& narrow_phase);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::narrow_phase

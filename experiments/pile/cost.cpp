@@ -217,4 +217,4 @@ class Piles {
 
 Analysis what_piles_cost(const StudyView& study) { return Piles(study).analysis(); }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::pile

@@ -80,4 +80,4 @@ std::string word_of(Growth growth) {
 Growth judge_energy_growth(const GrowthEstimate& estimate) { return judge(estimate, 0); }
 Growth judge_attitude_growth(const GrowthEstimate& estimate) { return judge(estimate, 1); }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::precision

@@ -350,4 +350,4 @@ class Rounding {
 
 Analysis rounding_and_truncation(const StudyView& study) { return Rounding(study).analysis(); }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::precision

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rounding told from truncation, by runs that differ in nothing but the arithmetic.
+// Separation of rounding errors from truncation errors by runs that differ only in the arithmetic.
 #pragma once
 
 #include "experiments/study/record/study_view.hpp"
@@ -8,4 +8,4 @@ namespace polhode::study::precision {
 
 Analysis rounding_and_truncation(const StudyView& study);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::precision

@@ -228,4 +228,4 @@ std::vector<Figure> rounding_figures(const std::vector<RoundingProblem>& problem
   return figures;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::precision

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The figures of the experiment: errors against the step and against time, one colour for each precision, dashes for
+// Figures of the experiment: errors against the step and against time, one colour for each precision, dashed lines for
 // compensated summation.
 #pragma once
 
@@ -12,4 +12,4 @@ namespace polhode::study::precision {
 
 std::vector<Figure> rounding_figures(const std::vector<precision::RoundingProblem>& problems);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::precision

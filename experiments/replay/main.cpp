@@ -195,7 +195,7 @@ int run_replay(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::replay
 
 int main(int argc, char** argv) {
   using namespace polhode::study;

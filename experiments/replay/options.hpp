@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The command line of replay: that of every experiment, without what is about results, and some of its own.
+// Command line of replay: the options of every experiment except those about results, and some of its own.
 #pragma once
 
 #include <filesystem>
@@ -9,20 +9,20 @@
 namespace polhode::study::replay {
 
 struct ReplayOptions {
-  Options study;                  ///< what to run, where no results are named
-  std::filesystem::path results;  ///< a study's folder; empty: carry the runs out
-  std::vector<std::string> runs;  ///< ids; empty: all
-  std::string scenario;           ///< as given; empty: it was not
+  Options study;                  ///< runs to carry out, if no results are given
+  std::filesystem::path results;  ///< results folder of a study; empty: carry out the runs
+  std::vector<std::string> runs;  ///< run ids; empty: all
+  std::string scenario;           ///< as given on the command line; empty: not given
   std::filesystem::path out;
   bool force = false;
   double limit_bytes = 0;
   std::filesystem::path three;     ///< folder of three.js
-  std::optional<int> exit_status;  ///< where the command line said it all
+  std::optional<int> exit_status;  ///< set if the program must end at once (--help)
 };
 
 const Experiment& replay_experiment();
 
-/// Throws InputError.
+/// Parses the command line. Throws InputError.
 ReplayOptions parse_replay_options(int argc, const char* const* argv);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::replay

@@ -82,4 +82,4 @@ bool is_replay_page(const std::filesystem::path& file) {
   return start.find(mark) != std::string::npos;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::replay

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Puts the page together: its parts, three.js and the motion, in one file that asks nothing of a network.
+// Assembles the page: its parts, three.js and the motions in one file that needs no network.
 #pragma once
 
 #include <filesystem>
@@ -9,17 +9,18 @@
 
 namespace polhode::study::replay {
 
-/// three.js and its orbit controls, as they are inlined.
+/// Texts of three.js and of its orbit controls, which are inlined.
 struct ThreeJs {
   std::string library, controls;
 };
 
-/// From the folder that holds three.min.js (or build/three.min.js) and examples/js/controls. Throws InputError.
+/// Reads three.js from a folder that contains three.min.js (or build/three.min.js) and examples/js/controls. Throws
+/// InputError.
 ThreeJs read_three(const std::filesystem::path& folder);
 
 std::string page_of(const PageWords& words, const std::vector<Recording>& recordings, const ThreeJs& three);
 
-/// Whether this is a page of ours, which may be written over.
+/// True if the file is a page written by this program, which may be overwritten.
 bool is_replay_page(const std::filesystem::path& file);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::replay

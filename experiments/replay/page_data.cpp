@@ -187,4 +187,4 @@ std::string page_data(const PageWords& words, const std::vector<Recording>& reco
   return safe;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::replay

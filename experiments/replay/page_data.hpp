@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The motion as the page reads it: JSON, with numbers in base64.
+// Data of the page: the motions as JSON with numbers in base64.
 #pragma once
 
 #include <string>
@@ -9,19 +9,21 @@
 
 namespace polhode::study::replay {
 
-/// What the page says of itself.
+/// Texts on the page.
 struct PageWords {
   std::string scenario, title, description;
-  std::vector<std::string> paragraphs;  ///< at the bottom: what was run, what was left out, how exact it is
-  std::string made_by;                  ///< versions
+  std::vector<std::string> paragraphs;  ///< notes at the bottom: the runs, what was left out, accuracy
+  std::string made_by;                  ///< versions of the programs
 };
 
-/// About how large base64 is: bytes that an instant of the recording takes, and an impact.
+/// Approximate size of an instant of the recording in base64, bytes.
 double bytes_of_instant(const Recording& recording);
+/// Approximate size of an impact in base64, bytes.
 inline constexpr double bytes_of_impact = 4.0 / 3 * 10 * 4;
 
-/// Positions are single precision; a component of an orientation is one of 32767 steps, and of an angular velocity one
-/// of 32767 of the largest of its run. Nothing in it ends a script element.
+/// The JSON text. Positions have single precision. Components of orientations are rounded to multiples of 1/32767,
+/// components of angular velocities to multiples of 1/32767 of the largest in the run. The text is escaped so that it
+/// cannot end a script element.
 std::string page_data(const PageWords& words, const std::vector<Recording>& recordings);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::replay

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files of experiments/replay/page/, compiled in, so that the program finds them wherever it runs.
+// Files of experiments/replay/page/, compiled into the program, so that it does not depend on their location.
 #pragma once
 
 #include <span>
@@ -8,10 +8,10 @@
 namespace polhode::study::replay {
 
 struct PagePart {
-  std::string_view name;  ///< the file's name without its ending
+  std::string_view name;  ///< name of the file without its extension
   std::string_view text;
 };
 
 std::span<const PagePart> page_parts();
 
-}  // namespace polhode::study
+}  // namespace polhode::study::replay

@@ -127,4 +127,4 @@ Recording record(const PlannedRun& run, std::size_t most) {
   return recording;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::replay

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Carries out runs and keeps their motion in memory.
+// Carries out runs and stores their motion in memory.
 #pragma once
 
 #include "experiments/replay/recording.hpp"
@@ -7,8 +7,8 @@
 
 namespace polhode::study::replay {
 
-/// The run with at most `most` instants of its motion and as many impacts: where there are more, every second one is
-/// left out, and so on. The scenario is the run's own.
+/// Carries out a run and returns at most `most` instants of its motion and as many impacts: each time the limit is
+/// reached, every second one is removed.
 Recording record(const PlannedRun& run, std::size_t most);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::replay

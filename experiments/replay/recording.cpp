@@ -79,4 +79,4 @@ double largest_turn(const Recording& recording) {
   return largest;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::replay

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The motion of one run as the page plays it, from a run that is just carried out or from the files of a study.
+// Motion of one run for the page, from a run that was just carried out or from the files of a study.
 #pragma once
 
 #include <cstdint>
@@ -14,50 +14,51 @@
 namespace polhode::study::replay {
 
 struct Placement {
-  Vector3<double> position = Vector3<double>::Zero();              ///< m, of the mass centre
-  Quaternion<double> orientation = identity_quaternion<double>();  ///< body to world, of any length
-  Vector3<double> angular_velocity = Vector3<double>::Zero();      ///< rad/s, world
+  Vector3<double> position = Vector3<double>::Zero();              ///< of the mass centre, world frame, m
+  Quaternion<double> orientation = identity_quaternion<double>();  ///< body to world, any length
+  Vector3<double> angular_velocity = Vector3<double>::Zero();      ///< world frame, rad/s
 };
 
-/// Which momentum the forces conserve, and so whose drift is shown.
+/// Momentum whose drift is shown: one that the forces conserve.
 enum class ShownMomentum { none, linear, angular };
 
 struct Recording {
-  std::string id;                                          ///< of the run in its study; may be empty
+  std::string id;                                          ///< id of the run in its study; may be empty
   std::vector<std::pair<std::string, std::string>> facts;  ///< columns and cells of runs.csv
   std::string status = "ok", message;
   Scene scene;
   ShownMomentum momentum = ShownMomentum::none;
-  std::string energy_drift_max;  ///< of the whole run, as runs.csv has it
+  std::string energy_drift_max;  ///< largest drift of the whole run, as in runs.csv
 
   std::size_t moving = 0;
-  std::vector<double> times;                         ///< s
-  std::vector<Placement> placements;                 ///< of each instant `moving` of them
-  std::vector<double> energy_drift;                  ///< of each instant: relative, signed
-  std::vector<double> momentum_drift;                ///< relative; zeros where none is shown
+  std::vector<double> times;                         ///< times of the instants, s
+  std::vector<Placement> placements;                 ///< `moving` placements for each instant
+  std::vector<double> energy_drift;                  ///< at each instant: relative, signed
+  std::vector<double> momentum_drift;                ///< at each instant: relative; 0 if no momentum is shown
   std::vector<Impact> impacts;                       ///< sorted by time
-  std::int64_t instants_seen = 0, impacts_seen = 0;  ///< before anything was left out
+  std::int64_t instants_seen = 0, impacts_seen = 0;  ///< numbers before any were removed
 };
 
-/// Method and step: "rk4, dt = 0.01 s".
+/// Method and step of the run: "rk4, dt = 0.01 s".
 std::string label_of(const Recording& recording);
 
-/// A drift over its scale; 0 where nothing moves, whose scale is 0.
+/// A drift over its scale; 0 if the scale is 0, since nothing moves then.
 inline double relative(double drift, double scale) { return scale > 0 ? drift / scale : 0; }
 
-/// Angular before linear; none with contact against what stands still.
+/// The momentum to show: the angular one if it is conserved, else the linear one if it is; none if bodies can touch
+/// fixed bodies.
 ShownMomentum shown_momentum(const System<double>& system, const Scenario& scenario);
 
-/// Keeps n instants (two or more), evenly by number, the first and the last among them.
+/// Reduces the recording to n instants (n ≥ 2), spread evenly by number, including the first and the last.
 void keep_instants(Recording& recording, std::size_t n);
 
-/// Keeps the n impacts of the largest impulses.
+/// Reduces the recording to the n impacts with the largest impulses.
 void keep_impacts(Recording& recording, std::size_t n);
 
-/// s, the longest time between two instants that are kept.
+/// Longest time between consecutive instants, s.
 double longest_spacing(const Recording& recording);
 
-/// rad, the most that a body turns between two instants that are kept, by its angular velocity at either.
+/// Largest rotation of a body between consecutive instants, estimated from its angular velocities at both, rad.
 double largest_turn(const Recording& recording);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::replay

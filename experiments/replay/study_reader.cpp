@@ -296,4 +296,4 @@ KeptStudy read_study(const Path& folder, const std::vector<std::string>& ids, co
   return study;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::replay

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the motion that a study has kept as CSV.
+// Reads the motions that a study has stored as CSV.
 #pragma once
 
 #include <filesystem>
@@ -12,14 +12,14 @@ namespace polhode::study::replay {
 
 struct KeptStudy {
   Scenario scenario;                  ///< without the varied keys
-  std::string command;                ///< that made it
-  std::string made_by;                ///< "polhode 0.1.0, commit 1234abc"
+  std::string command;                ///< command line of the study
+  std::string made_by;                ///< version of the program: "polhode 0.1.0, commit 1234abc"
   std::vector<Recording> recordings;  ///< in the order of runs.csv
 };
 
-/// Of the runs with a trajectory, all or those of the ids. `scenario` (a name or a file) stands for the one that the
-/// study names, where it is not empty. Throws InputError.
+/// Reads the runs that have a trajectory, with these ids (empty: all). scenario: name or file that replaces the
+/// scenario named in the study; empty: none. Throws InputError, also for more than most_runs runs.
 KeptStudy read_study(const std::filesystem::path& folder, const std::vector<std::string>& ids,
                      const std::string& scenario, std::size_t most_runs);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::replay

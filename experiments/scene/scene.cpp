@@ -111,4 +111,4 @@ class SceneMaker {
 
 Scene scene_of(const Scenario& scenario) { return SceneMaker(scenario).scene(); }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scene

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What of a scenario can be drawn: the surface of each body as triangles, and the springs between bodies.
+// The drawable contents of a scenario: the surface of each body as triangles, and the springs between bodies.
 #pragma once
 
 #include <optional>
@@ -14,19 +14,19 @@ namespace polhode::study::inline scene {
 
 struct SceneBody {
   std::string name;
-  std::optional<std::size_t> surface;  ///< among Scene::surfaces; none: a half-space, which is drawn as a floor
+  std::optional<std::size_t> surface;  ///< index into Scene::surfaces; absent: a half-space, which is drawn as a floor
   bool fixed = false;
-  bool from_inertia = false;  ///< the scenario names no shape: the box of the same mass and inertia stands for it
-  Pose start;                 ///< of the surface; a fixed body stays there
+  bool from_inertia = false;  ///< the scenario names no shape; a box of the same mass and inertia is drawn
+  Pose start;                 ///< pose of the surface; a fixed body stays there
   Vector3<double> center_of_mass =
       Vector3<double>::Zero();                             ///< m, body axes, from the reference point; of pinned bodies
-  Vector3<double> floor_normal = Vector3<double>::Zero();  ///< of a half-space, world
-  double floor_offset = 0;                                 ///< m, along the normal
+  Vector3<double> floor_normal = Vector3<double>::Zero();  ///< of a half-space: unit normal, world
+  double floor_offset = 0;                                 ///< of a half-space: m, along the normal
   double mass = 0;                                         ///< kg
   Matrix3<double> inertia = Matrix3<double>::Identity();   ///< kg m², body axes, about the reference point
 };
 
-/// A line from a point of one body to one of another, or of the world.
+/// A spring, drawn as a line from a point of one body to a point of another or of the world.
 struct SceneSpring {
   std::size_t body = 0;
   std::optional<std::size_t> other;
@@ -36,11 +36,11 @@ struct SceneSpring {
 
 struct Scene {
   std::string title;
-  std::vector<Surface> surfaces;  ///< each once, however many bodies have it
-  std::vector<SceneBody> bodies;  ///< all of the problem, in its order
+  std::vector<Surface> surfaces;  ///< each surface once, even if several bodies have it
+  std::vector<SceneBody> bodies;  ///< all bodies of the problem, in its order
   std::vector<SceneSpring> springs;
 };
 
 Scene scene_of(const Scenario& scenario);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scene

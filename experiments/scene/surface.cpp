@@ -176,4 +176,4 @@ Surface surface_of(const Shape& shape) {
   return surface;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scene

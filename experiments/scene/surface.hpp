@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The surface of a shape as triangles, to be drawn.
+// The surface of a shape as triangles, for drawing.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace polhode::study::inline scene {
 
-/// A surface as triangles, m, in the shape's own axes; corners stand once for each normal that they have.
+/// Triangles in the shape's own axes (m). A corner is stored once for each of its normals.
 struct Surface {
-  std::vector<Vector3<float>> points, normals;  ///< the same number; normals outward, of unit length
-  std::vector<std::uint32_t> corners;           ///< three of them a triangle, counterclockwise from outside
+  std::vector<Vector3<float>> points, normals;  ///< the same number of both; normals are outward unit vectors
+  std::vector<std::uint32_t> corners;  ///< three indices for each triangle, counter-clockwise seen from outside
 };
 
-/// Of any finite shape: what its support function reaches along directions that are spread over the sphere, and their
-/// hull. Of what has only corners it is exact. Normals are flat at edges sharper than 30 degrees and smooth elsewhere.
+/// The surface of a finite shape: the hull of its support points along directions spread over the sphere. Exact for
+/// polyhedra. Normals are flat at edges sharper than 30 degrees and smooth elsewhere.
 Surface surface_of(const Shape& shape);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scene

@@ -260,4 +260,4 @@ std::vector<Figure> stability_maps(const Grouping& grouping, const std::vector<S
   return figures;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::stability

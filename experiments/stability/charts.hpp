@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Verdicts as coloured cells: a chart of all methods against the step, and maps over the step and a varied key.
+// Figures of verdicts as coloured cells: a chart of all methods against the step, and maps over the step and a varied
+// key.
 #pragma once
 
 #include <string>
@@ -17,4 +18,4 @@ std::vector<Figure> stability_charts(const Grouping& grouping, const std::vector
 std::vector<Figure> stability_maps(const Grouping& grouping, const std::vector<StabilityFinding>& found,
                                    const std::string& key);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::stability

@@ -27,4 +27,4 @@ std::optional<double> next_step(const CriticalStep& critical, double width) {
   return std::sqrt(critical.holds * critical.fails);
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::stability

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The critical step: the smallest step at which a run no longer holds, looked for from below on a scan, then by
+// Critical step: the smallest step at which a run no longer holds. It is searched upwards in a scan of steps, then by
 // bisection.
 #pragma once
 
@@ -17,23 +17,24 @@ struct TriedStep {
 struct CriticalStep {
   enum class Kind {
     found,
-    none,       ///< every step tried holds
-    from_start  ///< not even the smallest one does
+    none,       ///< the runs of all steps tried hold
+    from_start  ///< the run of the smallest step does not hold
   };
   Kind kind = Kind::none;
-  double holds = 0;          ///< s, the largest step below the critical one that was tried; it and all below it hold
-  double fails = 0;          ///< s, the smallest step that does not hold
-  bool holds_again = false;  ///< a larger step that was tried does
+  double holds = 0;          ///< largest step tried below the critical one, s; all steps tried up to it hold
+  double fails = 0;          ///< smallest step tried that does not hold, s
+  bool holds_again = false;  ///< a larger step that was tried holds
 };
 
-/// Steps in any order, at least one. A stable window above the critical step does not hide it, nor does an unstable one
-/// that the scan has seen; one that lies between two steps of the scan is not seen.
+/// The critical step of a scan; steps in any order, at least one. A stable window above the critical step does not
+/// change the result. An unstable window is detected only if a step of the scan lies in it.
 CriticalStep critical_step(std::vector<TriedStep> steps);
 
-/// How narrow the bracket [holds, fails] is made, relative to `fails`.
+/// Final width of the bracket [holds, fails] over `fails`.
 inline constexpr double bracket_width = 0.003;
 
-/// The step to try next, so that the bracket is halved (in its logarithm); absent: narrow enough, or none.
+/// The step to try next, s, which halves the bracket in its logarithm. Absent if the bracket is narrow enough or does
+/// not exist.
 std::optional<double> next_step(const CriticalStep& critical, double width = bracket_width);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::stability

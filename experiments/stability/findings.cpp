@@ -114,4 +114,4 @@ std::vector<StabilityFinding> stability_findings(const Grouping& grouping) {
   return found;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::stability

@@ -63,4 +63,4 @@ double exact_displacement(const Problem& problem, const Formulation& formulation
   return largest;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::stability

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is the motion of a run followed? An energy that stays bounded does not say so: a top may be turned by π and still
-// have the right energy.
+// Test whether a run follows the motion. A bounded energy is not sufficient: a top may be turned by π and still have
+// the right energy.
 #pragma once
 
 #include <string_view>
@@ -9,16 +9,16 @@
 
 namespace polhode::study::stability {
 
-/// The bounds of a motion that is followed: rough ones, within which the run still resembles the motion.
+/// Bounds of the errors of a motion that is followed: rough ones, within which the run still resembles the motion.
 namespace followed {
-inline constexpr double attitude = 1;     ///< rad, error against the exact motion or a reference
+inline constexpr double attitude = 1;     ///< error against the exact motion or a reference, rad
 inline constexpr double position = 0.25;  ///< error over the largest displacement of the exact path: half an amplitude
-inline constexpr double momentum = 0.1;  ///< relative drift of momenta and of the scenario's further invariants; of the
-                                         ///< energy too, where the motion is not known
-inline constexpr double defect = 0.1;  ///< of the orientation
+/// Relative drift of momenta and of the scenario's further invariants; if the motion is not known, also of the energy.
+inline constexpr double momentum = 0.1;
+inline constexpr double defect = 0.1;  ///< orientation defect
 }  // namespace followed
 
-/// What was lost: the first of these that is beyond its bound.
+/// Quantity that is lost: the first of these that exceeds its bound.
 enum class Lost {
   nothing,
   end,  ///< the run diverged or failed
@@ -26,8 +26,8 @@ enum class Lost {
   position,
   momentum,
   invariant,
-  orientation,  ///< its defect
-  energy,       ///< judged only where the motion is not known
+  orientation,  ///< the orientation defect
+  energy,       ///< tested only if the motion is not known
 };
 constexpr std::string_view name(Lost lost) {
   switch (lost) {
@@ -42,14 +42,15 @@ constexpr std::string_view name(Lost lost) {
   }
 }
 
-/// `displacement`: m, of the exact path (exact_displacement()); 0: positions are not judged.
+/// The quantity that the run has lost. displacement: that of the exact path (exact_displacement()), m; 0: positions are
+/// not tested.
 Lost what_is_lost(const RunRecord& run, double displacement);
 
 /// True if the run was measured against a known motion: its attitudes and, unless every body is pinned, its positions.
 bool has_known_motion(const RunRecord& run);
 
-/// m, how far the mass centres get from where they start, at most, from 0 to t_end (s), by their exact paths. 0 where
-/// a path is not known, or none leads anywhere.
+/// Largest displacement of the mass centres from their initial positions between 0 and t_end (s), by their exact paths,
+/// m. 0 if a path is not known, or if no mass centre moves.
 double exact_displacement(const Problem& problem, const Formulation& formulation, double t_end);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::stability

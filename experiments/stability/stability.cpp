@@ -497,4 +497,4 @@ class Stability {
 
 Analysis stability(const StudyView& study) { return Stability(study).analysis(); }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::stability

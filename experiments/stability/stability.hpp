@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the experiment `stability` makes of its runs: critical steps, linear theory beside them, and maps.
+// Analysis of the experiment `stability`: critical steps, their values by linear theory, and maps.
 #pragma once
 
 #include "experiments/study/record/study_view.hpp"
@@ -8,4 +8,4 @@ namespace polhode::study::stability {
 
 Analysis stability(const StudyView& study);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::stability

@@ -155,4 +155,4 @@ std::vector<RunConfig> bisection(const StudyView& study) {
   return std::move(wanted.configs);
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::stability

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The runs of one method on one motion by their step, each judged, and what further steps a bisection asks for.
+// Ladder of steps: the runs of one method on one motion, sorted by step, with a verdict for each step; and the further
+// steps that a bisection requires.
 #pragma once
 
 #include <optional>
@@ -12,22 +13,23 @@
 
 namespace polhode::study::stability {
 
-/// s: as long as asked for, rounded up to whole steps, and 500 steps at least. A shortened last step would be a step of
-/// another size, and growth that is slow for each step takes many of them to show.
+/// Duration of a run, s: t_end rounded up to whole steps, at least 500 steps. A shortened last step would be a step of
+/// another size, and a slow growth per step shows only after many steps.
 double whole_steps(double t_end, double dt);
 
-/// Of a run of 500 steps at least; none of a shorter one, which only says whether the motion is followed.
+/// Verdict on the energy of a run of at least 500 steps; `none` for a shorter run, which only shows whether the motion
+/// is followed. turn: as for stability_verdict().
 Verdict energy_verdict(const RunRecord& run, std::optional<double> turn);
 
-/// A gain that stands alone is confirmed by a run so many times as long.
+/// Duration of the run that confirms an isolated gain, over that of the first run.
 inline constexpr double confirmed_by = 4;
 
 struct Ladder {
   struct Step {
     double dt = 0;                         ///< s
-    std::vector<const RunRecord*> runs{};  ///< the shortest first
-    Verdict verdict = Verdict::none;       ///< of the energy; none where all runs have less than 500 steps
-    Lost lost = Lost::nothing;             ///< of the shortest
+    std::vector<const RunRecord*> runs{};  ///< in ascending order of duration
+    Verdict verdict = Verdict::none;       ///< verdict on the energy; `none` if all runs have less than 500 steps
+    Lost lost = Lost::nothing;             ///< quantity lost in the shortest run
     const RunRecord& longest() const { return *runs.back(); }
     const RunRecord& shortest() const { return *runs.front(); }
   };
@@ -39,16 +41,17 @@ struct Ladder {
   double displacement = 0;       ///< largest displacement of the exact motion in that time, m
   bool measured = false;         ///< some run was measured against a known motion
 
-  CriticalStep growth() const;   ///< where the energy first grows: gaining or blown up
-  CriticalStep blow_up() const;  ///< where it first blows up
-  CriticalStep motion() const;   ///< where the motion is first lost
+  CriticalStep growth() const;   ///< critical step of energy growth: verdict gaining or blown up
+  CriticalStep blow_up() const;  ///< critical step of the verdict blown up
+  CriticalStep motion() const;   ///< critical step at which the motion is lost
 };
 
 /// Ladders of the curves of a grouping that have a run, in the order of the curves. The grouping must outlive them.
 std::vector<Ladder> ladders(const Grouping& grouping);
 
-/// The steps that halve the brackets of all ladders, side by side; where a lone verdict would decide, a longer run of
-/// that step; where only a run longer than the duration asked for has lost the motion, one that is not.
+/// Further runs for the bisection of all ladders: one for the step that halves each bracket. Exceptions: if an isolated
+/// gain would decide, a longer run of its step; if a run longer than the requested duration has lost the motion, a run
+/// of the requested duration.
 std::vector<RunConfig> bisection(const StudyView& study);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::stability

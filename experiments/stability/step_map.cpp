@@ -96,4 +96,4 @@ std::optional<double> spectral_radius(const IntegratorEntry& method, const Probl
   return map.eigenvalues().cwiseAbs().maxCoeff();
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::stability

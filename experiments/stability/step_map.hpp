@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Linear theory, from the method itself: the map of one step over a linear system, and its spectral radius.
+// Linear stability from the method itself: the map of one step of a linear system, and its spectral radius.
 #pragma once
 
 #include <optional>
@@ -10,16 +10,17 @@
 
 namespace polhode::study::stability {
 
-/// The largest modulus of the eigenvalues of the map (positions, velocities) → the same after one step of dt. Its
-/// columns are differences of steps from displaced states, which for a linear map is exact but for rounding.
+/// Spectral radius of the map from (positions, velocities) to the same after one step dt (s): the largest modulus of
+/// its eigenvalues. The columns of its matrix are differences of steps from displaced states, which are exact for a
+/// linear map except for rounding.
 ///
-/// Absent where the mass centres do not obey a linear equation, a body turns, the method has a history or chooses its
-/// steps, or a step fails.
+/// Absent if the mass centres do not obey a linear equation, a body rotates, the method is a multistep method or
+/// adaptive, or a step fails.
 std::optional<double> spectral_radius(const IntegratorEntry& method, const Problem& problem,
                                       const Formulation& formulation, double dt);
 
-/// True when nothing turns and the accelerations of the mass centres are linear in positions and velocities (and
-/// perhaps constant parts) at all times: tried on displaced states.
+/// True if no body rotates and the accelerations of the mass centres are affine in positions and velocities at all
+/// times. This is tested at displaced states.
 bool is_linear(const System<double>& system);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::stability

@@ -83,4 +83,4 @@ std::optional<double> energy_gain_rate(const RunRecord& run) {
   return stability_verdict(run) == Verdict::blown_up ? std::nullopt : slope(run.result);
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::stability

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What became of the energy of a run: is a step stable?
+// Verdict on the energy of a run, which decides whether a step is stable.
 //
-// The signed energy drift over time (RunResult::series) is cut into four quarters of the run; of each the range from
-// its lowest to its highest value is taken, and the middle of that range.
+// The signed energy drift over time (RunResult::series) is divided into four quarters of the run. Each quarter is
+// characterised by the range from its lowest to its highest value, and by the middle of that range.
 #pragma once
 
 #include <optional>
@@ -13,12 +13,12 @@
 namespace polhode::study::stability {
 
 enum class Verdict {
-  stable,          ///< the drift stays within bounds, or below what is counted
-  damped,          ///< energy is lost for good
-  gaining_slowly,  ///< energy is gained for good, less than `slow` in a turn: a truncation error, no instability
-  gaining,         ///< energy is gained for good
-  blown_up,        ///< diverged, failed, or a drift of the energy or a defect of the orientation above `lost`
-  none             ///< refused: there is no run
+  stable,          ///< the drift is bounded, or too small to be counted
+  damped,          ///< permanent loss of energy
+  gaining_slowly,  ///< permanent gain of energy, less than `slow` per turn: a truncation error, no instability
+  gaining,         ///< permanent gain of energy
+  blown_up,        ///< the run diverged or failed, or its energy drift or orientation defect exceeds `lost`
+  none             ///< the run was refused
 };
 constexpr std::string_view name(Verdict v) {
   switch (v) {
@@ -30,21 +30,23 @@ constexpr std::string_view name(Verdict v) {
     default: return "";
   }
 }
-/// The energy does not grow, or so slowly that it is no instability.
+/// True if the energy does not grow, or so slowly that it is no instability.
 constexpr bool holds(Verdict v) { return v < Verdict::gaining; }
 
 namespace verdict {
-/// A relative drift or an orientation defect above this says no more than that the motion is lost.
+/// Relative energy drift or orientation defect above which the verdict is blown_up.
 inline constexpr double lost = 1000;
-/// A relative change of the energy below this is not counted, nor one below 64 ε √steps of the run's arithmetic, nor
-/// one that rounding alone explains (RunResult::energy_round_off).
+/// Smallest relative change of the energy that counts. It must also exceed 64 ε √steps of the run's arithmetic, and the
+/// largest change that rounding alone explains (RunResult::energy_round_off).
 inline constexpr double counted = 1e-9;
-/// A trend: the middles of the quarters all move the same way, by this part of the widest range or more.
+/// Smallest change of a trend over the widest range of a quarter. In a trend the middles of the quarters all move in
+/// the same direction.
 inline constexpr double trend = 0.5;
-/// At rest elsewhere: the middle of the last quarter is this many of its own ranges away from the start.
+/// Smallest distance of the middle of the last quarter from 0, over the width of its range, of a drift that has settled
+/// at another value.
 inline constexpr double settled = 2;
-/// A gain is slow: a relative change of less than this for each turn of the run, by the middle of the last quarter and
-/// by the least-squares line.
+/// Largest relative change of the energy per turn of a slow gain, both by the permanent change and by the least-squares
+/// line.
 inline constexpr double slow = 0.01;
 }  // namespace verdict
 
@@ -53,8 +55,8 @@ inline constexpr double slow = 0.01;
 /// however slowly.
 Verdict stability_verdict(const RunRecord& run, std::optional<double> turn = std::nullopt);
 
-/// 1/s, the gain of energy over its scale: slope of the least-squares line through the drift of all samples. Absent for
-/// a run that has blown up.
+/// Rate of energy gain over the energy scale: slope of the least-squares line through the drift of all samples, 1/s.
+/// Absent for a run that has blown up.
 std::optional<double> energy_gain_rate(const RunRecord& run);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::stability

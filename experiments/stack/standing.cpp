@@ -211,4 +211,4 @@ class Standing {
 
 Analysis how_stacks_stand(const StudyView& study) { return Standing(study).analysis(); }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::stack

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far a study is: a line that rewrites itself on a terminal, plain lines now and then in a log.
+// Progress of a study: a line that is rewritten in place on a terminal, or separate lines in a log.
 #pragma once
 
 #include <chrono>
@@ -8,14 +8,15 @@
 
 namespace polhode::study {
 
-/// Not thread-safe: one thread reports.
+/// Prints the progress to standard error. Not thread-safe.
 class Progress {
  public:
-  /// `cost` in any unit, of all runs; `runs` counts those to be carried out now.
+  /// runs: number of runs to carry out; cost: their total work, in any unit.
   Progress(std::string name, std::size_t runs, double cost);
-  /// Call as often as you like; prints at most ten times a second on a terminal, every ten seconds in a log.
+  /// Reports the number and the cost of finished runs. Prints at most ten times a second on a terminal, at most every
+  /// ten seconds in a log.
   void report(std::size_t runs_done, double cost_done);
-  /// Clears the line on a terminal.
+  /// Clears the line, on a terminal.
   void finish();
 
  private:
@@ -28,7 +29,7 @@ class Progress {
   bool printed_ = false;
 };
 
-/// "8 s", "3 min 20 s", "2 h 5 min".
+/// A duration in s as text, rounded up: "8 s", "3 min 20 s", "2 h 5 min".
 std::string duration_text(double seconds);
 
 }  // namespace polhode::study

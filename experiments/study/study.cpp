@@ -34,12 +34,12 @@
 namespace polhode::study {
 namespace {
 
-constexpr int interrupted = 130;  ///< exit status
+constexpr int interrupted = 130;  ///< exit status of an interrupted study
 
 std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free);  // so that a signal handler may set it
 
-/// The first Ctrl-C stops the study in good order; a second one kills it.
+/// The first Ctrl-C stops the study and keeps finished runs; the second one kills it.
 void stop_on_signals() {
   struct sigaction action = {};
   action.sa_handler = [](int) { stop_requested = true; };
@@ -95,7 +95,8 @@ bool has_trajectory(const TrajectoryRequest& request) {
   }
 }
 
-/// Runs of one key together, in their order, as many as an ensemble has lanes; those without a key alone.
+/// Groups runs of equal key into batches of at most lane_count runs, in their order. Runs with an empty key are batches
+/// of one.
 template <class Key>
 std::vector<Batch> batches_of(const std::vector<const PlannedRun*>& runs, const Key& key_of) {
   std::vector<Batch> batches;
@@ -113,8 +114,8 @@ std::vector<Batch> batches_of(const std::vector<const PlannedRun*>& runs, const 
   return batches;
 }
 
-/// Where times matter, a run of less than some time slices of the machine is repeated: what disturbs it only ever makes
-/// it slower.
+/// Carries out one run. If the experiment requires best times, a run shorter than 0.04 s is repeated and the least time
+/// kept, since disturbances by other programs only increase it.
 RunResult carry_out_alone(const Experiment& experiment, const PlannedRun& run, const TrajectoryRequest& trajectory,
                           References& references) {
   constexpr double long_enough = 0.04;  // s
@@ -127,7 +128,7 @@ RunResult carry_out_alone(const Experiment& experiment, const PlannedRun& run, c
   return result;
 }
 
-/// Carries out what the store does not hold yet. Returns false when it was interrupted.
+/// Carries out the runs that the store does not contain yet. Returns false if interrupted.
 bool carry_out_missing(const Experiment& experiment, const Options& options, const Plan& plan,
                        const std::filesystem::path& folder, Store& store, std::map<std::string, RunResult>& results,
                        bool say_what_is_there) {
@@ -162,7 +163,7 @@ bool carry_out_missing(const Experiment& experiment, const Options& options, con
   return false;
 }
 
-/// Takes the results out of the map as they are, or copies them: `give` makes one from another.
+/// The finished study. `give` moves or copies a result out of the map.
 template <class Results, class Give>
 StudyView view_of(const Experiment& experiment, const Options& options, const Plan& plan,
                   const std::filesystem::path& folder, Results& results, const Give& give) {
@@ -189,7 +190,7 @@ StudyView view_of(const Experiment& experiment, const Options& options, const Pl
   return view;
 }
 
-/// Adds the runs that the experiment wants next, knowing those of the plan. False: it wants no more.
+/// Adds the further runs that the experiment requests, given the results of the plan. Returns false if there are none.
 bool widened(const Experiment& experiment, const Options& options, Plan& plan, const std::filesystem::path& folder,
              const std::map<std::string, RunResult>& results) {
   if (!experiment.refine) return false;
@@ -197,14 +198,15 @@ bool widened(const Experiment& experiment, const Options& options, Plan& plan, c
   return widen(plan, experiment.refine(view_of(experiment, options, plan, folder, results, copy))) > 0;
 }
 
-/// The runs of the study, with those that the results in its folder lead to. A study that was stopped, or is wider than
-/// it was, lacks some results: what follows from the others is its own all the same. Changes no file.
+/// Ids of the runs of the study, including further runs requested on the basis of results already in its folder. Plans
+/// these even if some results are missing, because the study was interrupted or has more runs than before. Changes no
+/// file.
 std::set<std::string> ids_of(const Experiment& experiment, const Options& options, Plan plan,
                              const std::filesystem::path& folder) {
   std::map<std::string, RunResult> results;
   try {
     if (experiment.refine && !Store::ids_in(folder).empty()) results = Store(folder).load().runs;
-  } catch (const std::runtime_error&) {  // ResultFolder says what is wrong with it
+  } catch (const std::runtime_error&) {  // ResultFolder reports the error
   }
   std::set<std::string> ids;
   for (std::size_t known = 0;;) {
@@ -228,8 +230,7 @@ void write_everything(const StudyView& view, const Options& options, const Plan&
   write_report(view);
 }
 
-/// What the store holds of the study, without what is to be carried out again: damaged rows, and with --force what
-/// failed.
+/// The results in the store, except those of runs to be carried out again: damaged rows and, with --force, failed runs.
 std::map<std::string, RunResult> stored(const Experiment& experiment, const Options& options,
                                         const std::filesystem::path& folder, Store& store) {
   auto [runs, damaged] = store.load();
@@ -243,7 +244,7 @@ std::map<std::string, RunResult> stored(const Experiment& experiment, const Opti
   return std::move(runs);
 }
 
-/// "2 of 51 runs failed, the first with: out of memory".
+/// Message about runs of one status: "2 of 51 runs failed, the first with: out of memory"; empty if there are none.
 std::string missed_text(const std::vector<const RunRecord*>& missed, std::size_t runs, const std::string& status) {
   const auto is_so = [&](const RunRecord* run) { return run->result.status == status; };
   const auto first = std::find_if(missed.begin(), missed.end(), is_so);
@@ -277,7 +278,7 @@ int run_study(const Experiment& experiment, const Options& options) {
   if (experiment.analysis) view.analysis = experiment.analysis(view);
   write_everything(view, options, plan);
   fmt::print("{}\n{}\n", summary_table(view), (folder / "report.html").string());
-  // Where the analysis is the result, a refusal is one of its answers.
+  // A refused run is no error if the report shows the analysis alone: the refusal is part of its answer.
   const bool answers_refusals = view.analysis && view.analysis->alone;
   std::vector<const RunRecord*> missed;
   for (const RunRecord& run : view.runs) {

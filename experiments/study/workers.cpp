@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::chrono::milliseconds between_commits{80};
 
-/// The thread that commits what the workers have finished and reports the progress.
+/// The thread that commits finished runs to the store and reports the progress.
 class Keeper {
  public:
   Keeper(const std::string& name, std::size_t runs, double cost, Store& store, std::atomic<bool>& stop,
@@ -31,7 +31,7 @@ class Keeper {
     cost_done_ += cost;
   }
 
-  /// Waits for the last commit; rethrows what went wrong.
+  /// Waits for the last commit; rethrows an exception of the thread.
   void finish() {
     {
       const std::lock_guard lock(mutex_);
@@ -83,7 +83,7 @@ class Keeper {
   std::size_t done_ = 0;
   bool finished_ = false;
   std::exception_ptr failure_;
-  std::thread thread_;  // last: it uses all of the above
+  std::thread thread_;  // must be the last member: the thread uses all others
 };
 
 }  // namespace
@@ -91,7 +91,7 @@ class Keeper {
 void run_all(const std::string& name, std::vector<Batch> batches,
              const std::function<std::vector<RunResult>(const Batch&)>& work, int jobs, Store& store,
              std::atomic<bool>& stop, std::map<std::string, RunResult>& results) {
-  // The longest first, so that no core is left alone with a long one at the end.
+  // Longest batches first, so that all cores finish at about the same time.
   std::stable_sort(batches.begin(), batches.end(),
                    [](const Batch& a, const Batch& b) { return a.front()->cost > b.front()->cost; });
   double cost = 0;

@@ -59,4 +59,4 @@ std::vector<EnvelopePoint> lower_envelope(const std::vector<std::vector<WorkPoin
   return envelope;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::work_precision

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lower envelope of work-precision curves: which method reaches an error at the least cost, at each decade of
-// error.
+// Lower envelope of work-precision curves: the method that reaches an error at the least cost, at each decade of error.
 #pragma once
 
 #include <cstddef>
@@ -10,26 +9,25 @@
 namespace polhode::study::work_precision {
 
 struct WorkPoint {
-  double error = 0;  ///< not finite or not positive: the point is left out
-  double cost = 0;   ///< right-hand sides or seconds; likewise
+  double error = 0;  ///< a point whose error is not positive and finite is ignored
+  double cost = 0;   ///< evaluations of the right-hand side or s; ignored likewise
 };
 
-/// The cost at which a curve first reaches `error` as its cost rises: between two runs on the straight line of the
-/// logarithms. Never extrapolated: where its cheapest run is better than that already, the cost of that run; nothing
-/// where no run is as good.
+/// Least cost at which a curve reaches `error`: interpolated linearly in the logarithms between two runs. Not
+/// extrapolated: if the cheapest run already has a smaller error, the cost of that run. Absent if no run reaches it.
 std::optional<double> cost_to_reach(double error, const std::vector<WorkPoint>& curve);
 
 struct EnvelopePoint {
   int decade = 0;         ///< error = 10^decade
-  std::size_t curve = 0;  ///< the cheapest; of equals the first
+  std::size_t curve = 0;  ///< index of the cheapest curve, the first one of equals
   double cost = 0;
-  bool at_most = false;               ///< its cheapest run is better than this error: a larger step may be cheaper yet
-  std::optional<std::size_t> next{};  ///< the curve that comes second
+  bool at_most = false;  ///< upper bound: the cheapest run has a smaller error, a larger step may be cheaper
+  std::optional<std::size_t> next{};  ///< index of the second cheapest curve
   double next_cost = 0;
 };
 
-/// At each decade from the best to the worst error that some curve reaches, largest first. Errors above `lost` say that
-/// a motion is lost and count for nothing.
+/// The envelope at each decade between the smallest and the largest error of the curves, in descending order. Errors
+/// above `lost` are ignored, as the motion is lost.
 std::vector<EnvelopePoint> lower_envelope(const std::vector<std::vector<WorkPoint>>& curves, double lost);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::work_precision

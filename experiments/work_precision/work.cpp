@@ -362,4 +362,4 @@ Analysis work_against_error(const StudyView& study) {
   return found;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::work_precision

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The true error of every run against what it cost, and the lower envelope of each motion's curves.
+// True error of every run against its cost, and the lower envelope of the curves of each motion.
 #pragma once
 
 #include "experiments/study/record/study_view.hpp"
 
 namespace polhode::study::work_precision {
 
-/// Against right-hand sides; and, apart from what must be the same bytes at every call, against wall time. A motion's
-/// error is that of the attitude, where it has none of the position.
+/// The analysis: error against evaluations of the right-hand side and, in Analysis::timed, against wall time. The error
+/// is that of the attitude or, for a motion without one, that of the position.
 Analysis work_against_error(const StudyView& study);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::work_precision

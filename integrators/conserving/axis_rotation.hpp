@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The flow of ½ κ m_i², a rotation about one principal axis at the constant rate κ m_i, on a body that has turned by q
-// since the step began: m ← exp(−φ e_i*) m, q ← q (cos φ/2 + e_i sin φ/2), φ = h κ m_i.
+// The flow of the Hamiltonian ½ κ m_i²: a rotation about one principal axis at the constant rate κ m_i. With q the
+// rotation since the start of the step, m ← exp(−φ e_i*) m, q ← q (cos φ/2 + e_i sin φ/2), φ = h κ m_i.
 #pragma once
 
 #include <cmath>
@@ -9,13 +9,15 @@
 
 namespace polhode::inline integrators {
 
+/// Applies the flow over h to the angular momentum m (principal axes) and the quaternion q. h_kappa = h κ.
 template <int axis, class S>
 void rotate_about_axis(S h_kappa, Vector3<S>& m, Quaternion<S>& q) {
   using std::cos, std::sin;
   constexpr int i = axis, j = (axis + 1) % 3, k = (axis + 2) % 3;
   const S half = h_kappa * m[i] / S(2);
   const S c = cos(half), s = sin(half);
-  // cos φ = 1 − 2 s², sin φ = 2 s c: the increments of m are as small as the angle.
+  // cos φ = 1 − 2 s², sin φ = 2 s c. The increments of m are then proportional to the angle, which limits the
+  // round-off.
   const S a = S(2) * s * c, b = S(2) * s * s, mj = m[j], mk = m[k];
   m[j] = mj + (a * mk - b * mj);
   m[k] = mk - (a * mj + b * mk);
@@ -26,4 +28,4 @@ void rotate_about_axis(S h_kappa, Vector3<S>& m, Quaternion<S>& q) {
   q[1 + k] = c * qk - s * qj;
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -35,7 +35,7 @@ CollocationSolver<S>::CollocationSolver(const Ode<S>& ode, int stages)
   z_ = delta_ = Vector::Zero(n * stages);
 }
 
-/// The columns of ∂f/∂y by forward differences; f does not depend on the last number, the work.
+/// Computes ∂f/∂y by forward differences. The column of the work is zero, because f does not depend on it.
 template <class S>
 void CollocationSolver<S>::differentiate(S t, const Vector& y) {
   using std::abs, std::sqrt;
@@ -63,7 +63,7 @@ void CollocationSolver<S>::factorise(S h) {
   factored_h_ = h;
 }
 
-/// Iterates Z from 0; true when ΔZ is round-off.
+/// Newton iteration for Z from 0. True if it converges until ΔZ is round-off.
 template <class S>
 bool CollocationSolver<S>::solve(S t, S h) {
   const S epsilon = std::numeric_limits<S>::epsilon();
@@ -86,7 +86,7 @@ bool CollocationSolver<S>::solve(S t, S h) {
     if (iteration > 0) {
       if (change > S(0.05) * previous && change > S(1000) * epsilon * size) jacobian_fits_ = false;
       if (change > S(0.5) * previous) {
-        if (change <= S(1000) * epsilon * size) return true;  // it has come down to the round-off of the residual
+        if (change <= S(1000) * epsilon * size) return true;  // the residual is at round-off level
         stage_ = y_;
         for (int j = 0; j < stages_; ++j) stage_ += z_.segment(j * n, n) / S(stages_);
         const Vector mean = stage_;
@@ -123,4 +123,4 @@ template class CollocationSolver<float>;
 template class CollocationSolver<double>;
 template class CollocationSolver<long double>;
 
-}  // namespace polhode
+}  // namespace polhode::integrators

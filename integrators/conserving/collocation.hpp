@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Gauss methods on the flat ODE ẏ = f(t, y): implicit Runge–Kutta methods of s stages and order 2s,
-//   Z_i = h Σ_j a_ij f(t + c_j h, y + Z_j),  y' = y + Σ_i d_i Z_i with d = bᵀ A⁻¹,
-// additive in the orientation. They are symmetric and keep every quadratic first integral of the flat ODE: |q|² or RᵀR,
-// with the body velocity also energy and |IΩ|. Source: Hairer & Wanner, Solving Ordinary Differential Equations II,
-// IV.5 and IV.8 (their implementation); Hairer, Lubich & Wanner, Geometric Numerical Integration, 2nd ed., IV.2.
+// The Gauss methods for the flat ODE ẏ = f(t, y): implicit Runge–Kutta methods of s stages and order 2s,
+//   Z_i = h Σ_j a_ij f(t + c_j h, y + Z_j),  y' = y + Σ_i d_i Z_i with d = bᵀ A⁻¹.
+// The update of the orientation is additive. The methods are symmetric and conserve every quadratic first integral of
+// the flat ODE: |q|² or RᵀR, and for velocity_body also the energy and |IΩ|.
+// Sources: Hairer & Wanner, Solving Ordinary Differential Equations II, IV.5 and IV.8 (implementation); Hairer, Lubich
+// & Wanner, Geometric Numerical Integration, 2nd ed., IV.2.
 //
-// The stages are solved by simplified Newton iteration, (1 − h A ⊗ J) ΔZ = residual, to the round-off of the scalar. J
-// is a difference quotient, kept from step to step while the iteration contracts by 20 or more, and renewed at the
-// stages where it does not contract by 2. There is no limit on h|J|: a linear problem takes one iteration.
+// Simplified Newton iteration, (1 − h A ⊗ J) ΔZ = residual, solves for the stages to the round-off of the scalar. J is
+// computed by difference quotients. It is reused in the next step while the iteration contracts by a factor of 20 or
+// more. It is recomputed at the stages within a step if the contraction factor is less than 2. h|J| is not limited: a
+// linear problem takes one iteration.
 #pragma once
 
 #include <Eigen/LU>
@@ -17,13 +19,13 @@
 
 namespace polhode::inline integrators {
 
-/// Compiled once for each scalar (collocation.cpp): it sees the system behind its erased type.
+/// Solver for one step. It uses the interface Ode and is therefore compiled once for each scalar (collocation.cpp).
 template <class S>
 class CollocationSolver {
  public:
   CollocationSolver(const Ode<S>& ode, int stages);
 
-  /// Moves y by h; null, or why it could not.
+  /// Advances y from time t (s) by h (s). Returns null, or the reason of a failure.
   const char* step(S t, S h, S* y);
   std::int64_t evaluations() const { return evaluations_; }
 
@@ -55,6 +57,7 @@ extern template class CollocationSolver<float>;
 extern template class CollocationSolver<double>;
 extern template class CollocationSolver<long double>;
 
+/// The Gauss method with the given number of stages.
 template <class System, int stages>
 class GaussMethod {
  public:
@@ -69,4 +72,4 @@ class GaussMethod {
   CollocationSolver<S> solver_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::integrators

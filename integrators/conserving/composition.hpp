@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Symmetric compositions of a symmetric method Φ of order 2: Ψ_h = Φ_{γ_s h} ∘ … ∘ Φ_{γ_1 h} with γ_i = γ_{s+1−i},
-// Σ γ_i = 1. The time of each part begins where that of the last ended.
+// Σ γ_i = 1. Each part starts at the end time of the previous part.
 // Source: Hairer, Lubich & Wanner, Geometric Numerical Integration, 2nd ed., II.4 and V.3.2.
 #pragma once
 
@@ -30,7 +30,7 @@ struct Suzuki4 {
   }
 };
 
-/// Nine parts: order 6. Kahan & Li, Math. Comp. 66 (1997) 1089, s9odr6a.
+/// Nine parts, order 6. Kahan & Li, Math. Comp. 66 (1997) 1089, s9odr6a.
 struct KahanLi6 {
   template <class S>
   static std::array<S, 9> fractions() {
@@ -41,7 +41,8 @@ struct KahanLi6 {
   }
 };
 
-/// Base: a method whose step says const char*, null or why it failed, and that counts its evaluations.
+/// The composition of the method Base. Base::step() returns a const char*, null or the reason of a failure, and
+/// Base::evaluations() counts the right-hand sides.
 template <class System, template <class> class Base, class Scheme>
 class Composition {
  public:
@@ -66,4 +67,4 @@ class Composition {
   decltype(Scheme::template fractions<S>()) fractions_ = Scheme::template fractions<S>();
 };
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discrete Moser–Veselov algorithm for the free rigid body, and what prepares its moments of inertia.
+// The discrete Moser–Veselov algorithm for the free rigid body, with modified moments of inertia for orders 4 and 6.
 //
-// One step with moments J finds the rotation R(ρ) of the unit quaternion ρ = (ρ0, ρ1, ρ2, ρ3) with
+// One step with moments J solves for the rotation R(ρ) of the unit quaternion ρ = (ρ0, ρ1, ρ2, ρ3) with
 //   h m1 = 2 J1 ρ0 ρ1 + 2 (J3 − J2) ρ2 ρ3, and cyclically,
-// that is h m* = R D − D Rᵀ with J_i = d_j + d_k, and takes m' = Rᵀ m, Q' = Q R. It keeps Q m, |m| and ½ m·J⁻¹m.
+// that is h m* = R D − D Rᵀ with J_i = d_j + d_k, and sets m' = Rᵀ m, Q' = Q R. It conserves Q m, |m| and ½ m·J⁻¹m.
 // Sources: Moser & Veselov, Commun. Math. Phys. 139 (1991) 217; McLachlan & Zanna, Found. Comput. Math. 5 (2005) 87
 // (quaternions); Hairer & Vilmart, J. Phys. A 39 (2006) 13225, section 2.
 //
 // By backward error analysis the step is exact for a free body whose energy is a function of H = ½ m·J⁻¹m and
-// C = ½ |m|² (McLachlan & Zanna; Hairer & Vilmart, section 3). Hence moments J̃ with
+// C = ½ |m|² (McLachlan & Zanna; Hairer & Vilmart, section 3). Modified moments J̃ with
 //   1/J̃_i = (1 + h² s3 + h⁴ s5)/J_i + h² d3 + h⁴ d5
-// make it of order 4 (s3, d3) or 6 (all four), while H, C and Q m stay. With e1, e2, e3 the elementary symmetric
+// therefore give order 4 (s3, d3) or 6 (all four) and conserve H, C and Q m. With e1, e2, e3 the elementary symmetric
 // functions of J:
 //   s3 = −(e2/3e3) H + (e1/6e3) C,  d3 = (e1/6e3) H − (1/3e3) C,
 //   60 e3² s5 = (2 e2² − e1 e3) H² + (8 e3 − 2 e1 e2) H C + (2 e1² − 6 e2) C²,
 //   60 e3² d5 = −(e1 e2 + 6 e3) H² + (8 e2 − e1²) H C − e1 C².
-// These follow by putting the Taylor series of the exact ρ into the equations above.
+// These coefficients follow by inserting the Taylor series of the exact ρ into the equations above.
 #pragma once
 
 #include <cmath>
@@ -25,8 +25,9 @@
 
 namespace polhode::inline integrators {
 
-/// The step with moments j, by u = ρ/ρ0: j1 u1 + (j3 − j2) u2 u3 = (h/2)(1 + |u|²) m1, and cyclically, in Newton's
-/// iteration to round-off. The solution is the one on the branch from h = 0, which ends where the Jacobian does.
+/// One step with the moments j (kg m²), solved for u = ρ/ρ0: j1 u1 + (j3 − j2) u2 u3 = (h/2)(1 + |u|²) m1, and
+/// cyclically. Newton's iteration converges to round-off. The solution lies on the branch that starts at h = 0; the
+/// branch ends where the Jacobian becomes singular. Returns null, or the reason of a failure.
 template <class S>
 const char* moser_veselov_turn(const Vector3<S>& j, S h, Vector3<S>& m, Quaternion<S>& dq) {
   using std::sqrt;
@@ -40,7 +41,7 @@ const char* moser_veselov_turn(const Vector3<S>& j, S h, Vector3<S>& m, Quaterni
   for (int iteration = 0; iteration < 20; ++iteration) {
     const S u2 = u.squaredNorm();
     const Vector3<S> residual = (j.cwiseProduct(u) - b) + (products(u) - u2 * b);
-    // The rows of the Jacobian, less the common −2 b uᵀ first.
+    // Rows of the Jacobian: derivatives of j u + products(u) minus b (2 u)ᵀ.
     const Vector3<S> v = S(2) * u;
     const Vector3<S> r0(j[0] - b[0] * v[0], d[0] * u[2] - b[0] * v[1], d[0] * u[1] - b[0] * v[2]);
     const Vector3<S> r1(d[1] * u[2] - b[1] * v[0], j[1] - b[1] * v[1], d[1] * u[0] - b[1] * v[2]);
@@ -49,7 +50,7 @@ const char* moser_veselov_turn(const Vector3<S>& j, S h, Vector3<S>& m, Quaterni
     const S determinant = r0.dot(c0);
     const Vector3<S> delta = (residual[0] * c0 + residual[1] * c1 + residual[2] * c2) / determinant;
     u -= delta;
-    // The error after a step is about the square of the step: stop when that is below round-off.
+    // The error after an iteration is about the square of its step. Stop once it is below round-off.
     if (delta.squaredNorm() <= std::numeric_limits<S>::epsilon() / S(16) * u.squaredNorm()) {
       if (!(determinant > S(0))) break;
       const S length2 = S(1) + u.squaredNorm();
@@ -63,7 +64,7 @@ const char* moser_veselov_turn(const Vector3<S>& j, S h, Vector3<S>& m, Quaterni
   return "the discrete Moser-Veselov equation has no solution near the motion: the step is too long";
 }
 
-/// The rotor of the order 2, 4 or 6.
+/// The rotor of order 2, 4 or 6.
 template <int order>
 struct MoserVeselov {
   template <class S>
@@ -91,4 +92,4 @@ struct MoserVeselov {
   }
 };
 
-}  // namespace polhode
+}  // namespace polhode::integrators

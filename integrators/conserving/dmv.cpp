@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discrete Moser–Veselov algorithm in the Strang splitting with kicks; of order 2, free or forced.
+// The discrete Moser–Veselov algorithm in a Strang splitting with kicks: order 2 for free and for forced bodies.
 #include "integrators/conserving/discrete_moser_veselov.hpp"
 
 namespace polhode::inline integrators {
@@ -21,4 +21,4 @@ IntegratorEntry dmv() {
                             .conserves_casimir = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

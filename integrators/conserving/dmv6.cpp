@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discrete Moser–Veselov algorithm with moments of inertia prepared to h⁴: of order 6 for free bodies, in the
-// Strang splitting with kicks of order 2. Source: Hairer & Vilmart, J. Phys. A 39 (2006) 13225.
+// The discrete Moser–Veselov algorithm with moments of inertia modified up to h⁴, in a Strang splitting with kicks:
+// order 6 for free bodies, order 2 under forces. Source: Hairer & Vilmart, J. Phys. A 39 (2006) 13225.
 #include "integrators/conserving/discrete_moser_veselov.hpp"
 
 namespace polhode::inline integrators {
@@ -22,4 +22,4 @@ IntegratorEntry dmv6() {
                              .conserves_casimir = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

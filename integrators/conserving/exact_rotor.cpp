@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The exact free rotor between two kicks of h/2: exact for free bodies, of order 2 under forces.
+// The exact free rotor between two kicks of h/2: exact for free bodies, order 2 under forces.
 // Source: Celledoni, Fassò, Säfström & Zanna, SIAM J. Sci. Comput. 30 (2008) 2084, section 4.
 #include "integrators/conserving/exact_rotor.hpp"
 
@@ -19,4 +19,4 @@ IntegratorEntry exact_rotor() {
                                                .conserves_casimir = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

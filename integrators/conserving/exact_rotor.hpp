@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The exact free rotor: each step is the exact torque-free motion by elliptic functions, from the momentum at its
-// start. In float it is the motion in double, rounded; there is none in long double, where the elliptic functions have
-// no digits to offer. Source: Celledoni, Fassò, Säfström & Zanna, SIAM J. Sci. Comput. 30 (2008) 2084.
+// The exact free rotor: each step is the exact torque-free motion by elliptic functions, from the momentum at the start
+// of the step. In float it is the motion computed in double and rounded. Long double is not supported, because the
+// elliptic functions are accurate to double only. Source: Celledoni, Fassò, Säfström & Zanna, SIAM J. Sci. Comput. 30
+// (2008) 2084.
 #pragma once
 
 #include "core/exact/free_top.hpp"
@@ -9,7 +10,8 @@
 
 namespace polhode::inline integrators {
 
-/// The turn of the free top with these principal moments over h, from the momentum m, which becomes that after h.
+/// Rotation of the free top with these principal moments (kg m²) over h (s), as a unit quaternion. m is the angular
+/// momentum in principal axes, advanced by h.
 inline Quaternion<double> free_top_turn(const Vector3<double>& moments, double h, Vector3<double>& m) {
   const FreeTop top(moments.asDiagonal(), identity_quaternion<double>(), m.cwiseQuotient(moments));
   const FreeTop::Motion end = top.at(h);
@@ -31,7 +33,7 @@ struct ExactRotor {
 template <class System>
 using ExactRotorMethod = RotorSplitting<System, ExactRotor>;
 
-/// An entry without long double.
+/// Catalogue entry of a method that does not support long double.
 template <template <class> class Method>
 IntegratorEntry exact_rotor_method(Declaration declaration) {
   IntegratorEntry entry = rotor_method<Method>(std::move(declaration));
@@ -39,4 +41,4 @@ IntegratorEntry exact_rotor_method(Declaration declaration) {
   return entry;
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

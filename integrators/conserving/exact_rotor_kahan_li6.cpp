@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Kahan and Li's nine parts of the exact free rotor with kicks: order 6 under forces too.
+// Kahan and Li's composition of nine parts of the exact free rotor with kicks: order 6, also under forces.
 // Source: Kahan & Li, Math. Comp. 66 (1997) 1089.
 #include "integrators/conserving/composition.hpp"
 #include "integrators/conserving/exact_rotor.hpp"
@@ -23,4 +23,4 @@ IntegratorEntry exact_rotor_kahan_li6() {
                                                  .conserves_casimir = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

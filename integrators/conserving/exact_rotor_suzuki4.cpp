@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Suzuki's five parts of the exact free rotor with kicks: order 4 under forces too.
+// Suzuki's composition of five parts of the exact free rotor with kicks: order 4, also under forces.
 // Source: Suzuki, Phys. Lett. A 146 (1990) 319.
 #include "integrators/conserving/composition.hpp"
 #include "integrators/conserving/exact_rotor.hpp"
@@ -23,4 +23,4 @@ IntegratorEntry exact_rotor_suzuki4() {
                                                 .conserves_casimir = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Yoshida's triple jump of the exact free rotor with kicks: order 4 under forces too.
+// Yoshida's triple jump of the exact free rotor with kicks: order 4, also under forces.
 // Source: Yoshida, Phys. Lett. A 150 (1990) 262.
 #include "integrators/conserving/composition.hpp"
 #include "integrators/conserving/exact_rotor.hpp"
@@ -23,4 +23,4 @@ IntegratorEntry exact_rotor_yoshida4() {
                                                  .conserves_casimir = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -18,4 +18,4 @@ IntegratorEntry gauss4() {
                                 .symmetric = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -18,4 +18,4 @@ IntegratorEntry gauss6() {
                                 .symmetric = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

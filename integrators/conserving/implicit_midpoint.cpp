@@ -18,4 +18,4 @@ IntegratorEntry implicit_midpoint() {
                                           .symmetric = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kick of a splitting method: the flow of the wrench alone over h, at time t and at rest in q, v̇ = M⁻¹ f(t, q, v).
+// The kick of a splitting method: the flow of v̇ = M⁻¹ f(t, q, v) over h at constant t and q.
 //
-// Where the forces do not depend on v that flow is linear in h, and one evaluation gives it exactly. Where they do
-// (drag, dampers) the kick is the implicit midpoint rule of that equation,
-//   v' = v + h M⁻¹ f(t, q, (v + v')/2),  work' = work + h P(t, q, (v + v')/2),
-// which keeps a symmetric splitting symmetric and of even order. It is solved by fixed-point iteration to round-off,
-// which converges while h times the damping rate is below 2 and says so when it does not.
+// If the forces do not depend on v, the flow is linear in h, and one evaluation gives it exactly. If they do (drag,
+// dampers), the kick is the implicit midpoint rule for that equation,
+//   v' = v + h M⁻¹ f(t, q, (v + v')/2),  work' = work + h P(t, q, (v + v')/2).
+// A symmetric splitting then remains symmetric and of even order. The rule is solved by fixed-point iteration to
+// round-off. The iteration converges if h × damping rate < 2; otherwise the kick fails with a message.
 // Source: Hairer, Lubich & Wanner, Geometric Numerical Integration, 2nd ed., II.5 (splitting), V.3 (symmetric methods).
 #pragma once
 
@@ -26,7 +26,7 @@ class Kick {
 
   explicit Kick(const System& system) : mean_(system.zero()), next_(system.zero()) {}
 
-  /// Null, or why there is no result.
+  /// Applies the kick of length h (s) at time t (s) to y. Returns null, or the reason of a failure.
   const char* operator()(const System& system, S t, S h, Flat& y) {
     if (system.forces_read_velocity()) return by_midpoint(system, t, h, y);
     system.kick(t, h, y);
@@ -43,7 +43,7 @@ class Kick {
       next_ = y;
       system.kick(t, h, mean_, next_);
       ++evaluations_;
-      // (v + v')/2 of this iteration in place of that of the last; the increment keeps the digits.
+      // Replaces the last (v + v')/2 by the new one. The update by an increment limits the round-off.
       auto mean = system.velocity_part(mean_);
       const auto update = (S(0.5) * (system.velocity_part(y) + system.velocity_part(next_)) - mean).eval();
       const S change = update.cwiseAbs().maxCoeff(), size = mean.cwiseAbs().maxCoeff();
@@ -61,4 +61,4 @@ class Kick {
   std::int64_t evaluations_ = 0;
 };
 
-}  // namespace polhode
+}  // namespace polhode::integrators

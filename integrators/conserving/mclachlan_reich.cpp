@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// McLachlan 1993, Reich 1994: kick(h/2), the three-rotation splitting of the free body over h, kick(h/2).
+// The three-rotation splitting (McLachlan 1993, Reich 1994) with kicks: kick(h/2), free body over h, kick(h/2).
 #include "integrators/conserving/mclachlan_reich.hpp"
 
 namespace polhode::inline integrators {
@@ -16,4 +16,4 @@ IntegratorEntry mclachlan_reich() {
                                        .conserves_casimir = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The three-rotation splitting of the free rigid body: T = m1²/2I1 + m2²/2I2 + m3²/2I3, each part a rotation about its
-// axis, composed symmetrically as φ1(h/2) φ2(h/2) φ3(h) φ2(h/2) φ1(h/2), the first of them first.
+// The three-rotation splitting of the free rigid body: T = m1²/2I1 + m2²/2I2 + m3²/2I3, each part is a rotation
+// about its axis. The composition is symmetric: φ1(h/2), φ2(h/2), φ3(h), φ2(h/2), φ1(h/2), applied in this order.
 // Sources: McLachlan, Phys. Rev. Lett. 71 (1993) 3043; Reich, Physica D 76 (1994) 375.
 #pragma once
 
@@ -25,4 +25,4 @@ struct ThreeRotations {
 template <class System>
 using MclachlanReich = RotorSplitting<System, ThreeRotations>;
 
-}  // namespace polhode
+}  // namespace polhode::integrators

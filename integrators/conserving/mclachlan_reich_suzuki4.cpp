@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Suzuki's five parts of the three-rotation splitting with kicks: order 4 under forces too.
+// Suzuki's composition of five parts of the three-rotation splitting with kicks: order 4, also under forces.
 // Source: Suzuki, Phys. Lett. A 146 (1990) 319.
 #include "integrators/conserving/composition.hpp"
 #include "integrators/conserving/mclachlan_reich.hpp"
@@ -21,4 +21,4 @@ IntegratorEntry mclachlan_reich_suzuki4() {
                                               .conserves_casimir = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // NO_SQUISH: the free rigid body in quaternion coordinates, T = Σ_k (p·P_k q)²/(8 I_k) with the momentum p = 2 q (0, m)
-// conjugate to q and P_k q = q e_k. Each term turns q and p alike,
-//   q' = cos(ζ) q + sin(ζ) P_k q,  p' = cos(ζ) p + sin(ζ) P_k p,  ζ = h (p·P_k q)/(4 I_k),
-// in the order k = 3, 2, 1, 2, 3 with h/2, h/2, h, h/2, h/2, between two kicks. q starts from 1 in every step, since
-// the turn alone is wanted. On |q| = 1 this is the three-rotation splitting with the axes in the opposite order.
+// conjugate to q and P_k q = q e_k. Each term rotates q and p by the same angle,
+//   q' = cos(ζ) q + sin(ζ) P_k q,  p' = cos(ζ) p + sin(ζ) P_k p,  ζ = h (p·P_k q)/(4 I_k).
+// The order is k = 3, 2, 1, 2, 3 with h/2, h/2, h, h/2, h/2, between two kicks. q starts at 1 in every step and is the
+// rotation of the step. For |q| = 1 the method equals the three-rotation splitting with the axes in the opposite order.
 // Source: Miller, Eleftheriou, Pattnaik, Ndirango, Newns & Martyna, J. Chem. Phys. 116 (2002) 8649.
 #include <cmath>
 
@@ -35,12 +35,13 @@ struct QuaternionRotations {
     else return {-a[3], a[2], -a[1], a[0]};
   }
 
+  /// Rotates q and p by ζ = rate (p·P_k q).
   template <int k, class S>
   static void permute(S rate, Quaternion<S>& q, Quaternion<S>& p) {
     using std::cos, std::sin;
     const Quaternion<S> pq = permuted<k>(q), pp = permuted<k>(p);
     const S half = rate * p.dot(pq) / S(2), s = sin(half), c = cos(half);
-    // cos ζ = 1 − 2 s², sin ζ = 2 s c: the increments are as small as the angle.
+    // cos ζ = 1 − 2 s², sin ζ = 2 s c. The increments are then proportional to the angle, which limits the round-off.
     const S a = S(2) * s * c, b = S(2) * s * s;
     q += a * pq - b * q;
     p += a * pp - b * p;
@@ -62,4 +63,4 @@ IntegratorEntry no_squish() {
                                  .conserves_casimir = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

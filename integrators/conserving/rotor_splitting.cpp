@@ -27,4 +27,4 @@ template class KickFlowKick<ManyBodies<double>>;
 template class KickFlowKick<ManyBodies<float>>;
 template class KickFlowKick<ManyBodies<long double>>;
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a rotor, an integrator of the free rigid body, becomes a method for bodies under forces: the Strang splitting
-//   kick(t, h/2), free flow(h), kick(t + h, h/2),
-// in which mass centres go straight, time goes on with the free flow, and the rotor turns each body. It is symmetric
-// if the rotor is, of order 2 under forces whatever the order of the rotor, and the rotor itself without forces.
-// Sources: Touma & Wisdom, Astron. J. 107 (1994) 1189; Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997)
-// 5840.
+// Extension of a rotor, an integrator of the free rigid body, to bodies under forces by the Strang splitting
+//   kick(t, h/2), free flow(h), kick(t + h, h/2).
+// In the free flow time advances, mass centres move in straight lines, and the rotor rotates each body. The splitting
+// is symmetric if the rotor is. Its order is 2 under forces for every order of the rotor. Without forces it equals the
+// rotor. Sources: Touma & Wisdom, Astron. J. 107 (1994) 1189; Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107
+// (1997) 5840.
 //
-// A Rotor has a static function template turn<S>, a RotorTurn<S>. It is not inlined, so that it is compiled once for
-// each scalar, and the splitting around it once for each formulation (rotor_splitting.cpp), whatever the rotor.
+// A class Rotor has a static function template turn<S> of type RotorTurn<S>. It is not inlined: the rotor is compiled
+// once for each scalar, and the splitting once for each formulation, independently of the rotor (rotor_splitting.cpp).
 #pragma once
 
 #include "integrators/conserving/kick.hpp"
@@ -15,11 +15,12 @@
 
 namespace polhode::inline integrators {
 
-/// Moves the angular momentum m, in principal axes, to that after h and gives the unit quaternion dq of the turn,
-/// R' = R dR; null, or why it cannot.
+/// Advances the angular momentum m (principal axes) by h (s) and sets dq to the unit quaternion of the rotation dR,
+/// R' = R dR. Returns null, or the reason of a failure.
 template <class S>
 using RotorTurn = const char* (*)(const BodyConstants<S>& body, S h, Vector3<S>& m, Quaternion<S>& dq);
 
+/// The Strang splitting, with the rotor as an argument of step().
 template <class System>
 class KickFlowKick {
  public:
@@ -35,6 +36,7 @@ class KickFlowKick {
   Kick<System> kick_;
 };
 
+/// The Strang splitting with the given Rotor, as a fixed-step method.
 template <class System, class Rotor>
 class RotorSplitting {
  public:
@@ -51,12 +53,12 @@ class RotorSplitting {
   KickFlowKick<System> splitting_;
 };
 
-/// A rotor moves bodies as they truly move.
+/// Refuses formulations without the gyroscopic term, which the true motion of a rotor contains.
 inline std::string refuse_without_gyroscopic_term(const Problem&, const Formulation& formulation) {
   return formulation.gyroscopic ? "" : "its free flow is the true motion, which has the gyroscopic term";
 }
 
-/// The entry of a method made of rotors, refused without the gyroscopic term.
+/// Catalogue entry of a method that is built from rotors; refused without the gyroscopic term.
 template <template <class> class Method>
 IntegratorEntry rotor_method(Declaration declaration) {
   IntegratorEntry entry = fixed_step<Method>(std::move(declaration));
@@ -64,4 +66,4 @@ IntegratorEntry rotor_method(Declaration declaration) {
   return entry;
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The free rigid body as a symmetric top and a rotation. With moments I_a ≤ I_b ≤ I_c,
 //   T = R + S,  R = ½ (1/I_a − 1/I_b) m_a²,  S = ½ |m|²/I_b + ½ (1/I_c − 1/I_b) m_c²,
-// and both parts are solved exactly: R turns about the axis a; S is a symmetric top with the axis c, a turn by h m/I_b
-// and one about c. Since |m|² is a Casimir, the turn by h m/I_b commutes with all others: it is taken once for the
-// whole step, with the m of its start, and what remains are rotations about a and c in turn. Sources: Touma & Wisdom,
-// Astron. J. 107 (1994) 1189; Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997) 5840; Fassò, J. Comput.
-// Phys. 189 (2003) 527, on the choice of the axes.
+// both parts have exact flows. R is a rotation about the axis a. S is a symmetric top with the axis c: a rotation by
+// h m/I_b and one about c. Because |m|² is a Casimir, the rotation by h m/I_b commutes with all others. It is applied
+// once for the whole step, with m at the start. The remaining rotations are about a and c, alternately.
+// Sources: Touma & Wisdom, Astron. J. 107 (1994) 1189; Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997)
+// 5840; Fassò, J. Comput. Phys. 189 (2003) 527, for the choice of the axes.
 #pragma once
 
 #include <utility>
@@ -15,8 +15,8 @@
 
 namespace polhode::inline integrators {
 
-/// Scheme::compose(rotation, symmetric_top) calls its two arguments, each with its fraction of the step, in the order
-/// of the composition.
+/// The rotor of the composition Scheme. Scheme::compose(rotation, symmetric_top) calls its two arguments in the order
+/// of the composition, each with its fraction of the step.
 template <class Scheme>
 struct SymmetricRotor {
   template <class S>
@@ -26,7 +26,7 @@ struct SymmetricRotor {
     if (moments[b] < moments[a]) std::swap(a, b);
     if (moments[c] < moments[b]) std::swap(b, c);
     if (moments[b] < moments[a]) std::swap(a, b);
-    // The axes a, b, c as the first, second and third of a right-handed frame.
+    // Components along the axes a, ±b, c of a right-handed frame.
     const S sense = (a + 1) % 3 == b ? S(1) : S(-1);
     Vector3<S> n(m[a], sense * m[b], m[c]);
     const Vector3<S>& inverse = body.inverse_moments;
@@ -46,4 +46,4 @@ struct SymmetricRotor {
   }
 };
 
-}  // namespace polhode
+}  // namespace polhode::integrators

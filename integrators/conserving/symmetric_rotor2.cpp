@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The symmetric top and the rotation in the Strang splitting R(h/2) S(h) R(h/2), between two kicks of h/2.
+// The Strang splitting R(h/2) S(h) R(h/2) of a rotation R and a symmetric top S, between two kicks of h/2.
 // Sources: Touma & Wisdom, Astron. J. 107 (1994) 1189; Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997)
 // 5840.
 #include "integrators/conserving/symmetric_rotor.hpp"
@@ -30,4 +30,4 @@ IntegratorEntry symmetric_rotor2() {
                                         .conserves_casimir = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

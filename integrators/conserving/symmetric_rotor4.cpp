@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The symmetric top and the rotation in Blanes and Moan's splitting S6 of order 4, R(a1 h) S(b1 h) R(a2 h) … R(a1 h)
-// with six S and seven R, between two kicks of h/2: of order 4 for free bodies, of order 2 under forces.
-// Sources: Blanes & Moan, J. Comput. Appl. Math. 142 (2002) 313, table 2; Fassò, J. Comput. Phys. 189 (2003) 527.
+// Blanes and Moan's splitting S6 of order 4 of a rotation R and a symmetric top S, R(a1 h) S(b1 h) R(a2 h) … R(a1 h)
+// with six S and seven R, between two kicks of h/2: order 4 for free bodies, order 2 under forces. Sources: Blanes &
+// Moan, J. Comput. Appl. Math. 142 (2002) 313, table 2; Fassò, J. Comput. Phys. 189 (2003) 527.
 #include "integrators/conserving/symmetric_rotor.hpp"
 
 namespace polhode::inline integrators {
@@ -37,4 +37,4 @@ IntegratorEntry symmetric_rotor4() {
                                         .conserves_casimir = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

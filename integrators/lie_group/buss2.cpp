@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Buss's augmented second-order method: the turn of a step takes the angular acceleration α as constant in the world
-// and keeps the first commutator of Magnus's series,
-//   θ = h ω + h²/2 α + h³/12 α × ω,  R' = exp(θ) R,  p' = p + h v + h²/2 f/m,
-// and what is carried along is the momentum, which free bodies keep. Under forces it moves by Heun's rule,
-//   L' = L + h/2 (τ(t, q, L) + τ(t + h, q', L + h τ(t, q, L))),
-// the linear momentum and the work alike. In body axes the turn reads h Ω + h²/2 Ω̇ + h³/12 Ω̇ × Ω, as Rᵀα = Ω̇.
-// Source: Buss, Accurate and efficient simulation of rigid-body rotations, J. Comput. Phys. 164 (2000); Heun's
-// rule for the forces is a choice made here.
+// Buss's augmented second-order method. The rotation vector θ of a step assumes a constant angular acceleration α in
+// world axes and includes the first commutator of the Magnus series:
+//   θ = h ω + h²/2 α + h³/12 α × ω,  R' = exp(θ) R,  p' = p + h v + h²/2 f/m.
+// The method updates the momentum, which is constant for free bodies. Under forces it follows Heun's rule:
+//   L' = L + h/2 (τ(t, q, L) + τ(t + h, q', L + h τ(t, q, L))).
+// Linear momentum and work follow the same rule. In body axes θ is h Ω + h²/2 Ω̇ + h³/12 Ω̇ × Ω, because Rᵀα = Ω̇.
+// Source: Buss, Accurate and efficient simulation of rigid-body rotations, J. Comput. Phys. 164 (2000). Heun's rule for
+// the forces is not from the source.
 #include "integrators/fixed_step.hpp"
 #include "integrators/lie_group/gyroscopic_only.hpp"
 
@@ -69,4 +69,4 @@ IntegratorEntry buss2() {
   return entry;
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

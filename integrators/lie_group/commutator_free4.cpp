@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Commutator-free method of order 4, with one exponential more than the classical Runge–Kutta method has stages:
+// Commutator-free method of order 4 with four stages and five exponentials:
 //   q_2 = q ⊕ ½ h ξ_1,  q_3 = q ⊕ ½ h ξ_2,  q_4 = q_2 ⊕ h (ξ_3 − ½ ξ_1),
 //   q' = q ⊕ h/12 (3 ξ_1 + 2 ξ_2 + 2 ξ_3 − ξ_4) ⊕ h/12 (−ξ_1 + 2 ξ_2 + 2 ξ_3 + 3 ξ_4).
 // Source: Celledoni, Marthinsen & Owren, Commutator-free Lie group methods, Future Gener. Comput. Syst. 19 (2003).
@@ -69,4 +69,4 @@ IntegratorEntry commutator_free4() {
        .lie_group = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Crouch–Grossman method of order 3, three stages: each stage and the step are products of exponentials of the earlier
-// stages' ξ, the first one nearest to q,
+// Crouch–Grossman method of order 3 with three stages. Each stage and the step are products of exponentials of the ξ of
+// earlier stages, applied to q in the order of the stages:
 //   q_i = q ⊕ h a_i1 ξ_1 ⊕ h a_i2 ξ_2,  q' = q ⊕ h b_1 ξ_1 ⊕ h b_2 ξ_2 ⊕ h b_3 ξ_3,
 // with c = (0, 3/4, 17/24), a_21 = 3/4, a_31 = 119/216, a_32 = 17/108, b = (13/51, −2/3, 24/17).
 // Source: Crouch & Grossman, Numerical integration of ordinary differential equations on manifolds, J. Nonlinear Sci. 3
-// (1993); the coefficients as in Owren & Marthinsen, Runge–Kutta methods adapted to manifolds, BIT 39 (1999).
+// (1993); coefficients from Owren & Marthinsen, Runge–Kutta methods adapted to manifolds, BIT 39 (1999).
 #include "integrators/lie_group/stage.hpp"
 
 namespace polhode::inline integrators {
@@ -55,4 +55,4 @@ IntegratorEntry crouch_grossman3() {
        .lie_group = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The refusal of methods that move the momentum itself.
+// Refusal of formulations without the gyroscopic term, for methods that update the momentum.
 #pragma once
 
 #include <string>
@@ -13,4 +13,4 @@ inline std::string needs_the_gyroscopic_term(const Problem&, const Formulation& 
   return formulation.gyroscopic ? "" : "it moves the angular momentum, which has no gyroscopic term to leave out";
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

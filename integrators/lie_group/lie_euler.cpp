@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lie–Euler: q' = q ⊕ h ξ(q, v), v' = v + h v̇(t, q, v), all from the old state: exp(hω) R in the world, R exp(hΩ) in
-// the body. With the world momentum as state a free body keeps L and turns by exp(hω): the coadjoint action.
+// Lie–Euler: q' = q ⊕ h ξ(q, v), v' = v + h v̇(t, q, v), with all rates at the old state. The new orientation is
+// exp(hω) R in world axes and R exp(hΩ) in body axes. For momentum_world a free body has constant L and rotates by
+// exp(hω), the coadjoint action.
 // Source: Iserles, Munthe-Kaas, Nørsett & Zanna, Lie-group methods, Acta Numerica 9 (2000), section 3.
 #include "integrators/lie_group/stage.hpp"
 
@@ -36,4 +37,4 @@ IntegratorEntry lie_euler() {
                                .lie_group = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two implicit midpoint methods on the group. Both take the wrench and its power half way,
-//   p' = p + h w(t + h/2, q ⊕ θ/2, θ/h),  q' = q ⊕ θ,
-// p the momentum about the reference point in the world and θ in body axes, its linear part h times a velocity; they
-// differ in the equation for θ, which Where names:
-//   middle: θ = h Ω̄, the body twist of the momentum p + h/2 w at q ⊕ θ/2;
-//   end:    θ = h/2 (Ω + Ω'), Ω' the body twist of the momentum p' at q'.
-// For translation both are the implicit midpoint rule. A twist along θ is the same in the body axes of q and of q ⊕
-// θ/2.
+// Common step of the two implicit midpoint methods on the Lie group. Wrench and power are evaluated at the midpoint:
+//   p' = p + h w(t + h/2, q ⊕ θ/2, θ/h),  q' = q ⊕ θ.
+// p is the momentum about the reference point in world axes. θ is in body axes; its linear part is h times a velocity.
+// The parameter Where selects the equation for θ:
+//   middle: θ = h Ω̄, with Ω̄ the body twist of the momentum p + h/2 w at q ⊕ θ/2.
+//   end:    θ = h/2 (Ω + Ω'), with Ω' the body twist of the momentum p' at q'.
+// For translation both are the implicit midpoint rule. A twist parallel to θ has the same components in the body axes
+// of q and of q ⊕ θ/2.
 #pragma once
 
 #include <algorithm>
@@ -17,6 +17,7 @@
 
 namespace polhode::inline integrators {
 
+/// Equation for θ, see above.
 enum class TwistRule { middle, end };
 
 template <class System, TwistRule Where>
@@ -66,7 +67,7 @@ class MidpointStep {
     std::int64_t evaluations = 0;
   };
 
-  /// θ less the one that the twist at the middle, or at the end, stands for.
+  /// Residual of the equation for θ: the left-hand side minus the right-hand side.
   class Equations final : public StepEquations<S> {
    public:
     Equations(const System& system, Work& work, S half_way, S h, const Flat& start)
@@ -108,4 +109,4 @@ class MidpointStep {
   Work work_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runge–Kutta–Munthe-Kaas of order 4: the classical tableau on θ̇ = dexp⁻¹_θ ξ(q ⊕ θ), θ(0) = 0, in the algebra,
+// Runge–Kutta–Munthe-Kaas method of order 4: the classical Runge–Kutta method for θ̇ = dexp⁻¹_θ ξ(q ⊕ θ), θ(0) = 0, in
+// the Lie algebra,
 //   θ_2 = h/2 k_1, θ_3 = h/2 k_2, θ_4 = h k_3, k_i = dexp⁻¹_{θ_i} ξ(q ⊕ θ_i), q' = q ⊕ h/6 (k_1 + 2 k_2 + 2 k_3 + k_4),
 // with dexp⁻¹ in closed form. Source: Munthe-Kaas, High order Runge–Kutta methods on manifolds, Appl. Numer. Math. 29
 // (1999).
@@ -27,7 +28,7 @@ class Rkmk4 {
     k_.evaluate(system, t, y);
     eta_ = k_.twist();
     turn_ = sixth * eta_;
-    sum_ = y;  // its orientation waits for the turn
+    sum_ = y;  // its orientation is updated at the end of the step
     k_.add_to(system, sixth, sum_);
     stage(system, t + half, half, y, third);
     stage(system, t + half, half, y, third);
@@ -37,7 +38,7 @@ class Rkmk4 {
   }
 
  private:
-  /// The point at c along the last stage, its k, and the share b of it in the step.
+  /// Evaluates k of the next stage at θ = c times the last k, and adds it to the step with the weight b.
   void stage(const System& system, S t, S c, const Flat& y, S b) {
     theta_ = c * eta_;
     point_ = y;
@@ -64,4 +65,4 @@ IntegratorEntry rkmk4() {
        .lie_group = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -11,14 +11,14 @@ namespace {
 
 constexpr int broyden_iterations = 20, newton_iterations = 40;
 
-/// Watches the steps of an iteration that ends in round-off.
+/// Convergence test of an iteration that runs until round-off dominates.
 template <class S>
 class Progress {
  public:
   explicit Progress(S scale) : near_(S(256) * epsilon * scale) {}
 
-  /// True when nothing is left to gain: the step is below the last digit of every unknown, or it is small and no longer
-  /// shrinks.
+  /// True if the iteration has converged: the step is below the round-off of every unknown, or it is small and no
+  /// longer decreases by half.
   bool done(const VectorX<S>& x, const VectorX<S>& step) {
     const S size = step.cwiseAbs().maxCoeff();
     const bool below = (step.array().abs() <= epsilon * x.array().abs()).all();
@@ -99,4 +99,4 @@ template class RootFinder<float>;
 template class RootFinder<double>;
 template class RootFinder<long double>;
 
-}  // namespace polhode
+}  // namespace polhode::integrators

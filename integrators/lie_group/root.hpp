@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The root x = g(x) of an implicit step, in two stages.
+// Solver for the equation x = g(x) of an implicit step: Broyden's method, then Newton's method if that fails.
 //
-// Broyden's method starts from plain iteration and learns the derivative from its own steps: no derivative, no matrix,
-// a handful of evaluations where h|ω| and h² times the stiffness over the mass are moderate. Where it does not
-// converge, Newton's method with a Jacobian by difference quotients begins again at the guess: n evaluations and a
-// dense LU factorisation an iteration, and it takes any stiffness. Both go on until round-off stops them. Source:
-// Kelley, Iterative Methods for Linear and Nonlinear Equations, SIAM 1995, 5.4 and 7.3 (Broyden's good update as a
-// recurrence of steps).
+// Broyden's method starts from fixed-point iteration and approximates the derivative from its own steps, without a
+// Jacobian or a matrix. It takes a few evaluations if h|ω| and h² × stiffness/mass are moderate. If it does not
+// converge, Newton's method restarts at the initial guess with a Jacobian by difference quotients. Each of its
+// iterations takes n evaluations and a dense LU factorization; it handles any stiffness. Both iterate until round-off
+// dominates. Source: Kelley, Iterative Methods for Linear and Nonlinear Equations, SIAM 1995, 5.4 and 7.3 (Broyden's
+// good update as a recurrence of steps).
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@
 
 namespace polhode::inline integrators {
 
-/// f(x) = x − g(x) for one step, x lengths in m and angles in rad.
+/// The residual f(x) = x − g(x) of one step. The entries of x are lengths (m) and angles (rad).
 template <class S>
 class StepEquations {
  public:
@@ -26,11 +26,12 @@ class StepEquations {
   virtual void residual(const VectorX<S>& x, VectorX<S>& f) = 0;
 };
 
+/// Solver for x = g(x) in the scalar S.
 template <class S>
 class RootFinder {
  public:
-  /// Moves x from the guess to the root, to round-off relative to `scale`, the largest number that x is added to.
-  /// Null, or why there is none; x is worthless then.
+  /// Solves for x, which holds the initial guess. The result is accurate to round-off relative to `scale`, the largest
+  /// number to which x is added. Returns null, or the reason of a failure; x is then unspecified.
   const char* solve(StepEquations<S>& equations, VectorX<S>& x, S scale);
 
  private:
@@ -43,4 +44,4 @@ class RootFinder {
   std::vector<S> squares_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::integrators

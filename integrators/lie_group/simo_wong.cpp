@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Simo & Wong's ALGO_C1: the momentum in the world moves by the torque half way, the orientation by the mean of the two
-// body angular velocities,
-//   Λ' = Λ exp(θ), θ = h/2 (W + W'), Λ' J W' = Λ J W + h m(t + h/2, Λ exp(θ/2)),
-// so that exp(θ) J W' = J W in the body when m = 0: as exp(θ) leaves θ alone, (W + W')·J (W' − W) = 0 and the energy of
-// a free body is kept with its momentum. Velocity-dependent wrenches, and the power, are taken at the velocity θ/h.
-// Source: Simo & Wong, Unconditionally stable algorithms for rigid body dynamics that exactly preserve energy and
-// momentum, Int. J. Numer. Methods Eng. 31 (1991).
+// Simo & Wong's ALGO_C1. The torque at the midpoint updates the world momentum. The mean of the old and new body
+// angular velocity updates the orientation:
+//   Λ' = Λ exp(θ), θ = h/2 (W + W'), Λ' J W' = Λ J W + h m(t + h/2, Λ exp(θ/2)).
+// For m = 0, exp(θ) J W' = J W in body axes. Because exp(θ) θ = θ, (W + W')·J (W' − W) = 0, so that a free body
+// conserves energy and momentum. Velocity-dependent wrenches and the power are evaluated at the velocity θ/h. Source:
+// Simo & Wong, Unconditionally stable algorithms for rigid body dynamics that exactly preserve energy and momentum,
+// Int. J. Numer. Methods Eng. 31 (1991).
 #include "integrators/lie_group/midpoint_step.hpp"
 
 namespace polhode::inline integrators {
@@ -29,4 +29,4 @@ IntegratorEntry simo_wong() {
   return entry;
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

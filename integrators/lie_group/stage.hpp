@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the explicit Runge–Kutta methods on the group share. The state is a point of SO(3)ⁿ × Rᵐ: orientations move by
-// exponentials of ξ(q, v), while positions, velocities and the work are the abelian part of the same group, on which
-// every such method is the Runge–Kutta method of its weights.
-// Source: Iserles, Munthe-Kaas, Nørsett & Zanna, Lie-group methods, Acta Numerica 9 (2000).
+// Common stage of the explicit Runge–Kutta methods on the Lie group SO(3)ⁿ × Rᵐ. Orientations are updated by
+// exponentials of ξ(q, v). Positions, velocities and work form the abelian part of the group. On it every such method
+// reduces to the Runge–Kutta method with the same weights. Source: Iserles, Munthe-Kaas, Nørsett & Zanna, Lie-group
+// methods, Acta Numerica 9 (2000).
 #pragma once
 
 #include "integrators/fixed_step.hpp"
 
 namespace polhode::inline integrators {
 
-/// The right-hand side at one point: ξ in the algebra, and v̇ and the power beside it.
+/// The right-hand side at one point: ξ in the Lie algebra, v̇, and the power.
 template <class System>
 class LieStage {
  public:
@@ -20,7 +20,7 @@ class LieStage {
 
   explicit LieStage(const System& system) : rate_(system.zero()), twist_(system.zero_tangent()) {}
 
-  // Compiled once each and not in every stage: beside the sines a call is nothing, and a method builds in half the
+  // Not inlined: the cost of a call is negligible beside the trigonometric functions, and a method compiles in half the
   // time.
   [[gnu::noinline]] POLHODE_FLATTEN void evaluate(const System& system, S t, const Flat& y) {
     system.rate(t, y, rate_);
@@ -33,7 +33,7 @@ class LieStage {
 
   const Tangent& twist() const { return twist_; }
 
-  /// (v, work) ← (v, work) + c (v̇, power), the orientation left alone.
+  /// (v, work) ← (v, work) + c (v̇, power). The orientation is unchanged.
   void add_to(const System& system, S c, Flat& y) {
     system.velocity_part(y) += c * system.velocity_part(rate_);
     system.work_part(y) += c * system.work_part(rate_);
@@ -44,4 +44,4 @@ class LieStage {
   Tangent twist_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boost.Odeint's Adams–Bashforth–Moulton method of four steps: the Adams–Bashforth formula of order 4 predicts, the
-// Adams–Moulton formula of order 4 corrects once with the rate at the prediction (PECE). Its first three steps, and
-// those after a projection or a change of the step, are by the classical Runge–Kutta method. Source: Hairer, Nørsett &
-// Wanner, Solving Ordinary Differential Equations I, III.1; Boost.Odeint's adams_bashforth_moulton.
+// Boost.Odeint's four-step Adams–Bashforth–Moulton method: the Adams–Bashforth formula of order 4 predicts, and the
+// Adams–Moulton formula of order 4 corrects once with the rate at the prediction (PECE). The classical Runge–Kutta
+// method takes the first three steps, and three after each projection or change of the step size. Sources: Hairer,
+// Nørsett & Wanner, Solving Ordinary Differential Equations I, III.1; Boost.Odeint's adams_bashforth_moulton.
 #include <boost/numeric/odeint/stepper/adams_bashforth_moulton.hpp>
 #include <vector>
 
@@ -25,4 +25,4 @@ IntegratorEntry odeint_adams_bashforth_moulton() {
        .multi_step = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

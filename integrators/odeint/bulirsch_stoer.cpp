@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boost.Odeint's Bulirsch–Stoer method: Gragg's modified midpoint rule, extrapolated in h² to an order that the error
-// control chooses. Without dense output: that of bulirsch_stoer_dense_out, built about the middle of a step, meets the
-// ends of the step to the tolerance only, and its steps are others.
+// Boost.Odeint's Bulirsch–Stoer method: Gragg's modified midpoint rule, extrapolated in h² to an order selected by the
+// error control. Dense output is not offered: bulirsch_stoer_dense_out interpolates about the middle of a step, matches
+// the ends of the step only to the tolerance, and takes different steps.
 // Source: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.9; Boost.Odeint's bulirsch_stoer.
 #include <boost/numeric/odeint/stepper/bulirsch_stoer.hpp>
 #include <vector>
@@ -17,7 +17,7 @@ template <class S>
 class BulirschStoer {
  public:
   using Vector = std::vector<S>;
-  static constexpr int order = 8;  // of the first step: extrapolation begins with four columns
+  static constexpr int order = 8;  // order for the first step, which starts with four columns
   static constexpr bool first_same_as_last = false;
 
   BulirschStoer(double tolerance, std::size_t) : stepper_(S(tolerance), S(tolerance)) {}
@@ -40,4 +40,4 @@ IntegratorEntry odeint_bulirsch_stoer() {
        .summary = "Bulirsch-Stoer, the midpoint rule extrapolated to a variable order, error control per step"});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

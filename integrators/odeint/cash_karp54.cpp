@@ -42,4 +42,4 @@ IntegratorEntry odeint_cash_karp54() {
                                         .order = 5});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

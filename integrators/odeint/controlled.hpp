@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What Odeint's controlled steppers share here: the first step, steps cut short, rejected trials, dense output.
+// Common part of Odeint's controlled steppers: first step, shortened steps, rejected trials, dense output.
 //
-// Method has a constructor Method(double tolerance, size) and try_step(rate, x, dx, t, next, next_dx, h), which takes a
-// step of h, is true where its error estimate lets the step pass, and leaves its next proposal in h. dx is f(t, x); a
-// method that is `first_same_as_last` fills next_dx, and one that has calc_state(t, y, x0, dx0, t0, x1, dx1, t1) has
-// dense output. Method::order sets the first step.
+// Requirements on a method:
+//   Method(double tolerance, size)  constructor.
+//   try_step(rate, x, dx, t, next, next_dx, h)
+//                        takes a trial step of h (s) from x, with dx = f(t, x). Returns true if the error estimate
+//                        accepts the step, and sets h to the next proposal.
+//   first_same_as_last   true if try_step() fills next_dx.
+//   calc_state(t, y, x0, dx0, t0, x1, dx1, t1)  optional: dense output.
+//   order                determines the first step.
 //
-// Odeint takes an error estimate that is no number for a small one: `error > 1` is false of it, and its maximum norm
-// drops it. A step passes here only if all its numbers are finite.
+// Odeint accepts a step whose error estimate is NaN: `error > 1` is false, and the maximum norm ignores NaN. Here a
+// step is accepted only if all its numbers are finite.
 #pragma once
 
 #include <algorithm>
@@ -20,6 +24,7 @@
 
 namespace polhode::inline integrators {
 
+/// The integrator of a controlled stepper in the scalar S.
 template <class Method, class S>
 class OdeintControlled final : public Integrator<S>, public DenseOutput<S> {
  public:
@@ -45,19 +50,19 @@ class OdeintControlled final : public Integrator<S>, public DenseOutput<S> {
     bool cut_short = trial < wanted;
     for (;;) {
       S t = S(state.t), proposal = S(trial);
-      const double taken = trial == h ? h : double(proposal);  // time is kept in double, whatever the scalar
+      const double taken = trial == h ? h : double(proposal);  // time is in double for every scalar
       bool passed = method_->try_step(rhs, x_, rate_, t, next_, next_rate_, proposal);
       if (passed && !is_finite(next_)) {
         passed = false;
         proposal = S(retreat * trial);
       }
       if (passed) {
-        // A step that was cut short at the end of the interval says nothing about the one that comes after it.
+        // A step that was shortened to end at h must not reduce the size of the next step.
         h_ = cut_short ? std::max(wanted, double(proposal)) : double(proposal);
         accept(state, state.t + taken);
         return {};
       }
-      // Where the right-hand side is no number a proposal may be none, or a longer step.
+      // If the right-hand side is NaN, the proposal may be NaN or a longer step.
       if (!(double(proposal) < trial)) proposal = S(retreat * trial);
       trial = double(proposal);
       if (state.t + trial == state.t) return {"Odeint's step size fell to nothing"};
@@ -118,7 +123,8 @@ class OdeintControlled final : public Integrator<S>, public DenseOutput<S> {
     std::copy(x_.begin(), x_.end(), state.y.data());
   }
 
-  /// A first step that the error control corrects at once: tol^(1/p) of the time in which the state changes by itself.
+  /// Size of the first trial step (s): 0.1 tolerance^(1/p) × the time in which the state changes by its own magnitude.
+  /// The error control corrects it immediately.
   double first_step() const {
     double scale = 0;
     for (std::size_t i = 0; i < x_.size(); ++i) {
@@ -132,13 +138,13 @@ class OdeintControlled final : public Integrator<S>, public DenseOutput<S> {
   double tolerance_, t_end_;
   std::optional<Method> method_;
   double h_ = 0;
-  bool fresh_ = false;  ///< rate_ holds f at the present state
+  bool fresh_ = false;  ///< true: rate_ is f at the present state
   double t_before_ = 0, t_now_ = 0;
   Vector x_, next_, rate_, next_rate_, x_before_, rate_before_;
   std::int64_t evaluations_ = 0;
 };
 
-/// The one line that registers a controlled method: Method<S> in float, double and long double.
+/// Catalogue entry of a controlled method Method<S> in float, double and long double.
 template <template <class> class Method>
 IntegratorEntry odeint_controlled(Declaration declaration) {
   declaration.adaptive = true;
@@ -150,7 +156,7 @@ IntegratorEntry odeint_controlled(Declaration declaration) {
           [maker](const System<long double>& s, const IntegratorSettings& x) { return maker(s, x); }};
 }
 
-/// The same for a method in double only.
+/// Catalogue entry of a controlled method in double only.
 template <class Method>
 IntegratorEntry odeint_controlled_in_double(Declaration declaration) {
   declaration.adaptive = true;
@@ -159,4 +165,4 @@ IntegratorEntry odeint_controlled_in_double(Declaration declaration) {
           }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

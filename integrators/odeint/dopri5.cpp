@@ -48,4 +48,4 @@ IntegratorEntry odeint_dopri5() {
                                     .order = 5});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

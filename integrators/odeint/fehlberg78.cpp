@@ -42,4 +42,4 @@ IntegratorEntry odeint_fehlberg78() {
                                         .order = 8});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Odeint's steppers of a fixed step, behind the port of integrators, in any scalar.
+// Adapter of Odeint's fixed-step steppers to the port of integrators, in every scalar.
 //
-// Stepper<S> is a stepper of Odeint over std::vector<S>: do_step(rate, x, t, h), x any range of numbers. One with
-// reset() has a history, which is forgotten when the step changes.
+// Stepper<S> is an Odeint stepper over std::vector<S> with do_step(rate, x, t, h), where x is a range of numbers. A
+// stepper with reset() has a history, which is discarded when the step size changes.
 #pragma once
 
 #include <utility>
@@ -11,11 +11,11 @@
 
 namespace polhode::inline integrators {
 
-/// The numbers of a state where they stand, as a range: a copy to a vector and back costs a third of an RK4 step.
+/// View of the numbers of a state as a range. Copying to a vector and back would cost a third of an RK4 step.
 template <class S>
 struct OdeintRange {
   using iterator = S*;
-  using const_iterator = S*;  // const is the range, not its numbers
+  using const_iterator = S*;  // a constant range of mutable numbers
   S* first;
   std::ptrdiff_t count;
 
@@ -24,6 +24,7 @@ struct OdeintRange {
   S* data() const { return first; }
 };
 
+/// The integrator of a fixed-step stepper in the scalar S.
 template <template <class> class Stepper, class S>
 class OdeintFixed final : public Integrator<S> {
  public:
@@ -70,7 +71,7 @@ class OdeintFixed final : public Integrator<S> {
   std::int64_t evaluations_ = 0;
 };
 
-/// The one line that registers a stepper. Odeint's are all additive: they know no other sum than y + h Σ b k.
+/// Catalogue entry of a fixed-step stepper. All Odeint steppers are additive: the state changes only by y + h Σ b k.
 template <template <class> class Stepper>
 IntegratorEntry odeint_fixed(Declaration declaration) {
   declaration.additive = true;
@@ -84,4 +85,4 @@ IntegratorEntry odeint_fixed(Declaration declaration) {
                          [maker](const ShiftedSystem<long double>& s) { return maker(s); }}};
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

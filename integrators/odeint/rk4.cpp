@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boost.Odeint's classical Runge–Kutta method, of a fixed step.
+// Boost.Odeint's classical Runge–Kutta method with a fixed step.
 // Source: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.1; Boost.Odeint's runge_kutta4.
 #include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 #include <vector>
@@ -22,4 +22,4 @@ IntegratorEntry odeint_rk4() {
                             .evaluations_per_step = 4});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boost.Odeint's Rosenbrock method of order 4(3), L-stable, with error control and dense output. It takes the Jacobian
-// and ∂f/∂t, here central difference quotients, once a trial; its state is a vector of Boost.uBLAS, to which it is
-// copied. Source: Hairer & Wanner, Solving Ordinary Differential Equations II, IV.7 and VI.4 (RODAS); Boost.Odeint's
-// rosenbrock4 and rosenbrock4_controller.
+// Boost.Odeint's Rosenbrock method of order 4(3), L-stable, with error control and dense output. It evaluates the
+// Jacobian and ∂f/∂t, here by central difference quotients, once per trial step. The state is copied to a vector of
+// Boost.uBLAS. Source: Hairer & Wanner, Solving Ordinary Differential Equations II, IV.7 and VI.4 (RODAS);
+// Boost.Odeint's rosenbrock4 and rosenbrock4_controller.
 #include "integrators/odeint/controlled.hpp"
 #include "integrators/odeint/rosenbrock4_stepper.hpp"
 
@@ -42,4 +42,4 @@ IntegratorEntry odeint_rosenbrock4() {
        .implicit = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

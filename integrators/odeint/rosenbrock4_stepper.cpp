@@ -2,7 +2,7 @@
 #include "integrators/odeint/rosenbrock4_stepper.hpp"
 
 #ifndef BOOST_UBLAS_NDEBUG
-#define BOOST_UBLAS_NDEBUG  // its self-checks throw where a right-hand side is no number
+#define BOOST_UBLAS_NDEBUG  // its self-checks throw if a right-hand side is NaN
 #endif
 #include <algorithm>
 #include <boost/numeric/odeint/stepper/rosenbrock4.hpp>
@@ -18,8 +18,8 @@ namespace odeint = boost::numeric::odeint;
 using Array = boost::numeric::ublas::vector<double>;
 using Matrix = boost::numeric::ublas::matrix<double>;
 
-/// Those of rodas.f (Hairer & Wanner). Odeint's d4, which belongs to ∂f/∂t, has the other sign: with it the order falls
-/// to 2 where f depends on time.
+/// Coefficients of rodas.f (Hairer & Wanner). Odeint's d4, the coefficient of ∂f/∂t, has the opposite sign and reduces
+/// the order to 2 if f depends on time.
 struct Coefficients : odeint::default_rosenbrock_coefficients<double> {
   const double d4 = -0.3620000000000023e-01;
 };
@@ -74,4 +74,4 @@ void Rosenbrock4Stepper::calc_state(double t, Vector& y, const Vector& x0, doubl
   std::copy(at.begin(), at.end(), y.begin());
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

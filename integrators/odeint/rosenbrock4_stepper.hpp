@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boost.Odeint's controlled Rosenbrock stepper on plain arrays. It stands apart since Boost 1.74's uBLAS, on which it
-// is built, compiles as C++17 only: what is included here must do so too.
+// Boost.Odeint's controlled Rosenbrock stepper on vectors of double. It is a separate source file because it uses the
+// uBLAS of Boost 1.74, which compiles as C++17 only. All headers that it includes must compile as C++17 too.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,11 @@ class Rosenbrock4Stepper {
   Rosenbrock4Stepper(double tolerance, std::size_t size);
   ~Rosenbrock4Stepper();
 
-  /// True where the step passes: then x1 and t are its end. h becomes the proposal for the next one.
+  /// Takes a trial step of h (s) from (t, x). True if the step is accepted; x1 and t are then its end. h becomes the
+  /// next proposal.
   bool try_step(const Rate& rate, const Vector& x, double& t, Vector& x1, double& h);
 
-  /// Dense output of the step that passed last, from (t0, x0) to (t1, x1).
+  /// Dense output: y at time t (s) within the last accepted step, from (t0, x0) to (t1, x1).
   void calc_state(double t, Vector& y, const Vector& x0, double t0, const Vector& x1, double t1) const;
 
  private:
@@ -29,4 +30,4 @@ class Rosenbrock4Stepper {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the engine recipes share: the formulation in which engines keep a body.
+// Common part of the engine recipes: the formulation of physics engines and the update of the Open Dynamics Engine.
 #pragma once
 
 #include <string>
@@ -8,14 +8,15 @@
 
 namespace polhode::inline integrators {
 
+/// Refuses every formulation but that of engines: quaternion and world angular velocity.
 inline std::string needs_an_engine_state(const Problem&, const Formulation& formulation) {
   return formulation.orientation == Orientation::quaternion && formulation.angular_state == AngularState::velocity_world
              ? ""
              : "an engine keeps a quaternion and the angular velocity in the world";
 }
 
-/// Open Dynamics Engine: v' = v + h v̇(t, q, v) with the gyroscopic torque explicit, p' = p + h v',
-/// q' = (q + h/2 ω' q)/|q + h/2 ω' q|. The work takes the power of v' at the old q.
+/// The update of the Open Dynamics Engine: v' = v + h v̇(t, q, v) with an explicit gyroscopic torque, p' = p + h v',
+/// q' = (q + h/2 ω' q)/|q + h/2 ω' q|. The work uses the power of v' at the old q.
 template <class System>
 class OdeStep {
  public:
@@ -38,6 +39,7 @@ class OdeStep {
   Flat rate_;
 };
 
+/// Catalogue entry of an engine recipe.
 template <template <class> class Recipe>
 IntegratorEntry engine_recipe(Declaration declaration) {
   IntegratorEntry entry = fixed_step<Recipe>(std::move(declaration));
@@ -45,4 +47,4 @@ IntegratorEntry engine_recipe(Declaration declaration) {
   return entry;
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The free-body update of Bullet. The gyroscopic equation I (Ω' − Ω) + h Ω' × IΩ' = 0 in the old body axes gets one
-// Newton step from Ω' = Ω,
-//   (I + h (Ω* I − (IΩ)*)) ΔΩ = −h Ω × IΩ,
-// and ω' = ω + R ΔΩ + h R I⁻¹ Rᵀ τ: the torque's share is that of the old velocity too, neither sees the other. Then
-// v' = v + h f/m, p' = p + h v', q' = exp(h ω') q, normalised as part of the recipe. The work is the trapezoidal rule
-// over the kick by the wrench.
+// The free-body update of Bullet. The gyroscopic equation I (Ω' − Ω) + h Ω' × IΩ' = 0 in the old body axes is
+// approximated by one Newton step from Ω' = Ω:
+//   (I + h (Ω* I − (IΩ)*)) ΔΩ = −h Ω × IΩ,  ω' = ω + R ΔΩ + h R I⁻¹ Rᵀ τ.
+// Both increments of ω are computed from the old velocity, independently of each other. Then v' = v + h f/m,
+// p' = p + h v', q' = exp(h ω') q, with normalization as part of the recipe. The work follows by the trapezoidal rule
+// over the kick.
 // Source: Bullet, btRigidBody::computeGyroscopicImpulseImplicit_Body and btTransformUtil::integrateTransform; Catto,
 // Physics for Game Programmers: Numerical Methods, GDC 2015; Peters & Hsu, whose figures for Bullet it gives.
 #include <Eigen/LU>
@@ -25,7 +25,7 @@ class BulletStep {
   void step(const System& system, S t, S h, Flat& y) {
     spun_ = y;
     if (system.formulation().gyroscopic) {
-      // The free flow of a body that does not turn: its momentum alone changes.
+      // Free flow with an identity rotation, so that only the momentum changes.
       system.free_flow(h, spun_, [](const auto& body, S dt, Vector3<S>& m) {
         const Vector3<S> w = body.inverse_moments.cwiseProduct(m);
         Matrix3<S> jacobian = dt * (skew<S>(w) * body.moments.asDiagonal() - skew<S>(m));
@@ -59,4 +59,4 @@ IntegratorEntry recipe_bullet() {
        .normalises = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The free-body update of the Open Dynamics Engine: semi-implicit Euler with the gyroscopic torque −ω × Iω of the old
-// state among the torques, then the first-order quaternion update with the new ω, normalised as part of the recipe.
+// state, then the first-order quaternion update with the new ω, with normalization as part of the recipe.
 // Source: ODE, dxStepBody and its gyroscopic mode; Peters & Hsu, Comparison of Rigid Body Dynamic Simulators for
 // Robotic Simulation in Gazebo, whose figures for ODE it gives.
 #include "integrators/recipes/engine_recipe.hpp"
@@ -16,4 +16,4 @@ IntegratorEntry recipe_ode() {
                                  .normalises = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Simbody's free body: the recipe of ODE in two half steps, which gives the figures that Peters & Hsu publish for it.
+// The free-body update of Simbody: the recipe of ODE in two half steps. It reproduces the published results of Peters &
+// Hsu for Simbody.
 // Source: Peters & Hsu, Comparison of Rigid Body Dynamic Simulators for Robotic Simulation in Gazebo.
 #include "integrators/recipes/engine_recipe.hpp"
 
@@ -32,4 +33,4 @@ IntegratorEntry recipe_simbody() {
                                      .normalises = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ARKODE's embedded diagonally implicit Runge–Kutta methods with error control, Newton iteration and a dense
-// difference-quotient Jacobian: its table of order 4 (SDIRK 5(3)4, L-stable), or of the order that the settings ask
-// for, 2 to 5. Source: Hairer & Wanner, Solving Ordinary Differential Equations II, IV.6; Reynolds et al., ARKODE, ACM
-// TOMS 49 (2023).
+// difference-quotient Jacobian. The default table has order 4 (SDIRK 5(3)4, L-stable); IntegratorSettings::order
+// selects orders 2 to 5. Source: Hairer & Wanner, Solving Ordinary Differential Equations II, IV.6; Reynolds et al.,
+// ARKODE, ACM TOMS 49 (2023).
 #include <arkode/arkode_arkstep.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
@@ -25,7 +25,7 @@ class ArkodeDirk final : public SundialsIntegrator {
  public:
   ArkodeDirk(const System<double>& system, const IntegratorSettings& settings)
       : SundialsIntegrator(system, settings), order_(settings.order == 0 ? 4 : settings.order) {
-    // ARKODE itself would take its default without a word.
+    // ARKODE would silently use its default order.
     if (order_ < 2 || order_ > 5) throw std::invalid_argument("arkode_dirk has the orders 2 to 5");
   }
 
@@ -87,4 +87,4 @@ IntegratorEntry arkode_dirk() {
           }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

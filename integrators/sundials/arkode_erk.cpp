@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ARKODE's embedded explicit Runge–Kutta methods with error control: its table of order 4 (Zonneveld 5(3)4), or of the
-// order that the settings ask for, 2 to 8 (Heun–Euler, Bogacki–Shampine, Zonneveld, Cash–Karp, Verner 6(5), Fehlberg
-// 8(7) for 7 and 8). Source: Reynolds et al., ARKODE, ACM TOMS 49 (2023); the ARKODE 5.4 user guide, "Butcher tables".
+// ARKODE's embedded explicit Runge–Kutta methods with error control. The default table has order 4 (Zonneveld 5(3)4);
+// IntegratorSettings::order selects orders 2 to 8 (Heun–Euler, Bogacki–Shampine, Zonneveld, Cash–Karp, Verner 6(5),
+// Fehlberg 8(7) for 7 and 8). Source: Reynolds et al., ARKODE, ACM TOMS 49 (2023); the ARKODE 5.4 user guide, "Butcher
+// tables".
 #include <arkode/arkode_erkstep.h>
 
 #include <cstdlib>
@@ -22,7 +23,7 @@ class ArkodeErk final : public SundialsIntegrator {
  public:
   ArkodeErk(const System<double>& system, const IntegratorSettings& settings)
       : SundialsIntegrator(system, settings), order_(settings.order == 0 ? 4 : settings.order) {
-    // ARKODE itself would take its default without a word.
+    // ARKODE would silently use its default order.
     if (order_ < 2 || order_ > 8) throw std::invalid_argument("arkode_erk has the orders 2 to 8");
   }
 
@@ -77,4 +78,4 @@ IntegratorEntry arkode_erk() {
           }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // CVODE's variable-order, variable-step linear multistep methods: Adams–Moulton (orders 1 to 12, fixed-point
 // iteration) and backward differentiation (orders 1 to 5, Newton iteration, dense difference-quotient Jacobian).
-// Backward differentiation projects the orientation within its steps where a run asks for projection, and goes on
-// without a restart. Its dense output between two steps is off the manifold by as much as the tolerance lets it.
-// Source: Hindmarsh et al., SUNDIALS, ACM TOMS 31 (2005); Eich, SIAM J. Numer. Anal. 30 (1993), on projection; the
-// CVODE 6.4 user guide.
+// If a run requests projection, backward differentiation projects the orientations within its steps and continues
+// without a restart. Its dense output between two steps deviates from the manifold by about the tolerance. Source:
+// Hindmarsh et al., SUNDIALS, ACM TOMS 31 (2005); Eich, SIAM J. Numer. Anal. 30 (1993), on projection; the CVODE 6.4
+// user guide.
 #include <cvode/cvode.h>
 #include <cvode/cvode_proj.h>
 #include <sunlinsol/sunlinsol_dense.h>
@@ -36,7 +36,7 @@ class Cvode final : public SundialsIntegrator, public NativeProjection {
   void create(double t, N_Vector y, SundialsIntegrator* self) override {
     memory_.reset(CVodeCreate(method_, context()));
     if (!memory_) throw std::bad_alloc();
-    // CVODE prints its complaints on stderr unless told otherwise; ours go into the run's message.
+    // Suppress CVODE's messages on stderr. Errors go into the message of the run instead.
     check(CVodeSetErrFile(memory_.get(), nullptr), "CVodeSetErrFile");
     check(CVodeInit(memory_.get(), &right_hand_side, t, y), "CVodeInit");
     check(CVodeSetUserData(memory_.get(), self), "CVodeSetUserData");
@@ -81,7 +81,8 @@ class Cvode final : public SundialsIntegrator, public NativeProjection {
   }
   const char* library() const override { return "CVODE"; }
 
-  /// corr = P(y) − y. A trial may be projected and then rejected: the last projection is that of the step.
+  /// Projection function of CVODE: corr = P(y) − y. CVODE may reject a step after projecting it, so that only the last
+  /// projection belongs to the accepted step.
   static int project(double, N_Vector y, N_Vector corr, double, N_Vector, void* user_data) {
     auto& self = static_cast<Cvode&>(*static_cast<SundialsIntegrator*>(user_data));
     const System<double>& system = self.system();
@@ -99,7 +100,7 @@ class Cvode final : public SundialsIntegrator, public NativeProjection {
 
   int method_;
   bool projects_;
-  double injected_ = 0, last_ = 0;  ///< J: by all steps, and by the last projection
+  double injected_ = 0, last_ = 0;  ///< energy injected by all steps and by the last projection, J
   Matrix matrix_;
   LinearSolver linear_;
   NonlinearSolver nonlinear_;
@@ -134,4 +135,4 @@ IntegratorEntry cvode_bdf() {
                CV_BDF);
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What SUNDIALS makes, owned: each handle deletes its object by the library's own function.
+// Owning handles for the objects of SUNDIALS. Each handle deletes its object by the function of the library.
 #pragma once
 
 #include <nvector/nvector_serial.h>
@@ -27,4 +27,4 @@ using Matrix = std::unique_ptr<_generic_SUNMatrix, Destroy<SUNMatDestroy>>;
 using LinearSolver = std::unique_ptr<_generic_SUNLinearSolver, Destroy<SUNLinSolFree>>;
 using NonlinearSolver = std::unique_ptr<_generic_SUNNonlinearSolver, Destroy<SUNNonlinSolFree>>;
 
-}  // namespace polhode::sundials
+}  // namespace polhode::integrators::sundials

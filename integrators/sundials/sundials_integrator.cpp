@@ -62,7 +62,7 @@ void SundialsIntegrator::discard_history(const State<double>& state) {
 }
 
 bool SundialsIntegrator::interpolate(double t, State<double>& state) const {
-  // Where a root ended the step, the library's own one reaches beyond it.
+  // After an event the internal step of the library extends beyond the end of this step.
   if (t > t_now_) return false;
   State<double> there = state;
   const Vector y(N_VMake_Serial(there.y.size(), there.y.data(), context_.get()));
@@ -98,4 +98,4 @@ int SundialsIntegrator::find_roots(double t, N_Vector y, double* values, void* u
   return 0;
 }
 
-}  // namespace polhode::sundials
+}  // namespace polhode::integrators::sundials

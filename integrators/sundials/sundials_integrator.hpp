@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What CVODE's and ARKODE's integrators share: one step at a time up to a stop time, dense output, root finding, and
-// failures that are told. Each library's own functions are the hooks below.
+// Common base of the integrators of CVODE and ARKODE: single steps up to a stop time, dense output, event location, and
+// failure messages. The virtual functions below call the functions of each library.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 namespace polhode::inline integrators::sundials {
 
-constexpr long max_steps = 100000000;  // between two returns; the default of 500 is meant for users who wait for one
+constexpr long max_steps = 100000000;  // limit of steps between two returns; the libraries' default is 500
 
-/// Throws what a call that cannot fail, unless memory runs out, has said.
+/// Throws if `flag` is an error code of the named function. Used for calls that fail only if memory is exhausted.
 void check(int flag, const char* function);
 
 /// Base class of an integrator on CVODE or ARKODE.
@@ -33,21 +33,22 @@ class SundialsIntegrator : public Integrator<double>, public DenseOutput<double>
   std::span<const int> events() const final { return roots_; }
 
  protected:
-  /// The library's object for a run that starts at (t, y): its tolerances and solvers, user_data `self`.
+  /// Creates the library's object for a run from (t, y), with tolerances, solvers and `self` as user data.
   virtual void create(double t, N_Vector y, SundialsIntegrator* self) = 0;
-  /// Goes on from (t, y) without a history, with the step that was to come next: the libraries' own first step is a
-  /// tenth of the way to the stop at most, and a run that restarts after every step would never end.
+  /// Restarts from (t, y) without history, with the step size that was due next. The libraries' own first step is at
+  /// most a tenth of the time to the stop, so that a run with a restart after every step would never end.
   virtual void restart(double t, N_Vector y) = 0;
-  /// One step, at most to `stop`, which it does not look beyond.
+  /// Takes one step that ends at or before the time `stop` (s). The right-hand side is not evaluated beyond it.
   virtual int evolve(double stop, N_Vector y, double* t) = 0;
-  virtual int derivative(double t, N_Vector y) const = 0;  ///< the zeroth: dense output
-  virtual int watch(int count) = 0;                        ///< has find_roots called
+  virtual int derivative(double t, N_Vector y) const = 0;  ///< dense output: derivative of order 0 at t (s)
+  virtual int watch(int count) = 0;                        ///< registers find_roots with `count` event functions
   virtual int roots(int* signs) = 0;
   virtual std::string flag_name(int flag) const = 0;
   virtual const char* library() const = 0;
   virtual void step_done() {}
 
-  // The callbacks; a right-hand side that is no number is a failure that the library meets with a shorter step.
+  // Callbacks of the library. A right-hand side that is not finite is reported as recoverable: the library retries with
+  // a shorter step.
   static int right_hand_side(double t, N_Vector y, N_Vector dy, void* self);
   static int find_roots(double t, N_Vector y, double* values, void* self);
 
@@ -64,10 +65,10 @@ class SundialsIntegrator : public Integrator<double>, public DenseOutput<double>
   std::int64_t evaluations_ = 0;
   std::vector<EventFunction<double>> events_;
   std::vector<int> roots_;
-  State<double> seen_;  ///< as the events see it
-  // In the order in which SUNDIALS wants them made; what create() makes is destroyed before.
+  State<double> seen_;  ///< state that is passed to event functions
+  // SUNDIALS objects in the order of their creation. The objects from create() are destroyed before these.
   Context context_;
   Vector work_;
 };
 
-}  // namespace polhode::sundials
+}  // namespace polhode::integrators::sundials

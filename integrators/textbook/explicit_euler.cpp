@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Explicit Euler: q' = q + h N(q) v, v' = v + h v̇(t, q, v), all from the old state.
+// Explicit Euler: q' = q + h N(q) v, v' = v + h v̇(t, q, v). All rates are those of the old state.
 // Source: the engine slides, "Integration": p_next = p + p'Δt, θ_next = θ + (Δt/2) ω θ, θ'_next = θ' + θ''Δt.
 #include "integrators/fixed_step.hpp"
 
@@ -33,4 +33,4 @@ IntegratorEntry explicit_euler() {
        .evaluations_per_step = 1});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

@@ -35,4 +35,4 @@ IntegratorEntry explicit_midpoint() {
                                                     .evaluations_per_step = 2});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

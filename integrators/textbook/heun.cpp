@@ -34,4 +34,4 @@ IntegratorEntry heun() {
                                         .evaluations_per_step = 2});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

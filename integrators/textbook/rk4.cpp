@@ -41,4 +41,4 @@ IntegratorEntry rk4() {
        .evaluations_per_step = 4});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

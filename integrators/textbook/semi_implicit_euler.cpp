@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Semi-implicit Euler: v' = v + h v̇(t, q, v), then q' = q + h N(q) v', with the new velocity and the old q in N.
-// Source: the course report, section 2.1, whose update() moves the velocities first and then the positions:
-// ds = v dt, dR = ω* R dt. Additive in the orientation; symplectic for translation under a potential only.
+// Semi-implicit Euler: v' = v + h v̇(t, q, v), then q' = q + h N(q) v' with the new velocity and N at the old q.
+// The update of the orientation is additive. The method is symplectic for translation in a potential only.
+// Source: the course report, section 2.1, whose update() advances the velocities before the positions:
+// ds = v dt, dR = ω* R dt.
 #include "integrators/fixed_step.hpp"
 
 namespace polhode::inline integrators {
@@ -37,4 +38,4 @@ IntegratorEntry semi_implicit_euler() {
        .evaluations_per_step = 1});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

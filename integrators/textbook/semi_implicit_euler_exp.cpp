@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Semi-implicit Euler with the exponential: v' = v + h v̇(t, q, v), then the group step q' = q ⊕ h ξ(q, v'), which is
-// exp(hω') R in the world and R exp(hΩ') in the body: the report's update without its defect. The work takes the power
-// of v' at the old q. Source: the course report, section 2.1, with the exponential for dR = ω* R dt.
+// Semi-implicit Euler with the exponential map: v' = v + h v̇(t, q, v), then the group step q' = q ⊕ h ξ(q, v'), which
+// is exp(hω') R in world axes and R exp(hΩ') in body axes. It equals the report's update except that orientations stay
+// on their manifold. The work uses the power of v' at the old q. Source: the course report, section 2.1, with the
+// exponential map in place of dR = ω* R dt.
 #include "integrators/fixed_step.hpp"
 
 namespace polhode::inline integrators {
@@ -40,4 +41,4 @@ IntegratorEntry semi_implicit_euler_exp() {
                                            .lie_group = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

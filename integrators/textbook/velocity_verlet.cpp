@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Velocity Verlet with a group step for the orientation, in the form for accelerations that depend on the velocity:
+// Velocity Verlet with a group step for the orientation, in the form for velocity-dependent accelerations:
 //   k  = v̇(t, q, v),            v½ = v + h/2 k            half kick
-//   q½ = q ⊕ h/2 ξ(q, v½),      q' = q ⊕ h ξ(q½, v½)      drift by the twist half way
+//   q½ = q ⊕ h/2 ξ(q, v½),      q' = q ⊕ h ξ(q½, v½)      drift by the midpoint twist
 //   ṽ  = v½ + h/2 k,            v' = v½ + h/2 v̇(t + h, q', ṽ)   half kick at the predicted velocity
-// For forces of position alone ṽ does not matter and this is Verlet's method, symplectic and symmetric for translation.
-// The gyroscopic term and drag see ṽ = v + h k, right to O(h²), so that v' is the trapezoidal rule to O(h³); evaluated
-// at v½ the second kick would be of first order. ξ depends on q only with the momentum as state, where L½ turns with
-// ω(q½, L½); with an angular velocity the drift is one exponential of h v½. The work is the trapezoidal rule of the
-// power at (t, q, v) and (t + h, q', v'). Explicit, order 2; two evaluations, as v̇ at ṽ cannot serve the next step.
-// Source: Swope, Andersen, Berens & Wilson, J. Chem. Phys. 76 (1982); for the velocity-dependent kick Groot & Warren,
-// J. Chem. Phys. 107 (1997), with λ = 1.
+// If forces depend on positions only, ṽ has no effect. The method is then Verlet's, symplectic and symmetric for
+// translation. The gyroscopic term and drag are evaluated at ṽ = v + h k, which is accurate to O(h²), so that v' agrees
+// with the trapezoidal rule to O(h³). At v½ instead of ṽ the second kick would be of order 1. ξ depends on q only for
+// momentum_world, where ω(q½, L½) rotates the body with L½ fixed. For an angular velocity the drift is one exponential
+// of h v½. The work follows by the trapezoidal rule from the power at (t, q, v) and (t + h, q', v'). The method is
+// explicit and of order 2. It needs two evaluations per step, because v̇ at ṽ cannot be reused in the next step.
+// Sources: Swope, Andersen, Berens & Wilson, J. Chem. Phys. 76 (1982); Groot & Warren, J. Chem. Phys. 107 (1997) with
+// λ = 1 for the velocity-dependent kick.
 #include "integrators/fixed_step.hpp"
 
 namespace polhode::inline integrators {
@@ -60,4 +61,4 @@ IntegratorEntry velocity_verlet() {
                                      .lie_group = true});
 }
 
-}  // namespace polhode
+}  // namespace polhode::integrators

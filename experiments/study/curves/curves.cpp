@@ -61,8 +61,8 @@ class Variants {
   std::vector<const RunOption*> varying_;
 };
 
-/// How long, and seen how often, of scenarios whose runs differ in that. Scenarios of different length need no telling
-/// apart by it.
+/// Duration and samples of scenarios whose runs differ in them. Scenarios of different duration are not distinguished
+/// by it.
 class Durations {
  public:
   explicit Durations(const StudyView& study) {
@@ -290,4 +290,4 @@ bool off_the_motion(const RunRecord& run, const Curve& curve) {
   return false;
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::curves

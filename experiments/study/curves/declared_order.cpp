@@ -26,4 +26,4 @@ std::optional<double> declared_order(const Declaration& method, const RunRecord&
   return run.scenario ? declared_order(method, *run.scenario, attitude) : std::optional<double>(method.order);
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::curves

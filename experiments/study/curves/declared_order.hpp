@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The order that a method declares for the motion at hand.
+// The order that a method declares for a given motion.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,11 @@
 
 namespace polhode::study::inline curves {
 
-/// Its free order, where it declares one, for bodies without forces, and for their attitude without torques; otherwise
-/// the order under forces. Absent: it is exact.
+/// The free order, if the method declares one, for bodies without forces, and for the attitude of bodies without
+/// torques; otherwise the order under forces. Absent: the method is exact.
 std::optional<double> declared_order(const Declaration& method, const Scenario& scenario, bool attitude);
 
-/// For a run's own motion; the order under forces where its scenario is not known.
+/// The order for a run's own motion; the order under forces if its scenario is not known.
 std::optional<double> declared_order(const Declaration& method, const RunRecord& run, bool attitude);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::curves

@@ -69,4 +69,4 @@ std::string why_not_told(const Curve& curve, const Quantity& quantity, const Ord
   return estimate.at_round_off > 0 ? "errors at round-off" : "fewer than three steps";
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::curves

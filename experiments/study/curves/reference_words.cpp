@@ -71,4 +71,4 @@ std::vector<std::string> reference_sentences(const StudyView& study) {
   return sentences;
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::curves

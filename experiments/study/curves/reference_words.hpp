@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is said of the references (--reference) that stood for unknown exact solutions.
+// Sentences on the references (--reference) used in place of unknown exact solutions.
 #pragma once
 
 #include <string>
@@ -12,7 +12,8 @@ namespace polhode::study::inline curves {
 /// True if a reference was used for this run, proven or not.
 bool used_reference(const RunRecord& run);
 
-/// How certain the references are, by scenario, and how many errors they could not judge. Empty: none was used.
+/// The uncertainty of the references, by scenario, and the number of errors that they could not prove. Empty if none
+/// was used.
 std::vector<std::string> reference_sentences(const StudyView& study);
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::curves

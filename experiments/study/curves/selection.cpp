@@ -122,4 +122,4 @@ std::vector<std::string> Selection::title(std::size_t case_index, std::size_t fi
   return lines;
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::curves

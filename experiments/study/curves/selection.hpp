@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a figure shows of a study: as many cases, variants and methods as can be read, chosen evenly, in panels.
+// Selects the part of a study that a figure can show: cases, variants and methods, chosen evenly, in panels.
 #pragma once
 
 #include <functional>
@@ -13,34 +13,34 @@ namespace polhode::study::inline curves {
 /// The curves of one panel.
 struct Block {
   std::vector<const Curve*> curves;
-  std::vector<std::string> title;  ///< lines; empty where there is nothing to tell apart
+  std::vector<std::string> title;  ///< lines; empty if nothing distinguishes the panels
 };
 
 using CurveTest = std::function<bool(const Curve&)>;
 
-/// How much one figure can hold and still be read.
+/// The capacity of a legible figure.
 struct Limits {
-  std::size_t rows = 4;               ///< of cases and, where they have panels of their own, variants
-  std::size_t variants_in_panel = 2;  ///< told apart by dashes; of more, each has its own panels
+  std::size_t rows = 4;               ///< number of cases and, if variants have their own panels, of variants
+  std::size_t variants_in_panel = 2;  ///< distinguished by dashes; if there are more, each has its own panels
 };
 
 class Selection {
  public:
-  /// Of the curves that `shown` accepts. Keeps references to the grouping.
+  /// Selects among the curves that `shown` accepts. Keeps references to the grouping.
   Selection(const Grouping& grouping, const CurveTest& shown, Limits limits);
 
   bool empty() const { return curves_.empty(); }
 
-  /// " Shown: 4 of 20 cases …"; empty where nothing was left out.
+  /// Statement of what was left out, " Shown: 4 of 20 cases …"; empty if nothing was.
   const std::string& omissions() const { return omissions_; }
 
-  /// The variants that dashes tell apart; one empty text where nothing is to be told apart.
+  /// The variants distinguished by dashes; one empty text if there is only one.
   std::vector<std::string> dashed_variants() const;
   std::size_t dash_of(const Curve& curve) const;
   std::string label(const Curve& curve) const { return grouping_.label(curve); }
 
-  /// A block for each case (each variant where there are many, each handful of methods), of the curves that `belongs`
-  /// accepts.
+  /// A block of panels for each case (and for each variant and each group of methods, if there are many), of the curves
+  /// that `belongs` accepts.
   std::vector<Block> blocks(const CurveTest& belongs) const;
 
  private:
@@ -56,4 +56,4 @@ class Selection {
   std::string omissions_;
 };
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::curves

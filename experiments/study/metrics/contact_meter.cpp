@@ -59,7 +59,7 @@ void ContactMeter::on_state(const State<double>& state, const Sample&) {
   if (reached < instant_) return;
   shape_poses(system_, state.y, poses_);
   measure_places(state);
-  // Depths at the first instant at or after each tenth.
+  // Depths are measured at the first instant at or after each tenth one.
   if (instant_ == 0 || reached / between_depths > (instant_ - 1) / between_depths) measure_depth(state);
   instant_ = reached + 1;
 }
@@ -85,4 +85,4 @@ void ContactMeter::measure_places(const State<double>& state) {
 
 void ContactMeter::report(RunResult& result) const { result.contact = found_; }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::metrics

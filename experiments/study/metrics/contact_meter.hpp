@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Watches what contact does in a run: where energy goes, how deep bodies are in each other, whether they stay where
-// they are.
+// Measures contact in a run: the energy balance, penetration depths, and displacements of bodies.
 #pragma once
 
 #include <vector>
@@ -11,9 +10,9 @@
 
 namespace polhode::study::inline metrics {
 
-/// An observer that hands everything on to the next one. Places are looked at at 1000 instants spread evenly over the
-/// run (the first sample at or after each) and at its end, depths at every tenth of them, since they cost as much as
-/// finding contacts.
+/// Positions are measured at 1000 instants spread evenly over
+/// the run (at the first sample at or after each) and at its end. Depths are measured at every tenth of these instants,
+/// since each costs as much as contact detection.
 class ContactMeter final : public Observer {
  public:
   ContactMeter(const System<double>& system, const Scenario& scenario, const ContactConfig& config, double t_end);
@@ -25,7 +24,7 @@ class ContactMeter final : public Observer {
   void on_contact_energy(const ContactLosses& losses) override;
   double next_state() const override;
 
-  /// Fills the part of the result that is about contact.
+  /// Fills the contact measures of the result.
   void report(RunResult& result) const;
 
  private:
@@ -35,10 +34,10 @@ class ContactMeter final : public Observer {
   const System<double>& system_;
   ContactScene scene_;  ///< separate from that of the run, whose data cached by pair stay unchanged
   double t_end_;
-  std::int64_t instant_ = 0;  ///< the next one
+  std::int64_t instant_ = 0;  ///< number of the next instant of measurement, 0 … 1000
   ContactMeasures found_;
   double energy_start_ = 0, energy_least_ = 0;  ///< J
   std::vector<Pose> poses_, started_, settled_;
 };
 
-}  // namespace polhode::study
+}  // namespace polhode::study::metrics

@@ -8,20 +8,22 @@
 namespace polhode::study::inline metrics {
 namespace {
 
-constexpr double clear_of_round_off = 4;  // times round-off: growth is claimed from here on
-constexpr double seen_alone = 1e-3;   // of the largest drift: less of a growth is hidden in oscillations within a block
-constexpr double seen_beside = 0.16;  // of an oscillation that was taken out, over its periods: how well it is known
-constexpr double rest_still = 0.02;   // of the largest drift: what is left is negligible
-constexpr double rest_nearly_still = 0.1;  // the same, where no growth of half as much can hide in it
-constexpr double bounded_limit = 0.15;     // of the largest drift: more of a growth would have been seen
-constexpr double blown_up = 0.1;           // of the energy scale: the method blows up
-constexpr double swollen = 1.5;            // times the largest drift of the first half
-constexpr double periods_enough = 6;
-constexpr double most_runs = 1000, fewest_runs = 1.5;  // runs, of the duration that would decide
+constexpr double clear_of_round_off = 4;  // smallest significant growth, over round-off
+// Smallest growth that oscillations within a block cannot hide, over the largest drift.
+constexpr double seen_alone = 1e-3;
+// Uncertainty of an oscillation that was subtracted, over its amplitude, times its number of periods.
+constexpr double seen_beside = 0.16;
+constexpr double rest_still = 0.02;        // largest negligible rest, over the largest drift
+constexpr double rest_nearly_still = 0.1;  // the same, if the limit of growth is at most half of it
+constexpr double bounded_limit = 0.15;     // largest limit of growth of a bounded drift, over the largest drift
+constexpr double blown_up = 0.1;           // drift over the energy scale from which a method blows up
+constexpr double swollen = 1.5;            // largest drift over that of the first half, above which a drift may grow
+constexpr double periods_enough = 6;       // periods of an oscillation that decide between it and growth
+constexpr double most_runs = 1000, fewest_runs = 1.5;  // limits of the duration that would decide, over that of the run
 
 struct ExponentBounds {
   const char* name;
-  double from, to;  ///< of p
+  double from, to;  ///< range of p
 };
 constexpr ExponentBounds one_way_classes[] = {
     {"sublinear", 0.25, 0.75}, {"linear", 0.75, 1.5}, {"quadratic", 1.5, 2.5}, {"faster", 2.5, 1e9}};
@@ -32,7 +34,7 @@ std::optional<double> lasting(const DriftRecord& record, double runs) {
   return record.t_end * std::max(runs, fewest_runs);
 }
 
-/// J, of what is not known of the oscillations that were taken out.
+/// Uncertainty of the oscillations that were subtracted, J.
 double unknown_of_oscillations(const DriftGrowth& g) {
   return g.slowest_line > 0 ? seen_beside * g.oscillation / g.slowest_line : 0;
 }
@@ -43,8 +45,8 @@ struct DriftRange {
   double width() const { return high - low; }
 };
 
-/// Whether the drift rose, or fell, and has come to rest: the last 40 % of the run stay within a tenth of their mean,
-/// and some block before lies three tenths off.
+/// True if the drift rose or fell and has settled: in the last 40 % of the run it varies by at most a tenth of their
+/// mean, and an earlier block differs from that mean by more than three tenths of it.
 bool has_settled(std::span<const BlockMean> blocks, double largest) {
   const std::size_t first = blocks.size() * 6 / 10;
   const auto late = blocks.subspan(first);
@@ -60,12 +62,12 @@ bool has_settled(std::span<const BlockMean> blocks, double largest) {
 
 enum class ImpactPart { none, alone, beside };
 
-/// Whether the drift changes at impacts alone, or both there and between them.
+/// Role of impacts in the drift: none (or not separable), changes at impacts alone, or changes also between them.
 ImpactPart part_of_impacts(const DriftRecord& record) {
   const auto& blocks = record.blocks;
   const std::size_t n = blocks.size();
   if (record.impacts.empty() || n < fewest_blocks) return ImpactPart::none;
-  // Block i reaches from half way to the one before to half way to the next.
+  // Block i extends from halfway to the previous block to halfway to the next.
   std::vector<bool> met(n, false);
   std::size_t i = 0;
   for (const double t : record.impacts) {
@@ -85,7 +87,7 @@ ImpactPart part_of_impacts(const DriftRecord& record) {
     }
   }
   constexpr double negligible = 0.05;
-  if (3 * free_changes < n) return ImpactPart::none;  // contact, rather than impacts
+  if (3 * free_changes < n) return ImpactPart::none;  // lasting contact rather than impacts
   if (jumps.width() <= std::max(record.round_off, negligible * record.largest)) return ImpactPart::none;
   if (free.width() <= std::max(record.round_off, negligible * record.largest)) return ImpactPart::alone;
   return ImpactPart::beside;
@@ -99,9 +101,9 @@ void decide_as(DriftClass& c, const char* name, double exponent, double low, dou
   c.high = high;
 }
 
-/// The duration in which there would be enough periods of the slowest oscillation that is known.
+/// Duration with enough periods of the slowest known oscillation, s.
 std::optional<double> more_periods(const DriftRecord& record, const DriftGrowth& g) {
-  constexpr double fewest = 1.5;  // a change over the whole run counts as so many
+  constexpr double fewest = 1.5;  // number of periods as which a change over the whole run counts
   const double periods = g.slow_periods > 0 ? g.slow_periods : g.slowest_line;
   return periods > 0 ? lasting(record, periods_enough / std::max(periods, fewest)) : std::nullopt;
 }
@@ -111,12 +113,12 @@ void classify_one_way(const DriftRecord& record, const DriftGrowth& g, DriftClas
     c.decided_after = more_periods(record, g);
     return;
   }
-  // What is not known of the oscillations, and what is left of the growth, bend p by so much at most.
+  // Error of p due to the uncertainty of the oscillations and to the residual of the growth, at most.
   constexpr double bends = 4, narrow = 0.2;
   const double bent = bends * (unknown_of_oscillations(g) + g.misfit) / g.change;
   const double half_width = std::hypot((g.high - g.low) / 2, bent);
   const double low = std::max(g.exponent - half_width, 0.0), high = g.exponent + half_width;
-  // What rises at the end of a run may be the first of many pulses, as where a body turns over.
+  // A sudden rise at the end of a run may be the first of many pulses, as when a body flips over.
   constexpr double sudden = 5, twice = 2;
   if (high > sudden && record.largest < blown_up * record.scale) {
     c.decided_after = lasting(record, twice);
@@ -134,7 +136,7 @@ void classify_both_ways(const DriftRecord& record, const DriftGrowth& g, DriftCl
   if (record.largest > swollen * record.largest_early) return;
   if (rest <= rest_still || (rest <= rest_nearly_still && limit <= rest_nearly_still / 2))
     return decide_as(c, "bounded", 0, 0, 0);
-  if (g.secular) return;  // too small to be told from what the oscillations leave
+  if (g.secular) return;  // too small to be distinguished from residuals of the oscillations
   if (g.high < walk_from) {
     if (limit <= bounded_limit) return decide_as(c, "bounded", 0, 0, std::max(g.high, 0.0));
     c.decided_after = lasting(record, std::pow(limit / bounded_limit, 2));
@@ -179,7 +181,7 @@ DriftClass classify(const DriftRecord& record) {
     classify_both_ways(record, *growth, c);
   }
   if (record.scale > 0 && record.largest >= record.scale / 2) {
-    // The motion is another one: a longer run would not tell.
+    // The computed motion is a different one: a longer run would not decide.
     if (c.name == "undecided") c.decided_after.reset();
     if (c.name == "bounded" || c.name == "random walk" || c.name == "sublinear") {
       c.name = "saturated";
@@ -189,4 +191,4 @@ DriftClass classify(const DriftRecord& record) {
   return c;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::metrics

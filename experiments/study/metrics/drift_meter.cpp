@@ -13,7 +13,7 @@ namespace {
 constexpr int exact_instants = 50;
 constexpr int most_attitude_errors = 64;
 
-/// max(a, |x|) that a NaN does not get lost in.
+/// Sets worst to max(worst, |x|), or to NaN if x is NaN.
 void raise(double& worst, double x) {
   const double size = std::abs(x);
   if (!(size <= worst)) worst = size;
@@ -104,7 +104,7 @@ std::size_t DriftMeter::on_samples(std::span<const Sample> samples) {
   const double per_t_end = 1 / t_end_, energy_start = energy_start_;
   const ConservedMomenta conserved = conserved_;
   const bool several = system_.moving() > 1;
-  Sums sums = sums_;  // a copy, which the compiler can keep in registers
+  Sums sums = sums_;  // local copy, so that the compiler keeps it in registers
   std::size_t taken = 0;
   for (; taken < samples.size(); ++taken) {
     const Sample& sample = samples[taken];
@@ -146,7 +146,7 @@ void DriftMeter::on_state(const State<double>& state, const Sample&) {
   if (!has_exact_ || (!exact_at_samples_ && state.t < next_exact_)) return;
   measure_errors(state);
   while (next_exact_ <= state.t) {
-    // A little early, so that a sample at the very instant counts, however its time was rounded.
+    // Slightly early, so that a sample at the instant itself counts in spite of the rounding of its time.
     constexpr double early = 1 - 1e-12;
     next_exact_ = exact_count_ < exact_instants ? early * static_cast<double>(++exact_count_) * t_end_ / exact_instants
                                                 : std::numeric_limits<double>::infinity();
@@ -214,7 +214,7 @@ void DriftMeter::report(RunResult& result) {
   }
   if (reference_) judge_by_reference(result);
   result.attitude_errors = attitude_errors_;
-  // What was seen before a run broke off, often its start alone, says nothing of how wrong it was in the end.
+  // Errors measured before a run broke off, often at its start only, are no measure of its error at the end.
   const bool broke_off = result.status != "ok" && !(errors_until_ >= result.t_reached && result.t_reached > 0);
   if (broke_off) forget_errors(result);
   result.series = series_.finish(scales_.energy, scales_.linear, scales_.angular);
@@ -235,7 +235,7 @@ void DriftMeter::judge_by_reference(RunResult& result) const {
     if (!(error && *error >= better * uncertainty)) error.reset();
   };
   const ReferenceMotion::Uncertainty& u = reference_->uncertainty();
-  bool all_pinned = true;  // then no position is measured
+  bool all_pinned = true;  // if so, no position is measured
   for (std::size_t i = 0; i < system_.moving(); ++i) all_pinned = all_pinned && system_.problem().bodies[i].pinned;
   judge(exact_.has_position() || all_pinned, u.position, result.position_error_max, result.position_reference);
   judge(exact_.has_attitude(), u.attitude, result.attitude_error_max, result.attitude_reference);
@@ -254,7 +254,7 @@ void DriftMeter::classify(RunResult& result) const {
   DriftRecord record;
   record.blocks = blocks_.finish();
   record.largest = sums_.worst_energy;
-  if (!(scales_.energy > 0)) record.largest_early = record.largest;  // then the series has no energies
+  if (!(scales_.energy > 0)) record.largest_early = record.largest;  // without a scale the series has no energies
   for (const SeriesPoint& p : result.series) {
     if (p.t <= t_end_ / 2)
       record.largest_early = std::max(record.largest_early, std::abs(p.energy_drift_rel) * scales_.energy);
@@ -273,4 +273,4 @@ void DriftMeter::classify(RunResult& result) const {
   result.drift_decided_after = found.decided_after;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::metrics

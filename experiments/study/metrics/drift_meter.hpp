@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Watches a run and measures how far its invariants drift and how far it is from the exact motion.
+// Measures the drift of the invariants during a run, and the errors against the exact motion.
 //
-// Energy is a ledger: E = kinetic + potential − work of non-conservative forces + energy lost in contact − energy
-// injected by projection. Its drift is what the ledger cannot explain. Relative drifts are told against the scales of
-// the motion.
+// The energy is a balance (ledger): E = kinetic + potential − work of non-conservative forces + energy lost in contact
+// − energy injected by projection. Its drift E − E(0) is the numerical error of the energy. Relative drifts are drifts
+// over the scales of the motion (motion_scales.hpp).
 #pragma once
 
 #include <memory>
@@ -21,12 +21,13 @@
 
 namespace polhode::study::inline metrics {
 
-/// The history of a run in a fixed number of stretches, however long it is: when all are in use, neighbours merge.
+/// History of a run in at most 256 intervals of equally many samples; when all are in use, neighbours are merged.
 class ThinnedSeries {
  public:
-  /// In any units: energy signed, the squares of the momenta's changes.
+  /// Adds a sample: time, energy drift (signed), squared changes of linear and angular momentum, orientation defect.
+  /// Energies and momenta in any units.
   void add(double t, double energy, double linear2, double angular2, double defect);
-  /// Energy and momenta over these scales.
+  /// The history, with drifts relative to these scales (in the units of add()); 0 where a scale is 0.
   std::vector<SeriesPoint> finish(double energy_scale, double linear_scale, double angular_scale);
 
  private:
@@ -37,14 +38,16 @@ class ThinnedSeries {
   std::vector<SeriesPoint> points_;
   SeriesPoint open_;
   std::size_t in_open_ = 0;
-  std::size_t per_point_ = 1;  ///< samples in one stretch
+  std::size_t per_point_ = 1;  ///< samples in one interval
 };
 
 class DriftMeter final : public Observer {
  public:
-  /// `exact_at_samples`: the errors against the exact motion are taken at every sample; otherwise at 50 instants spread
-  /// evenly over the run (the first sample at or after each) and at its end, since they cost more than a step.
-  /// `motion.reference`: stands for what is not known exactly; may be null. `precision`: of the run.
+  /// invariants: names of further declared invariants; t_end: duration of the run, s.
+  /// exact_at_samples: measure the errors against the exact motion at every sample; otherwise at 50 instants spread
+  /// evenly over the run (at the first sample at or after each) and at its end, since each costs more than a step.
+  /// motion.reference: replaces exact solutions that are unknown; may be null.
+  /// precision: arithmetic of the run.
   DriftMeter(const System<double>& system, const std::vector<std::string>& invariants, double t_end,
              bool exact_at_samples, TrueMotion motion, Precision precision = Precision::dual);
 
@@ -55,11 +58,11 @@ class DriftMeter final : public Observer {
   void on_contact_energy(const ContactLosses& losses) override { lost_in_contact_ = losses.total(); }
   void on_impacts(std::span<const Impact> impacts) override;
 
-  /// J, against which energy drifts are told; 0: against none.
+  /// Scale of the energy drift, J; 0: nothing moves, and there are no relative drifts.
   double energy_scale() const { return scales_.energy; }
 
-  /// Fills the measured part of the result, which has its status and its steps. Of a run that broke off there are
-  /// errors against the exact motion only where they were measured at its last state.
+  /// Fills the measured part of the result, whose status and steps must be set. The result of a run that broke off
+  /// contains errors against the exact motion only if they were measured at its last state.
   void report(RunResult& result);
 
  private:
@@ -87,25 +90,25 @@ class DriftMeter final : public Observer {
   MotionScales scales_;
   Precision precision_;
   double energy_start_ = 0;
-  double lost_in_contact_ = 0;  ///< J
+  double lost_in_contact_ = 0;  ///< energy lost in contact so far, J
   Vector3<double> linear_start_, angular_start_;
   double next_exact_ = 0;
   std::int64_t exact_count_ = 0;
   ExactMotion::Error worst_error_;
-  double errors_until_ = 0;  ///< s, when they were measured last
+  double errors_until_ = 0;  ///< time of the last measurement of errors, s
   std::vector<AttitudeError> attitude_errors_;
   std::optional<PolhodeError> polhode_;
   PolhodeError::At worst_polhode_;
   struct Sums {
     std::int64_t samples = 0;
-    // In J, and the squares of kg m/s and kg m²/s: divided by their scales in the end.
+    // Energies in J, squared linear momenta in (kg m/s)², squared angular momenta in (kg m²/s)².
     double worst_energy = 0, last_energy = 0, worst_linear2 = 0, worst_angular2 = 0, worst_defect = 0;
-    double t = 0, tt = 0, d = 0, td = 0;  ///< for the least-squares slope of the drift, over t/t_end
+    double t = 0, tt = 0, d = 0, td = 0;  ///< sums for the least-squares slope of the drift over t/t_end
   };
   Sums sums_;
   ThinnedSeries series_;
   BlockMeans blocks_;
-  std::vector<double> impacts_;  ///< s, thinned
+  std::vector<double> impacts_;  ///< times of impacts, thinned, s
 };
 
-}  // namespace polhode::study
+}  // namespace polhode::study::metrics

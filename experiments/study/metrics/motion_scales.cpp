@@ -18,10 +18,10 @@
 namespace polhode::study::inline metrics {
 namespace {
 
-/// Takes states of the true motion and keeps the largest of everything.
+/// Keeps the largest value of each scale over the states of the true motion.
 class LargestScales final : public Observer {
  public:
-  /// `radii`: of the moving bodies that can touch, m; empty without contact.
+  /// radii: of the moving bodies' shapes, m; empty without contact.
   LargestScales(const System<double>& system, const std::vector<std::string>& invariants,
                 std::vector<double> radii = {})
       : system_(system), radii_(std::move(radii)) {
@@ -45,7 +45,7 @@ class LargestScales final : public Observer {
   double next_state() const override { return 0; }
   void on_state(const State<double>& state, const Sample& sample) override { take(state, sample.seen); }
 
-  /// J: the kinetic energy or the change of the potential energy.
+  /// Adds a state. Returns its kinetic energy or its change of the potential energy, whichever is larger, J.
   double take(const State<double>& state, const Measurement<double>& seen) {
     if (!potential_start_) potential_start_ = seen.potential;
     const double energy = std::max(seen.kinetic, std::abs(seen.potential - *potential_start_));
@@ -75,7 +75,7 @@ class LargestScales final : public Observer {
   const MotionScales& found() const { return found_; }
 
  private:
-  /// A state that is not finite raises nothing.
+  /// Sets largest to max(largest, x); ignores x if it is not finite.
   static void raise(double& largest, double x) {
     if (std::isfinite(x) && x > largest) largest = x;
   }
@@ -92,7 +92,7 @@ class LargestScales final : public Observer {
     return sum / mass;
   }
 
-  /// J, MotionScales::force_terms of this state.
+  /// The value of MotionScales::force_terms in this state, J.
   double force_terms(const State<double>& state) {
     double sum = 0;
     for (std::size_t i = 0; i < radii_.size(); ++i) {
@@ -119,14 +119,15 @@ class LargestScales final : public Observer {
   const System<double>& system_;
   std::vector<double> radii_;
   std::vector<const InvariantKind*> kinds_;
-  std::vector<bool> steady_;  ///< by moving body: its mass centre is under a constant force, and under no other
+  /// For each moving body: all forces on it are constant with a sum other than zero, and it is not pinned.
+  std::vector<bool> steady_;
   std::optional<double> potential_start_;
   std::vector<BodyMotion<double>> motions_;
   std::vector<Wrench<double>> wrenches_;
   MotionScales found_;
 };
 
-/// World angular velocity and quaternions, in which exact motions are written into states.
+/// Formulation of states with exact motions: world-frame angular velocity and quaternions.
 constexpr Formulation exact_formulation{};
 
 State<double> exact_state(const ExactMotion& exact, const System<double>& system, double t) {
@@ -179,7 +180,7 @@ MotionScales along_steps(const Scenario& scenario, const RunConfig& config, cons
   try {
     simulate(*system, *system, *integrator, state, schedule_of(config), largest, stop,
              contact ? contact->model.get() : nullptr);
-  } catch (const std::exception&) {  // contact that cannot be followed: what came before it stands
+  } catch (const std::exception&) {  // contact that cannot be resolved: the scales up to it are returned
   }
   return largest.found();
 }
@@ -236,7 +237,7 @@ double MotionScales::energy_round_off(Precision precision, std::int64_t steps) c
 
 MotionScales motion_scales(const Scenario& scenario, double t_end, const std::atomic<bool>* stop) {
   MotionScales scales = along_true_motion(scenario, t_end, stop);
-  // What rounding alone moves is no motion.
+  // Energies within rounding errors are no motion.
   if (scales.energy <= 1e3 * epsilon(Precision::dual) * scales.force_terms) scales.energy = 0;
   if (scenario.energy_scale) scales.energy = *scenario.energy_scale;
   double mass = 0, inertia = 0;
@@ -249,4 +250,4 @@ MotionScales motion_scales(const Scenario& scenario, double t_end, const std::at
   return scales;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::metrics

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the drifts of a motion are measured against: the largest energies and momenta along the true motion. They belong
-// to a scenario and a duration, not to a run, and depend neither on the world's origin nor on the zero of a potential.
+// Scales of relative drifts: the largest energies and momenta along the true motion. They depend on the scenario and
+// the duration, but not on the run, on the origin of the world frame, or on the zero of a potential.
 //
-// The true motion is the exact one where it is known in full. Elsewhere it is RK4 with ever smaller steps until the
-// scales agree to 0.1 %; with contact it is semi-implicit Euler with contacts at the step, as engines do it.
+// The true motion is the exact solution if it is known in full. Otherwise it is computed by RK4, whose step is halved
+// until the scales agree to 0.1 %. With contact it is computed by semi-implicit Euler with time-stepping contact, as in
+// physics engines.
 #pragma once
 
 #include <atomic>
@@ -14,38 +15,43 @@
 
 namespace polhode::study::inline metrics {
 
-/// The drift, over its scale, beyond which a run is called off as diverged.
+/// Largest energy drift over its scale; a run that exceeds it is stopped as diverged.
 inline constexpr double hopeless_drift = 1e6;
 
-/// A scale is 0 where nothing moves; no relative drift is told then.
+/// Scales of one motion. A scale is 0 if nothing moves; there is no relative drift then.
 struct MotionScales {
-  /// J: the largest kinetic energy, or change of the potential energy since the start, whichever is larger; or what the
-  /// scenario fixes (energy_scale).
+  /// Largest kinetic energy, or largest change of the potential energy since the start, whichever is larger, J; or the
+  /// energy_scale that the scenario sets.
   double energy = 0;
-  double linear = 0;  ///< kg m/s: the largest sum of the sizes of the bodies' momenta; √(2 M energy) where all are zero
-  /// kg m²/s: the same of the angular momenta, of one body about its reference point, of several about their mass
-  /// centre at the start; √(2 tr(I) energy) where all are zero.
+  /// Largest sum over the bodies of |m v|, kg m/s; √(2 M energy) if all momenta are zero, M the mass of all bodies.
+  double linear = 0;
+  /// Largest sum of the bodies' angular momenta, kg m²/s: for one body its magnitude about its reference point, for
+  /// several bodies an upper bound of the magnitudes about their common mass centre at the start. √(2 tr(I) energy) if
+  /// all are zero, tr(I) summed over the bodies.
   double angular = 0;
-  Vector3<double> mass_center = Vector3<double>::Zero();  ///< m, of all moving bodies at the start
+  Vector3<double> mass_center = Vector3<double>::Zero();  ///< of all moving bodies at the start, world frame, m
   std::vector<double> invariants;  ///< the largest InvariantKind::scale, in the order of the scenario's invariants
 
-  double kinetic_terms = 0;  ///< J: the largest kinetic energy
-  /// J: the largest sum, over the forces, of |V| or of Σ |f| |p| + |τ| over the bodies, whichever is larger: times ε,
-  /// what the rounding of positions and attitudes makes of the energy. With contact also Σ ½ m v² |p|/r, r the radius
-  /// of the body: what it makes of the places where bodies touch.
+  double kinetic_terms = 0;  ///< largest kinetic energy, J
+  /// Largest sum over the forces of max(|V|, Σ |f| |p| + |τ| over the bodies), J; times ε it is the error of the energy
+  /// due to the rounding of positions and attitudes. V: potential energy, f: force, p: position, τ: torque. With
+  /// contact plus Σ ½ m v² |p|/r, r the radius of the body: times ε the error due to rounded contact points.
   double force_terms = 0;
-  /// J: the largest kinetic energy of translation under constant forces, whose increments are all rounded alike.
+  /// Largest kinetic energy of translation of bodies under constant forces only, J; their increments are all rounded in
+  /// the same direction.
   double steady_terms = 0;
 
-  /// J: up to which an energy drift can be rounding alone after so many steps,
-  ///   ε (√steps (16 kinetic_terms + force_terms) + 4 force_terms + steps steady_terms).
-  /// √steps is that of a random walk of rounding errors (Brouwer, Astronomical Journal 46 (1937) 149–153): some sixteen
-  /// in the velocities, one in the positions of each step. The energy itself is rounded when it is measured. The last
-  /// term is a walk whose roundings have one sign.
+  /// Largest energy drift that rounding alone can explain after this number of steps, J:
+  ///   ε (√steps (16 kinetic_terms + force_terms) + 4 force_terms + steps steady_terms),
+  /// ε: that of `precision`, at least that of double, in which energies are measured.
+  /// √steps is the growth of a random walk of rounding errors (Brouwer, Astronomical Journal 46 (1937) 149–153), with
+  /// some sixteen roundings of velocities and one of positions in each step. 4 force_terms is the rounding of the
+  /// energy at its measurement. The last term is the sum of roundings with one sign.
   double energy_round_off(Precision precision, std::int64_t steps) const;
 };
 
-/// With `stop` set it ends at once, with what it has found by then.
+/// Computes the scales of the scenario's motion from t = 0 to t_end (s). If `stop` is set meanwhile, it returns early
+/// with incomplete scales.
 MotionScales motion_scales(const Scenario& scenario, double t_end, const std::atomic<bool>* stop = nullptr);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::metrics

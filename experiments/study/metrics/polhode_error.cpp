@@ -25,7 +25,7 @@ PolhodeError::PolhodeError(const Matrix3<double>& inertia, const Vector3<double>
       top_(inertia, identity_quaternion<double>(), omega_body),
       speed_(omega_body.norm()),
       size_((inertia * omega_body).norm()) {
-  // Near the separatrix the period is many turns long, and the phase of an instant a small part of it.
+  // Near the separatrix the period is as long as many revolutions of the body, and needs more points.
   constexpr double points = 48, longest_step = 0.5 /* rad */, most_points = 4096;
   const double period = top_.period();
   const double count =
@@ -40,8 +40,8 @@ PolhodeError::Momentum PolhodeError::exact(double t) const {
   return {y, rate, rate.cross(omega) + y.cross(inverse_inertia_ * rate)};
 }
 
-/// Newton's way to the nearest point, in steps that do not leave its neighbourhood; Gauss and Newton's where the
-/// distance is not convex.
+/// Phase of the nearest point by Newton's method from `phase`, with steps of at most search_step_; by the Gauss–Newton
+/// method where the squared distance is not sufficiently convex.
 double PolhodeError::refined(double t, const Vector3<double>& y, double phase) const {
   constexpr int most_steps = 30;
   constexpr double rounding = std::numeric_limits<double>::epsilon();
@@ -64,7 +64,7 @@ double PolhodeError::refined(double t, const Vector3<double>& y, double phase) c
   return best;
 }
 
-/// The phase of the nearest point of the ring, within half its length of the expected one.
+/// Phase of the nearest point of the ring, within half a period of the expected phase.
 double PolhodeError::nearest_of_ring(double t, const Vector3<double>& y, double expected) const {
   const auto size = static_cast<double>(ring_.size());
   const double centre = std::round((t + expected) / search_step_);
@@ -85,7 +85,7 @@ PolhodeError::At PolhodeError::at(double t, const BodySnapshot<double>& body) {
   if (!y.allFinite()) return {t, t, std::numeric_limits<double>::infinity()};
   const double expected = phase_ + phase_rate_ * (t - t_);
   double phase = refined(t, y, expected), least = (y - exact(t + phase).value).squaredNorm();
-  // Close to the curve, the point that is nearest to the expected one is the nearest.
+  // If y is close to the curve, the minimum next to the expected phase is the global one.
   constexpr double close = 0.02;
   if (!(least <= close * close * size_ * size_)) {
     const double other = nearest_of_ring(t, y, expected);
@@ -97,4 +97,4 @@ PolhodeError::At PolhodeError::at(double t, const BodySnapshot<double>& body) {
   return {phase, speed_ * phase, (y - exact(t + phase).value).norm() / size_};
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::metrics

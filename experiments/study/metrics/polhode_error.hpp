@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The error of a free body's angular momentum in the body, y = IΩ, taken apart along the polhode and off it.
+// Error of a free body's angular momentum in the body frame, y = IΩ, split into a part along the polhode and a part off
+// it.
 //
-// The exact y runs round its polhode, the curve on which the energy ellipsoid meets the sphere |y| = const. With the
-// point of it that is nearest to a computed y at t,
-//   phase τ: min over τ of |y − y_exact(t + τ)|, in s; positive: the computed motion is ahead;
-//   off: that distance over |y(0)|: what changed energy and |y|, and so the polhode itself.
-// At the nearest point the two are at right angles: |y − y_exact(t)|² ≈ (|ẏ| τ)² + off².
+// The exact y moves along its polhode, the intersection of the energy ellipsoid and the sphere |y| = const. For a
+// computed y at time t:
+//   phase τ: the τ that minimises |y − y_exact(t + τ)|, in s; positive if the computed motion is ahead;
+//   off: the minimum over |y(0)|, due to errors of the energy and of |y|, which change the polhode itself.
+// At the nearest point the two parts are at right angles: |y − y_exact(t)|² ≈ (|ẏ| τ)² + (off |y(0)|)².
 #pragma once
 
 #include <optional>
@@ -24,17 +25,17 @@ class PolhodeError {
     double off = 0;        ///< relative
   };
 
-  /// Absent unless one body moves, without torque, and its ω changes in the body: else its polhode is no curve.
+  /// Absent unless one body moves, no torque acts, and its body-frame ω varies; otherwise its polhode is a point.
   static std::optional<PolhodeError> of(const System<double>& system);
 
-  /// Follows the motion forwards in time: the phase goes on from that of the last call, beyond whole turns. It needs
-  /// some calls in each turn of phase that is lost.
+  /// The error of the body at time t, s. Calls must go forwards in time: the phase continues from that of the last
+  /// call, beyond whole periods. Several calls are required for each period by which the phase changes.
   At at(double t, const BodySnapshot<double>& body);
 
  private:
   PolhodeError(const Matrix3<double>& inertia, const Vector3<double>& omega_body);
   struct Momentum {
-    Vector3<double> value, rate, second;  ///< kg m²/s and its time derivatives in the body
+    Vector3<double> value, rate, second;  ///< y in kg m²/s, and its first and second time derivatives, body frame
   };
   Momentum exact(double t) const;
   double refined(double t, const Vector3<double>& y, double phase) const;
@@ -43,9 +44,9 @@ class PolhodeError {
   Matrix3<double> inertia_, inverse_inertia_;
   FreeTop top_;
   double speed_, size_;                ///< |ω(0)|, |y(0)|
-  double search_step_;                 ///< s, between the points of the ring
-  std::vector<Vector3<double>> ring_;  ///< exact y over a period, for the search of the nearest point
+  double search_step_;                 ///< time between the points of the ring, s
+  std::vector<Vector3<double>> ring_;  ///< exact y at equal steps over a period, for the search of the nearest point
   double t_ = 0, phase_ = 0, phase_rate_ = 0;
 };
 
-}  // namespace polhode::study
+}  // namespace polhode::study::metrics

@@ -41,4 +41,4 @@ TrueMotion References::of(const RunConfig& config, const Scenario& scenario, con
   return {*entry->scales, config.reference ? entry->reference : nullptr};
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::metrics

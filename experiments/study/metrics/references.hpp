@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the runs of a study share about the true motion: the scales of its drifts and, with --reference, a reference
-// motion. There is one of each for each variant of a scenario and each duration, made when the first run needs it and
-// let go after the last. Like the exact motion, both are of the full equations, whether a run leaves the gyroscopic
-// term out or not.
+// True motions shared by the runs of a study: the scales of drifts and, with --reference, a reference motion. There is
+// one of each for each variant of a scenario and each duration, computed for the first run that needs it and released
+// after the last. Like the exact motion, both follow the full equations, even for runs without the gyroscopic term.
 #pragma once
 
 #include <atomic>
@@ -21,8 +20,8 @@ namespace polhode::study::inline metrics {
 
 struct TrueMotion {
   MotionScales scales;
-  std::shared_ptr<const ReferenceMotion>
-      reference;  ///< null unless the run asks for one and no exact motion stands for it
+  /// Null unless the run requires a reference and the exact motion is not known in full.
+  std::shared_ptr<const ReferenceMotion> reference;
 };
 
 class References {
@@ -31,10 +30,11 @@ class References {
   References(const References&) = delete;
   References& operator=(const References&) = delete;
 
-  /// Announces a run, so that what it shares is kept until it has asked for it. Cheap.
+  /// Announces a run, so that the motion it shares is kept until of() was called for it. Cheap.
   void expect(const RunConfig& config, const Scenario& scenario);
 
-  /// From any thread; whoever comes while it is being made waits. Incomplete when `stop` is set meanwhile.
+  /// The true motion of the run. Thread-safe: calls wait while another thread computes it. Incomplete if `stop` is set
+  /// meanwhile.
   TrueMotion of(const RunConfig& config, const Scenario& scenario, const std::atomic<bool>* stop);
 
  private:
@@ -51,4 +51,4 @@ class References {
   std::map<Key, std::shared_ptr<Entry>> entries_;
 };
 
-}  // namespace polhode::study
+}  // namespace polhode::study::metrics

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What makes one experiment differ from another: its question, and what it runs when nothing is said.
+// Definition of an experiment: its question, its default runs and its analysis.
 #pragma once
 
 #include <functional>
@@ -12,36 +12,39 @@
 
 namespace polhode::study::inline plan {
 
-/// A further product of axes: what it runs that differs from the first one's defaults. An option that the user gives
-/// holds for all of them.
+/// A further product of axes, given by its differences from the defaults of the first product. Options of the user
+/// override the defaults of all products.
 struct FurtherAxes {
   std::map<std::string, std::string> defaults{};
-  std::vector<std::pair<std::string, std::string>> vary{};  ///< key of the scenario and its values
+  std::vector<std::pair<std::string, std::string>> vary{};  ///< keys of the scenario and their values
   bool reference = false;                                   ///< as --reference
-  bool by_default_only = false;                             ///< left out where the user names an axis
+  bool by_default_only = false;                             ///< omitted if the user gives any axis
 };
 
 struct Experiment {
   std::string name;
   std::string question;   ///< one sentence
-  std::string meaning{};  ///< of its answer, for --help: one paragraph; empty: the question says it all
-  /// The values of options that are not given, as the command line writes them: {"dt", "1e-3,1e-2"}.
+  std::string meaning{};  ///< meaning of the answer in one paragraph, for --help; empty: none
+  /// Defaults of options, in the syntax of the command line: {"dt", "1e-3,1e-2"}.
   std::map<std::string, std::string> defaults;
-  /// An ensemble of starts, as --vary writes it; taken where neither a scenario, a study file nor that key is given.
+  /// Defaults of --vary: keys of the scenario and their values. Used only if the user gives neither a scenario nor a
+  /// study file; --vary replaces a default for the same key.
   std::vector<std::pair<std::string, std::string>> vary{};
-  bool reference = false;  ///< as if --reference were given
-  std::vector<FurtherAxes> more{};
-  bool one_run = false;               ///< exactly one run, whose trajectory goes into the folder itself
-  bool best_times = false;            ///< short runs are carried out several times, and the least wall time is kept
-  bool fixed_steps_only = false;      ///< methods that choose their own steps have no place in it
-  bool failures_are_results = false;  ///< a run that a method could not carry on is an answer, not a fault
-  /// s, how long a run lasts: of the duration that was asked for and its step. Empty: what was asked for.
+  bool reference = false;             ///< as if --reference were given
+  std::vector<FurtherAxes> more{};    ///< further products of axes
+  bool one_run = false;               ///< exactly one run, whose trajectory is written to the results folder itself
+  bool best_times = false;            ///< short runs are repeated, and the least wall time is kept
+  bool fixed_steps_only = false;      ///< adaptive methods are not allowed
+  bool failures_are_results = false;  ///< failed runs are results and do not change the exit status
+  /// Duration of a run, s, from the requested duration (s) and the step (s), or the tolerance of an adaptive method.
+  /// Empty: the requested duration.
   std::function<double(double t_end, double dt)> duration{};
-  /// Given all finished runs, which further ones it wants. It is asked again with those, until it wants nothing new.
-  /// The same runs must always lead to the same wishes: then a study that is stopped finds again what it has.
+  /// Returns further runs to carry out, given all finished runs. It is called again with their results until it returns
+  /// no new run. Must be deterministic: the same finished runs must yield the same requests, so that an interrupted
+  /// study can be continued.
   std::function<std::vector<RunConfig>(const StudyView&)> refine{};
-  /// What it makes of its finished runs beyond what every study shows; empty: nothing.
+  /// Analysis of the finished runs beyond that of every study; empty: none.
   std::function<Analysis(const StudyView&)> analysis{};
 };
 
-}  // namespace polhode::study
+}  // namespace polhode::study::plan

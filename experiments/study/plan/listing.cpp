@@ -24,7 +24,7 @@
 namespace polhode::study::inline plan {
 namespace {
 
-constexpr std::size_t name_width = 30;  // of the longest name
+constexpr std::size_t name_width = 30;  // width of the column of names: length of the longest name
 
 std::string line(const std::string& name, const std::string& text) {
   return fmt::format("  {:<{}} {}\n", name, name_width, text);
@@ -147,4 +147,4 @@ std::string listing(const std::string& what, std::span<const Metric> metrics) {
   return text;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::plan

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// --list: the catalogues, one line of physics or mathematics per entry.
+// Output of --list: the catalogues, one line of physics or mathematics per entry.
 #pragma once
 
 #include <span>

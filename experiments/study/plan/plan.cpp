@@ -19,8 +19,8 @@
 namespace polhode::study::inline plan {
 namespace {
 
-/// Raised whenever a change of the code changes a digit of a result: stored runs of an older version are then made
-/// anew.
+/// Version of the results: increased by every change of the code that changes a digit of a result, so that runs stored
+/// by an older version are carried out again.
 constexpr int results_version = 4;
 constexpr std::size_t most_runs = 10'000'000;
 
@@ -101,10 +101,10 @@ double cost_of(const RunConfig& config) {
   return config.t_end / *config.dt * (stages + 1);
 }
 
-/// The run with its identity. Throws std::invalid_argument on an impossible step.
+/// The run with its identity. Throws std::invalid_argument for an impossible step.
 PlannedRun planned(const RunConfig& config, const std::shared_ptr<const Scenario>& scenario) {
   std::string text = fmt::format("{}\n{}\n", results_version, scenario->canonical);
-  RunConfig said = config;  // a key that this run leaves as it is, is none of its own; nor what was always so
+  RunConfig said = config;  // keys that this run does not change are not part of its identity
   std::erase_if(said.varied, [](const Override& o) { return o.value.empty(); });
   text += identity_of(said);
   if (config.max_steps) text += fmt::format("\nmax_steps {}", *config.max_steps);
@@ -213,7 +213,7 @@ class Planner {
   Plan plan_;
 };
 
-/// Adds another product of axes of the same experiment.
+/// Adds the runs of another product of axes of the same experiment to the plan.
 void add_plan(Plan& plan, Plan&& other) {
   for (Scenario& s : other.scenarios) {
     const auto same = [&](const Scenario& known) { return known.name == s.name; };
@@ -230,7 +230,7 @@ void add_plan(Plan& plan, Plan&& other) {
   std::move(other.runs.begin(), other.runs.end(), std::back_inserter(plan.runs));
 }
 
-/// A run has an empty value for a key that its own product does not vary.
+/// Adds an empty value for each key that the product of the run does not vary, and sorts the values by `keys`.
 void fill_varied(RunConfig& config, const std::vector<std::string>& keys) {
   std::vector<Override> varied;
   for (const std::string& key : keys) {
@@ -241,7 +241,7 @@ void fill_varied(RunConfig& config, const std::vector<std::string>& keys) {
   config.varied = std::move(varied);
 }
 
-/// The same experiment with a further product of axes in the place of the first.
+/// The options of a further product of axes.
 Options further(const Experiment& experiment, const Options& options, const FurtherAxes& more) {
   Options other = options;
   for (const auto& [axis, text] : more.defaults) {
@@ -274,7 +274,7 @@ Plan make_plan(const Experiment& experiment, const Options& options) {
     plan.further_axes.push_back(other.axes);
     add_plan(plan, Planner(experiment, other, options.reference || more.reference).finish());
   }
-  std::set<std::string> motions;  // the same run by another way: counted once
+  std::set<std::string> motions;  // runs of the same motion that come from several products are kept once
   std::erase_if(plan.runs, [&](const PlannedRun& run) { return !motions.insert(run.motion).second; });
   for (PlannedRun& run : plan.runs) fill_varied(run.config, plan.varied_keys);
   if (experiment.one_run && plan.runs.size() != 1) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The plan of a study: the product of its axes, each run with its identity, before anything is run or written.
+// Plan of a study: all runs of the product of its axes, with their identities, made before anything is run or written.
 #pragma once
 
 #include <map>
@@ -13,30 +13,31 @@
 namespace polhode::study::inline plan {
 
 struct PlannedRun {
-  std::string id;
-  std::string motion;  ///< the same, whether errors are taken against a reference or not
+  std::string id;      ///< as RunRecord::id
+  std::string motion;  ///< hash of the same text without --reference: equal for runs of the same motion
   RunConfig config;
   std::shared_ptr<const Scenario> scenario;
-  std::string refusal;  ///< why it makes no sense; empty if it does
-  double cost = 0;      ///< a guess of its share of the work, in right-hand sides
+  std::string refusal;  ///< reason for which the run cannot be carried out; empty if it can
+  double cost = 0;      ///< estimated work, in evaluations of the right-hand side
 };
 
 struct Plan {
-  std::vector<Scenario> scenarios;       ///< each one of the study once, without overrides
-  std::vector<std::string> varied_keys;  ///< sorted
-  NamedOptions named{};
-  std::vector<std::string> invariants;  ///< further declared invariants of all scenarios, sorted
-  std::vector<PlannedRun> runs;         ///< sorted by configuration, none twice
-  /// Of the further products, where the experiment has some: their axes as the command line would write them.
+  std::vector<Scenario> scenarios;       ///< each scenario of the study once, without overrides
+  std::vector<std::string> varied_keys;  ///< scenario keys that are axes, sorted
+  NamedOptions named{};                  ///< options on demand that the study gives
+  std::vector<std::string> invariants;   ///< further declared invariants of all scenarios, sorted
+  std::vector<PlannedRun> runs;          ///< sorted by configuration, without duplicates
+  /// Axes of each further product of the experiment (Experiment::more), in the syntax of the command line.
   std::vector<std::map<std::string, std::string>> further_axes;
-  std::string identity;  ///< hash over the ids of all runs
+  std::string identity;  ///< hash of the ids of all runs
 };
 
-/// Throws InputError on anything that is wrong with the input, and when every run of the plan makes no sense.
+/// Makes the plan. Throws InputError for invalid input, and if no run of the plan can be carried out.
 Plan make_plan(const Experiment& experiment, const Options& options);
 
-/// Adds those of the runs that the plan does not have yet; each belongs to a scenario of the plan with the varied
-/// values of one of its runs. Returns how many there were. The plan's identity stays what it was.
+/// Adds runs that the plan does not contain yet; leaves the plan's identity unchanged. Each must have the scenario and
+/// the varied values of a run of the plan. Returns the number of runs added. Throws std::logic_error for a run of
+/// another scenario.
 std::size_t widen(Plan& plan, const std::vector<RunConfig>& configs);
 
 }  // namespace polhode::study::plan

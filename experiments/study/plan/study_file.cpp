@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a study file: the axes of a study as TOML instead of options.
+// Reader of study files: the axes of a study as TOML instead of options.
 #include <algorithm>
 
 #include "experiments/study/plan/options.hpp"
@@ -18,7 +18,7 @@ std::string place(const std::string& path, const TomlPlace& at) {
   return path + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) + ": ";
 }
 
-/// A value as the command line would write it.
+/// The value in the syntax of the command line.
 std::string as_text(const TomlValue& value, const std::string& where) {
   if (value.type == Type::text) return value.text;
   if (value.type == Type::number) return exact(value.number);
@@ -95,4 +95,4 @@ void read_study_file(const std::string& path, Options& options) {
   }
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::plan

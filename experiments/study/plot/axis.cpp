@@ -162,4 +162,4 @@ void share_y_axis(std::vector<Panel>& panels, const Axis& axis) {
   }
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::plot

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The range and the ticks of an axis, from the values that stand on it.
+// Range and ticks of an axis, from the values on it.
 #pragma once
 
 #include <vector>
@@ -8,31 +8,31 @@
 
 namespace polhode::study::inline plot {
 
-/// From 0 to `high`.
+/// A linear axis from 0 to `high`.
 Axis time_axis(double high);
 
-/// Of steps or tolerances, all positive.
+/// A logarithmic axis for steps or tolerances, all positive.
 Axis step_axis(std::string label, const std::vector<double>& values);
 
-/// Of any numbers from `low` to `high`, with ticks at round ones.
+/// A linear axis from `low` to `high`, with ticks at round numbers.
 Axis linear_axis(std::string label, double low, double high);
 
 struct Needs {
-  bool floor = false;  ///< room at the bottom, and a tick labelled 0, for values that are exactly zero
+  bool floor = false;  ///< room at the bottom, with a tick labelled 0, for values that are exactly zero
   bool edge = false;   ///< room at the top for crosses
 };
-/// Of magnitudes; `values` positive and finite, perhaps none.
+/// A logarithmic axis for magnitudes; `values` are positive and finite, and may be empty.
 Axis log_axis(std::string label, const std::vector<double>& values, Needs needs);
-/// Where the zeros of a log_axis stand, and the crosses of any axis (`up`: at its top, otherwise at its bottom).
+/// Position of the zeros on a log_axis, and of the crosses on any axis (`up`: at the top, otherwise at the bottom).
 double floor_of(const Axis& axis);
 double edge_of(const Axis& axis, bool up);
 
-/// Of signed values; `smallest_curve` is the smallest of the curves' largest magnitudes (0: all are zero). The
-/// threshold is a hundredth of it, as a power of ten, so that the quietest curve can be told from zero; never below
-/// 1e-16.
+/// A symlog axis for signed values. `smallest_curve`: the smallest of the curves' largest magnitudes (0: all are zero).
+/// The threshold is a hundredth of it, rounded to a power of ten, and at least 1e-16, so that the smallest curve is
+/// visible.
 Axis symlog_axis(std::string label, double lowest, double highest, double smallest_curve);
 
-/// Gives panels one y axis and puts their points on it.
+/// Gives panels one common y axis and places their points on it.
 void share_y_axis(std::vector<Panel>& panels, const Axis& axis);
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::plot

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// figures/ of a study: for each figure a gnuplot script and its data, what gnuplot draws from them, and PGFPlots.
 #include "experiments/study/plot/draw_figures.hpp"
 
 #include <fmt/format.h>

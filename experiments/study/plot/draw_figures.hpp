@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Figures as files: for each a gnuplot script and its data, what gnuplot draws from them, and PGFPlots.
+// Writes figures as files: a gnuplot script and its data for each, the SVG and PDF that gnuplot draws, and PGFPlots.
 #pragma once
 
 #include <filesystem>
@@ -13,4 +13,4 @@ namespace polhode::study::inline plot {
 /// user if gnuplot is not installed. Throws std::runtime_error if gnuplot fails.
 std::string draw_figures(const FigureSet& set, const std::filesystem::path& study_folder, const std::string& where);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::plot

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A figure before it is drawn: panels of curves with their axes already laid out. gnuplot and PGFPlots draw the same
-// one.
+// A figure as data: panels of curves with their axes already laid out. gnuplot and PGFPlots draw the same figure.
 #pragma once
 
 #include <cstddef>
@@ -24,43 +23,43 @@ struct Axis {
   std::string label{};  ///< with its unit
   Scale scale = Scale::linear;
   double low = 0, high = 1;
-  double threshold = 1e-16;  ///< of symlog
+  double threshold = 1e-16;  ///< used by symlog only
   std::vector<Tick> ticks{};
   bool labelled = true;  ///< false: the panel to the left shows the same axis
-  bool named = false;    ///< the ticks' labels are names, not numbers
+  bool named = false;    ///< the labels of the ticks are names, not numbers
 
-  /// Where a value stands on the axis, in decades where it is logarithmic.
+  /// Position of a value on the axis; in decades if it is logarithmic.
   double place(double value) const;
   double value_at(double place) const;
 };
 
-/// How a point is drawn.
+/// Position of a point on its panel.
 enum class Mark {
-  value,  ///< where it is
-  zero,   ///< exactly zero on a logarithmic axis: at the floor
+  value,  ///< at its value
+  zero,   ///< exactly zero on a logarithmic axis: at the bottom
   edge    ///< diverged, failed or off the scale: a cross at the edge of the panel
 };
 constexpr const char* name(Mark m) { return m == Mark::value ? "value" : m == Mark::zero ? "zero" : "edge"; }
 
-/// A relative drift above this says no more than that the motion is lost: it stands at the edge.
+/// Relative drifts above this are drawn at the edge: the motion is lost.
 constexpr double off_scale_above = 1000;
 
 struct Point {
   double x = 0;
-  double value = 0;  ///< as measured; not finite where there is none
-  double drawn = 0;  ///< where it stands on the y axis
+  double value = 0;  ///< as measured; not finite if there is no value
+  double drawn = 0;  ///< position on the y axis
   Mark mark = Mark::value;
 };
 
 struct PlottedCurve {
   std::string label{};
-  std::size_t method = 0;   ///< index of the study's methods: decides colour and marker
-  std::size_t variant = 0;  ///< index in the figure's variants: decides the dashes
+  std::size_t method = 0;   ///< index of the method in the study; determines colour and marker
+  std::size_t variant = 0;  ///< index of the variant in the figure; determines the dashes
   std::vector<Point> points{};
   bool muted = false;  ///< one of many "other methods": a thin grey line without a name
 };
 
-/// A place on the lower envelope of the curves, with the name of the method that begins there; empty: as before.
+/// A point of the lower envelope of the curves, with the name of the method that begins there; empty: the same method.
 struct EnvelopeMark {
   double x = 0, y = 0;
   std::string label{};
@@ -69,8 +68,8 @@ struct EnvelopeMark {
 /// A straight line in log–log that shows a slope.
 struct Guide {
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  std::string label;   ///< "h^{2}"; on the right of the second end
-  double label_y = 0;  ///< at the second end, or a little above where another label stands there
+  std::string label;   ///< "h^{2}"; right of the second end
+  double label_y = 0;  ///< at the second end, or slightly above it to avoid another label
 };
 
 /// A rectangle of a map, in the units of the axes.
@@ -79,7 +78,7 @@ struct Cell {
   std::size_t shade = 0;  ///< index in the figure's shades
 };
 
-/// What the cells of one colour have in common.
+/// Colour and meaning of a kind of cells.
 struct Shade {
   std::string label;
   std::string colour;  ///< "0072B2"
@@ -97,20 +96,20 @@ struct Panel {
 };
 
 struct Figure {
-  std::string name;  ///< of its files
+  std::string name;  ///< base name of its files
   std::string title;
-  std::string caption{};  ///< what it shows, what was left out, what the marks mean
+  std::string caption{};  ///< contents of the figure, what was left out, meaning of the marks
   std::size_t rows = 1, columns = 1;
   std::vector<Panel> panels{};
-  std::vector<std::string> methods{};  ///< of the whole study
+  std::vector<std::string> methods{};  ///< all methods of the study
   std::vector<std::size_t> used_methods{};
-  std::vector<std::string> variants{};  ///< told apart by dashes; one entry where there is nothing to tell apart
-  std::vector<Shade> shades{};          ///< of the cells
+  std::vector<std::string> variants{};  ///< distinguished by dashes; one entry if there is only one
+  std::vector<Shade> shades{};          ///< kinds of the cells
   double panel_height = 0;              ///< pixels; 0: by the number of panels in a row
   bool has_zero_marks = false, has_edge_marks = false, has_envelope = false, has_muted = false;
 };
 
-/// All figures of a study, and why the others were not made.
+/// All figures of a study, and the reasons why others were not made.
 struct FigureSet {
   struct Absent {
     std::string name, title, reason;
@@ -119,4 +118,4 @@ struct FigureSet {
   std::vector<Absent> absent;
 };
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::plot

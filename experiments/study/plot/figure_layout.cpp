@@ -47,4 +47,4 @@ std::string marks_caption(const Figure& figure) {
   return text;
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::plot

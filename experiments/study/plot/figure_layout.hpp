@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Puts panels into the rows of a figure, and says what the marks in them mean.
+// Arranges panels in rows of a figure, and describes their marks.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@
 
 namespace polhode::study::inline plot {
 
-/// Puts panels that share a y axis into rows below what the figure has; only the leftmost of a row labels that axis.
+/// Appends panels that share a y axis as rows; only the leftmost panel of a row labels that axis.
 void add_rows(Figure& figure, std::vector<Panel> panels, std::size_t columns);
 
-/// Fills in what the legend needs: the methods that are used and the kinds of marks that there are.
+/// Sets the contents of the legend: the methods that are used and the kinds of marks.
 void note_marks(Figure& figure);
 
-/// The marks in words, for the caption; after note_marks().
+/// The marks in words, for the caption; call after note_marks().
 std::string marks_caption(const Figure& figure);
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::plot

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How all figures look: colours, markers, dashes, sizes. Change them here; figures/style.gnuplot of a study is written
-// from this page and may be changed there for that study alone.
+// The style of all figures: colours, markers, dashes, sizes. To change it for one study, edit figures/style.gnuplot in
+// its folder, which is written from these values.
 #pragma once
 
 #include <array>
@@ -9,7 +9,8 @@
 
 namespace polhode::study::inline plot::style {
 
-/// Told apart by colour-blind readers (Okabe & Ito 2008, brown in place of their yellow, which is too pale for lines).
+/// Colours that colour-blind readers can tell apart (Okabe & Ito 2008, brown in place of their yellow, which is too
+/// pale for lines).
 inline constexpr std::array<std::string_view, 8> colours = {"0072B2", "D55E00", "009E73", "CC79A7",
                                                             "E69F00", "56B4E9", "000000", "8C510A"};
 
@@ -30,14 +31,14 @@ struct Dash {
 inline constexpr std::array<Dash, 4> dashes = {
     {{"1", "solid"}, {"(10,5)", "dashed"}, {"(2,3)", "densely dotted"}, {"(10,4,2,4)", "dashdotted"}}};
 
-// Colour and marker belong to a method; they repeat together only after 8 × 5 methods.
+// A method determines colour and marker together; the combinations repeat after 8 × 5 methods.
 constexpr std::string_view colour(std::size_t method) { return colours[method % colours.size()]; }
 constexpr const Marker& marker(std::size_t method) { return markers[method % markers.size()]; }
 constexpr const Dash& dash(std::size_t variant) { return dashes[variant % dashes.size()]; }
 constexpr int point_type(std::size_t method, std::size_t variant) {
   return variant % 2 == 0 ? marker(method).filled : marker(method).open;
 }
-// The later a method is drawn the slimmer, so that one that covers another leaves its rim in sight.
+// Line width by drawing order: later methods are thinner, so that a covered curve remains visible at the sides.
 constexpr double rank(std::size_t method) { return static_cast<double>(method % colours.size()); }
 constexpr double line_width(std::size_t method) { return 2.3 - 0.16 * rank(method); }
 constexpr double point_size(std::size_t method) { return 0.95 - 0.05 * rank(method); }
@@ -46,7 +47,7 @@ constexpr std::string_view pgf_mark(std::size_t method, std::size_t variant) {
   return variant % 2 == 0 ? marker(method).pgf_filled : marker(method).pgf_open;
 }
 
-// Sizes in pixels of the SVG; 96 of them make an inch of the PDF.
+// Sizes in pixels of the SVG; 96 pixels are an inch of the PDF.
 inline constexpr double figure_width = 800;
 inline constexpr double font_size = 12;
 inline constexpr double left_margin = 86, inner_margin = 24, right_margin = 18;
@@ -55,4 +56,4 @@ inline constexpr double legend_line = 20, legend_gap = 8;
 inline constexpr std::array<double, 3> panel_height = {330, 270, 230};  // with 1, 2, 3 panels in a row
 inline constexpr double character_width = 7.4;  // of the widest usual sans-serif font at this size
 
-}  // namespace polhode::study::report::style
+}  // namespace polhode::study::inline plot::style

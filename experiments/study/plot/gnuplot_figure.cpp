@@ -22,7 +22,7 @@ void line(std::string& out, fmt::format_string<T...> format, T&&... values) {
 
 int style_number(std::size_t method, std::size_t variant) { return static_cast<int>(100 * variant + method + 1); }
 
-/// Where everything stands, in pixels from the top left corner.
+/// Positions of all parts of the figure, in pixels from the top left corner.
 class Layout {
  public:
   explicit Layout(const Figure& figure) : figure_(figure) {
@@ -356,4 +356,4 @@ std::string gnuplot_data(const Figure& figure) {
   return out;
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::plot

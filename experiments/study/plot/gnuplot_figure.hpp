@@ -16,7 +16,7 @@ std::string gnuplot_style(const FigureSet& set);
 
 std::string gnuplot_script(const Figure& figure);
 
-/// Columns separated by blanks, one block for each curve, what they are in comments.
+/// The data file: columns separated by blanks, one block for each curve, with comments that name them.
 std::string gnuplot_data(const Figure& figure);
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::plot

@@ -232,4 +232,4 @@ std::string pgfplots(const Figure& figure) {
   return out;
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::plot

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A figure as LaTeX: a tikzpicture of PGFPlots that needs no other file.
+// A figure in LaTeX: a tikzpicture of PGFPlots that needs no other file.
 #pragma once
 
 #include <string>
@@ -10,4 +10,4 @@ namespace polhode::study::inline plot {
 
 std::string pgfplots(const Figure& figure);
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::plot

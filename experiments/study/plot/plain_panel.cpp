@@ -46,4 +46,4 @@ Figure plain_figure(std::string name, std::string title, std::string caption, st
   return figure;
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::plot

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A panel of curves of one number against another, for figures that are not about the steps of methods alone.
+// A panel of curves y(x), for figures that do not show the steps of methods only.
 #pragma once
 
 #include <string>
@@ -12,17 +12,17 @@ namespace polhode::study::inline plot {
 
 struct PlainCurve {
   std::string label;
-  std::size_t method = 0, variant = 0;              ///< colour and dashes: indices of the figure's methods and variants
-  std::vector<std::pair<double, double>> points{};  ///< x positive, sorted; y 0 or more
+  std::size_t method = 0, variant = 0;  ///< colour and dashes: indices into the figure's methods and variants
+  std::vector<std::pair<double, double>> points{};  ///< x positive, sorted; y not negative
 };
 
-/// An axis as its column in the data file and its label.
+/// Name in the data file and label of an axis.
 struct PlainAxis {
   std::string column, label;
   Scale scale = Scale::logarithmic;  ///< of y; the x axis is logarithmic
 };
 
-/// Values of exactly zero stand at a floor where y is logarithmic.
+/// A panel; values of exactly zero are drawn at the bottom if y is logarithmic.
 Panel plain_panel(std::string title, const PlainAxis& x, const PlainAxis& y, const std::vector<PlainCurve>& curves);
 
 /// Panels below each other, each with its own y axis. All figures of a folder share their colours: give them the same
@@ -30,4 +30,4 @@ Panel plain_panel(std::string title, const PlainAxis& x, const PlainAxis& y, con
 Figure plain_figure(std::string name, std::string title, std::string caption, std::vector<std::string> methods,
                     std::vector<std::string> variants, std::vector<Panel> panels);
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::plot

@@ -126,4 +126,4 @@ std::string latex(const Table& table) {
       alignment, head, body);
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::plot

@@ -18,19 +18,20 @@ struct Column {
 struct Table {
   std::string caption;
   std::vector<Column> columns;
-  std::vector<std::vector<std::string>> rows;  ///< numbers as number() and exact() print them; empty: not defined
+  std::vector<std::vector<std::string>>
+      rows;  ///< numbers as printed by number() and exact_number(); empty: not defined
 };
 
-/// The table without the columns in which every cell is empty.
+/// The table without columns whose cells are all empty.
 Table without_empty_columns(Table table);
 
 enum class Caption {
   shown,
-  spoken  ///< for screen readers only, where the page shows it already
+  spoken  ///< for screen readers only, if the page shows it elsewhere
 };
 std::string html(const Table& table, Caption caption = Caption::shown);
 std::string markdown(const Table& table);
 /// A tabular in booktabs style; a longtable above 40 rows.
 std::string latex(const Table& table);
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::plot

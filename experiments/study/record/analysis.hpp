@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an experiment makes of its finished runs beyond what every study shows. It is the first thing in the report, it
-// ends the study on the terminal, and its tables, figures and files stand beside those of the study.
+// Analysis: the results that an experiment derives from its finished runs, beyond those of every study. It comes first
+// in the report and last on the terminal; its tables, figures and files are written beside those of the study.
 //
-// Everything but the timed part must be the same bytes for the same runs.
+// Must be deterministic, except for the timed part: the same runs must yield the same bytes.
 #pragma once
 
 #include <filesystem>
@@ -22,11 +22,11 @@ struct Analysis {
     Table table;
   };
   struct File {
-    std::filesystem::path name;  ///< in the folder of results: "orders.csv"
+    std::filesystem::path name;  ///< path relative to the results folder: "orders.csv"
     std::string text;
   };
 
-  /// Its runs are means to another end: the report shows it instead of what every study says and draws of its runs.
+  /// True: the report shows the analysis in place of the usual findings and figures of the runs.
   bool alone = false;
   std::string heading{};                 ///< heading of its section of the report: "Observed order"
   std::vector<std::string> sentences{};  ///< findings
@@ -35,8 +35,9 @@ struct Analysis {
   std::vector<Figure> figures{};
   std::vector<File> files{};
 
-  /// What was made from wall times, which differ from call to call. It is kept apart in timings/, and the report shows
-  /// those figures by reference, so that its own bytes do not depend on them; titles and captions must not either.
+  /// Results derived from wall times, which differ from call to call. They are stored apart in timings/. The report
+  /// includes these figures by reference, so that its bytes do not depend on wall times; titles and captions of the
+  /// figures must not depend on them either.
   struct Timed {
     std::vector<std::string> sentences{};  ///< findings, printed on the terminal only
     std::vector<Figure> figures{};
@@ -45,4 +46,4 @@ struct Analysis {
   Timed timed{};
 };
 
-}  // namespace polhode::study
+}  // namespace polhode::study::record

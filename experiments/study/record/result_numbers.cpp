@@ -16,7 +16,7 @@
 namespace polhode::study::inline record {
 namespace {
 
-/// False where x is not finite; −0 becomes 0.
+/// Replaces −0 by 0. Returns false if x is not finite.
 bool settle(double& x) {
   x += 0.0;
   return std::isfinite(x);
@@ -64,4 +64,4 @@ void keep_finite(RunResult& result) {
   keep_points(result.attitude_errors, [](AttitudeError& e) { return settle_all({&e.t, &e.error_rad}); });
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::record

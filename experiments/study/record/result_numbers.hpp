@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The numbers of a result by their places in it: the store keeps them in this order, and all of them are finite.
+// Clean-up of the numbers of a result: all finite, and no negative zeros.
 #pragma once
 
 #include "experiments/study/record/run_record.hpp"
@@ -9,4 +9,4 @@ namespace polhode::study::inline record {
 /// Removes each number that is not finite, and replaces −0 by 0. Metrics that may be infinite are left unchanged.
 void keep_finite(RunResult& result);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::record

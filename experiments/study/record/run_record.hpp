@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One run of a study: what was asked for and what came out. Tables, figures and the report are made from these alone.
+// One run of a study: its configuration and its results. Tables, figures and the report are made from these alone.
 #pragma once
 
 #include <cstdint>
@@ -22,14 +22,14 @@ constexpr std::string_view name(Precision p) {
   return p == Precision::single ? "float" : p == Precision::dual ? "double" : "long_double";
 }
 
-/// The distance from 1 to the next number of that arithmetic.
+/// The distance from 1 to the next larger number of the arithmetic.
 constexpr double epsilon(Precision p) {
   return p == Precision::single ? std::numeric_limits<float>::epsilon()
          : p == Precision::dual ? std::numeric_limits<double>::epsilon()
                                 : static_cast<double>(std::numeric_limits<long double>::epsilon());
 }
 
-/// How the increments of the state are added up.
+/// How increments are added to the state.
 enum class Summation { plain, compensated };
 constexpr std::string_view name(Summation s) { return s == Summation::plain ? "plain" : "compensated"; }
 
@@ -48,8 +48,8 @@ struct ContactConfig {
 /// The configuration of one run. run_options.hpp names, reads and prints each member.
 struct RunConfig {
   std::string scenario;  ///< name
-  /// The varied keys of the scenario with this run's values, in the axes' order; an empty value leaves the key as it
-  /// is.
+  /// The varied keys of the scenario with this run's values, in the order of the axes. An empty value leaves the key
+  /// unchanged.
   std::vector<Override> varied;
   std::string integrator;
   Formulation formulation;
@@ -67,13 +67,13 @@ struct RunConfig {
   std::map<std::string, OptionValue> further{};  ///< values of the options without a member here, by option name
 };
 
-/// How the run went over time, thinned: each point stands for a stretch of the run and holds the largest value in it.
-/// At most 256 points, however long the run.
+/// A point of the thinned history of a run: the largest values within an interval of the run. A history has at most 256
+/// points, however long the run.
 struct SeriesPoint {
-  double t = 0;                          ///< s, where the energy drift of this stretch was largest
-  double energy_drift_rel = 0;           ///< signed, the one of largest magnitude
-  double linear_momentum_drift_rel = 0;  ///< 0 where that momentum is not conserved
-  double angular_momentum_drift_rel = 0;
+  double t = 0;                           ///< time of the largest energy drift in the interval, s
+  double energy_drift_rel = 0;            ///< signed drift of largest magnitude
+  double linear_momentum_drift_rel = 0;   ///< 0 if the forces do not conserve linear momentum
+  double angular_momentum_drift_rel = 0;  ///< 0 if the forces do not conserve angular momentum
   double orientation_defect = 0;
 };
 
@@ -85,51 +85,56 @@ struct AttitudeError {
 
 inline bool is_compensated(const RunConfig& config) { return config.summation == Summation::compensated; }
 
-/// What contact did in a run (contact_meter.hpp). Empty throughout for a run without contact.
+/// Contact measures of a run (contact_meter.hpp). All absent for a run without contact.
 struct ContactMeasures {
-  std::optional<double> first_impact;                                    ///< s, as events.csv lists them
-  std::optional<double> impact_loss, friction_loss, penetration_energy;  ///< J, of the ledger, at the end
-  /// J, of kinetic + potential − work of non-conservative forces: its largest rise above an earlier value, and its
-  /// largest distance from that at the start. Exactly 0 of an elastic motion without friction.
+  std::optional<double> first_impact;  ///< time of the first impact that events.csv lists, s
+  /// Energy lost to impacts, lost to friction, and injected by undoing penetration, each until the end of the run, J.
+  std::optional<double> impact_loss, friction_loss, penetration_energy;
+  /// With E = kinetic + potential energy − work of non-conservative forces: largest rise of E above an earlier value,
+  /// and largest |E − E(0)|, J. The exact values are 0 for an elastic motion without friction.
   std::optional<double> energy_rise_max, energy_change_max;
-  std::optional<double> penetration_max, penetration_end;  ///< m, of any two bodies
-  std::optional<double> displacement_max;                  ///< m, of any mass centre from where it was after 2 s
-  std::optional<double> left_place;  ///< s, when one was first a tenth of its body's radius away from where it started
+  std::optional<double> penetration_max, penetration_end;  ///< largest depth of any two bodies, and that at the end, m
+  std::optional<double> displacement_max;                  ///< largest displacement of a mass centre since t = 2 s, m
+  /// First time at which a mass centre was more than a tenth of its body's radius away from its initial position, s.
+  std::optional<double> left_place;
 };
 
 struct RunResult {
   std::string status;    ///< "ok", "diverged", "failed", "refused"
-  std::string message;   ///< why, when not ok
-  double t_reached = 0;  ///< s
+  std::string message;   ///< reason, if the status is not "ok"
+  double t_reached = 0;  ///< time of the last state, s
   std::int64_t steps = 0;
   std::int64_t evaluations = 0;
-  std::optional<double> energy_initial;          ///< J
-  std::optional<double> energy_scale;            ///< J, of the motion (motion_scales.hpp); absent where nothing moves
-  std::optional<double> energy_drift_max;        ///< J, max |E − E0|, E from the ledger
-  std::optional<double> energy_round_off;        ///< J, up to which a drift can be rounding alone
+  std::optional<double> energy_initial;          ///< total energy E0 at the start, J
+  std::optional<double> energy_scale;            ///< scale of the drift (motion_scales.hpp), J; absent if nothing moves
+  std::optional<double> energy_drift_max;        ///< max |E − E0|, E from the ledger (drift_meter.hpp), J
+  std::optional<double> energy_round_off;        ///< largest drift that rounding alone can explain, J
   std::optional<double> energy_drift_max_rel;    ///< energy_drift_max over energy_scale
-  std::optional<double> energy_drift_final_rel;  ///< signed
-  std::optional<double> energy_drift_rate;       ///< W, least-squares slope of the drift
-  std::optional<double> energy_drift_rate_ci;    ///< W, half its 95 % confidence interval
-  std::string drift_class;                       ///< as drift_class.hpp has them; empty where the run is not ok
-  std::optional<double>
-      drift_exponent;  ///< p of |drift| ~ t^p, and its 95 % confidence interval, of a class that has one
+  std::optional<double> energy_drift_final_rel;  ///< final drift over energy_scale, signed
+  std::optional<double> energy_drift_rate;       ///< least-squares slope of the drift, W
+  std::optional<double> energy_drift_rate_ci;    ///< half the 95 % confidence interval of that slope, W
+  std::string drift_class;                       ///< a class of drift_class.hpp; empty if the status is not "ok"
+  /// Exponent p of |drift| ~ t^p and its 95 % confidence interval; absent if the class has no exponent.
+  std::optional<double> drift_exponent;
   std::optional<double> drift_exponent_low, drift_exponent_high;
-  std::optional<double> drift_decided_after;  ///< s, of "undecided": the duration that would decide, by estimate
-  std::optional<double> linear_momentum_drift_max_rel;  ///< absent: the forces do not conserve it
-  std::optional<double> angular_momentum_drift_max_rel;
-  std::map<std::string, double> invariant_drift_max_rel;  ///< by name, of the scenario's declared invariants
-  std::optional<double> orientation_defect_max;
-  std::optional<double>
-      position_error_max;  ///< m, absent without an exact solution or a proven reference, and of a run that broke off
-  std::optional<double> attitude_error_max;  ///< rad
-  std::optional<double> angular_velocity_error_max_rel;
-  /// Of the momentum in the body of a single free one (polhode_error.hpp): along its polhode and off it.
+  /// Estimated duration of a run that would decide the class, s; only for the class "undecided".
+  std::optional<double> drift_decided_after;
+  std::optional<double> linear_momentum_drift_max_rel;    ///< absent: the forces do not conserve linear momentum
+  std::optional<double> angular_momentum_drift_max_rel;   ///< absent: the forces do not conserve angular momentum
+  std::map<std::string, double> invariant_drift_max_rel;  ///< by name of the invariant that the scenario declares
+  std::optional<double> orientation_defect_max;           ///< | |q| − 1 | or the Frobenius norm of RᵀR − 1
+  /// Errors against the exact motion. Absent without an exact solution or a proven reference, and for a run that
+  /// broke off.
+  std::optional<double> position_error_max;              ///< m
+  std::optional<double> attitude_error_max;              ///< rad
+  std::optional<double> angular_velocity_error_max_rel;  ///< over the largest |ω| at the start
+  /// Errors of the body-frame angular momentum of a single free body, along its polhode and off it
+  /// (polhode_error.hpp).
   std::optional<double> polhode_phase_error_max;      ///< s
-  std::optional<double> polhode_phase_error_max_rad;  ///< |ω(0)| times that
+  std::optional<double> polhode_phase_error_max_rad;  ///< |ω(0)| polhode_phase_error_max, rad
   std::optional<double> polhode_off_error_max_rel;
-  /// How uncertain the reference is that stood for an unknown exact solution; absent where none was used. An error
-  /// that is not a hundred times larger is left out.
+  /// Uncertainties of the reference that replaced an unknown exact solution; absent if none was used. An error less
+  /// than a hundred times as large is left out.
   std::optional<double> position_reference;  ///< m
   std::optional<double> attitude_reference;  ///< rad
   std::optional<double> angular_velocity_reference_rel;
@@ -138,14 +143,14 @@ struct RunResult {
   std::map<std::string, double> further;
   double seconds = 0;  ///< wall time of the simulation including measurements, s; written to timings.csv only
   std::vector<SeriesPoint> series;
-  std::vector<AttitudeError> attitude_errors;  ///< empty without an exact solution, and where a reference stands for it
+  std::vector<AttitudeError> attitude_errors;  ///< empty without an exact solution of the attitude
 };
 
 struct RunRecord {
   std::string id;  ///< 16 hexadecimal digits: hash of the resolved scenario, the options and the results version
   RunConfig config;
   RunResult result;
-  std::shared_ptr<const Scenario> scenario{};  ///< with the varied keys set; of the runs of a StudyView
+  std::shared_ptr<const Scenario> scenario{};  ///< with the varied keys set; present in the runs of a StudyView
 };
 
-}  // namespace polhode::study
+}  // namespace polhode::study::record

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the writers of tables, figures and reports see of a finished study.
+// A finished study: the input of the writers of tables, figures and reports.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace polhode::study::inline record {
 struct StudyView {
   std::string experiment;                ///< "energy_drift"
   std::string question;                  ///< the experiment's question in one sentence
-  std::string command;                   ///< the command line that makes this study again
+  std::string command;                   ///< the command line that reproduces this study
   std::vector<Scenario> scenarios;       ///< each scenario of the study once, without overrides
   std::vector<std::string> varied_keys;  ///< scenario keys that are axes
   NamedOptions named{};                  ///< options on demand that the study gives

@@ -241,4 +241,4 @@ std::vector<RunResult> carry_out_together(std::span<const LanedRun> runs, const 
   }
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::run

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Carries out runs: puts system, method and meter together and says what came out.
+// Carries out runs: combines system, method and meters, and returns the results.
 #pragma once
 
 #include <atomic>
@@ -16,7 +16,8 @@
 
 namespace polhode::study::inline run {
 
-/// Why this run makes no sense, in one line; empty if it does. Throws std::invalid_argument on an impossible step.
+/// Reason, in one line, why a run makes no sense; empty if it does. Throws std::invalid_argument for an impossible
+/// step.
 std::string refusal(const RunConfig& config, const Scenario& scenario);
 
 struct TrajectoryRequest {
@@ -26,24 +27,24 @@ struct TrajectoryRequest {
   std::function<std::unique_ptr<TrajectoryWriter>(const System<double>&)> open{};
 };
 
-/// What is thrown out of the run is its failure, and its message says why; throws TrajectoryError alone, when a
-/// trajectory cannot be written. All numbers of the result are finite. A run stopped from outside has the status
-/// "interrupted" and must not be kept. `references`: where the runs of a study share them; null: a run that asks for
-/// one makes its own.
+/// Carries out one run. Exceptions from the run become its failure, with their message; only TrajectoryError is
+/// rethrown. All numbers of the result are finite. A run stopped from outside has the status "interrupted" and must not
+/// be stored. `references`: the references shared by the runs of a study; null: the run computes its own if it needs
+/// one.
 RunResult carry_out(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory,
                     const std::atomic<bool>* stop, References* references = nullptr);
 
-/// Runs of the same non-empty key differ in initial values and parameters alone and can go side by side in the lanes of
-/// an ensemble. Empty: the run goes alone.
+/// Runs with the same non-empty key differ only in initial values and parameters and can share the lanes of an
+/// ensemble. Empty: the run is carried out alone.
 std::string ensemble_key(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory);
 
 struct LanedRun {
   const RunConfig& config;
   const Scenario& scenario;
 };
-/// At most lane_count runs of one key, together, with the digits that carry_out() gives to each; the time is shared
-/// out. Where that throws, each goes alone, so that only those fail which do so by themselves.
+/// Carries out at most lane_count runs of one key together, with the digits that carry_out() gives to each; the time is
+/// divided among them. If that throws, each run is carried out alone, so that only runs fail that fail by themselves.
 std::vector<RunResult> carry_out_together(std::span<const LanedRun> runs, const std::atomic<bool>* stop,
                                           References* references = nullptr);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::run

@@ -234,7 +234,7 @@ BodyStart read_start(const TomlCursor& table, const Body& body) {
   return start;
 }
 
-/// Of a body that touches nothing: the shape is only seen, so that sizes that are fit for moments alone pass.
+/// The shape of a body that touches nothing, for pictures. Null where the sizes are fit for moments alone.
 ShapePointer seen_shape(const TomlCursor& shape) {
   const ShapeEntry* entry = find_shape(shape.at("kind", "the name of a shape").text("the name of a shape"));
   if (!entry) return nullptr;
@@ -283,4 +283,4 @@ ReadBody read_body(const TomlCursor& table, std::size_t index, bool contact) {
   return read;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario

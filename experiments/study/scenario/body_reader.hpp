@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads one [[body]] of a scenario: its matter (mass, inertia, mass centre) and how it starts.
+// Reads one [[body]] of a scenario: mass, inertia, mass centre, shape and initial state.
 #pragma once
 
 #include "collision/contact/collider.hpp"
@@ -11,17 +11,17 @@ namespace polhode::study::inline scenario {
 struct ReadBody {
   Body body;
   BodyStart start;
-  bool has_mass = false;  ///< false of a static body that is given none
-  ShapePointer shape;     ///< null where the scenario names none, or one that has moments alone
-  Collider collider;      ///< without a shape where the scenario has no contact
+  bool has_mass = false;  ///< false for a static body without a mass
+  ShapePointer shape;     ///< null if the scenario names no shape, or one that cannot collide
+  Collider collider;      ///< without a shape if the scenario has no contact
   std::string canonical_collider{};
 };
 
-/// What a body says of a key, or the default.
+/// The value of a body's key, or its default.
 TomlCursor body_key(const TomlCursor& body, std::string_view name);
 
-/// `index` gives the name of a body that has none: body0, body1, … With `contact` a shape is one that touches. Throws a
-/// Fault.
+/// Reads a body. `index` names a body without a name: body0, body1, … With `contact` the shape must be one that
+/// collides. Throws a Fault.
 ReadBody read_body(const TomlCursor& table, std::size_t index, bool contact);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario

@@ -79,4 +79,4 @@ std::vector<ReadBody> repeated(const TomlCursor& table, std::size_t index, ReadB
   return copies;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario

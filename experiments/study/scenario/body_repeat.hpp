@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One [[body]] that stands for many: copies on a grid, each a little off it where the scenario says so.
+// Expands one [[body]] with the key `repeat` into copies on a grid, with optional jitter.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace polhode::study::inline scenario {
 
-/// The copies of a body with the key `repeat`, the first axis fastest, called NAME_0, NAME_1, …; of any other body
-/// itself. `index` (of the table in the scenario) seeds the jitter: the same scenario has the same copies. Throws a
-/// Fault.
+/// The copies of a body with the key `repeat`, first axis fastest, named NAME_0, NAME_1, …; for any other body the body
+/// itself. `index` (of the table in the scenario) seeds the jitter, so that the copies are the same in every run.
+/// Throws a Fault.
 std::vector<ReadBody> repeated(const TomlCursor& table, std::size_t index, ReadBody body);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scenarios of experiments/scenarios/, compiled in, so that a program finds them wherever it runs.
+// The scenarios of experiments/scenarios/, compiled in, so that a program finds them in any folder.
 #pragma once
 
 #include <span>
@@ -15,4 +15,4 @@ struct BuiltinScenario {
 // Sorted by name.
 std::span<const BuiltinScenario> builtin_scenarios();
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario

@@ -81,4 +81,4 @@ std::string canonical_text(const Problem& problem, const std::vector<std::string
   return out;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario

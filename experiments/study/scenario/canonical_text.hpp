@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The canonical text of a scenario: everything that decides how a run goes, one line for each body and force.
+// The canonical text of a scenario: everything that affects its results, one line for each body and force.
 #pragma once
 
 #include <map>
@@ -11,10 +11,11 @@
 
 namespace polhode::study::inline scenario {
 
-/// What Scenario::canonical holds. Bodies and forces in their order, the keys of a force and the invariants sorted.
+/// The text of Scenario::canonical. Bodies and forces are in their order; the keys of a force and the invariants are
+/// sorted.
 std::string canonical_text(const Problem& problem, const std::vector<std::string>& invariants);
 
-/// The line of a body that can touch, with the sizes of its shape.
+/// The line of a body that can collide, with the sizes of its shape.
 std::string canonical_collider(const Collider& collider, const std::map<std::string, ParameterValue>& sizes);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario

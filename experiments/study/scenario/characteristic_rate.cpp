@@ -58,4 +58,4 @@ std::optional<double> characteristic_rate(const Problem& problem) {
   return rate;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario

@@ -22,4 +22,4 @@ double motion_size(const Scenario& scenario, double t_end) {
   return farthest > 0 ? farthest : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario

@@ -32,4 +32,4 @@ std::string narrow_phase_for(const Scenario& scenario) {
   return narrow_phase_refusal("sat", scenario).empty() ? "sat" : "gjk";
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which narrow phase can answer for the shapes of a scenario.
+// Chooses a narrow phase that supports the shapes of a scenario.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace polhode::study::inline scenario {
 
-/// Why this narrow phase cannot answer for some two of the scenario's shapes, in its own words; empty if it can for
+/// Reason, in its own words, why a narrow phase does not support some two shapes of the scenario; empty if it supports
 /// all.
 std::string narrow_phase_refusal(std::string_view narrow_phase, const Scenario& scenario);
 
-/// `sat` where it can answer, else `gjk`, which can for any convex shapes.
+/// `sat` if it supports all shapes, else `gjk`, which supports all convex shapes.
 std::string narrow_phase_for(const Scenario& scenario);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario

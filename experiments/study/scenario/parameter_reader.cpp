@@ -65,4 +65,4 @@ std::map<std::string, ParameterValue> read_parameters(const TomlCursor& table, c
   return values;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario

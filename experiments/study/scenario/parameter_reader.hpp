@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the keys of a force or a shape as its schema (core/problem/force_kind.hpp) has them.
+// Reads the keys of a force or a shape according to its schema (core/problem/force_kind.hpp).
 #pragma once
 
 #include <map>
@@ -12,11 +12,11 @@
 
 namespace polhode::study::inline scenario {
 
-/// Every key of `parameters`, with defaults filled in. `also` are the keys of the table that are not parameters
-/// ("kind"); `introduction` is "A spring has"; `bodies` is how many bodies a force acts on. Throws a Fault on a key
-/// that is unknown, missing, of a wrong type or out of range, or that makes no sense with so many bodies.
+/// The values of all keys of `parameters`, with defaults filled in. `also`: keys of the table that are not parameters
+/// ("kind"); `introduction`: "A spring has"; `bodies`: number of bodies that a force acts on. Throws a Fault for a key
+/// that is unknown, missing, of a wrong type or out of range, or that requires another number of bodies.
 std::map<std::string, ParameterValue> read_parameters(const TomlCursor& table, const std::vector<Parameter>& parameters,
                                                       std::vector<std::string_view> also, std::string_view introduction,
                                                       std::size_t bodies = 0);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where scenarios come from, and how a fault in one is told.
+// Opening scenarios, and reporting errors in them.
 #include "experiments/study/scenario/scenario.hpp"
 
 #include <filesystem>
@@ -62,7 +62,7 @@ std::string text_of(const std::string& path) {
   return read_text(path);
 }
 
-/// Whether the override that set `path` speaks for a fault at `at`, which may lie above it.
+/// True if an error at `at`, which may be above `path`, belongs to the override that set `path`.
 bool speaks_for(const std::string& path, const std::string& at) { return path == at || path.starts_with(at + "."); }
 
 }  // namespace
@@ -139,4 +139,4 @@ const std::string& ScenarioSource::name() const { return parsed_->name; }
 
 Scenario ScenarioSource::resolve(std::span<const Override> overrides) const { return parsed_->resolve(overrides); }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario

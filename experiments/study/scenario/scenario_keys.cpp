@@ -80,4 +80,4 @@ TomlValue to_toml(const ParameterValue& value) {
   return TomlValue::of({v[0], v[1], v[2]});
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario

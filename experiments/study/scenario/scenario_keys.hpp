@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The keys of a scenario and their defaults, for the reader and for overrides alike. The keys of forces and shapes
-// stand in their own catalogues.
+// The keys of a scenario and their defaults, for the reader and for overrides. The keys of forces and shapes are in
+// their catalogues.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace polhode::study::inline scenario {
 
-/// Where a key decides how a run goes; elsewhere a run is the same whatever it says, so that it makes no axis.
+/// When a key affects results. A key that does not cannot be varied.
 enum class Decides { always, with_contact, never };
 
 struct ScenarioKey {
@@ -27,9 +27,9 @@ const std::vector<ScenarioKey>& body_keys();
 std::vector<std::string_view> names(const std::vector<ScenarioKey>& keys);
 const ScenarioKey* find_key(const std::vector<ScenarioKey>& keys, std::string_view name);
 
-/// The default of a key that has one.
+/// The default of a key; the key must have one.
 const TomlValue& otherwise(const std::vector<ScenarioKey>& keys, std::string_view name);
 
 TomlValue to_toml(const ParameterValue& value);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario

@@ -178,4 +178,4 @@ std::string apply_override(TomlValue& root, const Override& override, int index)
   return Walk(root, override, index).run();
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario

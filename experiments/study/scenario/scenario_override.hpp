@@ -9,9 +9,9 @@
 
 namespace polhode::study::inline scenario {
 
-/// Sets the key, which may be absent where it has a default; `index` is the override's among all, and goes into the
-/// place of what it sets. Whether the value will do is for the reader of the result to say. Returns the path with
-/// bodies by number. Throws a Fault that belongs to the override.
+/// Sets the key, which may be absent if it has a default. `index` (of the override) becomes the place of the new value.
+/// The reader of the result checks the value. Returns the path with bodies by number. Throws a Fault that belongs to
+/// the override.
 std::string apply_override(TomlValue& root, const Override& override, int index);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario

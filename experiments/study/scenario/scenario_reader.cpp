@@ -18,7 +18,7 @@ namespace polhode::study::inline scenario {
 
 namespace {
 
-/// Where each body of the scenario stands in Problem, by name.
+/// Index of a body in Problem, found by its name.
 struct Standing {
   std::size_t index;
   bool has_mass;
@@ -239,4 +239,4 @@ Scenario read_scenario(const TomlValue& tree, const std::string& name) {
   return scenario;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario

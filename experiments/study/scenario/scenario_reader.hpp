@@ -9,7 +9,7 @@
 
 namespace polhode::study::inline scenario {
 
-/// `name` is the scenario's, and its title where it has none. Throws a Fault.
+/// Reads the tree. `name` is the name of the scenario, and its title if it has none. Throws a Fault.
 Scenario read_scenario(const TomlValue& root, const std::string& name);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ends a run at its first impact, before it is answered: the course report's screenshots, "paused when a collision is
-// detected".
+// Ends a run at its first impact, before it is answered, as in the course report's screenshots "paused when a collision
+// is detected".
 #pragma once
 
 #include <memory>
@@ -10,11 +10,10 @@
 
 namespace polhode::study::inline setup {
 
-/// The steps are those of another model. The impact that ends the run is listed without an impulse.
+/// Wraps another contact model, which takes the steps. The impact that ends the run is listed without an impulse.
 class EndAtContact final : public ContactModel {
  public:
-  /// `located`: the model knows when within a step an impact is. Otherwise the run ends where the step of the impact
-  /// begins.
+  /// `located`: the model locates impacts within a step. Otherwise the run ends at the start of the step of the impact.
   EndAtContact(std::unique_ptr<ContactModel> model, bool located) : model_(std::move(model)), located_(located) {}
 
   void begin(Integrator<double>& method, const State<double>& state) override {
@@ -41,7 +40,7 @@ class EndAtContact final : public ContactModel {
     }
     state = before_;
     method.discard_history(state);
-    const double close = 1e-15 * t;  // nearer than that some methods cannot start
+    const double close = 1e-15 * t;  // some methods cannot take a shorter step
     while (result.ok() && t - state.t > close) result = method.step(state, t - state.t);
     if (!result.ok()) state = before_;
     return result;
@@ -62,4 +61,4 @@ class EndAtContact final : public ContactModel {
   State<double> before_;
 };
 
-}  // namespace polhode::study
+}  // namespace polhode::study::setup

@@ -50,4 +50,4 @@ ContactSetup::ContactSetup(System<double>& system, const Scenario& scenario, con
   if (scenario.end_at_contact) model = std::make_unique<EndAtContact>(std::move(model), !timing.fixed_steps_only);
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::setup

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Puts a run together from its configuration: schedule, method and contact, for studies and for the viewer's sessions
-// alike.
+// Builds the parts of a run from its configuration (schedule, method, contact), for studies and for the viewer's
+// sessions.
 #pragma once
 
 #include <memory>
@@ -13,18 +13,18 @@ namespace polhode::study::inline setup {
 
 Schedule schedule_of(const RunConfig& config);
 
-/// In float, double, long double, or the lanes of an ensemble, where nothing is compensated; the system must outlive
-/// it.
+/// The method in float, double, long double, or the lanes of an ensemble (without compensated summation). The system
+/// must outlive it.
 template <class S>
 std::unique_ptr<Integrator<S>> integrator_of(const RunConfig& config, const System<S>& system);
 
-/// The bodies that can touch, and how it is answered.
+/// Contact scene and contact model of a run.
 struct ContactSetup {
-  /// Registers a force with the system, which must outlive it.
+  /// Registers a force with the system. The system must outlive this object.
   ContactSetup(System<double>& system, const Scenario& scenario, const ContactConfig& config);
 
   ContactScene scene;
-  std::unique_ptr<ContactModel> model;  ///< none where the response is a force
+  std::unique_ptr<ContactModel> model;  ///< null if the response is a force
 };
 
-}  // namespace polhode::study
+}  // namespace polhode::study::setup

@@ -31,7 +31,7 @@ constexpr Index lowest_line = 8;
 /// A number that comes once in some 3000 normal ones, in squares of their deviation.
 constexpr double stands_out = 13;
 
-/// What depends on the number n of blocks alone.
+/// Quantities that depend only on the number n of blocks.
 class Cosines {
  public:
   explicit Cosines(Index n) : blocks(n), size(n - 1), even_(size / 2, (n + 1) / 2), odd_(size - size / 2, (n + 1) / 2) {
@@ -85,8 +85,8 @@ class Cosines {
   }
   Spectrum transform(const Vector& series) const { return transform(series, size); }
 
-  /// Of pulses at the first and the last block, and where there are cosines enough at their neighbours: what an
-  /// oscillation that begins and ends anywhere leaves far below its line.
+  /// Pulses at the first and the last block and, if there are enough cosines, at their neighbours: the spectrum that an
+  /// oscillation with arbitrary phases at the ends has far below its line.
   Regressors edges(Index count) const {
     constexpr Index enough = 24;
     const Index each = count < enough ? 1 : 2;
@@ -106,7 +106,7 @@ class Cosines {
   struct Shape {
     Spectrum variance, logarithm;
   };
-  /// Of noise: a + b g_k from b = 0 to a = 0.
+  /// Shapes of the noise a + b g_k, from b = 0 to a = 0.
   std::array<Shape, 9> shapes;
 
  private:
@@ -243,7 +243,7 @@ Vector fitted_oscillation(const Vector& series, const Matrix& trend, Index k) {
   return oscillating;
 }
 
-/// How many of the first cosines lie well below every line.
+/// Number of the first cosines that lie well below every line.
 Index below_lines(const Cosines& cosines, const Spectrum& rest) {
   Index count = rest.size();
   while (count > fewest_cosines) {
@@ -278,13 +278,13 @@ class Estimator {
     return f > fisher_f_exceeded(2, with.degrees, significance);
   }
 
-  /// What a change in proportion to time comes to over the run at most, with 97.5 % confidence.
+  /// Upper limit (97.5 % confidence) of a change in proportion to time over the run.
   double change_limit() const {
     const Fit f = fit(c_, with_edges(trend_.leftCols(1)), v_);
     return std::abs(f.coefficients[0]) + students_t_95(f.degrees) * std::sqrt(f.scale2() * f.covariance(0, 0));
   }
 
-  /// Of the slope by ordinary least squares, which feels the oscillations too.
+  /// Half the 95 % interval of the slope by ordinary least squares, which the oscillations affect too.
   double slope_half_width() const {
     const Regressors x = polynomial_.topRows(with_lines_.size());
     const Spectrum v = noise_shape(cosines_, with_lines_, x), x2 = x.col(0).cwiseAbs2();
@@ -314,7 +314,7 @@ class Estimator {
     return {p, students_t_95(f.degrees) * error};
   }
 
-  /// What t^p comes to over the run; after power_law().
+  /// Change by t^p over the run; call after power_law().
   double change() const { return change_; }
 
   /// Half of the number of the strongest cosine beside t^p, where those that are too slow for a line come to half of
@@ -342,8 +342,8 @@ class Estimator {
     return at + 1 < lowest_line ? static_cast<double>(at + 1) / 2 : 0;
   }
 
-  /// Whether what is left is noise of the exponent h throughout: no cosine stands out, no third of them (by logarithm)
-  /// has more than its part, and no block's change stands out of those of a random walk.
+  /// True if the rest is noise of the exponent h throughout: no cosine stands out, no third of them (by logarithm) has
+  /// more than its share, and no change between blocks stands out from those of a random walk.
   bool is_even(double h) const {
     const Spectrum per_h = cosines_.log_averaging.head(below_.size()) - 2 * cosines_.log_frequency.head(below_.size());
     const Spectrum white = below_.cwiseAbs2().cwiseQuotient(((h + 0.5) * per_h).array().exp().matrix());
@@ -375,14 +375,14 @@ class Estimator {
     return {h, students_t_95(static_cast<double>(used - 2)) / std::sqrt(information)};
   }
 
-  /// Of what is left without the oscillations that were taken out.
+  /// The rest without the oscillations that were subtracted.
   double largest_rest() const { return (smooth_.array() - smooth_.mean()).abs().maxCoeff(); }
   double largest_oscillation() const { return largest_oscillation_; }
-  /// How many periods the run has of it.
+  /// Number of its periods in the run.
   double slowest_line() const { return static_cast<double>(slowest_line_) / 2; }
 
  private:
-  /// Of what has these squares of cosines in all, if it is a sine.
+  /// Peak-to-peak amplitude of a sine whose cosines have this sum of squares.
   double peak_to_peak(double squares) const { return 2 * std::sqrt(2 * squares / static_cast<double>(t_.size())); }
 
   Spectrum without_polynomial(const Spectrum& c) const {
@@ -524,4 +524,4 @@ std::optional<DriftGrowth> growth_of(const std::vector<BlockMean>& blocks) {
   return growth;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::statistics

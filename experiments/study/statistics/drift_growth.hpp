@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a drift grows: the exponent p of |drift| ~ t^p and the slope of the drift, each with a 95 % confidence interval
-// that knows of the drift's oscillations.
+// Growth of a drift: the exponent p of |drift| ~ t^p and the slope of the drift, each with a 95 % confidence interval
+// that takes the oscillations of the drift into account.
 //
-// The run is kept as at most 128 means over stretches of equal length (blocks), which flattens what oscillates within
-// one. Their cosine transform c_k, k = 1, 2, … half periods in the run, tells the rest apart:
+// The run is reduced to at most 128 means over intervals of equal length (blocks), which averages out oscillations
+// within a block. The cosine transform c_k of the means, k = 1, 2, … half periods in the run, separates the rest:
 //   an oscillation that the blocks resolve is a line: up to eight are fitted and taken out, and only the k well below
 //     any that is left are used, without what pulses at the ends of the run would explain;
 //   noise: of variance v_k = a + b g_k, a that of bounded errors, g_k that of a random walk (1/4 sin²(πk/2n), averaged
@@ -28,7 +28,7 @@ struct BlockMean {
   double value = 0;  ///< of the drift, in any unit
 };
 
-/// The means of a series over blocks of as many samples each; when all are in use, neighbours merge.
+/// Means of a series over blocks of equally many samples; when all blocks are in use, neighbours are merged.
 class BlockMeans {
  public:
   void add(double t, double value) {
@@ -36,7 +36,7 @@ class BlockMeans {
     open_.value += value;
     if (++in_open_ == per_block_) close();
   }
-  /// The last block counts if it is half full.
+  /// The blocks. The last one is included if it is at least half full.
   std::vector<BlockMean> finish() const;
 
  private:
@@ -48,26 +48,26 @@ class BlockMeans {
   std::size_t in_open_ = 0, per_block_ = 1;
 };
 
-/// What a class is found from (drift_class.hpp); sizes in the unit of the drift.
+/// Quantities that decide the class of a drift (drift_class.hpp); sizes in the unit of the drift.
 struct DriftGrowth {
-  bool secular = false;      ///< the drift goes one way: told from noise with 99.5 % confidence
-  double exponent = 0;       ///< p of a drift that goes one way, else H of what is left, below 0 where that is bounded
-  double low = 0, high = 0;  ///< its 95 % confidence interval
-  double slope_half_width_95 = 0;  ///< of the least-squares slope, per s
-  double change = 0;               ///< what goes one way comes to over the run
-  double change_limit = 0;         ///< what a change in proportion to time may come to, with 97.5 % confidence
-  double rest = 0;         ///< the largest of what is left without the oscillations that were taken out, from its mean
-  double oscillation = 0;  ///< the largest of these
-  /// How many periods the run has of an oscillation that is too slow to be told from growth; 0: there is none.
+  bool secular = false;            ///< there is a trend, significant at 0.5 %
+  double exponent = 0;             ///< p of the trend; without one, H of the rest, below 0 if that is bounded
+  double low = 0, high = 0;        ///< 95 % confidence interval of the exponent
+  double slope_half_width_95 = 0;  ///< half the 95 % confidence interval of the least-squares slope, per s
+  double change = 0;               ///< change due to the trend over the run
+  double change_limit = 0;         ///< upper limit (97.5 % confidence) of a change in proportion to time
+  double rest = 0;  ///< largest deviation from its mean of the series without the oscillations that were subtracted
+  double oscillation = 0;  ///< largest value of those oscillations
+  /// Number of periods in the run of an oscillation too slow to be told from growth; 0: there is none.
   double slow_periods = 0;
-  double slowest_line = 0;  ///< how many periods it has of the slowest oscillation that was taken out; 0: none was
-  double misfit = 0;        ///< what t^p leaves from peak to peak, where that is smooth
-  bool even = true;         ///< no instant and no frequency stands out of what is left, as none does of a random walk
+  double slowest_line = 0;  ///< number of periods in the run of the slowest oscillation that was subtracted; 0: none
+  double misfit = 0;        ///< peak-to-peak residual of t^p, if that residual is smooth
+  bool even = true;         ///< no instant and no frequency stands out in the rest, as in a random walk
 };
 
-/// Absent: fewer than `fewest_blocks`, a drift that is constant to its last digit, or numbers that are not finite.
-/// Costs some 0.3 ms.
+/// The growth. Absent for fewer than `fewest_blocks` blocks, for a drift constant to its last digit, and for numbers
+/// that are not finite. Costs some 0.3 ms.
 std::optional<DriftGrowth> growth_of(const std::vector<BlockMean>& blocks);
 inline constexpr std::size_t fewest_blocks = 32;
 
-}  // namespace polhode::study
+}  // namespace polhode::study::statistics

@@ -128,4 +128,4 @@ OrderVerdict judge(const OrderEstimate& estimate, std::optional<double> declared
   return off > 0 ? OrderVerdict::higher : OrderVerdict::lower;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::statistics

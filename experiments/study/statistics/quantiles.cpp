@@ -28,4 +28,4 @@ double fisher_f_exceeded(double numerator, double denominator, double significan
   return at->second;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::statistics

@@ -17,7 +17,7 @@
 namespace polhode::study::inline store {
 namespace {
 
-/// What a study writes beside its store: files, and folders.
+/// Names of the files and folders that a study writes beside its store.
 constexpr const char* files[] = {"runs.csv",   "timings.csv", "manifest.json", "report.html", "trajectory.csv",
                                  "energy.csv", "events.csv",  "trajectory.h5", "replay.html"};
 constexpr const char* folders[] = {"figures", "tables", timings_folder, "trajectories"};
@@ -29,7 +29,7 @@ std::vector<std::filesystem::path> products(const std::filesystem::path& path) {
   return all;
 }
 
-/// Files where the study needs a folder, and folders where it writes a file.
+/// Existing files with the name of a folder of the study, and existing folders with the name of a file.
 std::vector<std::filesystem::path> misplaced(const std::filesystem::path& path) {
   std::vector<std::filesystem::path> all;
   const auto look = [&](const std::filesystem::path& at, bool folder) {
@@ -98,7 +98,7 @@ ResultFolder::ResultFolder(const std::filesystem::path& path, const std::set<std
   }
   std::filesystem::create_directories(path, error);
   if (error) throw InputError("--out: cannot create " + path.string() + ": " + error.message());
-  // Locked before it is read, so that of two programs only one sees a folder that is just being filled.
+  // The folder is locked before it is read: of two programs started at once only one continues.
   lock_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock_ < 0) {
     fail("cannot read " + path.string() + ": " + std::strerror(errno) +
@@ -110,7 +110,7 @@ ResultFolder::ResultFolder(const std::filesystem::path& path, const std::set<std
     }
     fail("cannot lock " + path.string() + ": " + std::strerror(errno) + "; name a folder on another file system");
   }
-  // For root every folder looks writable until one tries.
+  // Permission bits do not show whether root can write, so a file is created.
   const std::filesystem::path probe = path / ".writable";
   const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
   if (file < 0) fail("cannot write into " + path.string() + ": " + std::strerror(errno));
@@ -128,7 +128,7 @@ ResultFolder::ResultFolder(const std::filesystem::path& path, const std::set<std
   for (const auto& at : misplaced(path)) std::filesystem::remove_all(at, error);
   if (holds_only(path, ids)) return;
   for (const auto& product : products(path))
-    std::filesystem::remove_all(product, error);  // nothing of the other study stays
+    std::filesystem::remove_all(product, error);  // all results of the other study
   for (const char* suffix : {"", "-wal", "-shm"}) {
     std::filesystem::remove(path / (std::string(Store::file_name) + suffix), error);
   }
@@ -143,4 +143,4 @@ ResultFolder::~ResultFolder() {
   if (lock_ >= 0) close(lock_);
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::store

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The folder of a study's results: never shared by two programs at a time, never overwritten by a different study.
+// Results folder of a study: locked against other programs, and protected from being overwritten by a different study.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,9 @@ namespace polhode::study::inline store {
 
 class ResultFolder {
  public:
-  /// Checks, creates and locks the folder. `ids` are the runs of the study that wants in: it may be the study that is
-  /// there already, or a wider one. Throws InputError, having written nothing.
+  /// Checks, creates and locks the folder. `ids`: the runs of the study; they must include all runs already stored
+  /// there, unless `force` is set, which removes the results of a different study. Throws InputError if the folder
+  /// cannot be used, and leaves existing results unchanged.
   ResultFolder(const std::filesystem::path& path, const std::set<std::string>& ids, bool force);
   ~ResultFolder();
   ResultFolder(const ResultFolder&) = delete;
@@ -22,4 +23,4 @@ class ResultFolder {
   int lock_ = -1;
 };
 
-}  // namespace polhode::study
+}  // namespace polhode::study::store

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What this program was built from and how, for the manifest of a study.
+// Version, compiler and libraries of this program, for the manifest of a study.
 #pragma once
 
 #include <string_view>
@@ -19,4 +19,4 @@ struct BuildInfo {
 
 const BuildInfo& build_info();
 
-}  // namespace polhode::study
+}  // namespace polhode::study::text

@@ -139,7 +139,7 @@ ChildProcess::~ChildProcess() {
 
 bool ChildProcess::feed(std::span<const std::uint8_t> bytes) {
   while (!bytes.empty()) {
-    // What it prints is taken meanwhile, lest both wait for each other.
+    // Its output is read meanwhile, so that the two processes do not wait for each other.
     std::array<pollfd, 2> files = {{{input_, POLLOUT, 0}, {output_, POLLIN, 0}}};
     if (::poll(files.data(), files.size(), -1) < 0 && errno != EINTR) return false;
     if ((files[1].revents & POLLIN) != 0) read_some(output_, printed_);
@@ -166,4 +166,4 @@ ChildProcess::Outcome ChildProcess::wait() {
   return outcome;
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::text

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program run as a child of this one, in a folder, with what it prints kept; it may be fed while it runs.
+// A child process in a given folder, with its output captured and optional input while it runs.
 #pragma once
 
 #include <sys/types.h>
@@ -18,8 +18,8 @@ class ChildProcess {
  public:
   enum class Input { none, fed };
 
-  /// Starts a program found on PATH, with these variables set beside the inherited ones. Absent: it is not installed.
-  /// Throws std::runtime_error where it cannot be started for another reason.
+  /// Starts a program found on PATH, with these environment variables besides the inherited ones. Absent: the program
+  /// is not installed. Throws std::runtime_error if it cannot be started for another reason.
   static std::optional<ChildProcess> start(const std::vector<std::string>& command, const std::filesystem::path& folder,
                                            const std::vector<std::pair<std::string, std::string>>& environment,
                                            Input input = Input::none);
@@ -29,13 +29,13 @@ class ChildProcess {
   ~ChildProcess();  ///< waits for it
 
   struct Outcome {
-    int exit_status = 0;  ///< 128 + signal where one ended it
-    std::string printed;  ///< on stdout and stderr
+    int exit_status = 0;  ///< 128 + signal if a signal ended it
+    std::string printed;  ///< its stdout and stderr
   };
-  /// After the end of its input.
+  /// Closes the input and waits for the end.
   Outcome wait();
 
-  /// Waits until it has taken all of these bytes. False: it reads no more.
+  /// Writes all bytes to the input. False: the process has stopped reading.
   bool feed(std::span<const std::uint8_t> bytes);
 
  private:
@@ -45,4 +45,4 @@ class ChildProcess {
   std::string printed_;
 };
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::text

@@ -20,7 +20,7 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-/// What is wrong with the first word that no option takes; CLI11 says them all, the last one first.
+/// The error for the first word that is no option; CLI11 lists all such words, the last one first.
 std::string unknown_word(const CLI::App& app, const std::string& word) {
   if (word.empty() || word.front() != '-') {
     return "'" + word + "' belongs to no option; items of a list have commas between them, see --help";
@@ -62,4 +62,4 @@ std::string command_text(const std::string& program, int argc, const char* const
   return command;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::text

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the command lines of all experiments share.
+// Parts of the command line that all experiments have in common.
 #pragma once
 
 #include <optional>
@@ -15,11 +15,11 @@ namespace polhode::study::inline text {
 /// Adds --no-figures, which makes `figures` false.
 CLI::Option* add_no_figures(CLI::App& app, bool& figures);
 
-/// Fills in what the options of `app` stand for. Returns the exit status where nothing is left to do, because help was
-/// asked for and printed; throws InputError, of one line, for what no option takes.
+/// Parses the command line into the options of `app`. Returns the exit status if help was asked for and printed; throws
+/// InputError (one line) for anything that is no option.
 std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const* argv);
 
-/// The call, "./run PROGRAM …", quoted so that a shell takes it again.
+/// The command line, "./run PROGRAM …", quoted for a shell.
 std::string command_text(const std::string& program, int argc, const char* const* argv);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::text

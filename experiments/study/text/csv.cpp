@@ -20,4 +20,4 @@ std::string csv_row(const std::vector<std::string>& cells) {
   return row + '\n';
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::text

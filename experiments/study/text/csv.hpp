@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows of CSV files (RFC 4180).
+// Writes rows of CSV files (RFC 4180).
 #pragma once
 
 #include <cmath>
@@ -11,12 +11,12 @@
 
 namespace polhode::study::inline text {
 
-/// Cells with a comma, a quote or a line break stand in quotes. Ends with a line break.
+/// One row with its line break. Cells with a comma, a quote or a line break are quoted.
 std::string csv_row(const std::vector<std::string>& cells);
 
-/// All digits; empty where there is no number, or one that is not finite.
+/// A number with all its digits; empty if it is absent or not finite.
 inline std::string csv_cell(const std::optional<double>& x) {
   return x && std::isfinite(*x) ? exact(*x) : std::string();
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::text

@@ -165,4 +165,4 @@ void CsvReader::fail_at(std::size_t character, const std::string& what) const {
   throw InputError(fmt::format("{}:{}:{}: {}", path_, line_number_, character, what));
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::text

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads tables of numbers that any program wrote as CSV (RFC 4180), a row at a time. The first line names the columns,
-// which go by their names, in any order; others are passed over. Lines may end in CR LF; empty lines, and those that
-// begin with #, are skipped. Every error is an InputError with file, line, column and a remedy; so is a line of more
-// than 1 MiB, a zero byte, which no text has, and a file that has no end.
+// Reads tables of numbers that any program wrote as CSV (RFC 4180), row by row. The first line names the columns, which
+// may be in any order; unknown columns are skipped. Lines may end in CR LF. Empty lines and lines that begin with # are
+// skipped. Every error is an InputError with file, line, column and a remedy; so are a line of more than 1 MiB, a zero
+// byte, and a file without an end.
 #pragma once
 
 #include <cstddef>
@@ -18,25 +18,26 @@ namespace polhode::study::inline text {
 
 class CsvReader {
  public:
-  /// Opens the file, of `most` bytes at most, and reads the names of its columns.
+  /// Opens a file of at most `most` bytes and reads the names of its columns.
   explicit CsvReader(const std::string& path, std::size_t most = 1024 * mebibyte);
 
   const std::vector<std::string>& names() const { return names_; }
 
-  /// The place of a column that must be there, and only once.
+  /// Index of a required column. Throws if it is missing or there twice.
   std::size_t column(std::string_view name) const;
-  std::vector<std::size_t> columns(const std::vector<std::string>& names) const;  ///< the same of each
+  std::vector<std::size_t> columns(
+      const std::vector<std::string>& names) const;  ///< indices of several required columns
 
-  /// The next row; false at the end of the file.
+  /// Reads the next row; false at the end of the file.
   bool next();
 
-  std::size_t line() const { return line_number_; }  ///< of the present row, from 1
+  std::size_t line() const { return line_number_; }  ///< line of the present row, from 1
 
   const std::string& text(std::size_t column) const { return cells_[column]; }
   std::int64_t integer(std::size_t column) const;
   double number(std::size_t column) const;  ///< may be infinite ("inf"), never NaN
 
-  /// About a cell of the present row: "boxes.csv:3:8: hx is negative; …".
+  /// Throws an error about a cell of the present row: "boxes.csv:3:8: hx is negative; …".
   [[noreturn]] void fail(std::size_t column, const std::string& what) const;
 
  private:
@@ -49,12 +50,12 @@ class CsvReader {
   std::string path_;
   std::ifstream file_;
   std::size_t most_, bytes_ = 0;
-  std::vector<char> buffer_;  // of a line
+  std::vector<char> buffer_;  // one line
   std::size_t line_number_ = 0;
   std::string line_;
   std::vector<std::string> names_;
   std::vector<std::string> cells_;
-  std::vector<std::size_t> places_;  // of each cell's first character, from 1
+  std::vector<std::size_t> places_;  // column of each cell's first character, from 1
 };
 
-}  // namespace polhode::study
+}  // namespace polhode::study::text

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bad input from the user: one line that says where it stands and what would be right.
+// Bad input from the user: one line that gives the place and the remedy.
 #pragma once
 
 #include <stdexcept>
@@ -9,11 +9,11 @@
 
 namespace polhode::study::inline text {
 
-/// what() is the one line, without the program's name, legible whatever the user gave. main() prints it on stderr and
-/// exits with 2.
+/// what() is that line, without the program's name and with all control characters escaped. main() prints it on stderr
+/// and exits with 2.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::string_view message) : std::runtime_error(legible(message)) {}
 };
 
-}  // namespace polhode::study
+}  // namespace polhode::study::text

@@ -74,4 +74,4 @@ std::string shortened(std::string_view text) {
   return spelled_out(text.substr(0, end)).append(ellipsis);
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::text

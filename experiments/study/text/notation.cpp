@@ -180,4 +180,4 @@ std::string shortened(std::string_view utf8, std::size_t characters) {
   return std::string(utf8.substr(0, end)) + "…";
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::text

@@ -20,8 +20,7 @@ void say(const std::string& name, const std::string& message) {
   fmt::print(stderr, "{}: {}\n", name, legible(message));
 }
 
-/// Whether all that was printed on standard output has been taken; if not, says so. `reason`: of errno, where it is
-/// known.
+/// True if all of standard output was written; otherwise prints an error. `reason`: errno, if it is known.
 bool printed(const std::string& name, int reason = 0) {
   errno = reason;
   std::cout.flush();
@@ -49,4 +48,4 @@ int run_program(const std::string& name, const std::function<int()>& program, co
   }
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::text

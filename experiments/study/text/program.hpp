@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every main() does around its program: errors are told in one line, and what was printed has arrived.
+// The frame of every main(): prints errors in one line and checks that standard output was written.
 #pragma once
 
 #include <functional>
@@ -14,4 +14,4 @@ constexpr int bad_input = 2, not_carried_out = 3;  ///< exit statuses
 /// standard output that could not be written to its end, as on a full disk.
 int run_program(const std::string& name, const std::function<int()>& program, const std::string& afterwards = "");
 
-}  // namespace polhode::study
+}  // namespace polhode::study::text

@@ -13,4 +13,4 @@ std::optional<std::string> read_file(const std::filesystem::path& path) {
   return file.bad() ? std::nullopt : std::optional(std::move(text));
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::text

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A whole file as it is, if it is there.
+// Reads a whole file if it exists.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace polhode::study::inline text {
 
-/// Absent: there is no such file, or it cannot be read.
+/// The contents; absent if there is no such file or it cannot be read.
 std::optional<std::string> read_file(const std::filesystem::path& path);
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::text

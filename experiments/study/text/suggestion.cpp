@@ -51,7 +51,7 @@ std::string folded(std::string_view name) {
   return text;
 }
 
-/// Whether some words of a name, one after the other, are this one: "euler" in "explicit_euler", not "mas" in "mass".
+/// True if consecutive words of a name are these words: "euler" in "explicit_euler", but not "mas" in "mass".
 bool holds_words(const std::string& name, const std::string& words) {
   return !words.empty() && ("_" + name + "_").find("_" + words + "_") != std::string::npos;
 }
@@ -119,4 +119,4 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string_vi
   return near.empty() ? "" : "; did you mean " + choice(near, sign) + "?";
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::text

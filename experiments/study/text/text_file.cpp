@@ -69,4 +69,4 @@ void write_text(const fs::path& path, std::string_view text) {
   throw WriteError(path, reason);
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::text

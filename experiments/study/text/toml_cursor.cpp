@@ -128,4 +128,4 @@ void TomlCursor::unknown(std::string_view what, std::string_view introduction,
        suggestion(value_->text, introduction, known));
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::text

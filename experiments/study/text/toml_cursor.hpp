@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a TOML tree with every check: a cursor is a value together with the keys that led to it, so that whatever is
-// wrong with it can be said with its place and its path, "body.0.shape.size.1".
+// Checked reading of a TOML tree. A cursor is a value with the keys that led to it, so that every error names its place
+// and its path, "body.0.shape.size.1".
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace polhode::study::inline text {
 
-/// Something is wrong with the input. What the user sees is made of it where the file's name is known.
+/// An error in the input, without the name of the file, which the caller adds.
 struct Fault {
   TomlPlace place;
   std::string path;     ///< "body.0.mass"
@@ -28,10 +28,10 @@ class TomlCursor {
   const TomlValue& value() const { return *value_; }
   std::string path() const;
 
-  // Steps down; the cursor above must outlive the one below, hence no steps from a temporary
+  // Steps down. The cursor above must outlive the one below, hence no steps from a temporary.
 
   bool has(std::string_view key) const { return value_->find(key) != nullptr; }
-  /// Throws a Fault where the key is missing, which says what the key `must_be`.
+  /// The value of a required key. Throws a Fault that says what the key `must_be` if it is missing.
   TomlCursor at(std::string_view key, std::string_view must_be) const&;
   TomlCursor at(std::string_view key, const TomlValue& otherwise) const&;
   TomlCursor item(std::size_t i) const&;
@@ -39,20 +39,20 @@ class TomlCursor {
   TomlCursor at(std::string_view key, const TomlValue& otherwise) const&& = delete;
   TomlCursor item(std::size_t i) const&& = delete;
 
-  // Checked reading: each throws a Fault that says what the value must be
+  // Checked reading: each function throws a Fault that says what the value must be.
 
-  /// Finite, and of that range.
+  /// A finite number in that range.
   double number(std::string_view unit, Range range = Range::any) const;
   Vector3<double> vector(std::string_view unit, Range range = Range::any) const;
   bool boolean() const;
-  /// Of one line.
+  /// A text of one line.
   const std::string& text(std::string_view must_be) const;
-  /// The number of items of a list that has some.
+  /// The number of items of a list that is not empty.
   std::size_t list(std::string_view must_be) const;
-  /// A table with no other keys; `introduction` is "A body has".
+  /// Checks that a table has no other keys; `introduction` is "A body has".
   void table(std::string_view introduction, const std::vector<std::string_view>& keys) const;
 
-  // Complaints
+  // Errors.
 
   [[noreturn]] void fail(std::string message) const;
   /// "-1 is not a valid mass; it must be …", named after the key.
@@ -67,8 +67,8 @@ class TomlCursor {
 
   const TomlValue* value_;
   const TomlCursor* above_ = nullptr;
-  std::string_view key_;  // empty: an item of a list
+  std::string_view key_;  // empty for an item of a list
   std::size_t index_ = 0;
 };
 
-}  // namespace polhode::study
+}  // namespace polhode::study::text

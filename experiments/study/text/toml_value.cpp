@@ -152,4 +152,4 @@ TomlValue parse_toml(std::string_view text) {
   }
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::text

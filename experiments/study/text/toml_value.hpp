@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A TOML document as a tree of plain values that know where they stand. The TOML library itself is slow to compile and
-// stays in the .cpp.
+// A TOML document as a tree of plain values with their places in the text. The TOML library is slow to compile and is
+// included by the .cpp only.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace polhode::study::inline text {
 
-/// Where a value was written: line and column of the text (from 1), or the override that set it.
+/// Place of a value: line and column of the text (from 1), or the override that set it.
 struct TomlPlace {
   int line = 0;
   int column = 0;
-  int from_override = -1;  ///< index among the overrides; −1: from the text
+  int from_override = -1;  ///< index of the override; −1: the text
 };
 
 struct TomlEntry;
 
-/// One value. Whole numbers count as numbers: 1 and 1.0 are the same.
+/// One value. Integers are numbers: 1 and 1.0 are the same.
 struct TomlValue {
   enum class Type { boolean, number, text, list, table, date };
 
@@ -27,13 +27,13 @@ struct TomlValue {
   bool boolean = false;
   double number = 0;
   std::string text;
-  std::vector<TomlValue> items;    ///< of a list
-  std::vector<TomlEntry> entries;  ///< of a table, sorted by key
+  std::vector<TomlValue> items;    ///< items of a list
+  std::vector<TomlEntry> entries;  ///< entries of a table, sorted by key
 
   static TomlValue of(bool value);
   static TomlValue of(double value);
   static TomlValue of(std::string_view value);
-  static TomlValue of(const char* value);  // else it would turn into a bool
+  static TomlValue of(const char* value);  // without it a literal would convert to bool
   static TomlValue of(const std::vector<double>& values);
 
   const TomlValue* find(std::string_view key) const;
@@ -47,14 +47,13 @@ struct TomlEntry {
   TomlValue value;
 };
 
-/// The text is not TOML: a duplicate key, a bracket that is not closed; or nested too deep. The message is one
-/// sentence.
+/// The text is not TOML (a duplicate key, an unclosed bracket), or is nested too deep. what() is one sentence.
 struct TomlSyntaxError {
   TomlPlace place;
   std::string message;
 };
 
-/// Throws TomlSyntaxError.
+/// Parses a text. Throws TomlSyntaxError.
 TomlValue parse_toml(std::string_view text);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::text

@@ -110,4 +110,4 @@ std::string exact(double x) {
   return std::string(text, end);
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::text

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The values of an axis as the command line writes them: lists a,b,c and ranges first:last:count[:log].
+// The values of an axis as written on the command line: lists a,b,c and ranges first:last:count[:log].
 #pragma once
 
 #include <string>
@@ -8,17 +8,16 @@
 
 namespace polhode::study::inline text {
 
-/// Splits at the separator; blanks around items are dropped. Throws InputError, naming `option`, on an empty list or
-/// item.
+/// Splits at the separator and trims blanks. Throws InputError, naming `option`, for an empty list or item.
 std::vector<std::string> split_list(std::string_view text, char separator, const std::string& option);
 
-/// Numbers: 0.1,0.2 or 1e-4:1e-1:10 (evenly spaced, ends included) or 1e-4:1e-1:10:log. Throws InputError.
+/// Numbers: 0.1,0.2, or 1e-4:1e-1:10 (evenly spaced, ends included), or 1e-4:1e-1:10:log. Throws InputError.
 std::vector<double> numbers(std::string_view text, const std::string& option);
 
-/// TOML values: [1,2,3];[4,5,6], or numbers as above, or text items, for --vary.
+/// TOML values for --vary: [1,2,3];[4,5,6], or numbers as above, or texts.
 std::vector<std::string> toml_values(std::string_view text, const std::string& option);
 
 /// The shortest text that reads back as the same double.
 std::string exact(double x);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::text

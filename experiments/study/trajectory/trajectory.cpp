@@ -82,7 +82,7 @@ class CsvTable {
 class Hdf5File {
  public:
   explicit Hdf5File(const std::filesystem::path& path) : path_(path) {
-    // What cannot be written, on a full disk, HDF5 would try again as the program ends, and crash.
+    // HDF5 would otherwise write again at exit, and crash on a full disk.
     [[maybe_unused]] static const herr_t at_exit = H5dont_atexit();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // our own message is one line
     errno = 0;
@@ -196,8 +196,8 @@ std::vector<double> event_row(const Transition& t) {
   return event_row(Impact{.t = t.t, .a = t.a, .b = t.b, .point = t.point, .normal = t.normal});
 }
 
-/// What both formats share: the rows of a sample. Tables has trajectory(row), energy(row), impact(row), slide_end(row),
-/// close().
+/// The part common to both formats: the rows of a sample. Tables has trajectory(row), energy(row), impact(row),
+/// slide_end(row), close().
 template <class Tables>
 class Writer final : public TrajectoryWriter {
  public:
@@ -290,4 +290,4 @@ std::unique_ptr<TrajectoryWriter> open_trajectory(TrajectoryFormat format, const
   return std::make_unique<Writer<CsvTables>>(folder, system);
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::trajectory

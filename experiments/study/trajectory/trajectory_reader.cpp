@@ -34,8 +34,8 @@ const Group time_group{"the time", {"t_s"}}, body_group{"the body", {"body"}},
 const std::array groups = {&time_group,  &body_group,     &position_group, &quaternion_group, &velocity_group,
                            &omega_group, &momentum_group, &energy_group,   &matrix_group};
 
-/// How far the first orientation may be from a rotation: few digits and single precision pass, another convention does
-/// not. Later ones may be anywhere, since a method that leaves its manifold is a finding.
+/// Tolerances of the first orientation: few digits and single precision pass, another convention does not. Later
+/// orientations may be anywhere, since leaving the manifold is a finding.
 constexpr double first_defect = 0.02, least_length = 1e-6;
 
 struct Cell {
@@ -275,4 +275,4 @@ Trajectory read_trajectory(const std::string& path, const Problem& problem) {
   return parse_trajectory(read_text(path, 2048 * mebibyte), path, problem);
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::trajectory

@@ -54,4 +54,4 @@ std::vector<double> energy_row(const Sample& sample, const ContactLosses& contac
           sample.ledger(contact.total()) - energy_start};
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::trajectory

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The columns of a trajectory, once for every format.
+// The columns of a trajectory, common to all formats.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ std::vector<double> trajectory_row(const System<double>& system, const State<dou
                                    double energy);
 
 std::vector<std::string> energy_columns();
-/// The ledger; energy_start is what it showed at the start.
+/// One row of the energy ledger; energy_start is its value at the start.
 std::vector<double> energy_row(const Sample& sample, const ContactLosses& contact, double energy_start);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::trajectory

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws arrows: a round shaft and a cone, lit as the bodies are.
+// Draws arrows: a round shaft and a cone, with the lighting of the bodies.
 #pragma once
 
 #include <span>
@@ -10,16 +10,16 @@
 namespace polhode::viewer::inline drawing {
 
 struct ArrowInstance {
-  Vector3<float> from;  ///< m, from the eye
-  Vector3<float> way;   ///< m, to the tip
-  float radius = 0;     ///< m, of the shaft; less where the arrow is too short for it
+  Vector3<float> from;  ///< m, relative to the eye
+  Vector3<float> way;   ///< m, from tail to tip
+  float radius = 0;     ///< m, of the shaft; reduced if the arrow is too short for it
   Colour colour;
 };
 
 class ArrowPass {
  public:
   ArrowPass();
-  /// `through`: how much of an arrow shines through what is before it, 0 to 1.
+  /// `through`: opacity, 0 to 1, of the parts of an arrow that are hidden by something in front of it.
   void draw(const ViewState& view, std::span<const ArrowInstance> arrows, double through);
 
  private:
@@ -27,4 +27,4 @@ class ArrowPass {
   VertexArray fine_, coarse_;
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

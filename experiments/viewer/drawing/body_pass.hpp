@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws the bodies, those of one surface in one call, and their shadows on the floors.
+// Draws the bodies, one call for each surface, and their shadows on the floors.
 #pragma once
 
 #include <memory>
@@ -12,12 +12,12 @@
 
 namespace polhode::viewer::inline drawing {
 
-/// A body as the card has it: where it stands from the eye, and its colour.
+/// A body in the layout of the vertex buffer: pose relative to the eye, and colour.
 struct BodyInstance {
   Matrix3<float> rotation;
   Vector3<float> position;
   Colour colour;
-  float emphasis = 0;  ///< 1: the edges are strong
+  float emphasis = 0;  ///< 1: edges are drawn stronger
 };
 
 class BodyPass {
@@ -25,10 +25,11 @@ class BodyPass {
   explicit BodyPass(const std::vector<study::Surface>& surfaces);
 
   float radius(std::size_t surface) const { return surfaces_[surface]->radius; }
-  /// Who is drawn from now on, for each surface; they are sorted by their distance.
+  /// Sets the bodies to draw from now on, by surface, sorted by their distance.
   void place(std::span<std::vector<BodyInstance>> instances);
   void draw(const ViewState& view, bool edges) const;
-  /// Right after FloorPass::draw_floor, on the plane normal · x = offset; `reach` m above it they have faded.
+  /// Draws the shadows; call right after FloorPass::draw_floor, on the plane normal · x = offset. Shadows fade out at a
+  /// height of `reach` (m) above the plane.
   void draw_shadows(const ViewState& view, const Vector3<double>& normal, double offset, double reach) const;
 
  private:
@@ -41,4 +42,4 @@ class BodyPass {
   Program solid_, shadow_;
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

@@ -58,4 +58,4 @@ void Camera::look_at(const Vector3<double>& middle, double radius) {
   distance = std::max(radius, 1e-6) / std::sin(field_of_view / 2);
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

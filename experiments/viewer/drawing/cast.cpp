@@ -28,4 +28,4 @@ Cast cast_of(const study::Scene& scene) {
   return cast;
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

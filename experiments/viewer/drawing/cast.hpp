@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The moving bodies of a scene, in the order in which frames have them.
+// The moving bodies of a scene, in the order of the frames.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 namespace polhode::viewer::inline drawing {
 
 struct Cast {
-  std::vector<std::size_t> moving;  ///< among Scene::bodies, ascending
-  std::vector<double> radius;       ///< m, of each: of the ball about the mass centre that holds its surface; never 0
+  std::vector<std::size_t> moving;  ///< indices into Scene::bodies, ascending
+  std::vector<double> radius;       ///< m, by body: radius about the mass centre that contains its surface; never 0
   double typical_radius = 1;        ///< m, their median
 };
 
 Cast cast_of(const study::Scene& scene);
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

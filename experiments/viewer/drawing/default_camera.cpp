@@ -104,4 +104,4 @@ Camera default_camera(const study::Scene& scene, std::span<const Frame> frames, 
   return camera;
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a scene is first seen from.
+// The initial camera of a scene.
 #pragma once
 
 #include <span>
@@ -11,10 +11,10 @@
 
 namespace polhode::viewer::inline drawing {
 
-/// Sees all moving bodies of the frames whole, with the ends of their springs and their pivots, as near as it can in a
-/// picture of that shape and the arrows of `look`; half-spaces and fixed bodies do not count. A row of bodies is seen
-/// from its side.
+/// The nearest camera from which all moving bodies of the frames are completely visible, with the ends of their
+/// springs, their pivots and the arrows of `look`, in a picture of that shape. Half-spaces and fixed bodies do not
+/// count. A row of bodies is seen from its side.
 Camera default_camera(const study::Scene& scene, std::span<const Frame> frames, double width_over_height,
                       const Look& look = {});
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

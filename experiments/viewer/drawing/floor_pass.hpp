@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws what is behind the bodies: the background's gradient, and half-spaces as grids that fade out.
+// Draws the background: its gradient, and half-spaces as grids that fade out.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace polhode::viewer::inline drawing {
 
-/// normal · x = offset, world; the half-space is behind it.
+/// The plane normal · x = offset, world; the half-space is behind it.
 struct Plane {
   Vector3<double> normal;
   double offset;
@@ -20,14 +20,14 @@ class FloorPass {
   FloorPass();
 
   void draw_background() const;
-  /// One of the planes, as far as it is not within another's half-space. Its lines stand a power of ten of metres
-  /// apart, by the camera's distance. The stencil is 1 where it is seen, else 0.
+  /// Draws one of the planes, except where it is inside another half-space. The spacing of its lines is a power of ten
+  /// of a metre, chosen by the camera's distance. The stencil is 1 where the plane is visible, else 0.
   void draw_floor(const ViewState& view, std::span<const Plane> planes, std::size_t shown);
 
  private:
   Program background_, floor_;
-  VertexArray nothing_;  // corners come from the vertex's number
+  VertexArray nothing_;  // without buffers: the shader computes corners from the number of the vertex
   VertexArray polygon_;
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

@@ -95,4 +95,4 @@ void VertexArray::draw_corners(std::size_t instances) const {
   glDrawElementsInstanced(GL_TRIANGLES, GLsizei(corners_), GL_UNSIGNED_INT, nullptr, GLsizei(instances));
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

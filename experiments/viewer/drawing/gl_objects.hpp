@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Owners of OpenGL's objects: programs and vertex arrays with their buffers. A context must be current.
+// Owners of OpenGL objects: programs, and vertex arrays with their buffers. A context must be current.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -10,7 +10,7 @@
 
 namespace polhode::viewer::inline drawing {
 
-/// A vertex and a fragment shader, linked. `#version 330 core` is put before each.
+/// A vertex and a fragment shader, linked. `#version 330 core` is prepended to both.
 class Program {
  public:
   Program(std::string_view vertex, std::string_view fragment);
@@ -35,7 +35,7 @@ class Program {
   GLuint id_ = 0;
 };
 
-/// Vertices on the card, and a second row of attributes that change once an instance.
+/// A vertex array with two buffers: attributes by vertex, and attributes by instance.
 class VertexArray {
  public:
   VertexArray();
@@ -44,7 +44,7 @@ class VertexArray {
   ~VertexArray();
 
   enum class Per { vertex, instance };
-  /// `numbers` of floats (or of bytes from 0 to 1) at `offset` of each record of `stride` bytes.
+  /// An attribute of `numbers` floats (or bytes, mapped to 0 to 1) at `offset` in records of `stride` bytes.
   void floats(Per per, GLuint location, int numbers, std::size_t stride, std::size_t offset);
   void bytes(Per per, GLuint location, int numbers, std::size_t stride, std::size_t offset);
 
@@ -59,7 +59,7 @@ class VertexArray {
   void corners(std::span<const std::uint32_t> indices);
 
   void draw(GLenum shape, std::size_t vertices, std::size_t instances) const;
-  /// Triangles by the corners given.
+  /// Draws the triangles of the given corners.
   void draw_corners(std::size_t instances) const;
 
  private:
@@ -70,4 +70,4 @@ class VertexArray {
   std::size_t corners_ = 0;
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

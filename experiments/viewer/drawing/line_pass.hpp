@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws lines of any width, smooth at their edges, and dots: lines without length.
+// Draws antialiased lines of any width, and dots, which are lines of length zero.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 namespace polhode::viewer::inline drawing {
 
 struct LineInstance {
-  Vector3<float> from, to;  ///< m, from the eye
+  Vector3<float> from, to;  ///< m, relative to the eye
   Colour colour_from, colour_to;
   float width = 1;  ///< pixels, times the view's line_scale
   float round = 0;  ///< 1: the ends are half discs
@@ -19,8 +19,8 @@ struct LineInstance {
 class LinePass {
  public:
   LinePass();
-  /// `through`: how much of a line shines through what is before it, 0 to 1; `lift`: m towards the eye, so that a mark
-  /// on a surface is not half within it.
+  /// `through`: opacity, 0 to 1, of the parts of a line that are hidden by something in front of it. `lift`: m towards
+  /// the eye, so that a mark on a surface is not half hidden by it.
   void draw(const ViewState& view, std::span<const LineInstance> lines, double through, double lift);
 
  private:
@@ -28,4 +28,4 @@ class LinePass {
   VertexArray lines_;
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

@@ -191,4 +191,4 @@ void Marks::add_axes(const Frame& frame, const Cast& cast, const ViewState& view
   }
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

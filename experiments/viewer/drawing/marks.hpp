@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lines, dots and arrows that stand for what of a frame is no body: springs, contacts, vectors, trails, cells.
+// Lines, dots and arrows for everything in a frame that is not a body: springs, contacts, vectors, trails, cells.
 #pragma once
 
 #include <vector>
@@ -18,22 +18,23 @@ struct VectorScales {
   void see(const Frame& frame);
 };
 
-/// rad/s: below, a body rests, and neither ω nor L is drawn.
+/// rad/s; a body that rotates more slowly is drawn without ω and L.
 constexpr double least_angular_velocity = 1e-9;
 
-/// Radii of the typical body: how long the longest arrows are; L reaches past an ω of the same direction.
+/// Length of the longest arrows in radii of a typical body. The arrow of L is longer than that of ω, so that both are
+/// visible if they are parallel.
 constexpr double longest_angular_velocity = 1.6, longest_angular_momentum = 1.9;
 
-/// From the mass centre to the tip of the arrow of ω or L, m; zero for a body that rests.
+/// Vector (m) from the mass centre to the tip of the arrow of ω or L; zero for a body at rest.
 Vector3<double> angular_velocity_arrow(const FrameBody& body, const Cast& cast, const VectorScales& scales);
 Vector3<double> angular_momentum_arrow(const FrameBody& body, const Cast& cast, const VectorScales& scales);
-/// m, of the arrows that show a body's axes.
+/// Length (m) of the arrows of a body's axes.
 inline double axis_length(double body_radius) { return 1.35 * body_radius; }
 
 struct Marks {
-  std::vector<LineInstance> lines;   ///< hidden where something is before them
-  std::vector<LineInstance> trails;  ///< faint there
-  std::vector<LineInstance> over;    ///< so too
+  std::vector<LineInstance> lines;   ///< invisible where something is in front of them
+  std::vector<LineInstance> trails;  ///< faint where something is in front of them
+  std::vector<LineInstance> over;    ///< faint where something is in front of them
   std::vector<ArrowInstance> arrows;
 
   void clear();
@@ -47,4 +48,4 @@ struct Marks {
                  const ViewState& view);
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The viewer's colours. Bodies have Paul Tol's "light" qualitative scheme (Colour schemes, SRON technical note, 2021),
-// vectors and contacts Okabe and Ito's (Color universal design, 2008): readers who are colour-blind tell both apart.
+// The viewer's colours. Bodies: Paul Tol's "light" qualitative scheme (Colour schemes, SRON technical note, 2021).
+// Vectors and contacts: Okabe and Ito (Color universal design, 2008). Colour-blind readers can tell the colours of both
+// apart.
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@ constexpr Colour with_alpha(Colour c, double alpha) {
   return c;
 }
 
-/// From a to b as `share` goes from 0 to 1.
+/// Linear interpolation from a to b; `share` from 0 to 1.
 constexpr Colour mix(Colour a, Colour b, double share) {
   const auto one = [share](std::uint8_t x, std::uint8_t y) { return std::uint8_t(x + (double(y) - x) * share + 0.5); };
   return {one(a.red, b.red), one(a.green, b.green), one(a.blue, b.blue), one(a.alpha, b.alpha)};
@@ -49,7 +50,7 @@ constexpr Colour polhode = {200, 16, 80};
 constexpr Colour inset = {206, 216, 228};
 }  // namespace colours
 
-/// Of the moving body of that number.
+/// The colour of a moving body, by its number.
 constexpr Colour body_colour(std::size_t number) { return colours::bodies[number % colours::bodies.size()]; }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

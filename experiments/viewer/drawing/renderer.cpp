@@ -202,4 +202,4 @@ std::vector<Label> Renderer::labels(const Frame& frame, const Camera& camera, co
   return all;
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

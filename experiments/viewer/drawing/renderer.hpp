@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws frames of a scene into a part of the current framebuffer. It writes no text: labels() says where text belongs.
+// Draws frames of a scene into a rectangle of the current framebuffer. It writes no text; labels() gives texts and
+// their places.
 #pragma once
 
 #include <vector>
@@ -11,18 +12,18 @@
 
 namespace polhode::viewer::inline drawing {
 
-/// One for all runs of the same scene: they share its meshes, and the scale of their arrows, so that they compare. The
-/// framebuffer needs a depth buffer, and a stencil buffer for the shadows.
+/// One renderer for all runs of the same scene: they share its meshes and the scale of its arrows, so that they can be
+/// compared. The framebuffer needs a depth buffer, and a stencil buffer for the shadows.
 class Renderer {
  public:
   explicit Renderer(const study::Scene& scene);
 
-  /// Throws std::invalid_argument where the frame has not as many bodies as move in the scene.
+  /// Throws std::invalid_argument unless the frame has as many bodies as move in the scene.
   void draw(const Frame& frame, const Camera& camera, const Look& look, const Rectangle& area, const Past& past = {});
 
-  /// Names at the arrows of what was drawn last with these arguments, and at the axes of the polhode's inset.
+  /// Names of the arrows of the last draw() with these arguments, and of the axes of the polhode's inset.
   std::vector<Label> labels(const Frame& frame, const Camera& camera, const Look& look, const Rectangle& area) const;
-  /// Where draw() puts the polhode.
+  /// The rectangle in which draw() puts the polhode.
   static Rectangle polhode_area(const Rectangle& area, const Look& look) {
     return PolhodePass::area(area, look.polhode_corner);
   }
@@ -41,10 +42,10 @@ class Renderer {
   LinePass lines_;
   ArrowPass arrows_;
   PolhodePass polhode_;
-  double polhode_reach_ = 1;  // of what was drawn last
+  double polhode_reach_ = 1;  // of the last draw()
   Marks marks_;
   std::vector<Plane> planes_;                         // half-spaces
-  std::vector<std::vector<BodyInstance>> instances_;  // of each surface
+  std::vector<std::vector<BodyInstance>> instances_;  // by surface
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

@@ -85,4 +85,4 @@ SurfaceMesh mesh_of(const study::Surface& surface) {
   return mesh;
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

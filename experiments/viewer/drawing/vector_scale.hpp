@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long arrows are drawn: one scale for all bodies, which stays as it is while it can.
+// The scale of arrows: one for all bodies, constant as long as possible.
 #pragma once
 
 #include <cmath>
 
 namespace polhode::viewer::inline drawing {
 
-/// The first length seen is the unit; it doubles when one more than half as long again comes.
+/// The unit is the first length; it doubles when a length exceeds 1.5 units.
 class VectorScale {
  public:
   void see(double length) {
@@ -14,11 +14,11 @@ class VectorScale {
     if (unit_ == 0) unit_ = length;
     while (length > 1.5 * unit_) unit_ *= 2;
   }
-  /// In units; 0 before anything was seen.
+  /// A length in units; 0 before the first length.
   double share(double length) const { return unit_ > 0 ? length / unit_ : 0; }
 
  private:
   double unit_ = 0;
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

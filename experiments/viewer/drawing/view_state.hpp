@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The camera as the shaders have it: lengths count from the eye, so that floats do for scenes of any size.
+// The camera in the layout of the shaders: positions are relative to the eye, so that float suffices for scenes of any
+// size.
 #pragma once
 
 #include <cmath>
@@ -11,13 +12,13 @@ namespace polhode::viewer::inline drawing {
 
 struct ViewState {
   Vector3<double> eye;
-  Eigen::Matrix4f to_clip;    ///< from world axes about the eye
+  Eigen::Matrix4f to_clip;    ///< from world axes, relative to the eye
   Eigen::Vector3f forward;    ///< unit, world axes
   Eigen::Vector2f half_size;  ///< pixels
   double distance;            ///< m, from the eye to the target
   Vector3<double> target;
-  float line_scale;        ///< pixels for each that a width says
-  float pixels_per_slope;  ///< pixels of a metre across at a metre ahead
+  float line_scale;        ///< pixels for each unit of width
+  float pixels_per_slope;  ///< pixels of a length of 1 m at a distance of 1 m
 
   ViewState(const Camera& camera, const Rectangle& area, double scale_of_lines)
       : eye(camera.eye()),
@@ -34,11 +35,11 @@ struct ViewState {
 
   Vector3<float> from_eye(const Vector3<double>& point) const { return (point - eye).cast<float>(); }
 
-  /// Of a metre across at a point; of one behind the eye as of one close to it.
+  /// Pixels of a length of 1 m at a point; points behind the eye count as close to it.
   double pixels_per_metre(const Vector3<double>& point) const {
     const double ahead = (point - eye).dot(forward.cast<double>());
     return double(pixels_per_slope) / std::max(ahead, 1e-3 * distance);
   }
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::drawing

@@ -37,4 +37,4 @@ struct Frame {
   double defect = 0;                   ///< of the worst orientation
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::frame

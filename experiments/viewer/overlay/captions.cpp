@@ -60,4 +60,4 @@ void write_captions(Stage& stage, const std::vector<Label>& labels, const Rectan
   }
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::overlay

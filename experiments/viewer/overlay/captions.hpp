@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text in a picture: each run's method and time, the names of arrows, and why a run stands still.
+// Texts in a picture: method and time of each run, names of arrows, and the reason why a run stopped.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace polhode::viewer::inline overlay {
 
-/// Behind all windows of Dear ImGui; `area` is where the runs were drawn.
+/// Draws the texts behind all windows of Dear ImGui; `area` is the rectangle in which the runs were drawn.
 void write_captions(Stage& stage, const std::vector<Label>& labels, const Rectangle& area, int picture_height);
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::overlay

@@ -66,4 +66,4 @@ void Gui::draw() {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::overlay

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dear ImGui over OpenGL, with or without a window: text and controls on top of what was drawn, and where each control
-// is, so that a script finds it.
+// Dear ImGui over OpenGL, with or without a window: text and controls on top of the picture, and the places of the
+// controls, for scripts.
 #pragma once
 
 #include <map>
@@ -10,7 +10,7 @@ struct ImVec2;
 
 namespace polhode::viewer::inline overlay {
 
-/// Where the controls of a frame are, by name: "play", "integrator", and "integrator/rk4" while that list is open.
+/// Places of the controls of a frame, by name: "play", "integrator", and "integrator/rk4" while that list is open.
 class Controls {
  public:
   struct Place {
@@ -18,19 +18,19 @@ class Controls {
   };
 
   void begin_frame() { places_.clear(); }
-  /// The control drawn last has this name.
+  /// Names the control drawn last.
   void named(const std::string& name);
-  /// The same of one with a field of the usual width, and text behind it that does not belong to it.
+  /// Names the control drawn last, if it is a field of the usual width followed by text that is not part of it.
   void field_named(const std::string& name);
   const Place* find(const std::string& name) const;
 
-  std::string reveal;  ///< an item of an open list that is to be scrolled to
+  std::string reveal;  ///< an item of an open list to scroll to
 
  private:
   std::map<std::string, Place> places_;
 };
 
-/// One at a time; wants a current context of OpenGL.
+/// The context of Dear ImGui; at most one at a time. Needs a current OpenGL context.
 class Gui {
  public:
   Gui();
@@ -38,11 +38,11 @@ class Gui {
   Gui& operator=(const Gui&) = delete;
   ~Gui();
 
-  /// Without a window: size and time of the frame that begins. With one, its backend tells them.
+  /// Size and time of the frame that begins, without a window; with one, its backend sets them.
   void begin_offscreen(int width, int height, double seconds);
   void draw();
 
   Controls controls;
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::overlay

@@ -257,4 +257,4 @@ void Panel::numbers(Stage& stage) {
   ImGui::Text("%.0f frames per second", double(ImGui::GetIO().Framerate));
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::overlay

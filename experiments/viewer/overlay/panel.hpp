@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The controls: time, what is shown, and by what each run moves.
+// The controls: time, visible marks, and the method of each run.
 #pragma once
 
 #include <optional>
@@ -10,16 +10,16 @@
 
 namespace polhode::viewer::inline overlay {
 
-/// What the controls ask of the window, which alone can do it.
+/// Requests of the controls that only the window can carry out.
 struct PanelWishes {
-  std::optional<std::string> scenario;  ///< another one
-  bool picture = false;                 ///< of what is seen now
-  bool camera = false;                  ///< back to where it first was
+  std::optional<std::string> scenario;  ///< open another scenario
+  bool picture = false;                 ///< save a picture of the present view
+  bool camera = false;                  ///< reset the camera
 };
 
 class Panel {
  public:
-  /// At the left edge, so wide (pixels) and so high.
+  /// Draws the panel at the left edge; width and height in pixels.
   PanelWishes draw(Stage& stage, Controls& controls, float width, float height);
 
  private:
@@ -30,10 +30,10 @@ class Panel {
   void numbers(Stage& stage);
   void change(Stage& stage, const Configuration& configuration);
 
-  std::size_t run_ = 0;  ///< whose method is shown
-  double speed_ = 1;     ///< of all runs, as they say it
+  std::size_t run_ = 0;  ///< the run whose method is shown
+  double speed_ = 1;     ///< of all runs
   bool pause_on_collision_ = false;
-  std::string refused_;  ///< why the last change was not made
+  std::string refused_;  ///< reason why the last change was refused
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::overlay

@@ -121,4 +121,4 @@ void draw_plots(Stage& stage, float left, float upper, float width, float height
   ImGui::End();
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::overlay

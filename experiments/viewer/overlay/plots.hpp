@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Energy, momentum and orientation defect against time, as they happen.
+// Live plots of energy, momentum and orientation defect against time.
 #pragma once
 
 #include "experiments/viewer/stage/stage.hpp"
@@ -9,4 +9,4 @@ namespace polhode::viewer::inline overlay {
 /// A strip of plots at the lower edge of the picture, one curve for each run.
 void draw_plots(Stage& stage, float left, float upper, float width, float height);
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::overlay

@@ -121,4 +121,4 @@ void Film::finish() {
   std::filesystem::rename(unfinished_, path_);
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::pictures

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes a film of pictures by ffmpeg: H.264 where it has libx264, else MPEG-4. The same pictures give the same file.
+// Makes a film of pictures with ffmpeg: H.264 if it has libx264, else MPEG-4. Equal pictures give equal files.
 #pragma once
 
 #include <filesystem>
@@ -13,15 +13,16 @@ namespace polhode::viewer::inline pictures {
 
 class Film {
  public:
-  /// Pictures of that size, so many a second. Throws std::runtime_error in one line where there is no ffmpeg.
+  /// A film of pictures of that size, at that rate (1/s). Throws std::runtime_error (one line) if ffmpeg is not
+  /// installed.
   Film(std::filesystem::path path, int width, int height, int pictures_a_second);
   Film(const Film&) = delete;
   Film& operator=(const Film&) = delete;
-  ~Film();  ///< of one that was not finished nothing stays
+  ~Film();  ///< deletes a film that was not finished
 
-  /// Throws std::runtime_error with the last line of ffmpeg where it fails.
+  /// Adds a picture. Throws std::runtime_error with ffmpeg's last line if it fails.
   void add(const Picture& picture);
-  /// The file is there after this, and not before. Throws as add() does.
+  /// Finishes the file, which does not exist before. Throws like add().
   void finish();
 
  private:
@@ -31,4 +32,4 @@ class Film {
   std::optional<study::ChildProcess> encoder_;
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::pictures

@@ -181,4 +181,4 @@ Picture Offscreen::read() {
   return picture;
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::pictures

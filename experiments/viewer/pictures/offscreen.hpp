@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An OpenGL context without a window, to draw pictures where there is no display.
+// An OpenGL context without a window, for pictures on machines without a display.
 #pragma once
 
 #include <memory>
@@ -8,14 +8,14 @@
 
 namespace polhode::viewer::inline pictures {
 
-/// Whether the current context draws by the processor: a sample more a pixel then costs as much as the first.
+/// True if the current context renders in software: the cost is then proportional to the samples for each pixel.
 bool draws_in_software();
 
-/// OpenGL 3.3 core by EGL: Mesa's surfaceless platform where there is one, else the first device, else the usual
-/// display. The context is current in the thread that made it.
+/// OpenGL 3.3 core by EGL: Mesa's surfaceless platform if available, else the first device, else the default display.
+/// The context is current in the thread that created it.
 class Offscreen {
  public:
-  /// `samples` a pixel; 1: no multisampling. Throws std::runtime_error in one line with the remedy.
+  /// `samples` for each pixel; 1: no multisampling. Throws std::runtime_error (one line) with the remedy.
   Offscreen(int width, int height, int samples);
   Offscreen(const Offscreen&) = delete;
   Offscreen& operator=(const Offscreen&) = delete;
@@ -24,12 +24,12 @@ class Offscreen {
   int width() const { return width_; }
   int height() const { return height_; }
   int samples() const { return samples_; }
-  /// What draws, as the driver names it.
+  /// Name of the renderer, as the driver gives it.
   const char* driver() const;
 
-  /// What is drawn from now on goes into this picture.
+  /// Binds this picture as the target of all drawing.
   void bind();
-  /// The picture as drawn so far.
+  /// The picture drawn so far.
   Picture read();
 
  private:
@@ -40,4 +40,4 @@ class Offscreen {
   int width_, height_, samples_;
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::pictures

@@ -8,7 +8,7 @@
 
 namespace polhode::viewer::inline pictures {
 
-/// Red, green and blue, a byte each; the uppermost row first, no padding.
+/// Red, green and blue, one byte each; top row first, no padding.
 struct Picture {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb;
@@ -18,4 +18,4 @@ struct Picture {
   }
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::pictures

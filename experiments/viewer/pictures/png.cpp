@@ -34,4 +34,4 @@ void write_png(const std::filesystem::path& path, const Picture& picture) {
   if (!closed || std::rename(temporary.c_str(), path.c_str()) != 0) fail(std::strerror(errno));
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::pictures

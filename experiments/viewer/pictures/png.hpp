@@ -8,8 +8,7 @@
 
 namespace polhode::viewer::inline pictures {
 
-/// Under a temporary name beside the file, then renamed. Throws std::runtime_error, which names the file and the
-/// reason.
+/// Writes a temporary file in the same folder, then renames it. Throws std::runtime_error with the file and the reason.
 void write_png(const std::filesystem::path& path, const Picture& picture);
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::pictures

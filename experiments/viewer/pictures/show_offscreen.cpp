@@ -82,4 +82,4 @@ int show_offscreen(StageSetup setup, const OffscreenSettings& settings) {
   return n;
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::pictures

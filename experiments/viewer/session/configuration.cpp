@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Configurations of a session: the usual one, and why one cannot be run.
+// Configurations of a session: the default one, and reasons for which one cannot be run.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -100,4 +100,4 @@ std::string refusal(const Configuration& configuration, const study::Scenario& s
   }
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session

@@ -7,7 +7,7 @@
 namespace polhode::viewer::inline session {
 namespace {
 
-constexpr double touching = 1e-6, apart = 1e-3;  // of the largest body
+constexpr double touching = 1e-6, apart = 1e-3;  // distances over the largest body radius
 
 void sort_once(std::vector<BodyPair>& pairs) {
   std::sort(pairs.begin(), pairs.end());
@@ -67,4 +67,4 @@ std::vector<BodyPair> ContactLookout::newly_met(const System<double>& system, co
   return fresh;
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks where bodies touch, for the eye alone: with a scene of its own, so that what the running one remembers is left
-// as it is. It tells a pair that has newly met from one that goes on touching.
+// Contact detection for display only. It uses a separate contact scene, so that the data cached by the scene of the run
+// stay unchanged. It distinguishes pairs that begin to touch from pairs in lasting contact.
 #pragma once
 
 #include <span>
@@ -17,15 +17,15 @@ class ContactLookout {
  public:
   ContactLookout(const study::Scenario& scenario, const study::ContactConfig& config);
 
-  /// Points that overlap, or are apart by 1e-6 of the largest body at most.
+  /// Contact points that overlap, or whose distance is at most 1e-6 of the largest body radius.
   std::vector<FrameContact> contacts(const System<double>& system, const VectorX<double>& y);
-  /// Of the broad phase.
+  /// Cells of the broad phase.
   std::vector<Bounds> cells(const System<double>& system, const VectorX<double>& y);
 
-  /// What touches here is known, and no more.
+  /// Makes the pairs that touch in the state y the only known pairs.
   void begin(const System<double>& system, const VectorX<double>& y);
-  /// The pairs that touch here or have met in the step before, and did not when it was asked last. A pair is forgotten
-  /// once it is apart by 1e-3 of the largest body.
+  /// The pairs that touch in the state y or collided in the step before it (`impacts`) and are not yet known. They
+  /// become known. A known pair is removed when its distance exceeds 1e-3 of the largest body radius.
   std::vector<BodyPair> newly_met(const System<double>& system, const VectorX<double>& y,
                                   std::span<const Impact> impacts);
 
@@ -33,9 +33,9 @@ class ContactLookout {
   std::span<const ImpulseContact> look(const System<double>& system, const VectorX<double>& y, double margin);
 
   ContactScene scene_;
-  double touch_ = 0, apart_ = 0;  ///< m
-  std::vector<BodyPair> known_;   ///< sorted
+  double touch_ = 0, apart_ = 0;  ///< largest distances of touching and of known pairs, m
+  std::vector<BodyPair> known_;   ///< pairs in contact, sorted
   std::vector<Pose> poses_;
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session

@@ -222,6 +222,8 @@ void LiveSession::write_steps() {
   or_say([this] { recorder_.write_steps(segment_.present()); });
 }
 
+// Start of segments.
+
 void LiveSession::leave_the_past() {
   if (past_) fork_from(*past_, configuration_);
 }
@@ -297,4 +299,4 @@ void LiveSession::publish() {
 
 std::unique_ptr<Session> live_session(const SessionSetup& setup) { return std::make_unique<LiveSession>(setup); }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A session that simulates. Its thread goes through core/simulate, segment by segment, and is the observer there: after
-// each step it keeps the state, lets the window see it, applies what commands have come, and waits for the next step's
-// turn.
+// A session that simulates. Its thread runs simulate(), segment by segment. After each step it publishes a view if the
+// window requested one, applies received commands, and waits until the next step is due. Its parts:
+//   CommandQueue     commands and wall time from the window's thread
+//   Playback         time of the next step
+//   SegmentObserver  present state
+//   CollisionPause   pause at collisions
+//   SessionRecorder  output files
+//   ViewPublisher    contents of the window
 #pragma once
 
 #include <atomic>
@@ -83,7 +88,7 @@ class LiveSession final : public Session {
   bool leaving_ = false;           ///< the present segment is to be replaced by another one
   std::string trouble_;            ///< message of an error other than one of the motion
 
-  std::thread thread_;  ///< last: it starts when all else is there
+  std::thread thread_;  ///< must be the last member: the thread uses all others
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much simulated time a session may go on by: wall time times speed adds up, and steps take from it. What a
-// simulation that is too slow falls behind by is bounded; beyond that, time is let go, and it is said (Fiedler, Fix
-// your timestep!, 2004).
+// Accumulator of simulated time that a session is due to advance by: wall time times speed is added, and the sizes of
+// steps are subtracted. Its value is bounded for a simulation that is too slow: time beyond the bound is dropped, which
+// is reported (Fiedler, Fix your timestep!, 2004).
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@ class Pace {
   double speed() const { return speed_; }
   void set_speed(double speed) { speed_ = speed; }
 
-  /// Wall time (s) passes while it plays, but for what is held back since another session is slower; `step` (s) is the
-  /// least that it must be able to save up for, 0 of a method that chooses its steps.
+  /// Adds elapsed wall time, s, while the session plays. step: size of the next step, s, which the bound must allow; 0
+  /// for an adaptive method. held_back: part of the wall time, s, that is dropped because another session is slower.
   void tick(double seconds, double step, double held_back = 0) {
     const double most_behind = std::max(longest_behind * speed_, step);
     let_go_ = let_go_ || owed_ > most_behind || seconds > longest_tick || held_back > 0;
@@ -28,37 +28,37 @@ class Pace {
     let_go_ = false;
   }
 
-  /// Takes a step of that size, if there is time for it.
+  /// Subtracts a step (s) if it is due; returns false otherwise.
   bool take(double step) {
     if (owed_ < step * (1 - rounding)) return false;
     owed_ -= step;
     return true;
   }
   bool owes() const { return owed_ > 0; }
-  /// All that is owed, in one step.
+  /// Subtracts and returns all time that is due, s.
   double take_all() {
     const double all = owed_;
     owed_ = 0;
     return all;
   }
-  /// A step whose size nobody knew before.
+  /// Subtracts a step (s) of an adaptive method after it was taken.
   void took(double step) { owed_ -= step; }
-  /// Simulated time (s) has passed.
+  /// Adds simulated time (s) to the measurement of the pace.
   void went(double step) { went_ += step; }
 
-  /// Nothing is owed any more.
+  /// Discards all time that is due, and the measurement of the pace.
   void forget() { owed_ = wall_ = went_ = 0; }
 
-  /// s of the wall, that it would take to catch up.
+  /// Wall time that is still to be simulated, s.
   double behind() const { return std::max(owed_, 0.0) / speed_; }
 
-  static constexpr double longest_behind = 0.25;  ///< s of the wall
+  static constexpr double longest_behind = 0.25;  ///< largest value of behind(), s of wall time
 
-  double pace() const { return pace_; }  ///< simulated seconds for one of the wall, over the last second
+  double pace() const { return pace_; }  ///< simulated time over wall time, measured over the last second
   bool slower() const { return slower_; }
 
  private:
-  static constexpr double longest_tick = 1, measured_over = 1;  // s of the wall
+  static constexpr double longest_tick = 1, measured_over = 1;  // s of wall time
   static constexpr double rounding = 1e-9;
 
   double speed_ = 1, owed_ = 0;
@@ -66,4 +66,4 @@ class Pace {
   bool let_go_ = false, slower_ = false;
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session

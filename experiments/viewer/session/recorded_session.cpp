@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A session that plays a recorded trajectory. It needs no thread: all there is to do is to look a time up.
+// A session that plays a recorded trajectory. It needs no thread, since it only looks up samples by time.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::size_t most_points = 2048;
 
-/// On the shorter way from a to b; unit quaternions. Source: Shoemake, Animating rotation with quaternion curves, 1985.
+/// Spherical interpolation between unit quaternions on the shorter arc; s = 0: a, s = 1: b. Source: Shoemake, Animating
+/// rotation with quaternion curves, 1985.
 Quaternion<double> slerp(const Quaternion<double>& a, const Quaternion<double>& b, double s) {
   const Quaternion<double> to = a.dot(b) < 0 ? Quaternion<double>(-b) : b;
   const double angle = 2 * std::atan2((to - a).norm(), (to + a).norm());
@@ -92,7 +93,7 @@ class RecordedSession final : public Session {
     view_.reset();
   }
 
-  /// Forward sample by sample, where it is to pause at a collision.
+  /// Goes to time t (s); sample by sample if the session plays and pauses at collisions.
   void go_to(double t) {
     const std::vector<double>& times = motion_.times;
     t = std::clamp(t, times.front(), times.back());
@@ -121,7 +122,7 @@ class RecordedSession final : public Session {
     return (motion_.has_matrix ? quaternion_from_rotation_matrix<double>(b.rotation) : b.orientation).normalized();
   }
 
-  /// So far (0 to 1) on the way from a sample to the next.
+  /// State interpolated between samples k and k + 1 at the fraction s (0 to 1).
   VectorX<double> state_at(std::size_t k, double s) const {
     const std::size_t next = s > 0 ? k + 1 : k;
     VectorX<double> y = VectorX<double>::Zero(system_->layout().size());
@@ -164,8 +165,8 @@ class RecordedSession final : public Session {
             defect(sample)};
   }
 
-  /// The ledger of the run, where it stands beside the trajectory with a row for each of its instants; else the drift
-  /// is the change of the energy.
+  /// Reads the energy drift of the run from energy.csv beside the trajectory, if that file has a row for each instant;
+  /// otherwise the drift is the change of the energy.
   void read_ledger(const std::string& trajectory) {
     const std::filesystem::path path = std::filesystem::path(trajectory).parent_path() / "energy.csv";
     std::error_code ignored;
@@ -257,10 +258,10 @@ class RecordedSession final : public Session {
   Wanted wanted_;
   Vector3<double> momentum_start_ = Vector3<double>::Zero();
   double energy_start_ = 0;
-  std::vector<double> drift_;  ///< J, of each instant; empty: nobody says
+  std::vector<double> drift_;  ///< energy drift at each instant, J; empty: unknown
   std::vector<PlotPoint> plot_;
   double t_ = 0, speed_ = 1;
-  std::size_t sample_ = 0;  ///< the last one that is not after t
+  std::size_t sample_ = 0;  ///< index of the last sample at or before t_
   bool playing_ = false, pause_on_collision_ = false, collided_ = false;
   std::shared_ptr<const View> view_;
 };
@@ -272,4 +273,4 @@ std::unique_ptr<Session> recorded_session(const std::string& trajectory, const s
   return std::make_unique<RecordedSession>(trajectory, scenario, overrides, between);
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session

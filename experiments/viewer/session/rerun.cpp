@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Carries a recorded session out again.
+// Simulates a recorded session again.
 #include <fmt/format.h>
 
 #include <map>
@@ -15,7 +15,8 @@ namespace {
 
 using Place = std::pair<std::int64_t, std::int64_t>;  // segment and step
 
-/// Follows a segment step by step, keeps the states at which others start, and ends it where it was left.
+/// Observer of the rerun of a segment: stores the states at which other segments start, and stops after the last
+/// recorded step.
 class Follower final : public Observer {
  public:
   Follower(const RecordedSegment& segment, std::int64_t number, const std::set<Place>& wanted,
@@ -36,7 +37,7 @@ class Follower final : public Observer {
   double next_size() const { return step_ >= 1 && step_ <= last_ ? sizes_[std::size_t(step_ - 1)] : 0; }
 
   const State<double>& end() const { return end_; }
-  /// Once it has ended.
+  /// First difference from the record; call after the run has ended.
   std::string mismatch(const RunOutcome& outcome) const {
     if (!mismatch_.empty() || stop) return mismatch_;
     return fmt::format("segment {} ends after {} of {} steps{}{}", number_, step_ - 1, last_,
@@ -82,7 +83,7 @@ Rerun rerun(const std::string& session_file) {
     State<double> state = run.system().start();
     if (segment.from.segment > 0) {
       const auto found = kept.find({segment.from.segment, segment.from.step});
-      if (found == kept.end()) break;  // that segment did not come so far, as is said
+      if (found == kept.end()) break;  // that segment ended earlier than recorded, which its mismatch reports
       const Formulation& before = record.segments[std::size_t(segment.from.segment - 1)].configuration.run.formulation;
       state = converted(*make_system<double>(record.scenario.problem, before), found->second, run.system());
     }
@@ -96,4 +97,4 @@ Rerun rerun(const std::string& session_file) {
   return result;
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session

@@ -38,4 +38,4 @@ std::string digest(const State<double>& state) {
 
 std::string digest(const std::string& text) { return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size())); }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session

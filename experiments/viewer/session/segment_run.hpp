@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A segment of a session: a stretch of the motion in one configuration, from a state to where it is left. A session and
-// its rerun both go through it here, and so through the same loop as every study.
+// Run of a segment of a session: a part of the motion in one configuration. Sessions and their reruns both use it, and
+// thereby the same loop as every study.
 #pragma once
 
 #include <atomic>
@@ -16,13 +16,13 @@ namespace polhode::viewer::inline session {
 
 class SegmentRun {
  public:
-  /// The configuration must be one that refusal() accepts.
+  /// The configuration must be valid: refusal() must return an empty string for it.
   SegmentRun(const study::Scenario& scenario, const Configuration& configuration);
 
   const System<double>& system() const { return *system_; }
 
-  /// From this state, of the system, to t_end or until `stop` is set in a look of the observer, who sees the start even
-  /// where that is t_end. `next_step` is asked where the frame clock drives.
+  /// Runs from this state of the system to t_end, or until the observer sets `stop`. The observer receives the initial
+  /// state even if its time is t_end. next_step: returns the size of the next step, s, if the drive is the frame clock.
   RunOutcome go(State<double>& state, Observer& observer, const std::atomic<bool>& stop,
                 std::function<double()> next_step);
 
@@ -33,9 +33,9 @@ class SegmentRun {
   std::unique_ptr<Integrator<double>> integrator_;
 };
 
-/// 16 hexadecimal digits that tell states apart: of the bytes of time and y.
+/// Hash of the bytes of a state's time and y: 16 hexadecimal digits.
 std::string digest(const State<double>& state);
-/// The same of a text.
+/// Hash of a text: 16 hexadecimal digits.
 std::string digest(const std::string& text);
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session

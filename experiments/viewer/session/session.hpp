@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A session: one scenario that moves by one method at a time, in a thread of its own, or a recorded trajectory that
-// plays. The window's thread gives commands, passes the time on, and looks at what is to be seen; none of that waits
-// for the simulation, nor makes it wait.
+// A session: a scenario that is simulated in a separate thread, by one method at a time, or a recorded trajectory that
+// is played. The window's thread sends commands, passes on elapsed time, and reads the latest view. None of these calls
+// waits for the simulation or blocks it.
 //
-// Time comes from the owner alone, who may have several sessions side by side:
+// Time advances only by calls of the owner, who may have several sessions side by side:
 //   const double dt = clock.tick();
-//   for (auto& s : sessions) s->tick(dt);   // or tick_together(sessions, dt), so that none runs ahead of the others
-// Digits do not depend on it where the accumulator drives: the session goes through the loop of core/simulate, and only
-// waits between its steps. What did decide them is recorded (session_record.hpp).
+//   for (auto& s : sessions) s->tick(dt);   // or tick_together(sessions, dt), which keeps them at the same time
+// With the drive `accumulator`, the results do not depend on wall time: the session runs simulate() and only waits
+// between its steps. Everything on which the results depend is recorded (session_record.hpp).
 #pragma once
 
 #include <cstdint>
@@ -26,46 +26,46 @@
 
 namespace polhode::viewer::inline session {
 
-/// What gives the steps their size.
+/// Source of the step size.
 enum class Drive {
-  accumulator,  ///< dt, or the method's tolerance: as many steps as fit into the time that has passed
-  /// The time between two frames, one step each, Δt = t_current − t_previous, as the engine slides have it. A step that
-  /// takes longer than a frame makes the next one so much larger.
+  accumulator,  ///< dt, or the method's tolerance; as many steps as fit into the elapsed time
+  /// The time between two frames, Δt = t_current − t_previous, one step for each frame, as in the engine slides. If the
+  /// computation of a step takes longer than a frame, the next step is correspondingly larger.
   frame_clock
 };
 constexpr std::string_view name(Drive d) { return d == Drive::accumulator ? "accumulator" : "frame_clock"; }
 
-/// By what a scenario moves. Of the run: precision is double, every step is seen; dt is also the frame clock's single
-/// step.
+/// Method and formulation of a simulation. Requirements for the run: precision double, and observation after every
+/// step. With the drive `frame_clock`, dt is the size of a single step.
 struct Configuration {
   study::RunConfig run;
   Drive drive = Drive::accumulator;
 };
 
-/// Of the scenario with what `./run simulate` takes where nothing is said: rk4 with dt = 1e-3 s, contact where it has
-/// some.
+/// The default configuration of a scenario, with the defaults of `./run simulate`: rk4 with dt = 1e-3 s, and contact if
+/// the scenario has contact.
 Configuration usual_configuration(const study::Scenario& scenario);
-/// Another method: with dt (s) or the tolerance, whichever is its own.
+/// Sets the method, with the step dt (s) of a fixed-step method or the tolerance of an adaptive one.
 void choose_integrator(Configuration& configuration, const std::string& name, double dt = 1e-3,
                        double tolerance = 1e-8);
-/// Why this cannot be run, in one line; empty if it can.
+/// Reason, in one line, for which the configuration cannot be run; empty if it can.
 std::string refusal(const Configuration& configuration, const study::Scenario& scenario);
 
 struct SessionSetup {
-  std::string scenario;  ///< a built-in name or a path, as --scenario takes it
+  std::string scenario;  ///< built-in name or path, as for --scenario
   std::vector<study::Override> overrides;
-  std::optional<Configuration> configuration;  ///< absent: the usual one
-  std::filesystem::path record;                ///< where to write session.toml; empty: nowhere
-  /// Where to write the trajectory: segment_1/trajectory.csv and so on, one folder for each stretch of one
-  /// configuration; empty: nowhere.
+  std::optional<Configuration> configuration;  ///< absent: usual_configuration()
+  std::filesystem::path record;                ///< path of session.toml to write; empty: none is written
+  /// Folder of the trajectories to write, segment_1/trajectory.csv and so on, one for each segment; empty: none are
+  /// written.
   std::filesystem::path trajectory;
-  std::size_t history_bytes = 64 << 20;  ///< of the states that are kept for scrubbing back
+  std::size_t history_bytes = 64 << 20;  ///< memory of the states kept for scrubbing back, bytes
 };
 
-/// What of a session is looked at beyond the bodies.
+/// Contents of a view requested in addition to the bodies.
 struct Wanted {
   bool contacts = false, cells = false;
-  std::vector<std::size_t> traced;  ///< moving bodies whose traces are wanted
+  std::vector<std::size_t> traced;  ///< indices of the moving bodies to trace
   bool operator==(const Wanted&) const = default;
 };
 
@@ -73,16 +73,16 @@ struct Wanted {
 struct PlotPoint {
   double t = 0;                       ///< s
   double kinetic = 0, potential = 0;  ///< J
-  double energy_drift = 0;            ///< J
-  double momentum_drift = 0;          ///< kg m²/s
-  double defect = 0;
+  double energy_drift = 0;            ///< E − E(0) of the energy ledger, J
+  double momentum_drift = 0;          ///< magnitude of the change of the angular momentum, kg m²/s
+  double defect = 0;                  ///< orientation defect
 };
 
-/// Where a body was, and its polhode.
+/// A point of a body's path and of its polhode.
 struct TracePoint {
   double t = 0;                                          ///< s
-  Vector3<double> position = Vector3<double>::Zero();    ///< m, of the mass centre
-  Vector3<double> omega_body = Vector3<double>::Zero();  ///< rad/s, body axes
+  Vector3<double> position = Vector3<double>::Zero();    ///< of the mass centre, world frame, m
+  Vector3<double> omega_body = Vector3<double>::Zero();  ///< angular velocity, body frame, rad/s
 };
 struct Trace {
   std::size_t body = 0;
@@ -91,29 +91,30 @@ struct Trace {
 
 struct SessionStatus {
   bool playing = false;
-  bool at_end = false;  ///< nothing goes on from here: t_end is reached, or the method has failed
-  bool failed = false;  ///< the method gave up, or the motion diverged; the message says how
+  bool at_end = false;  ///< the motion has ended: t_end was reached, or the run failed
+  bool failed = false;  ///< the method failed or the motion diverged; the message gives the reason
   bool paused_at_collision = false;
-  bool in_the_past = false;         ///< scrubbed back; to go on from here forgets what came after
-  std::string message;              ///< what there is to say: why it stopped, or why nothing is recorded any more
-  double speed = 1;                 ///< simulated seconds wanted for one of the wall
-  double pace = 0;                  ///< and had, over the last second
-  bool slower_than_wanted = false;  ///< the simulation does not keep up, and time was let go
-  double t_first = 0, t_last = 0;   ///< s: how far scrubbing reaches
+  bool in_the_past = false;         ///< scrubbed back; continuing from here discards the later motion
+  std::string message;              ///< reason for which the motion ended or recording stopped; empty: none
+  double speed = 1;                 ///< requested simulated time over wall time
+  double pace = 0;                  ///< actual simulated time over wall time, over the last second
+  bool slower_than_wanted = false;  ///< the simulation is too slow, and time was dropped
+  double t_first = 0, t_last = 0;   ///< range of scrub(), s
   double t_end = 0;                 ///< s
-  std::int64_t segment = 0;         ///< from 1: how many configurations and scrubs there were
+  std::int64_t segment = 0;         ///< number of the present segment, from 1
 };
 
-/// All that the window shows, of one instant; never changed once it is handed out.
+/// Contents of the window at one instant. Immutable once published.
 struct View {
   Frame frame;
-  std::vector<PlotPoint> plot;  ///< of all there is to scrub through, thinned to 2048 points
-  std::vector<Trace> traces;    ///< of the wanted bodies, thinned alike
+  std::vector<PlotPoint> plot;  ///< over the range of scrub(), thinned to 2048 points
+  std::vector<Trace> traces;    ///< of the requested bodies, each thinned to 2048 points
   SessionStatus status;
-  Configuration configuration;  ///< the present one
+  Configuration configuration;  ///< present configuration
 };
 
-/// Commands are applied between two steps, in the order in which they came; all may be called from the window's thread.
+/// A session. All functions may be called from the window's thread; commands are applied between two steps, in the
+/// order of the calls.
 class Session {
  public:
   Session() = default;
@@ -123,55 +124,58 @@ class Session {
 
   virtual const study::Scenario& scenario() const = 0;
 
-  /// The latest there is; never null, never waits.
+  /// The latest view; never null. Does not wait for the simulation.
   virtual std::shared_ptr<const View> view() = 0;
-  /// So many seconds of wall time have passed: once a frame. What is held back of them does not count.
+  /// Adds elapsed wall time, s; call once per frame. held_back: part of it that is not to be simulated, s.
   virtual void tick(double seconds, double held_back = 0) = 0;
-  /// s of wall time that have passed and are still to be simulated.
+  /// Elapsed wall time that is still to be simulated, s.
   virtual double behind() const = 0;
 
   virtual void play() = 0;
   virtual void pause() = 0;
-  virtual void step(std::int64_t count = 1) = 0;  ///< so many steps, then pauses
-  virtual void reset() = 0;                       ///< to the start, with the present configuration; pauses
-  virtual void set_speed(double speed) = 0;       ///< positive and finite, else std::invalid_argument
-  virtual void scrub(double t) = 0;               ///< to the kept state nearest to t; pauses
+  virtual void step(std::int64_t count = 1) = 0;  ///< takes `count` steps, then pauses
+  virtual void reset() = 0;                       ///< returns to the start, keeps the configuration; pauses
+  virtual void set_speed(double speed) = 0;       ///< throws std::invalid_argument unless positive and finite
+  virtual void scrub(double t) = 0;               ///< goes to the stored state nearest to t (s); pauses
   virtual void pause_on_collision(bool on) = 0;
   virtual void want(const Wanted& wanted) = 0;
-  /// From the present state on. Returns why not, and then changes nothing; empty: it will be.
+  /// Changes the configuration from the present state on. Returns the reason for which it cannot, and changes nothing
+  /// then; empty if it can.
   virtual std::string change(const Configuration& configuration) = 0;
 
-  /// Waits until all commands are applied and the simulation waits too: it is paused, at its end, or has caught up. For
-  /// films and tests; a window never calls it.
+  /// Waits until all commands are applied and the simulation is paused, at its end, or has simulated all elapsed time.
+  /// For films and tests, not for windows.
   virtual void settle() = 0;
 
-  /// Ends the simulation and waits for it. Returns what of the session could not be written, in one line; empty:
-  /// nothing.
+  /// Ends the simulation and waits for its thread. Returns a message, in one line, about the first file that could not
+  /// be written; empty if all were written.
   virtual std::string finish() { return {}; }
 };
 
-/// Time passes for all of them alike: while one is behind by more than a quarter of a second, the others wait for it.
+/// Adds elapsed wall time (s) to all sessions. While one is behind by more than a quarter of a second, the others wait
+/// for it, so that all stay at the same time.
 void tick_together(std::span<const std::unique_ptr<Session>> sessions, double seconds);
 
-/// Starts paused at the scenario's start. Throws InputError with the reason where it cannot.
+/// A session that simulates, paused at the start of the scenario. Throws InputError, with the reason, for invalid
+/// input.
 std::unique_ptr<Session> live_session(const SessionSetup& setup);
 
-/// How a recorded trajectory is shown between its samples.
+/// Display of a recorded trajectory between its samples.
 enum class Between { nearest, interpolated };
 
-/// Plays a trajectory.csv of a study, or of any program, of this scenario. Throws InputError.
+/// A session that plays a trajectory.csv of this scenario, written by a study or by another program. Throws InputError.
 std::unique_ptr<Session> recorded_session(const std::string& trajectory, const std::string& scenario,
                                           const std::vector<study::Override>& overrides = {},
                                           Between between = Between::interpolated);
 
-/// A recorded session carried out again, without window and pace.
+/// Result of a recorded session that was simulated again, without a window and without waiting.
 struct Rerun {
   State<double> end;
   std::int64_t segments = 0, steps = 0;
-  std::string digest;    ///< of the state at the end: 16 hexadecimal digits
-  std::string mismatch;  ///< where it differs from what was recorded, in one line; empty: the same bytes
+  std::string digest;    ///< hash of the final state: 16 hexadecimal digits
+  std::string mismatch;  ///< first difference from the record, in one line; empty: the same bytes
 };
-/// Throws InputError, with file, line and key, where the record cannot be read.
+/// Simulates a recorded session again. Throws InputError, with file, line and key, if the record cannot be read.
 Rerun rerun(const std::string& session_file);
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session

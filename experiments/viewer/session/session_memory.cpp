@@ -13,7 +13,7 @@ constexpr std::size_t most_plotted = 2048;  // largest number of points of a plo
 constexpr std::size_t fewest_states = 16, most_states = 1 << 16;
 
 std::size_t states_in(std::size_t bytes, const Problem& problem) {
-  constexpr std::size_t numbers_of_body = 18;  // of the longest formulation
+  constexpr std::size_t numbers_of_body = 18;  // length of a body's state in the longest formulation
   const std::size_t each = sizeof(Kept) + sizeof(double) * numbers_of_body * problem.moving();
   return std::clamp(bytes / each, fewest_states, most_states);
 }
@@ -54,8 +54,8 @@ void SessionMemory::forget_after(std::int64_t step) {
 
 bool SessionMemory::hopeless(double energy) {
   if (!std::isfinite(energy)) return true;
-  // With contact a scale can take a second, in which nothing moves. That of a part of the motion is no larger than that
-  // of the whole; half of it allows for other steps.
+  // With contact the computation of a scale can take a second, during which the motion would stop. The scale of a part
+  // of the motion does not exceed that of the whole; half of it allows for other steps.
   constexpr double part = 0.01;
   if (!early_scale_) early_scale_ = study::motion_scales(scenario_, part * scenario_.t_end).energy / 2;
   if (std::abs(energy) <= study::hopeless_drift * *early_scale_) return false;
@@ -143,4 +143,4 @@ std::vector<Trace> SessionMemory::traces() const {
   return all;
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a session remembers of its motion, bounded and thinned: states to go back to, its energy ledger, the points of
-// its plots and the traces of bodies.
+// Stored history of a session's motion, thinned to a bounded size: states for scrubbing back, the energy ledger, the
+// points of plots, and the traces of bodies.
 #pragma once
 
 #include <map>
@@ -16,13 +16,13 @@
 
 namespace polhode::viewer::inline session {
 
-/// A state with all that belongs to it.
+/// A state with its place in the session and its energy ledger.
 struct Kept {
   State<double> state;
-  Formulation formulation;  ///< of the state
-  SegmentStart place;       ///< where in the session's record it is
-  std::int64_t step = 0;    ///< of the session, from its start
-  Sample sample;            ///< its projection counts from the session's start, and so do the losses
+  Formulation formulation;  ///< formulation of the state
+  SegmentStart place;       ///< place in the session's record
+  std::int64_t step = 0;    ///< number of steps since the start of the session
+  Sample sample;            ///< its projection, like the losses below, is summed since the start of the session
   ContactLosses losses;
 };
 
@@ -30,23 +30,24 @@ class SessionMemory {
  public:
   SessionMemory(const study::Scenario& scenario, std::size_t bytes);
 
-  /// The scenario's system without contact, to look at states of that formulation.
+  /// The system of the scenario without contact, for measurements of states in that formulation.
   const System<double>& system(const Formulation& formulation);
 
-  /// Begins anew from here; the ledger and L(0) are from here on.
+  /// Starts a new history; drifts are relative to the energy and the angular momentum of this state.
   void begin(const Kept& start);
   void add(const Kept& now);
   void forget_after(std::int64_t step);
 
-  /// J, what the ledger cannot explain.
+  /// Energy drift E − E(0), E from the energy ledger, J.
   double energy_drift(const Sample& sample, const ContactLosses& losses) const {
     return sample.ledger(losses.total()) - energy_start_;
   }
-  /// Whether an energy drift, or a kinetic energy (J), ends the run as diverged, as it does in a study.
+  /// True if an energy drift or a kinetic energy (J) is so large that the run is stopped as diverged; the limit is that
+  /// of studies.
   bool hopeless(double energy);
 
-  double first_time() const;  ///< s
-  /// The one nearest in time, `now` among them; of two as near the later.
+  double first_time() const;  ///< time of the first stored state, s
+  /// The state nearest to time t (s) among the stored states and `now`; the later one of two at the same distance.
   const Kept& nearest(double t, const Kept& now) const;
 
   Frame frame(const Kept& kept);
@@ -69,10 +70,10 @@ class SessionMemory {
     Thinned<TracePoint> points;
   };
   std::vector<Traced> traced_;
-  double energy_start_ = 0;  ///< J
-  /// J, of the first hundredth of the motion and of all of it, found when they are first needed.
+  double energy_start_ = 0;  ///< energy at the start, J
+  /// Energy scales of the first hundredth of the motion (half of it) and of all of it, computed on demand, J.
   std::optional<double> early_scale_, energy_scale_;
   Vector3<double> momentum_start_ = Vector3<double>::Zero();
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session

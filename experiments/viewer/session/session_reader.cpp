@@ -196,4 +196,4 @@ SessionRecord parse_session(std::string_view text, const std::string& origin) {
 
 SessionRecord read_session(const std::string& path) { return parse_session(study::read_text(path), path); }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What decided the digits of a session, as a file (session.toml): the scenario, and segment by segment where it
-// started, how it was configured and how far it went. It is only ever appended to, after each command, where it pauses,
-// and each second that it plays, so that a session that is killed leaves what it had done up to then.
+// Record of a session (session.toml), from which it can be reproduced to the last digit: the scenario and, for each
+// segment, its start, its configuration and its steps. The file is only appended to: after each command, at each pause,
+// and every second while the session plays. A killed session leaves the record up to the last of these.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,17 @@
 
 namespace polhode::viewer::inline session {
 
-/// A segment starts where another, counted from 1, was after so many steps; segment 0: at the scenario's start.
+/// Start of a segment: the state of another segment, counted from 1, after `step` steps; segment 0: the start of the
+/// scenario.
 struct SegmentStart {
   std::int64_t segment = 0, step = 0;
 };
 
-/// Some steps, one after the other.
+/// Consecutive steps of a segment.
 struct SegmentPart {
   std::int64_t steps = 0;
-  std::vector<double> sizes;  ///< s, of each; where the frame clock drives
-  std::string digest;         ///< of the state after them
+  std::vector<double> sizes;  ///< size of each step, s; only for the drive `frame_clock`
+  std::string digest;         ///< hash of the state after the steps
 };
 
 struct RecordedSegment {
@@ -35,7 +36,7 @@ struct RecordedSegment {
   std::int64_t steps() const;
 };
 
-/// Whether a scenario is named by its file, which a record names as seen from its own folder.
+/// True if a scenario is given by the path of its file. A record contains this path relative to its own folder.
 bool is_path(const std::string& scenario);
 
 struct SessionRecord {
@@ -45,7 +46,7 @@ struct SessionRecord {
 
 class SessionWriter {
  public:
-  /// Throws std::runtime_error, naming the file, where it cannot be written; so do the others.
+  /// Creates the file. All functions throw std::runtime_error, with the path, if it cannot be written.
   SessionWriter(const std::filesystem::path& path, const SessionSetup& setup, const study::Scenario& scenario);
   SessionWriter(const SessionWriter&) = delete;
   SessionWriter& operator=(const SessionWriter&) = delete;
@@ -61,9 +62,9 @@ class SessionWriter {
   std::FILE* file_;
 };
 
-/// The text of a file that is named `origin` in errors. Throws InputError, with line, column, key and a remedy; also
-/// where the scenario is another one by now, or a configuration cannot be run.
+/// Parses the text of a record; `origin` is the file name in error messages. Throws InputError, with line, column, key
+/// and a remedy; also if the scenario has changed since, or a configuration cannot be run.
 SessionRecord parse_session(std::string_view text, const std::string& origin);
 SessionRecord read_session(const std::string& path);
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session

@@ -28,7 +28,7 @@ std::string line(std::string_view key, std::string_view text) { return fmt::form
 std::string line(std::string_view key, double x) { return fmt::format("{} = {}\n", key, study::exact(x)); }
 std::string line(std::string_view key, bool on) { return fmt::format("{} = {}\n", key, on); }
 
-/// A file's path as seen from the record's folder, so that both can be moved together.
+/// Path of a scenario file relative to the record's folder, so that both can be moved together.
 std::string seen_from(const std::filesystem::path& record, const std::string& scenario) {
   if (!is_path(scenario)) return scenario;
   std::error_code error;
@@ -103,4 +103,4 @@ void SessionWriter::append(std::string_view text) {
   throw std::runtime_error("cannot write " + path_ + ": " + std::strerror(errno));
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session

@@ -52,4 +52,4 @@ State<double> converted(const System<double>& from, const State<double>& state, 
   return out;
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Something of each step, thinned evenly to a bounded number: when all places are taken, every second one goes.
+// Values at steps, thinned evenly to a bounded number: when the capacity is reached, every second value is removed.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ class Thinned {
 
   explicit Thinned(std::size_t capacity) : capacity_(std::max<std::size_t>(capacity, 2)) {}
 
-  /// Whether add() would keep something of this step, which must come after all that is kept.
+  /// True if add() stores a value of this step. Values must be added in ascending order of steps.
   bool wants(std::int64_t step) const { return step % stride_ == 0 && (items_.empty() || items_.back().step < step); }
 
   void add(std::int64_t step, T value) {
@@ -44,4 +44,4 @@ class Thinned {
   std::vector<Item> items_;
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session

@@ -13,4 +13,4 @@ void tick_together(std::span<const std::unique_ptr<Session>> sessions, double se
   for (const auto& session : sessions) session->tick(seconds, seconds - passes);
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session

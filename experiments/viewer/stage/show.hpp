@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two ways to see a stage: in a window, or as pictures without one.
+// The marks that a stage shows at first.
 #pragma once
 
 #include <optional>
@@ -8,12 +8,12 @@
 
 namespace polhode::viewer::inline stage {
 
-/// What is shown at first.
+/// Initial choices of the view.
 struct Shown {
   bool axes = false, angular_velocity = false, angular_momentum = false, trails = true, polhode = false,
        poinsot = false, contacts = true, cells = false;
-  std::optional<double> azimuth, elevation;  ///< rad; absent: as the scene asks for
-  double zoom = 1;                           ///< so many times as near
+  std::optional<double> azimuth, elevation;  ///< rad; absent: those of the scene
+  double zoom = 1;                           ///< factor by which the camera is nearer
 };
 void show(const Shown& shown, Stage& stage);
 

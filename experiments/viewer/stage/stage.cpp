@@ -182,4 +182,4 @@ std::vector<Label> StagePainter::labels(Stage& stage, const Rectangle& area, int
   return all;
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::stage

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs of one scenario side by side: what moves, what of it is looked at, and from where.
+// Runs of one scenario side by side: their sessions, the camera, and what is shown.
 #pragma once
 
 #include <filesystem>
@@ -19,12 +19,12 @@ struct StageSetup {
   std::string scenario;  ///< a built-in name or a path
   std::vector<study::Override> overrides;
   std::vector<Configuration> configurations;  ///< one for each run; at least one
-  std::vector<std::string> trajectories;      ///< recorded ones; where there are any, configurations are not read
-  std::filesystem::path out;                  ///< where sessions are recorded: session_1.toml and so on; empty: nowhere
-  std::filesystem::path trajectory;           ///< where their motion is written; empty: nowhere
+  std::vector<std::string> trajectories;      ///< recorded trajectories; if there are any, configurations are not used
+  std::filesystem::path out;                  ///< folder for recorded sessions, session_1.toml and so on; empty: none
+  std::filesystem::path trajectory;           ///< folder for their motion; empty: none
 };
 
-/// All but the drawing, which wants a context: sessions, their clock, camera, and what is shown.
+/// Everything but the drawing, which needs an OpenGL context: sessions, their clock, camera, and what is shown.
 class Stage {
  public:
   /// Throws InputError.
@@ -32,7 +32,7 @@ class Stage {
 
   const StageSetup& setup() const { return setup_; }
   const study::Scene& scene() const { return scene_; }
-  const std::vector<std::string>& moving() const { return moving_; }  ///< names
+  const std::vector<std::string>& moving() const { return moving_; }  ///< names of the moving bodies
   bool live() const { return setup_.trajectories.empty(); }
 
   std::size_t size() const { return sessions_.size(); }
@@ -41,27 +41,27 @@ class Stage {
 
   void each(const std::function<void(Session&)>& command);
   void tick(double seconds);
-  /// One more run from the start, and the others back to theirs, so that they compare.
+  /// Adds a run from the start and resets the others, so that they can be compared.
   void add(const Configuration& configuration);
   void remove(std::size_t k);
-  /// Ends all sessions. Returns what of any of them could not be written, in one line; empty: nothing.
+  /// Ends all sessions. Returns one line about files that could not be written; empty: none.
   std::string finish();
 
-  /// Tells the sessions what is wanted of them, by what is shown.
+  /// Requests from the sessions the data that are shown.
   void want();
-  /// The views of this frame: the same for pictures, labels and plots.
+  /// Updates and returns the views of this frame, the same ones for pictures, labels and plots.
   const std::vector<std::shared_ptr<const View>>& look_at_all();
   const std::vector<std::shared_ptr<const View>>& views() const { return views_; }
-  /// Sees all runs from as near as it can.
+  /// Moves the camera as near as possible with all runs visible.
   void place_camera(double width_over_height);
-  /// The part of a picture that is of run k: a grid, the first in the upper left corner.
+  /// The rectangle of run k: a cell of a grid, the first run in the upper left corner.
   Rectangle part(std::size_t k, const Rectangle& area) const;
 
   Camera camera;
   Look look;
-  bool cells = false;  ///< of the broad phase
+  bool cells = false;  ///< show the cells of the broad phase
   bool trails = true;
-  std::size_t selected = 0;  ///< among the moving bodies
+  std::size_t selected = 0;  ///< index of a moving body
 
  private:
   std::unique_ptr<Session> open(const Configuration& configuration);
@@ -69,11 +69,11 @@ class Stage {
   StageSetup setup_;
   study::Scene scene_;
   std::vector<std::string> moving_;
-  std::vector<std::string> titles_;  ///< of recorded runs
+  std::vector<std::string> titles_;  ///< titles of recorded runs
   std::vector<std::unique_ptr<Session>> sessions_;
   std::string unwritten_;  ///< the first file that could not be written, and why
   std::vector<std::shared_ptr<const View>> views_;
-  std::optional<Wanted> wanted_;  ///< as the sessions were told
+  std::optional<Wanted> wanted_;  ///< the last request to the sessions
 };
 
 /// Draws the runs of a stage into a part of the current framebuffer.
@@ -81,7 +81,7 @@ class StagePainter {
  public:
   explicit StagePainter(const Stage& stage) : renderer_(stage.scene()) {}
   void draw(Stage& stage, const Rectangle& area);
-  /// Where text belongs, in pixels of the whole picture from its left and upper edge.
+  /// Texts with their places, in pixels of the whole picture from its left and upper edge.
   std::vector<Label> labels(Stage& stage, const Rectangle& area, int picture_height) const;
 
  private:
@@ -89,4 +89,4 @@ class StagePainter {
   Renderer renderer_;
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::stage

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time between two frames, Δt = t_current − t_previous, as the engine slides have it.
+// Time between two frames, Δt = t_current − t_previous, as in the engine slides.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,10 @@ namespace polhode::viewer::inline window {
 
 class FrameClock {
  public:
-  /// `now` (s) may be any clock that does not jump.
+  /// `now`: s, of any monotonic clock.
   explicit FrameClock(std::function<double()> now = steady_seconds) : now_(std::move(now)) {}
 
-  /// s since the call before; 0 at the first.
+  /// Time (s) since the previous call; 0 at the first call.
   double tick() {
     const double current = now_(), previous = previous_.value_or(current);
     previous_ = current;
@@ -31,4 +31,4 @@ class FrameClock {
   std::optional<double> previous_;
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::window

@@ -235,4 +235,4 @@ bool Script::holds(Stage& stage, const std::vector<std::string>& words) const {
   fail("'" + words[2] + "' is neither < nor >");
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::window

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scripted session: lines that move the mouse and press keys as a user would, look at what comes of it, and take
-// pictures. For tests, and for pictures that can be made again.
+// A scripted session: lines that move the mouse and press keys like a user, check the result, and save pictures. For
+// tests, and for pictures that can be reproduced.
 //
 //   click play                 the control of that name (as in Controls)
 //   choose integrator heun     opens a list and takes an item
@@ -29,15 +29,16 @@ namespace polhode::viewer::inline window {
 class Script {
  public:
   using FileMaker = std::function<void(const std::string&)>;
-  /// Throws InputError with the line.
+  /// Reads a script. Throws InputError with the line.
   Script(const std::string& file, FileMaker take_picture, FileMaker write_places);
 
-  /// Where the runs are: pixels from the window's left and upper edge.
+  /// The rectangle of the runs: pixels from the left and upper edge of the window.
   void set_view(float middle_x, float middle_y) { view_x_ = middle_x, view_y_ = middle_y; }
 
-  /// Before a frame of Dear ImGui: what mouse and keyboard do in it.
+  /// Sends mouse and keyboard input to Dear ImGui; call before a frame.
   void before_frame();
-  /// After a frame. Throws InputError with the line where an expectation does not hold or a control is not there.
+  /// Evaluates the frame; call after it. Throws InputError with the line if an expectation fails or a control is
+  /// missing.
   void after_frame(Stage& stage, Controls& controls);
   bool done() const { return lines_.empty() && inputs_.empty(); }
 
@@ -46,11 +47,11 @@ class Script {
     int number;
     std::vector<std::string> words;
   };
-  /// What one frame sees of mouse and keyboard.
+  /// Mouse and keyboard input of one frame.
   struct Input {
     float x = 0, y = 0;
     bool pressed = false;
-    int key = 0;  ///< as GLFW numbers them; 0: none
+    int key = 0;  ///< GLFW's key code; 0: none
     std::string typed{};
   };
 
@@ -68,8 +69,8 @@ class Script {
   float view_x_ = 0, view_y_ = 0;
   Line line_{};
   int waited_ = 0;
-  std::string opened_;  ///< the item to be taken from a list that is open
+  std::string opened_;  ///< the item to choose in an open list
   FileMaker take_picture_, write_places_;
 };
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::window

@@ -265,4 +265,4 @@ void show_window(StageSetup setup, const WindowSettings& settings) {
   Show(std::move(setup), settings).run();
 }
 
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::window

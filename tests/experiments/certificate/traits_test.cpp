@@ -184,4 +184,4 @@ TEST(OrderFinding, CountsWhatTheOrdersTendTo) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::certificate

@@ -100,4 +100,4 @@ TEST(Growth, WhatCannotBeToldIsNotTold) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::precision

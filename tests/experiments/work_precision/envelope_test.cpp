@@ -94,4 +94,4 @@ TEST(LowerEnvelope, OfEqualsNamesTheFirst) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::work_precision

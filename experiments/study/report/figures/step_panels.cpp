@@ -27,7 +27,7 @@ PlottedCurve curve_against_step(const Curve& curve, const Quantity& quantity, co
   for (const auto* run : curve.runs) {
     const double step = abscissa(*run).value_or(0);
     if (!(step > 0)) continue;
-    // A run that ended early has a cross even where its quantity was never measured.
+    // A run that ended early is marked by a cross even if the quantity was never measured.
     if (ended_early(*run) || (completed(*run) && quantity.of(run->result))) {
       plotted.points.push_back(point_of(*run, step, quantity));
     }
@@ -49,7 +49,7 @@ Panel panel_of(const Block& block, bool adaptive, const Quantity& quantity, cons
   return panel;
 }
 
-/// A case's fixed steps beside its tolerances where every case has both.
+/// All panels. If every case has both fixed steps and tolerances, the two panels of a case are side by side.
 std::vector<Panel> all_panels(const Selection& selection, const Quantity& quantity) {
   std::vector<Panel> fixed, adaptive, panels;
   for (const auto& block : selection.blocks([](const Curve& c) { return !c.adaptive; })) {
@@ -70,7 +70,7 @@ std::vector<Panel> all_panels(const Selection& selection, const Quantity& quanti
   return panels;
 }
 
-/// A panel in which every value is exactly zero shows nothing, unless that is true of all.
+/// Removes panels in which all values are exactly zero, unless that is true of all panels.
 void drop_all_zero(std::vector<Panel>& panels) {
   const auto all_zero = [](const Panel& panel) {
     return std::all_of(panel.curves.begin(), panel.curves.end(), [](const auto& curve) {
@@ -95,13 +95,13 @@ Axis y_axis(const std::vector<Panel>& panels, const Quantity& quantity) {
   return log_axis(quantity.axis, values, needs);
 }
 
-/// Where zeros stand at a floor, the lowest decade is above it.
+/// Position of the lowest decade on the axis. If the axis has a place for zeros, it lies above that place.
 double lowest_decade(const Axis& axis) {
   const auto tick = std::find_if(axis.ticks.begin(), axis.ticks.end(), [](const auto& t) { return t.label != "0"; });
   return tick == axis.ticks.begin() || tick == axis.ticks.end() ? axis.low : tick->at;
 }
 
-/// A rectangle of a panel in places of its axes.
+/// A rectangle of a panel, in coordinates of its axes.
 struct Area {
   double x0, y0, width, height;
 };
@@ -110,7 +110,7 @@ Area drawing_area(const Panel& panel) {
   return {x, y, panel.x.place(panel.x.high) - x, panel.y.place(panel.y.high) - y};
 }
 
-/// Places along the curves, close enough together that no line slips through between two of them.
+/// Points along the curves, close enough together to find every crossing of a curve with a rectangle.
 std::vector<std::pair<double, double>> places_along(const Panel& panel) {
   constexpr int between = 12;
   std::vector<std::pair<double, double>> places;
@@ -128,8 +128,8 @@ std::vector<std::pair<double, double>> places_along(const Panel& panel) {
   return places;
 }
 
-/// The lower left corner of the emptiest rectangle of that size; of several the one nearest the lower right corner of
-/// the panel, which the curves of most methods leave free.
+/// Lower left corner of the rectangle of this size that contains the fewest points of curves. Among equals, the one
+/// nearest to the lower right corner of the panel, where most methods have no curves.
 std::pair<double, double> emptiest_corner(const Panel& panel, double width, double height) {
   constexpr int trials = 10;
   const auto area = drawing_area(panel);
@@ -150,7 +150,7 @@ std::pair<double, double> emptiest_corner(const Panel& panel, double width, doub
   return best;
 }
 
-/// Lines of given slopes, in rising order, that rise from one point, with room for their labels on the right.
+/// Lines of given slopes, in ascending order, from a common point, with space for their labels on the right.
 std::vector<Guide> slope_guides(const Panel& panel, const std::vector<std::pair<double, std::string>>& slopes) {
   const auto area = drawing_area(panel);
   const auto run = [&](double slope) { return std::min(0.3 * area.width, 0.36 * area.height / slope); };
@@ -201,4 +201,4 @@ std::vector<Panel> panels_against_step(const Selection& selection, const Quantit
   return panels;
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::figures

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Panels of a quantity against the step, or against the tolerance of adaptive methods; both axes logarithmic.
+// Panels of a quantity against the step, or against the tolerance of adaptive methods. Both axes are logarithmic.
 #pragma once
 
 #include <vector>
@@ -11,11 +11,11 @@ namespace polhode::study::inline report::inline figures {
 
 bool has_several_steps(const Curve& curve);
 bool has_value(const Curve& curve, const Quantity& quantity);
-/// A value, or a run that ended early and so has a cross.
+/// True if some run of the curve has a value, or ended early and is marked by a cross.
 bool has_mark(const Curve& curve, const Quantity& quantity);
 
-/// All on one y axis, without panels in which everything is exactly zero; with `guides`, gray lines of slope 1, 2
-/// and 4.
+/// Panels with a common y axis; panels in which all values are exactly zero are left out. `guides`: draw gray lines of
+/// slope 1, 2 and 4.
 std::vector<Panel> panels_against_step(const Selection& selection, const Quantity& quantity, bool guides);
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::figures

@@ -20,7 +20,7 @@ namespace polhode::study::inline report::inline figures {
 
 namespace {
 
-/// Rows of several panels as they are; single panels two abreast.
+/// Adds rows of panels to the figure; if each row has a single panel, two are put side by side.
 void add_time_rows(Figure& figure, std::vector<std::vector<Panel>> rows) {
   if (rows.empty()) return;
   if (std::any_of(rows.begin(), rows.end(), [](const auto& row) { return row.size() > 1; })) {
@@ -89,7 +89,7 @@ class Figures {
     set_.figures.push_back(std::move(figure));
   }
 
-  /// Each quantity begins a row of its own.
+  /// Adds a figure of quantities against the step; each quantity begins a new row.
   void against_step(Figure figure, const std::vector<Quantity>& quantities, bool guides) {
     const auto shown = [&](const Curve& curve) {
       return std::any_of(quantities.begin(), quantities.end(), [&](const auto& q) { return has_mark(curve, q); });
@@ -131,7 +131,8 @@ class Figures {
     against_step(std::move(figure), {quantity::energy_drift()}, true);
   }
 
-  /// Leaves out, with a word in the caption, what is at round-off in all runs, unless that is true of everything.
+  /// The quantities without those that are at round-off in all runs, which the caption mentions; all quantities if that
+  /// is true of each.
   std::vector<Quantity> without_quiet_ones(Figure& figure, const std::vector<Quantity>& quantities) const {
     std::vector<Quantity> kept;
     std::string note;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which figures a study has, and what stands in each.
+// Selection of the figures of a study, and the contents of each.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace polhode::study::inline report::inline figures {
 
-/// Those of the analysis first, then those that the study has data for. What would be too much to read is left out, and
-/// the caption says so.
+/// The figures: first those of the analysis, then each figure for which the study has data. Curves and panels beyond a
+/// readable number are left out, which the caption states.
 FigureSet figures_of(const StudyView& study, const Grouping& grouping);
 
 /// Writes the folder figures/: for each figure SVG and PDF by gnuplot, the .gp script, the data and a PGFPlots .tex.

@@ -21,7 +21,7 @@ PlottedCurve curve_against_time(const RunRecord& run, const SeriesQuantity& quan
   for (const auto& point : run.result.series) {
     const double y = quantity.of(point);
     if (!std::isfinite(y) || std::abs(y) > off_scale_above) {
-      // From here on the curve is off the scale: one cross says so.
+      // The rest of the curve is off the scale, which is marked by one cross.
       plotted.points.push_back({point.t, std::isnan(y) ? std::copysign(1.0, last) : y, 0, Mark::edge});
       return plotted;
     }
@@ -50,7 +50,7 @@ const RunRecord* run_with(const Curve& curve, double step) {
   return found == curve.runs.end() ? nullptr : *found;
 }
 
-/// The panel at a fraction of the way from the largest step to the smallest.
+/// Panel of the step at a fraction (0 to 1) of the list of steps from the largest to the smallest.
 Panel panel_of(const Block& block, const SeriesQuantity& quantity, const Selection& selection, double fraction) {
   Panel panel{.title = block.title, .x_column = "t_s", .y_column = quantity.column};
   double t_end = 0;
@@ -122,4 +122,4 @@ std::vector<std::vector<Panel>> panels_against_time(const Selection& selection, 
   return rows;
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::figures

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Panels of a quantity against time: the largest, the middle and the smallest step of each case side by side.
+// Panels of a quantity against time, side by side for the largest, the middle and the smallest step of each case.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace polhode::study::inline report::inline figures {
 
-/// A number of the thinned series, signed or a magnitude.
+/// A quantity of the thinned history of a run, signed or a magnitude.
 struct SeriesQuantity {
   std::string column;
   std::string axis;  ///< label, with unit
@@ -20,7 +20,7 @@ struct SeriesQuantity {
 
 bool has_series(const Curve& curve);
 
-/// Rows, each on one y axis; a row has as many panels as steps are shown, at most 3.
+/// Rows of panels with a common y axis in each row; one panel for each step shown, at most 3.
 std::vector<std::vector<Panel>> panels_against_time(const Selection& selection, const SeriesQuantity& quantity);
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::figures

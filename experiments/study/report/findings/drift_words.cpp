@@ -17,7 +17,7 @@ namespace {
 
 std::string exponent(double p) { return fmt::format("{:.3f}", p); }
 
-/// "rk4, heun and 3 more".
+/// List of names, shortened if there are many: "rk4, heun and 3 more".
 std::string some(const std::set<std::string>& names) {
   constexpr std::size_t most = 8;
   std::vector<std::string> items(names.begin(), names.end());
@@ -45,7 +45,7 @@ std::vector<std::string> growth_sentences(const StudyView& study) {
     std::set<std::string> methods;
   };
   std::map<std::string, Found> classes;
-  std::vector<double> durations;  // s
+  std::vector<double> durations;  // durations that would decide undecided classes, s
   for (const RunRecord& run : study.runs) {
     const RunResult& r = run.result;
     if (r.drift_class.empty()) continue;
@@ -111,4 +111,4 @@ std::vector<std::string> polhode_sentences(const StudyView& study) {
   return sentences;
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::findings

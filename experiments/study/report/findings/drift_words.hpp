@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How drifts grow, and errors along the polhode and off it, in words.
+// Sentences about the growth of energy drifts, and about errors along the polhode and off it.
 #pragma once
 
 #include <string>
@@ -13,10 +13,11 @@ namespace polhode::study::inline report::inline findings {
 /// decide"; empty if the result has no class.
 std::string growth_words(const RunResult& result);
 
-/// Which methods' drifts grow how, of how many it cannot be told, and what duration would.
+/// Sentences about the growth of the methods' drifts: classes with their methods, number of undecided runs, and the
+/// duration that would decide.
 std::vector<std::string> growth_sentences(const StudyView& study);
 
-/// Whose error is one of phase alone.
+/// Sentences about methods whose error is an error of phase alone.
 std::vector<std::string> polhode_sentences(const StudyView& study);
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::findings

@@ -15,12 +15,12 @@ namespace polhode::study::inline report::inline findings {
 
 namespace {
 
-// Motions and formulations: one is told in sentences, a few in a table, many are counted as well.
+// Limits of the numbers of motions and formulations described in sentences and in a table alone; more are also counted.
 constexpr std::size_t told_in_sentences = 1;
 constexpr std::size_t told_in_table = 3;
 constexpr std::size_t most_table_rows = 60;
 
-/// Curves that may be compared: one motion, one formulation, all fixed steps or all tolerances.
+/// Comparable curves: of one motion and one formulation, all with fixed steps or all with tolerances.
 struct Group {
   std::size_t case_index, variant_index;
   bool adaptive;
@@ -64,7 +64,7 @@ std::set<double> steps_of(const Group& group) {
   return steps;
 }
 
-/// The methods of a group at one step.
+/// Ranking of the methods of a group at one step.
 struct Ranking {
   struct Entry {
     std::string method;
@@ -112,16 +112,17 @@ std::string methods_in(const std::vector<Ranking::Entry>& entries) {
   return words(methods);
 }
 
-/// "off by more than a radian": which of the wrapped angles is the largest is chance.
+/// Description of a lost value: "off by more than a radian". The value itself is not given, since angles are wrapped
+/// and the largest one is accidental.
 std::string lost_words(const Quantity& quantity) {
   if (quantity.unit == " rad") return "off by more than a radian";
   return quantity.bounded ? "1 or more" : "off by more than the motion goes";
 }
 
-/// Within a hundredth of each other.
+/// True if all values differ by at most 1 %.
 bool alike(const Ranking& r) { return r.above.back().value <= 1.01 * r.above.front().value; }
 
-/// The largest of what can be compared: errors that are lost cannot. There must be one.
+/// The entry with the largest comparable value; lost errors are not comparable. There must be at least one such entry.
 const Ranking::Entry& most_of(const Ranking& r, const Quantity& quantity) {
   return r.lost.empty() || is_error(quantity) ? r.above.back() : r.lost.back();
 }
@@ -140,11 +141,11 @@ std::string least_and_most(const Ranking& r, const Quantity& quantity) {
                      number(most.value) + quantity.unit);
 }
 
-/// "no run follows the motion: the attitude of rk4 and heun is off by more than a radian".
+/// Clause about lost runs: "no run follows the motion: the attitude of rk4 and heun is off by more than a radian".
 std::string lost_ones(const Ranking& r, const Quantity& quantity) {
   const bool none_left = r.above.empty() && r.at_round_off.empty();
   if (!is_error(quantity)) {
-    if (!none_left) return "";  // the most of them is named
+    if (!none_left) return "";  // the method with the largest value is named elsewhere
     return fmt::format(
         "no run keeps it: the {} of {} is {}{}", quantity.words, methods_in(r.lost), lost_words(quantity),
         r.lost.size() > 1 ? fmt::format(", of {} the most ({})", r.lost.back().method, number(r.lost.back().value))
@@ -180,7 +181,7 @@ std::string end_name(bool adaptive, bool largest) {
   return largest ? "the largest step" : "the smallest step";
 }
 
-/// "heavy_top, matrix: " where the study has several.
+/// Name of a group before its sentences: "heavy_top, matrix: "; without parts of which the study has only one.
 std::string prefix(const Grouping& grouping, const Group& group) {
   std::vector<std::string> parts;
   if (grouping.cases.size() > 1) parts.push_back(grouping.cases[group.case_index].label());
@@ -188,7 +189,7 @@ std::string prefix(const Grouping& grouping, const Group& group) {
   return parts.empty() ? "" : fmt::format("{}: ", fmt::join(parts, ", "));
 }
 
-/// Sentences for one motion and formulation.
+/// Adds the sentences about one motion and formulation.
 void tell(const Grouping& grouping, const Group& group, const Quantity& quantity, std::vector<std::string>& sentences) {
   const auto steps = steps_of(group);
   for (const bool largest : {true, false}) {
@@ -202,7 +203,7 @@ void tell(const Grouping& grouping, const Group& group, const Quantity& quantity
   }
 }
 
-/// "rk4 (12 of 20) and dmv (8 of 20)".
+/// Methods with their counts: "rk4 (12 of 20) and dmv (8 of 20)".
 std::string counted(const std::map<std::string, std::size_t>& counts, std::size_t total) {
   std::vector<std::pair<std::string, std::size_t>> order(counts.begin(), counts.end());
   std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
@@ -214,7 +215,7 @@ std::string counted(const std::map<std::string, std::size_t>& counts, std::size_
   return words(parts);
 }
 
-/// Who is least and who is most at one end of the steps, counted over the groups.
+/// Methods with the least and the largest value at one end of the steps, counted over the groups.
 struct Count {
   std::string least, most;
 };
@@ -259,7 +260,7 @@ std::vector<std::string> counts(const Grouping& grouping, const std::vector<Grou
 std::vector<std::string> table_row(const Grouping& grouping, const Group& group, const Quantity& quantity,
                                    const Ranking& r) {
   const auto entry = [](const Ranking::Entry& e) { return fmt::format("{} ({})", e.method, number(e.value)); };
-  const bool compares = !is_error(quantity) && !r.lost.empty();  // with what is lost
+  const bool compares = !is_error(quantity) && !r.lost.empty();  // lost values are included in the comparison
   const bool several = r.above.size() + r.at_round_off.size() + (compares ? r.lost.size() : 0) > 1;
   std::string least = r.above.empty() ? "" : entry(r.above.front());
   if (!r.above.empty() && r.above.front().off_the_motion && !is_error(quantity)) {
@@ -311,8 +312,8 @@ Table table_of(const Grouping& grouping, const std::vector<Group>& groups, const
   return without_empty_columns(std::move(table));
 }
 
-/// The curves for which the quantity is defined in some completed run, and those of them at round-off in every such
-/// run.
+/// Curves for which the quantity is defined in some completed run (`all`), and those of them at round-off in every such
+/// run (`kept`).
 struct RoundOff {
   std::vector<const Curve*> kept, all;
 };
@@ -337,7 +338,7 @@ std::size_t motions_and_formulations(const std::vector<Group>& groups) {
   return all.size();
 }
 
-/// Which of a method's curves are meant, where not all are: "matrix", "heavy_top", "matrix, 3 of 20 motions".
+/// Description of a part of a method's curves: "matrix", "heavy_top", "matrix, 3 of 20 motions".
 std::string part_of(const Grouping& grouping, const std::vector<const Curve*>& some,
                     const std::vector<const Curve*>& all) {
   std::map<std::size_t, std::set<std::size_t>> in, of;  // cases by variant
@@ -422,4 +423,4 @@ std::string method_names(const Grouping& grouping, const std::vector<const Curve
   return words(names);
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::findings

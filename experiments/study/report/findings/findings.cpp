@@ -25,9 +25,9 @@ namespace polhode::study::inline report::inline findings {
 
 namespace {
 
-constexpr std::size_t few_runs = 3;              // each is described in a sentence of its own
-constexpr std::size_t most_characters = 500;     // of a sentence that names methods
-constexpr std::size_t most_troubled_rows = 100;  // of the table of runs that did not finish
+constexpr std::size_t few_runs = 3;              // largest number of runs described in a sentence each
+constexpr std::size_t most_characters = 500;     // largest length of a sentence that names methods
+constexpr std::size_t most_troubled_rows = 100;  // largest number of rows in the table of runs that did not finish
 
 void append(std::vector<std::string>& all, std::vector<std::string> more) {
   for (auto& sentence : more) all.push_back(std::move(sentence));
@@ -62,7 +62,7 @@ std::string drift_phrase(const RunRecord& run) {
   return text;
 }
 
-/// A run in one sentence, for studies of a few.
+/// Sentence about one run, for studies with few runs.
 std::string run_sentence(const Grouping& grouping, const Curve& curve, const RunRecord& run) {
   const auto label = run_label(grouping, curve, run);
   if (!completed(run))
@@ -104,7 +104,8 @@ constexpr std::array<std::pair<const char*, const char*>, 6> trend_words = {
      {"undecided", "not told from an oscillation"},
      {"round-off", "kept to round-off"}}};
 
-/// "Energy over the runs: gained by a and b; lost by c." Of many motions and formulations: numbers of curves.
+/// Trends of the energy: "Energy over the runs: gained by a and b; lost by c."; for many motions and formulations with
+/// numbers of curves.
 std::vector<std::string> trends(const Grouping& grouping) {
   std::map<std::string, std::vector<const Curve*>> by_trend;
   std::vector<const Curve*> all;
@@ -114,7 +115,7 @@ std::vector<std::string> trends(const Grouping& grouping) {
     by_trend[trend].push_back(&curve);
     all.push_back(&curve);
   }
-  // Motions in which nothing drifts are told of elsewhere.
+  // Motions without any drift are described elsewhere.
   const auto quiet = quiet_cases(by_trend["round-off"], all);
   const auto is_quiet = [&](const auto* curve) { return quiet.contains(curve->case_index); };
   std::erase_if(all, is_quiet);
@@ -133,13 +134,13 @@ std::vector<std::string> trends(const Grouping& grouping) {
                       count(all.size(), "curve"), fmt::join(by_number, "; "))};
 }
 
-/// "rk4 (matrix) on heavy_top".
+/// Name of a curve: "rk4 (matrix) on heavy_top".
 std::string curve_label(const Grouping& grouping, const Curve& curve) {
   const auto label = grouping.label(curve);
   return grouping.cases.size() > 1 ? fmt::format("{} on {}", label, grouping.cases[curve.case_index].label()) : label;
 }
 
-/// So many items, then how many more there are.
+/// The first few items, and the number of those left out.
 std::string first_few(std::vector<std::string> items) {
   constexpr std::size_t most = 8;
   const std::size_t rest = items.size() > most ? items.size() - most : 0;
@@ -147,22 +148,22 @@ std::string first_few(std::vector<std::string> items) {
   return words(items);
 }
 
-/// Methods whose quantity falls more slowly than their order, or a sentence that there is none; and those whose order
-/// the data do not tell.
+/// Sentences about methods whose quantity decreases more slowly than their order (or that there is none), and about
+/// methods whose order the data do not determine.
 std::vector<std::string> slope_sentences(const Grouping& grouping, const Quantity& quantity) {
   constexpr std::size_t wanted_runs = 3;
   std::vector<std::string> slower, sentences;
-  std::map<std::string, std::vector<std::string>> not_told;  // by the reason
+  std::map<std::string, std::vector<std::string>> not_told;  // curves by reason
   std::size_t compared = 0;
   for (const auto& curve : grouping.curves) {
     const auto& config = curve.runs.front()->config;
     const auto* entry = find_integrator(grouping.methods[curve.method_index]);
-    // Without the gyroscopic term another equation is solved: its distance from this one has no order.
+    // Without the gyroscopic term another equation is solved, and the error does not decrease with the step.
     if (curve.runs.size() < wanted_runs || curve.adaptive || !config.formulation.gyroscopic || entry == nullptr ||
         entry->declaration.order == 0 || !is_measured(curve, quantity))
       continue;
     const auto estimate = observed_order(curve, quantity);
-    if (estimate.exact) continue;  // told of elsewhere
+    if (estimate.exact) continue;  // described elsewhere
     const auto line = told_line(estimate);
     if (!line) {
       not_told[why_not_told(curve, quantity, estimate)].push_back(curve_label(grouping, curve));
@@ -214,7 +215,7 @@ std::string force_kinds(const Scenario& scenario) {
   return words({kinds.begin(), kinds.end()});
 }
 
-/// Scenarios in which no run has a value of the quantity though some completed.
+/// Scenarios with completed runs none of which has a value of the quantity.
 std::vector<std::string> undefined_in(const StudyView& study, const Quantity& quantity) {
   std::map<std::string, bool> defined;
   for (const auto& run : study.runs) {
@@ -297,7 +298,7 @@ Topic gyroscopic_term(const Grouping& grouping) {
   return topic;
 }
 
-/// A curve's runs that diverged: how many, and from which step on.
+/// Sentence about the diverged runs of a curve: their number, and the run that diverged at the earliest time.
 std::string divergence_sentence(const Grouping& grouping, const Curve& curve) {
   std::vector<const RunRecord*> diverged;
   for (const auto* run : curve.runs) {
@@ -312,7 +313,7 @@ std::string divergence_sentence(const Grouping& grouping, const Curve& curve) {
                      step_label(*first), number(first->result.t_reached));
 }
 
-/// Runs that did not finish for one reason; refusals are the same for many methods.
+/// Runs that did not finish for the same reason; refusals are the same for many methods.
 struct Trouble {
   std::vector<std::string> methods;
   const Curve* curve;
@@ -383,11 +384,12 @@ Topic troubles(const Grouping& grouping) {
   return topic;
 }
 
-/// Motions that no run follows, though some end: what is said of their runs must not be read as praise.
+/// Warnings about motions that no completed run follows; small drifts of such runs are no merit.
 std::vector<std::string> unfollowed(const Grouping& grouping) {
-  std::map<std::size_t, std::pair<std::size_t, std::size_t>> cases;  // runs with an error, those that are off
+  // Numbers of runs with an error, and of those that are off, by case.
+  std::map<std::size_t, std::pair<std::size_t, std::size_t>> cases;
   for (const auto& curve : grouping.curves) {
-    if (!curve.runs.front()->config.formulation.gyroscopic) continue;  // another equation
+    if (!curve.runs.front()->config.formulation.gyroscopic) continue;  // solves another equation
     for (const auto* run : curve.runs) {
       if (!value(*run, quantity::attitude_error()) && !value(*run, quantity::position_error())) continue;
       auto& [all, off] = cases[curve.case_index];
@@ -420,4 +422,4 @@ Findings findings_of(const StudyView& study, const Grouping& grouping) {
   return found;
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::findings

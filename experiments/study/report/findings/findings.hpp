@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is seen in a study, in words. Every number in them is computed from the records.
+// Findings of a study as sentences. Every number in them is computed from the run records.
 #pragma once
 
 #include <string>
@@ -17,11 +17,11 @@ struct Topic {
 };
 
 struct Findings {
-  std::string outcome;                ///< "84 runs: 80 completed, 4 diverged."
-  std::vector<std::string> cautions;  ///< what must not be overlooked
+  std::string outcome;                ///< number of runs by status: "84 runs: 80 completed, 4 diverged."
+  std::vector<std::string> cautions;  ///< warnings, shown first
   std::vector<Topic> topics;  ///< energy, momenta, orientation, errors, gyroscopic term, runs that did not finish
 };
 
 Findings findings_of(const StudyView& study, const Grouping& grouping);
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::findings

@@ -26,7 +26,7 @@ constexpr double lost_momentum = 1e-6;
 
 bool leaves_gyroscopic_out(const Curve& curve) { return !curve.runs.front()->config.formulation.gyroscopic; }
 
-/// The runs of one motion and formulation in which energy is kept and angular momentum is not.
+/// Runs of one motion and formulation that conserve the energy but not the angular momentum.
 struct Deceived {
   std::vector<const Curve*> curves;
   std::size_t runs = 0;
@@ -52,7 +52,7 @@ std::string where(const Grouping& grouping, const Curve& curve) {
   return leaves_gyroscopic_out(curve) && !said ? text + ", gyroscopic off" : text;
 }
 
-/// "at every step size", where the runs have several.
+/// Clause "at every step size", if the runs have several step sizes.
 std::string every_step(const Deceived& d) {
   if (d.steps.size() < 2) return "";
   const auto adaptive =
@@ -84,7 +84,7 @@ std::string caution(const Grouping& grouping, const Deceived& d) {
                                                   : "A method can keep one invariant and lose another: look at both.");
 }
 
-/// The runs of a scenario that leave the gyroscopic term out, where no angular momentum was measured.
+/// Runs without the gyroscopic term and without a measured angular momentum, by scenario.
 std::map<std::string, std::vector<const RunRecord*>> unchecked_runs(const Grouping& grouping) {
   std::map<std::string, std::vector<const RunRecord*>> found;
   for (const auto& curve : grouping.curves) {
@@ -97,7 +97,7 @@ std::map<std::string, std::vector<const RunRecord*>> unchecked_runs(const Groupi
   return found;
 }
 
-/// "the p_phi drift (at least 0.02)": what is large in every one of the runs, however small the step.
+/// Quantities that are large in all of the runs, however small the step: "the p_phi drift (at least 0.02)".
 std::vector<std::string> what_shows_it(const std::vector<const RunRecord*>& runs) {
   std::vector<Quantity> candidates = {quantity::attitude_error()};
   for (const auto& [name, drift] : runs.front()->result.invariant_drift_max_rel) {
@@ -128,7 +128,7 @@ std::vector<std::string> gyroscopic_not_checked(const Grouping& grouping) {
   return sentences;
 }
 
-/// What two curves must share to be compared: everything but the gyroscopic term.
+/// Key of curves that are comparable: everything except the gyroscopic term.
 auto comparison_key(const Curve& curve) {
   const auto& c = curve.runs.front()->config;
   std::vector<std::string> on_demand;
@@ -139,7 +139,7 @@ auto comparison_key(const Curve& curve) {
                     c.formulation.angular_state, c.formulation.rotation_from, c.normalise, c.precision, on_demand);
 }
 
-/// The runs of both at the smallest step that both completed.
+/// Runs of both curves at the smallest step that both completed.
 std::pair<const RunRecord*, const RunRecord*> smallest_common(const Curve& with, const Curve& without) {
   for (auto a = with.runs.rbegin(); a != with.runs.rend(); ++a) {
     for (const auto* b : without.runs) {
@@ -218,4 +218,4 @@ std::optional<GyroscopicComparison> gyroscopic_comparison(const Grouping& groupi
   return GyroscopicComparison{without_empty_columns(std::move(table)), differs};
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::findings

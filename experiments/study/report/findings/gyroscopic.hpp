@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What energy alone does not show: runs that keep the energy and lose the angular momentum, above all those in which
-// the gyroscopic term is left out.
+// Runs that conserve the energy but not the angular momentum, in particular those without the gyroscopic term. The
+// energy drift does not reveal their error.
 #pragma once
 
 #include <optional>
@@ -12,16 +12,16 @@
 
 namespace polhode::study::inline report::inline findings {
 
-/// A caution for each motion and formulation in which the energy would call a run perfect and the angular momentum does
-/// not; and one where the gyroscopic term is left out but no angular momentum is conserved that could show it.
+/// Warnings: one for each motion and formulation with runs whose energy is conserved but whose angular momentum is not,
+/// and one for runs without the gyroscopic term of motions without a conserved angular momentum.
 std::vector<std::string> cautions(const Grouping& grouping);
 
-/// The same runs with the gyroscopic term and without it, at the smallest step that both completed.
+/// Comparison of runs with and without the gyroscopic term, at the smallest step that both completed.
 struct GyroscopicComparison {
   Table table;
-  bool differs = false;  ///< in any digit shown
+  bool differs = false;  ///< any number in the table differs in a digit that is shown
 };
-/// Absent where the study has no such pair.
+/// The comparison; absent if the study has no such pair of runs.
 std::optional<GyroscopicComparison> gyroscopic_comparison(const Grouping& grouping);
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::findings

@@ -16,8 +16,8 @@ namespace polhode::study::inline report::inline findings {
 
 namespace {
 
-/// For the motion at hand: "4"; "2 (attitude: exact)" where the attitude of a free top under gravity has an order of
-/// its own.
+/// Declared order for the motion of the curve: "4"; "2 (attitude: exact)" if the attitude of a free top under gravity
+/// has another order.
 std::string declared_text(const Curve& curve) {
   const RunRecord& run = *curve.runs.front();
   const auto* entry = find_integrator(run.config.integrator);
@@ -29,7 +29,7 @@ std::string declared_text(const Curve& curve) {
   return path == attitude ? path : fmt::format("{} (attitude: {})", path, attitude);
 }
 
-/// "2.00 (7)", or why there is none.
+/// Observed order and number of points: "2.00 (7)"; or the reason for which there is none.
 std::string slope_text(const Curve& curve, const Quantity& quantity) {
   constexpr std::size_t wanted_runs = 3;
   if (curve.runs.size() < wanted_runs || !is_measured(curve, quantity)) return "";
@@ -122,4 +122,4 @@ Table method_table(const Grouping& grouping) {
   return without_empty_columns(std::move(table));
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::findings

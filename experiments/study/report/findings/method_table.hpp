@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One row for each curve: what a method does as its step shrinks, beside what it declares.
+// Table with one row for each curve: declared properties of the method, and its behaviour as the step decreases.
 #pragma once
 
 #include "experiments/study/curves/curves.hpp"
@@ -7,12 +7,12 @@
 
 namespace polhode::study::inline report::inline findings {
 
-/// Where a run's energy ends: "gains", "loses", "comes back" (its final drift is below a tenth of the largest),
+/// Final energy of a run: "gains", "loses", "comes back" (the final drift is below a tenth of the largest) or
 /// "round-off"; empty for a run that was not completed.
 std::string energy_trend(const RunRecord& run);
-/// The same for all runs of a curve: "gains or loses" where they differ; empty if none was completed.
+/// The same for all runs of a curve: "gains or loses" if they differ; empty if none was completed.
 std::string energy_trend(const Curve& curve);
 
 Table method_table(const Grouping& grouping);
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::findings

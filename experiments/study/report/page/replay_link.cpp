@@ -43,4 +43,4 @@ void update_replay_line(const std::filesystem::path& folder) {
   if (updated != *page) write_text(folder / "report.html", updated);
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::page

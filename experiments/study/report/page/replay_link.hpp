@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The line of report.html about the page that plays the study's motion.
+// Line of report.html about replay.html, the page that plays the motions of the study.
 #pragma once
 
 #include <filesystem>
@@ -9,11 +9,11 @@ namespace polhode::study::inline report::inline page {
 
 inline constexpr const char* replay_page = "replay.html";
 
-/// What the report of the study in this folder says: the page, or how it is made while it is not there; empty where no
-/// motion is kept as CSV.
+/// The line in the report of the study in this folder: a link to replay.html or, if that page does not exist, the
+/// command that makes it. Empty if no trajectory is stored as CSV.
 std::string replay_line(const std::filesystem::path& folder);
 
-/// Brings that line of the report in the folder up to date, where there is a report with one.
+/// Updates the line in the report of the folder, if there is a report that contains it.
 void update_replay_line(const std::filesystem::path& folder);
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::page

@@ -33,10 +33,10 @@ namespace {
 constexpr std::size_t open_rows = 40;  // largest number of rows of a table that is shown unfolded
 constexpr std::size_t open_rows_of_analysis = 60;
 constexpr std::size_t most_open_rows_in_text = 12;
-constexpr std::size_t most_runs_shown = 400;  // of thousands: runs.csv has them all
+constexpr std::size_t most_runs_shown = 400;  // largest number of runs on the page; runs.csv contains all
 constexpr std::size_t most_curves_shown = 300;
 
-/// "energy_drift" → "Energy drift".
+/// Title of the page from the name of the experiment: "energy_drift" → "Energy drift".
 std::string title_of(const StudyView& study) {
   std::string title = study.experiment;
   std::replace(title.begin(), title.end(), '_', ' ');
@@ -69,7 +69,7 @@ std::string command_html(const StudyView& study) {
   return fmt::format("<h3>The command that makes this again</h3>\n<pre><code>{}</code></pre>\n", html(study.command));
 }
 
-/// The contents are links, one after the other.
+/// Head of the page; contents: links of the table of contents.
 std::string head(const StudyView& study, std::string_view contents) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -87,7 +87,7 @@ std::string head(const StudyView& study) {
   return head(study, std::string(alone(study) ? "" : of_curves) + of_runs);
 }
 
-/// What the experiment made of its runs: the answer to its question, so before everything else.
+/// The analysis of the experiment, which answers its question and therefore comes first.
 std::string analysis_html(const Analysis& analysis) {
   std::string out = fmt::format("<h3>{}</h3>\n", html(analysis.heading));
   if (!analysis.sentences.empty()) out += list(analysis.sentences);
@@ -124,7 +124,7 @@ std::string what_is_seen(const StudyView& study, const Findings& findings) {
   return out + "</section>\n";
 }
 
-/// The picture, if it was drawn from these very data: an older one in the folder may show another study.
+/// The picture of a figure, if it was drawn from the present data; an older one in the folder may show another study.
 std::optional<std::string> picture(const StudyView& study, const Figure& figure) {
   const auto file = (study.folder / "figures" / figure.name).string();
   if (read_file(file + ".gp") != gnuplot_script(figure) || read_file(file + ".dat") != gnuplot_data(figure))
@@ -154,7 +154,8 @@ std::string figure_html(const StudyView& study, const Figure& figure) {
                      svg ? fmt::format(" Files: {}.", file_links(figure)) : "");
 }
 
-/// By reference, not by content: wall times differ from call to call, and the bytes of this page must not.
+/// The figures of wall times, included by reference: wall times differ from call to call, the bytes of this page must
+/// not.
 std::string timed_figures(const StudyView& study) {
   std::string out;
   if (!study.analysis) return out;
@@ -206,7 +207,7 @@ std::string methods(const Grouping& grouping) {
   return out + "</section>\n";
 }
 
-/// "1 body (box, 10 kg)" and the forces on it.
+/// Bodies of a scenario, "1 body (box, 10 kg)", and the forces on them.
 std::string bodies_and_forces(const Scenario& scenario) {
   std::vector<std::string> bodies;
   for (const auto& body : scenario.problem.bodies) {
@@ -257,7 +258,7 @@ std::string catalogue_table(const Grouping& grouping) {
   return html(table);
 }
 
-/// "0.1, 0.01" or, of many, "20 values from 0.1 to 1e-4", largest first.
+/// Values in descending order: "0.1, 0.01" or, for many, "20 values from 0.1 to 1e-4".
 std::string value_list(const std::set<double, std::greater<>>& values) {
   constexpr std::size_t most = 12;
   std::vector<std::string> texts;
@@ -340,7 +341,7 @@ std::string foot() {
       html(build.version), html(build.commit));
 }
 
-/// Of an experiment that integrates nothing: its own part is all.
+/// Page of an experiment without runs, which contains only its analysis.
 std::string report_without_runs(const StudyView& study) {
   return head(study, "<li><a href=\"#figures\">Figures</a></li>") + "<section id=\"seen\">\n<h2>What is seen</h2>\n" +
          analysis_html(*study.analysis) + command_html(study) + "</section>\n" +
@@ -366,4 +367,4 @@ void write_report(const StudyView& study) {
                                                what_was_run(study, grouping) + all_runs(study) + foot());
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::report::page

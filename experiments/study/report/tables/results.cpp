@@ -140,4 +140,4 @@ void write_manifest(const StudyView& study, const Options& options, const Plan& 
   write_text(study.folder / "manifest.json", manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::report::tables

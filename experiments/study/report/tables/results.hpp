@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tables that a study leaves for other programs: runs.csv, timings.csv and manifest.json.
+// Results of a study for other programs: runs.csv, timings.csv and manifest.json.
 #pragma once
 
 #include "experiments/study/plan/options.hpp"
@@ -8,13 +8,14 @@
 
 namespace polhode::study::inline report::inline tables {
 
-/// One row per run, sorted by configuration, no timings: the same bytes however the study was run.
+/// Writes runs.csv: one row per run, sorted by configuration, without timings. Deterministic: the same bytes for the
+/// same study, whatever the number of jobs or interruptions.
 void write_runs_csv(const StudyView& study);
 
-/// Wall time of each run, apart from the results.
+/// Writes timings.csv: the wall time of each run, separate from the results.
 void write_timings_csv(const StudyView& study);
 
-/// What was run and with what: configuration, versions, commit, compiler, flags, processor, seed.
+/// Writes manifest.json: configuration, versions, commit, compiler, flags, processor, seed.
 void write_manifest(const StudyView& study, const Options& options, const Plan& plan);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::report::tables

@@ -118,4 +118,4 @@ Table run_table(const StudyView& study, Extent extent, std::size_t most_rows) {
   return without_empty_columns(std::move(table));
 }
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::tables

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table with one row for each run: what tells the runs apart, then what came out.
+// Table with one row for each run: first the options in which the runs differ, then their results.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,12 @@
 namespace polhode::study::inline report::inline tables {
 
 enum class Extent {
-  summary,  ///< what fits the width of a printed page
-  all
+  summary,  ///< columns that fit the width of a printed page
+  all       ///< all columns
 };
 
-/// In the order of runs.csv, at most so many rows. Options that are the same in all runs have no column, nor have
-/// numbers that no run has.
+/// The first `most_rows` runs, in the order of runs.csv. Options with the same value in all runs, and numbers that no
+/// run has, have no column.
 Table run_table(const StudyView& study, Extent extent, std::size_t most_rows);
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::tables

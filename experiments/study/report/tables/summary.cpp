@@ -12,7 +12,7 @@
 namespace polhode::study::inline report::inline tables {
 namespace {
 
-constexpr std::size_t most_rows = 100;  // that a terminal shows in full
+constexpr std::size_t most_rows = 100;  // largest number of rows that are all shown on the terminal
 constexpr std::size_t rows_of_more = 40;
 constexpr std::size_t most_reasons = 10;
 
@@ -31,7 +31,7 @@ std::vector<std::size_t> shown_columns(const std::vector<std::vector<std::string
   return shown;
 }
 
-/// Runs to show: all, or evenly spread ones.
+/// Indices of the runs to show: all, or evenly spread ones.
 std::vector<std::size_t> shown_rows(std::size_t n) {
   std::vector<std::size_t> rows;
   const std::size_t m = n <= most_rows ? n : rows_of_more;
@@ -39,14 +39,14 @@ std::vector<std::size_t> shown_rows(std::size_t n) {
   return rows;
 }
 
-/// "(40 of 120 runs, evenly spread; the other 80 are in runs.csv)", or nothing where all are shown.
+/// Note on rows left out: "(40 of 120 runs, evenly spread; the other 80 are in runs.csv)"; empty if all are shown.
 std::string left_out(std::size_t n, const char* what, const std::string& where) {
   if (n <= most_rows) return {};
   return fmt::format("({} of {} {}, evenly spread; the other {} are in {})\n", rows_of_more, n, what, n - rows_of_more,
                      where);
 }
 
-/// Columns of equal width, on the left or on the right.
+/// Text of a table with columns of constant width, aligned to the left or to the right.
 std::string aligned(const std::vector<std::vector<std::string>>& table, const std::vector<bool>& left) {
   std::vector<std::size_t> width(table[0].size());
   for (const auto& row : table) {
@@ -80,7 +80,7 @@ std::string plain(const Table& table) {
   return aligned(cells, left);
 }
 
-/// Why runs were refused, or failed.
+/// Reasons for which runs were refused or failed.
 std::string reasons_of(const StudyView& study) {
   std::vector<Unfinished> runs;
   for (const RunRecord& run : study.runs) {
@@ -91,7 +91,7 @@ std::string reasons_of(const StudyView& study) {
   return text.empty() ? "" : "\n" + text;
 }
 
-/// The answer of the experiment in place of the table of runs.
+/// Summary of the analysis of the experiment, which replaces the table of runs.
 std::string analysis_summary(const Analysis& analysis) {
   std::string text;
   if (!analysis.tables.empty()) {
@@ -108,7 +108,7 @@ std::string analysis_summary(const Analysis& analysis) {
 }  // namespace
 
 std::string summary_table(const StudyView& study) {
-  // Where the analysis is the result, a refusal is one of its answers and stands in its table.
+  // If the report shows the analysis alone, its table contains the refused runs.
   if (study.analysis) return analysis_summary(*study.analysis) + (study.analysis->alone ? "" : reasons_of(study));
   const std::vector<std::string> names = config_columns(study.varied_keys, study.named);
   std::vector<std::vector<std::string>> cells;
@@ -145,7 +145,7 @@ std::string summary_table(const StudyView& study) {
 std::string reasons(const std::vector<Unfinished>& runs) {
   std::vector<std::pair<Unfinished, std::size_t>> found;  // each once, with its count
   for (Unfinished run : runs) {
-    run.message = run.message.substr(0, run.message.find(" at t = "));  // which is another one in each run
+    run.message = run.message.substr(0, run.message.find(" at t = "));  // the time differs from run to run
     const auto same = [&](const auto& f) { return f.first.status == run.status && f.first.message == run.message; };
     const auto known = std::find_if(found.begin(), found.end(), same);
     if (known == found.end()) found.emplace_back(std::move(run), 1);
@@ -162,4 +162,4 @@ std::string reasons(const std::vector<Unfinished>& runs) {
   return text;
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::report::tables

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What ends a study on the terminal.
+// Summary of a study, printed last on the terminal.
 #pragma once
 
 #include <string>
@@ -11,12 +11,12 @@ namespace polhode::study::inline report::inline tables {
 
 std::string summary_table(const StudyView& study);
 
-/// A run that did not come to its end.
+/// A run that was not completed.
 struct Unfinished {
   std::string status;   ///< "refused" or "failed"
-  std::string message;  ///< why
+  std::string message;  ///< reason
 };
-/// "2 runs refused: …", each reason once and in a line of its own; empty where there is none.
+/// Reasons for which runs were not completed: "2 runs refused: …", one line for each reason; empty if there are none.
 std::string reasons(const std::vector<Unfinished>& runs);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::report::tables

@@ -54,4 +54,4 @@ void write_tables(const StudyView& study) {
   for (const auto& file : study.analysis->timed.files) write_text(study.folder / timings_folder / file.name, file.text);
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::report::tables

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every number of a study as a LaTeX command, under a name that stays the same when the study grows.
+// Numbers of a study as LaTeX commands, whose names do not change when runs are added to the study.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace polhode::study::inline report::inline tables {
 
-/// What the commands of a run begin with, without the backslash and in letters only:
+/// First part of the names of the commands of each run, without the backslash and in letters only:
 /// "polhodeTumblingBoxRkFourDtOneEMinusThree". In this order: scenario, method, varied keys with their values, options
-/// that are not the default, step or tolerance. Digits are spelt ("RkFour"), a number is written with an exponent and
-/// spelt (0.001 = 1e-3: "OneEMinusThree"), rounded to four digits. Runs that would share a name get the digits of their
-/// id behind it, 0 … f as a … p.
+/// that are not the default, step or tolerance. Digits are spelt ("RkFour"). A number is rounded to four digits,
+/// written with an exponent and spelt (0.001 = 1e-3: "OneEMinusThree"). If runs would share a name, the digits of their
+/// id are appended, with 0 … f as a … p.
 std::vector<std::string> tex_names(const StudyView& study);
 
-/// The file of \newcommand lines, with the scheme explained at its head.
+/// Text of the file of \newcommand lines. A comment at its beginning explains the names.
 std::string tex_values(const StudyView& study);
 
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::tables

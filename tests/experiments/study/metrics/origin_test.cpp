@@ -47,8 +47,9 @@ Scenario retold(Scenario scenario, const Vector& shift, const Quaternion<double>
   return scenario;
 }
 
-/// s: while a rounding of the start stays a rounding. Impacts magnify it, the box on a spring is chaotic, and the
-/// pendulum swings about its middle axis, which is unstable.
+/// Duration (s) in which a rounding of the start stays a rounding. Impacts magnify it, the box on a spring is chaotic,
+/// and the pendulum swings about its middle axis, which is unstable. The drift of the rolling ball stands at the edge
+/// of two classes after half a second; after a second it has one class, moved or turned.
 double foreseeable(const Scenario& scenario) {
   if (scenario.name == "simbenchmark_rolling") return 1;
   if (!scenario.colliders.empty()) return 0.5;

@@ -112,4 +112,4 @@ TEST(Report, OfThousandsOfRunsStaysShort) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::report_tests
