@@ -276,8 +276,8 @@ std::string values_of(const RunOption& option, const StudyView& study) {
     if (const auto* x = std::get_if<double>(&value)) {
       numbers.insert(*x);
     } else if (value != OptionValue{}) {
-      // The impact timing of a response that is a force has an empty name.
-      if (const std::string text = text_of(value); text.empty() || option.applies_to(run.config)) texts.insert(text);
+      // The impact timing of a response that is a force has an empty name, which is left out.
+      if (const std::string text = text_of(value); !text.empty() && option.applies_to(run.config)) texts.insert(text);
     } else if (!option.unsaid.empty()) {
       texts.insert(option.unsaid);
     }

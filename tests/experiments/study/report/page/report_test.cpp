@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "experiments/study/report/figures/study_figures.hpp"
 #include "experiments/study/report/tables/tables.hpp"
@@ -92,6 +93,21 @@ TEST(Report, OfRefusedRunsAloneGivesTheReasons) {
   EXPECT_EQ(unbalanced(page), "");
   EXPECT_NE(page.find("1 run: 1 refused."), std::string::npos);
   EXPECT_NE(page.find("gyroscopic off makes no sense with the momentum state"), std::string::npos);
+}
+
+TEST(Report, LeavesOutTheEmptyTimingOfResponsesThatAreForces) {
+  const Folder folder;
+  auto study = empty_study(folder.path);
+  for (const auto& [response, timing] : {std::pair("compliant", ""), std::pair("single_impulse", "event_located")}) {
+    study.runs.push_back(fake_run(seven_methods[3], "top", 0.01));
+    study.runs.back().config.contact = {"sweep_and_prune", "sat", response, timing};
+  }
+  write_report(study);
+  EXPECT_NE(read(folder.path / "report.html").find("<dt>timing of impacts</dt><dd>event_located</dd>"),
+            std::string::npos);
+  study.runs.pop_back();
+  write_report(study);
+  EXPECT_EQ(read(folder.path / "report.html").find("<dt>timing of impacts</dt>"), std::string::npos);
 }
 
 TEST(Report, OfThousandsOfRunsStaysShort) {
