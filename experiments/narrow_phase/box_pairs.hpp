@@ -11,7 +11,7 @@
 #include "collision/narrow/box_sat.hpp"
 #include "core/math/portable_random.hpp"
 
-namespace polhode {
+namespace polhode::study::narrow_phase {
 
 /// A box as given by a user.
 struct TurnedBox {
@@ -152,4 +152,4 @@ class BoxPairs {
   PortableRandom random_{0};
 };
 
-}  // namespace polhode
+}  // namespace polhode::study::narrow_phase

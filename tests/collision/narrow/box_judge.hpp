@@ -10,6 +10,9 @@
 
 namespace polhode {
 
+using study::narrow_phase::BoxPairCase;
+using study::narrow_phase::BoxPairs;
+
 /// All its numbers, for a message.
 std::string describe(const BoxPairCase& pair);
 

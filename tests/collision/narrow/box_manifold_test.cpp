@@ -17,6 +17,8 @@ namespace {
 
 using Vector = Vector3<double>;
 using Kind = Feature::Kind;
+using study::narrow_phase::BoxPairCase;
+using study::narrow_phase::BoxPairs;
 
 PosedBox cube(double half, const Vector& position, const Vector& rotation = Vector::Zero()) {
   return {Vector::Constant(half),

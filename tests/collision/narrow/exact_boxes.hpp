@@ -8,7 +8,7 @@
 namespace polhode {
 
 /// A box as the numbers say it: the rotation is exactly that of q/|q|.
-using ExactBox = TurnedBox;
+using ExactBox = study::narrow_phase::TurnedBox;
 
 struct ExactDistance {
   int sign = 0;              ///< of the signed distance, exact: −1 where the interiors overlap

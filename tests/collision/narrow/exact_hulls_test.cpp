@@ -12,6 +12,8 @@
 namespace polhode {
 namespace {
 
+using study::narrow_phase::BoxPairCase;
+using study::narrow_phase::BoxPairs;
 using Vector = Vector3<double>;
 
 ExactHull box(const Vector& half, const Pose& pose = {}) {

@@ -23,6 +23,8 @@
 namespace polhode {
 namespace {
 
+using study::narrow_phase::BoxPairCase;
+using study::narrow_phase::BoxPairs;
 using Vector = Vector3<double>;
 
 const NarrowPhase& sat_phase() {
