@@ -106,7 +106,7 @@ std::string impact_timings() {
 std::string metrics_text(std::span<const Metric> table) {
   std::vector<const Metric*> listed;
   for (const Metric& metric : table) {
-    if (!metric.meaning.empty()) listed.push_back(&metric);
+    if (metric.listed_with.empty()) listed.push_back(&metric);
   }
   std::stable_sort(listed.begin(), listed.end(),
                    [](const Metric* a, const Metric* b) { return a->list_rank < b->list_rank; });

@@ -36,9 +36,11 @@ struct Metric {
   Runs runs = Runs::all;
   bool may_be_infinite = false;  ///< infinite values are kept; requires a member
 
-  /// Text of its line in `--list metrics`; empty: not listed. A line break in it begins a further line.
+  /// Text of its line in `--list metrics`. A line break in it begins a further line. Empty if the line of another
+  /// metric describes this one too.
   std::string meaning{};
-  std::string listed_as{};  ///< name in that list, for a family of columns; empty: the column
+  std::string listed_as{};    ///< name in that list, for a family of columns; empty: the column
+  std::string listed_with{};  ///< column of the metric whose line describes this one too; empty: it has its own line
   int list_rank = 0;  ///< position in that list: smaller ranks first, equal ranks in the order of the metric table
 
   /// Heading of its column in the tables of runs; empty: no column.

@@ -211,5 +211,18 @@ TEST(MetricTable, ColumnsAreIdentifiersAndEachStandsOnce) {
   }
 }
 
+TEST(MetricTable, EachMetricHasALineInTheListOrSharesThatOfAnother) {
+  const std::vector<Metric>& metrics = metric_table();
+  for (const Metric& metric : metrics) {
+    EXPECT_NE(metric.meaning.empty(), metric.listed_with.empty()) << metric.column;
+    const std::string with = metric.listed_with.empty() ? metric.column : metric.listed_with;
+    const auto found = std::find_if(metrics.begin(), metrics.end(), [&](const Metric& m) { return m.column == with; });
+    ASSERT_NE(found, metrics.end()) << metric.column;
+    EXPECT_FALSE(found->meaning.empty()) << metric.column;
+    const std::string name = found->listed_as.empty() ? found->column : found->listed_as;
+    EXPECT_NE(listing("metrics").find("  " + name + " "), std::string::npos) << name;
+  }
+}
+
 }  // namespace
 }  // namespace polhode::study
