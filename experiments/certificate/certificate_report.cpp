@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +20,10 @@ namespace polhode::study::certificate {
 namespace {
 
 constexpr std::size_t most_items = 16;  // of a sentence
+
+/// The run options that distinguish certificates.
+constexpr std::array subject_options = {"integrator", "orientation",   "angular-state", "gyroscopic",
+                                        "normalize",  "rotation-from", "precision"};
 
 bool is_order(const std::string& trait) { return trait.starts_with("order_"); }
 bool is_count(const std::string& trait) { return trait == "evaluations_per_step"; }
@@ -244,27 +248,26 @@ class Report {
                     timings_folder)};
   }
 
-  /// Those columns of a run's configuration that tell certificates apart.
-  std::vector<std::string> kept_cells(const std::vector<std::string>& cells) const {
-    static const std::set<std::string> kept = {"integrator", "orientation",   "angular_state", "gyroscopic",
-                                               "normalize",  "rotation_from", "precision"};
-    const auto names = config_columns({}, {});
-    std::vector<std::string> some;
-    for (std::size_t k = 0; k < names.size(); ++k) {
-      if (kept.contains(names[k])) some.push_back(cells[k]);
-    }
-    return some;
+  static std::vector<std::string> subject_columns() {
+    std::vector<std::string> columns;
+    for (const char* name : subject_options) columns.push_back(run_option(name).column);
+    return columns;
+  }
+  static std::vector<std::string> subject_cells(const RunConfig& config) {
+    std::vector<std::string> cells;
+    for (const char* name : subject_options) cells.push_back(config_cell(run_option(name), config));
+    return cells;
   }
 
   std::string csv() const {
-    auto header = kept_cells(config_columns({}, {}));
+    auto header = subject_columns();
     for (const char* c : {"trait", "declared", "measured", "unit", "limit", "verdict", "scenario", "note"}) {
       header.emplace_back(c);
     }
     std::string text = csv_row(header);
     for (const Certificate& c : certificates_) {
       for (const Finding& f : c.findings) {
-        auto row = kept_cells(config_cells(c.config, {}));
+        auto row = subject_cells(c.config);
         for (auto& cell : std::vector<std::string>{f.trait, f.declared, csv_cell(f.measured), f.measured ? f.unit : "",
                                                    csv_cell(f.limit), word_of(f.verdict), f.on, f.note}) {
           row.push_back(std::move(cell));
@@ -277,13 +280,13 @@ class Report {
 
   /// One after another, so that no step waits for another's.
   std::string cost(std::vector<std::string>& sentences) const {
-    auto header = kept_cells(config_columns({}, {}));
+    auto header = subject_columns();
     for (const char* c : {"step_ns", "rhs_per_step", "rhs_ns"}) header.emplace_back(c);
     std::string text = csv_row(header);
     std::map<double, std::string> by_time;
     for (const Certificate& c : certificates_) {
       const double ns = nanoseconds_per_step({*c.entry, c.config.formulation}, measures_.stages, measures_.course);
-      auto row = kept_cells(config_cells(c.config, {}));
+      auto row = subject_cells(c.config);
       const auto& asked = c.findings.back().measured;
       row.push_back(std::isfinite(ns) ? fmt::format("{:.1f}", ns) : "");
       row.push_back(csv_cell(asked));

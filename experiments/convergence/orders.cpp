@@ -264,15 +264,7 @@ class Orders {
   }
 
   std::string csv() const {
-    const auto names = config_columns(study_.varied_keys, study_.named);
-    const auto kept = [&](const std::vector<std::string>& cells) {
-      std::vector<std::string> some;
-      for (std::size_t k = 0; k < cells.size(); ++k) {
-        if (names[k] != "dt_s" && names[k] != "tolerance") some.push_back(cells[k]);
-      }
-      return some;
-    };
-    auto header = kept(names);
+    auto header = config_columns(study_.varied_keys, study_.named, {RunOption::Role::size});
     for (const char* c :
          {"error_of", "against", "declared_order", "observed_order", "standard_error", "confidence_95_low",
           "confidence_95_high", "points", "step_smallest_s", "step_largest_s", "tolerance_smallest",
@@ -281,7 +273,7 @@ class Orders {
     }
     std::string text = csv_row(header);
     for (const Order& o : orders_) {
-      auto row = kept(config_cells(o.curve->runs.front()->config, study_.named));
+      auto row = config_cells(o.curve->runs.front()->config, study_.named, {RunOption::Role::size});
       const auto& e = o.estimate;
       const auto of_line = [&](auto number) { return e.line ? exact(number(*e.line)) : std::string(); };
       const bool step = !o.curve->adaptive, any = e.points > 0;

@@ -9,6 +9,7 @@
 #include <map>
 #include <tuple>
 
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/statistics/line_fit.hpp"
 #include "experiments/study/text/notation.hpp"
 
@@ -29,13 +30,15 @@ struct Texts {
 };
 
 Texts texts_of(const RunConfig& c) {
-  const auto& f = c.formulation;
-  return {
+  Texts texts{
       {c.scenario, fmt::format("t_end = {} s", rounded(c.t_end)),
        c.samples ? fmt::format("{} samples", *c.samples) : "every step seen", c.reference ? "with a reference" : ""},
-      {std::string(name(f.orientation)), std::string(name(f.angular_state)),
-       f.gyroscopic ? "gyroscopic on" : "gyroscopic off", fmt::format("rotation {}", name(f.rotation_from)),
-       c.normalise ? "normalize step" : "normalize never"}};
+      {}};
+  for (const RunOption* option : options_of_role(RunOption::Role::variant)) {
+    const bool arithmetic = option->name == "precision" || option->name == "summation";
+    if (!arithmetic) texts.formulation.push_back(label_of(*option, c));
+  }
+  return texts;
 }
 
 /// The texts at the places where the runs of the study differ.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <set>
@@ -11,6 +12,7 @@
 #include "experiments/precision/families.hpp"
 #include "experiments/precision/growth_estimate.hpp"
 #include "experiments/precision/rounding_figures.hpp"
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
 
@@ -19,6 +21,11 @@ namespace {
 
 using namespace precision;
 using precision::RoundingProblem;
+
+/// The run options that the CSV files name.
+constexpr std::array named_options = {"scenario",   "integrator", "orientation",   "angular-state",
+                                      "gyroscopic", "normalize",  "rotation-from", "t-end",
+                                      "samples",    "precision",  "summation"};
 
 struct Ladder {
   const RoundingProblem* problem;
@@ -277,25 +284,21 @@ class Rounding {
     return without_empty_columns(std::move(table));
   }
 
-  static std::vector<std::string> named(const RoundingProblem& problem, const Family& family) {
-    const RunConfig& c = family.config();
-    const auto& f = c.formulation;
-    return {c.scenario,
-            problem.method,
-            std::string(name(f.orientation)),
-            std::string(name(f.angular_state)),
-            f.gyroscopic ? "on" : "off",
-            c.normalise ? "step" : "never",
-            std::string(name(f.rotation_from)),
-            exact(c.t_end),
-            c.samples ? std::to_string(*c.samples) : "",
-            std::string(name(family.precision)),
-            family.compensated ? "compensated" : "plain"};
+  static std::vector<std::string> named(const Family& family) {
+    std::vector<std::string> cells;
+    for (const char* name : named_options) {
+      const RunOption& option = run_option(name);
+      const OptionValue value = option.value(family.config());
+      cells.push_back(text_of(value == OptionValue{} ? option.usual : value));
+    }
+    return cells;
   }
   static std::vector<std::string> with_names(std::initializer_list<const char*> more) {
-    std::vector<std::string> all = {"scenario",   "integrator", "orientation",   "angular_state",
-                                    "gyroscopic", "normalize",  "rotation_from", "t_end_s",
-                                    "samples",    "precision",  "summation"};
+    std::vector<std::string> all;
+    for (const char* name : named_options) {
+      const RunOption& option = run_option(name);
+      all.push_back(option.column.empty() ? file_key(option) : option.column);
+    }
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -306,7 +309,7 @@ class Rounding {
                             "truncation_largest_step", "truncation_smallest_step", "rounding_takes_over_at",
                             "least_error", "least_error_at", "rounding_power_of_step"}));
     for (const Ladder& l : ladders_) {
-      auto row = named(*l.problem, *l.family);
+      auto row = named(*l.family);
       const auto& t = l.split.truncation;
       const auto of_line = [&](double number) { return t.line ? exact(number) : std::string(); };
       const double order = t.line ? t.line->order : 0, half = t.line ? t.line->half_width_95 : 0;
@@ -326,7 +329,7 @@ class Rounding {
         csv_row(with_names({"growth_of", "runs", "exponent", "confidence_95_low", "confidence_95_high", "growth"}));
     const auto add = [&](const Rise& r, const char* of, const std::optional<GrowthEstimate>& e, auto judge) {
       if (!e) return;
-      auto row = named(*r.problem, *r.family);
+      auto row = named(*r.family);
       for (auto& cell : std::vector<std::string>{of, std::to_string(e->paths), exact(e->exponent),
                                                  exact(e->exponent - e->half_width_95),
                                                  exact(e->exponent + e->half_width_95), word_of(judge(*e))}) {

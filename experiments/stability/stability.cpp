@@ -22,6 +22,7 @@ namespace polhode::study::stability {
 namespace {
 
 using Kind = CriticalStep::Kind;
+using Role = RunOption::Role;
 
 constexpr std::size_t most_items = 16;  // of a sentence
 
@@ -392,17 +393,8 @@ class Stability {
     row.push_back(cell(c.kind != Kind::none && f.rate, c.fails * f.rate.value_or(0)));
   }
 
-  std::vector<std::string> without_step(const std::vector<std::string>& cells) const {
-    const auto names = config_columns(study_.varied_keys, study_.named);
-    std::vector<std::string> some;
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-      if (names[k] != "dt_s" && names[k] != "tolerance" && names[k] != "t_end_s") some.push_back(cells[k]);
-    }
-    return some;
-  }
-
   std::string critical_csv() const {
-    auto header = without_step(config_columns(study_.varied_keys, study_.named));
+    auto header = config_columns(study_.varied_keys, study_.named, {Role::size, Role::duration});
     for (const char* c : {"characteristic_rate_rad_per_s",
                           "smallest_step_s",
                           "largest_step_s",
@@ -437,7 +429,7 @@ class Stability {
     std::string text = csv_row(header);
     for (const auto& f : found_) {
       const auto& steps = f.ladder.steps;
-      auto row = without_step(config_cells(steps.front().longest().config, study_.named));
+      auto row = config_cells(steps.front().longest().config, study_.named, {Role::size, Role::duration});
       for (auto& cell : {csv_cell(f.rate), exact(steps.front().dt), exact(steps.back().dt)}) row.push_back(cell);
       add_limit(row, f, f.growth);
       row.emplace_back(f.growth.holds_again ? "yes" : "no");

@@ -10,7 +10,10 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <type_traits>
+#include <utility>
 
+#include "experiments/study/record/metric_table.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/scenario/motion_size.hpp"
 #include "experiments/study/statistics/order_estimate.hpp"
@@ -162,74 +165,61 @@ Grouping group(const StudyView& study) {
 }
 
 namespace quantity {
+namespace {
+
+/// The quantity of a metric; `axis` is the label of its axis without the unit.
+Quantity of_metric(const Metric& metric, std::string words, const std::string& axis) {
+  return {.column = metric.column,
+          .words = std::move(words),
+          .axis = fmt::format("{} ({})", axis, metric.unit),
+          .unit = metric.unit == "relative" || metric.unit == "1" ? "" : " " + metric.unit,
+          .of = [&metric](const RunResult& result) {
+            std::optional<double> number;
+            with_value(metric, result, [&]<class Value>(const Value& value) {
+              if constexpr (std::is_same_v<Value, std::optional<double>>) number = value;
+            });
+            return number;
+          }};
+}
+
+}  // namespace
 
 Quantity energy_drift() {
-  return {"energy_drift_max_rel",
-          "energy drift",
-          "largest energy drift (relative)",
-          "",
-          0,
-          true,
-          [](const RunResult& r) { return r.energy_drift_max_rel; },
-          [](const RunResult& r) -> std::optional<double> {
-            if (!r.energy_round_off || !r.energy_scale) return std::nullopt;
-            return *r.energy_round_off / *r.energy_scale;
-          }};
+  Quantity drift = of_metric(metric_of_column("energy_drift_max_rel"), "energy drift", "largest energy drift");
+  drift.round_off_of = [](const RunResult& r) -> std::optional<double> {
+    if (!r.energy_round_off || !r.energy_scale) return std::nullopt;
+    return *r.energy_round_off / *r.energy_scale;
+  };
+  return drift;
 }
 Quantity linear_momentum_drift() {
-  return {"linear_momentum_drift_max_rel",
-          "linear momentum drift",
-          "linear momentum drift (relative)",
-          "",
-          0,
-          true,
-          [](const RunResult& r) { return r.linear_momentum_drift_max_rel; }};
+  return of_metric(metric_of_column("linear_momentum_drift_max_rel"), "linear momentum drift", "linear momentum drift");
 }
 Quantity angular_momentum_drift() {
-  return {"angular_momentum_drift_max_rel",
-          "angular momentum drift",
-          "angular momentum drift (relative)",
-          "",
-          0,
-          true,
-          [](const RunResult& r) { return r.angular_momentum_drift_max_rel; }};
+  return of_metric(metric_of_column("angular_momentum_drift_max_rel"), "angular momentum drift",
+                   "angular momentum drift");
 }
 Quantity orientation_defect() {
-  return {
-      "orientation_defect_max", "orientation defect", "orientation defect (1)", "", 0, true, [](const RunResult& r) {
-        return r.orientation_defect_max;
-      }};
+  return of_metric(metric_of_column("orientation_defect_max"), "orientation defect", "orientation defect");
 }
 Quantity position_error() {
-  // A metre has no scale of its own: positions of some hundred metres carry rounding of 1e-13 m a step.
-  return {"position_error_max_m",
-          "position error",
-          "largest position error (m)",
-          " m",
-          1e-10,
-          false,
-          [](const RunResult& r) { return r.position_error_max; }};
+  Quantity error = of_metric(metric_of_column("position_error_max_m"), "position error", "largest position error");
+  error.round_off = 1e-10;  // positions of some hundred metres carry rounding of 1e-13 m a step
+  error.bounded = false;    // a metre has no scale of its own
+  return error;
 }
 Quantity attitude_error() {
-  return {"attitude_error_max_rad",
-          "attitude error",
-          "largest attitude error (rad)",
-          " rad",
-          0,
-          true,
-          [](const RunResult& r) { return r.attitude_error_max; }};
+  return of_metric(metric_of_column("attitude_error_max_rad"), "attitude error", "largest attitude error");
 }
 Quantity invariant_drift(const std::string& name) {
-  return {name + "_drift_max_rel",
-          name + " drift",
-          name + " drift (relative)",
-          "",
-          0,
-          true,
-          [name](const RunResult& r) -> std::optional<double> {
-            const auto at = r.invariant_drift_max_rel.find(name);
-            return at == r.invariant_drift_max_rel.end() ? std::nullopt : std::optional(at->second);
-          }};
+  const Metric& metric = metric_of_column("invariant_drifts_max_rel");
+  Quantity drift = of_metric(metric, name + " drift", name + " drift");
+  drift.column = csv_columns(metric, {name}).front();
+  drift.of = [name](const RunResult& r) -> std::optional<double> {
+    const auto at = r.invariant_drift_max_rel.find(name);
+    return at == r.invariant_drift_max_rel.end() ? std::nullopt : std::optional(at->second);
+  };
+  return drift;
 }
 
 }  // namespace quantity

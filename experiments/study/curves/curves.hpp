@@ -44,7 +44,7 @@ struct Grouping {
 
 Grouping group(const StudyView& study);
 
-/// A number in the result of a run, with its names in figures and sentences.
+/// A metric (record/metric_table.hpp) that figures and sentences use, with its names there.
 struct Quantity {
   std::string column;    ///< column of runs.csv
   std::string words;     ///< "energy drift"

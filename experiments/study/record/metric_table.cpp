@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
@@ -21,6 +22,12 @@ std::string exponent_interval(const RunResult& r) {
   return fmt::format("{:.3f} … {:.3f}", *r.drift_exponent_low, *r.drift_exponent_high);
 }
 
+/// The class of the energy drift, or "undecided (try 120 s)" with the duration that would decide it.
+std::string class_and_duration(const RunResult& r) {
+  if (r.drift_class.empty() || !r.drift_decided_after) return r.drift_class.empty() ? "-" : r.drift_class;
+  return fmt::format("{} (try {} s)", r.drift_class, number(*r.drift_decided_after, 2));
+}
+
 std::vector<Metric> all_metrics() {
   using R = RunResult;
   using C = ContactMeasures;
@@ -32,6 +39,7 @@ std::vector<Metric> all_metrics() {
        .label = "status",
        .in_summary = true,
        .table_rank = 0,
+       .terminal_label = "status",
        .in_scores = false},
       {.column = "message", .member = &R::message, .meaning = "reason of a status other than ok", .in_scores = false},
       {.column = "steps",
@@ -87,6 +95,7 @@ std::vector<Metric> all_metrics() {
        .unit = "relative",
        .in_summary = true,
        .table_rank = 1,
+       .terminal_label = "energy drift",
        .tex = "EnergyDriftMax",
        .judge_label = "energy drift"},
       {.column = "energy_drift_final_rel",
@@ -113,6 +122,8 @@ std::vector<Metric> all_metrics() {
        .list_rank = 4,
        .label = "class of the drift",
        .in_summary = true,
+       .terminal_label = "its class",
+       .terminal_cell = class_and_duration,
        .judge_label = "its class"},
       {.column = "energy_drift_rate_ci_W",
        .member = &R::energy_drift_rate_ci,
@@ -166,6 +177,7 @@ std::vector<Metric> all_metrics() {
        .label = "angular momentum drift",
        .unit = "relative",
        .in_summary = true,
+       .terminal_label = "ang. momentum",
        .tex = "AngularMomentumDriftMax",
        .judge_label = "angular momentum"},
       {.column = "invariant_drifts_max_rel",
@@ -182,6 +194,7 @@ std::vector<Metric> all_metrics() {
        .label = "orientation defect",
        .unit = "1",
        .in_summary = true,
+       .terminal_label = "defect",
        .tex = "OrientationDefectMax",
        .judge_label = "orientation defect"},
 
@@ -200,6 +213,7 @@ std::vector<Metric> all_metrics() {
        .label = "attitude error",
        .unit = "rad",
        .in_summary = true,
+       .terminal_label = "attitude rad",
        .tex = "AttitudeErrorMax",
        .judge_label = "attitude error"},
       {.column = "angular_velocity_error_max_rel",
@@ -337,6 +351,13 @@ constexpr bool by_invariant = std::is_same_v<Value, std::map<std::string, double
 const std::vector<Metric>& metric_table() {
   static const std::vector<Metric> all = all_metrics();
   return all;
+}
+
+const Metric& metric_of_column(const std::string& column) {
+  for (const Metric& metric : metric_table()) {
+    if (metric.column == column) return metric;
+  }
+  throw std::logic_error("there is no metric " + column);
 }
 
 std::vector<const Metric*> in_table_order(std::span<const Metric> metrics) {

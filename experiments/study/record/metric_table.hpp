@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of metrics: one entry for each measured result of a run. The store, runs.csv, the tables of runs, the LaTeX
-// values, `--list metrics` and judge loop over this table.
+// The table of metrics: one entry for each measured result of a run. The store, runs.csv, the tables of runs, the
+// summary on the terminal, the LaTeX values, `--list metrics` and judge loop over this table.
 //
 // To add a metric: add an entry in metric_table.cpp, and the code that measures it. That code writes the number into
 // RunResult::further under the name of the column, unless the entry names a member of RunResult.
@@ -50,6 +50,10 @@ struct Metric {
   std::string (*cell)(const RunResult&) = nullptr;  ///< text of the table's cell; null: the number
   int table_rank = 5;                               ///< as list_rank, for the tables of runs and the LaTeX values
 
+  // In the summary on the terminal, in the order of the tables of runs.
+  std::string terminal_label{};                              ///< heading of its column; empty: no column
+  std::string (*terminal_cell)(const RunResult&) = nullptr;  ///< text of its cell; null: the value, "-" if absent
+
   std::string tex{};  ///< last part of the name of the LaTeX command (tex_values.hpp); empty: no command
 
   bool in_scores = true;      ///< judge measures it for a trajectory of unknown origin and writes it to scores.csv
@@ -58,6 +62,9 @@ struct Metric {
 
 /// All metrics, in the order of the columns of runs.csv.
 const std::vector<Metric>& metric_table();
+
+/// The metric with this column. Throws std::logic_error if there is none.
+const Metric& metric_of_column(const std::string& column);
 
 /// The metrics in the order of the tables of runs.
 std::vector<const Metric*> in_table_order(std::span<const Metric> metrics);

@@ -356,8 +356,9 @@ OptionValue applied(const RunOption& option, const RunConfig& config) {
   return {};
 }
 
-bool has_column(const RunOption& option, const NamedOptions& named) {
-  return !option.column.empty() && (!option.on_demand || named.contains(option.name));
+bool has_column(const RunOption& option, const NamedOptions& named, Roles without) {
+  return !option.column.empty() && (!option.on_demand || named.contains(option.name)) &&
+         std::find(without.begin(), without.end(), option.role) == without.end();
 }
 
 }  // namespace
@@ -429,19 +430,29 @@ bool is_usual(const RunOption& option, const RunConfig& config, const RunConfig&
   return value == OptionValue{} || value == option.usual || value == option.value(usual);
 }
 
-std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys, const NamedOptions& named) {
+std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys, const NamedOptions& named,
+                                        Roles without) {
   std::vector<std::string> columns;
   for (const RunOption* option : options_by_column()) {
-    if (has_column(*option, named)) columns.push_back(option->column);
+    if (has_column(*option, named, without)) columns.push_back(option->column);
   }
   columns.insert(columns.end(), varied_keys.begin(), varied_keys.end());
   return columns;
 }
 
-std::vector<std::string> config_cells(const RunConfig& config, const NamedOptions& named) {
+std::string config_cell(const RunOption& option, const RunConfig& config) { return text_of(applied(option, config)); }
+
+const RunOption* option_of_column(const std::string& column) {
+  for (const RunOption& option : run_options()) {
+    if (option.column == column) return &option;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> config_cells(const RunConfig& config, const NamedOptions& named, Roles without) {
   std::vector<std::string> cells;
   for (const RunOption* option : options_by_column()) {
-    if (has_column(*option, named)) cells.push_back(text_of(applied(*option, config)));
+    if (has_column(*option, named, without)) cells.push_back(config_cell(*option, config));
   }
   for (const Override& o : config.varied) cells.push_back(o.value);
   return cells;

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -96,10 +97,18 @@ std::string label_of(const RunOption& option, const RunConfig& config);
 /// True if the run has no value of the option, the option's usual value, or the value that the run `usual` has.
 bool is_usual(const RunOption& option, const RunConfig& config, const RunConfig& usual = {});
 
-/// Names of the columns of runs.csv that hold the configuration of a run; the varied keys come last.
-std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys, const NamedOptions& named);
+using Roles = std::initializer_list<RunOption::Role>;
+
+/// Names of the columns of runs.csv that hold the configuration of a run, without the options of some roles; the varied
+/// keys come last.
+std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys, const NamedOptions& named,
+                                        Roles without = {});
 /// The cells below config_columns().
-std::vector<std::string> config_cells(const RunConfig& config, const NamedOptions& named);
+std::vector<std::string> config_cells(const RunConfig& config, const NamedOptions& named, Roles without = {});
+/// The cell of an option in those columns; empty if the option does not apply.
+std::string config_cell(const RunOption& option, const RunConfig& config);
+/// The option with this column; null if there is none, as for a varied key.
+const RunOption* option_of_column(const std::string& column);
 
 /// The configuration as text. It does not depend on the study that contains the run.
 std::string identity_of(const RunConfig& config);

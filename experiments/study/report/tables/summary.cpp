@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <type_traits>
 
+#include "experiments/study/record/metric_table.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/text/notation.hpp"
 #include "experiments/study/text/value_lists.hpp"
@@ -16,16 +19,39 @@ constexpr std::size_t most_rows = 100;  // largest number of rows that are all s
 constexpr std::size_t rows_of_more = 40;
 constexpr std::size_t most_reasons = 10;
 
-std::string short_number(const std::optional<double>& x) { return x ? fmt::format("{:.3g}", *x) : "-"; }
+/// The metrics with a column here, in the order of the tables of runs.
+std::vector<const Metric*> shown_metrics(std::span<const Metric> metrics) {
+  std::vector<const Metric*> shown = in_table_order(metrics);
+  std::erase_if(shown, [](const Metric* metric) { return metric->terminal_label.empty(); });
+  return shown;
+}
+
+std::string metric_cell(const Metric& metric, const RunResult& result) {
+  if (metric.terminal_cell) return metric.terminal_cell(result);
+  std::string text;
+  with_value(metric, result, [&]<class Value>(const Value& value) {
+    if constexpr (std::is_same_v<Value, std::optional<double>>) {
+      if (value) text = fmt::format("{:.3g}", *value);
+    } else {
+      text = table_cell(metric, result);
+    }
+  });
+  return text.empty() ? "-" : text;
+}
+
+bool has_role(const std::string& column, RunOption::Role role) {
+  const RunOption* option = option_of_column(column);
+  return option && option->role == role;
+}
 
 /// The columns of the configuration that differ between runs, and always the method and its step or tolerance.
 std::vector<std::size_t> shown_columns(const std::vector<std::vector<std::string>>& cells,
                                        const std::vector<std::string>& names) {
   std::vector<std::size_t> shown;
   for (std::size_t k = 0; k < names.size(); ++k) {
-    const bool always = names[k] == "integrator";
+    const bool always = has_role(names[k], RunOption::Role::method);
     const bool differs = std::any_of(cells.begin(), cells.end(), [&](const auto& c) { return c[k] != cells[0][k]; });
-    const bool size = (names[k] == "dt_s" || names[k] == "tolerance") && !cells[0][k].empty();
+    const bool size = has_role(names[k], RunOption::Role::size) && !cells[0][k].empty();
     if (always || differs || size) shown.push_back(k);
   }
   return shown;
@@ -116,28 +142,17 @@ std::string summary_table(const StudyView& study) {
   const auto columns = shown_columns(cells, names);
   std::vector<std::vector<std::string>> table(1);
   for (const std::size_t k : columns) table[0].push_back(names[k]);
-  for (const char* h : {"status", "energy drift", "its class", "ang. momentum", "defect", "attitude rad"})
-    table[0].emplace_back(h);
+  const auto metrics = shown_metrics(study.metrics);
+  for (const Metric* metric : metrics) table[0].push_back(metric->terminal_label);
   const auto rows = shown_rows(study.runs.size());
   for (const std::size_t i : rows) {
-    const RunResult& r = study.runs[i].result;
     auto& row = table.emplace_back();
     for (const std::size_t k : columns) row.push_back(rounded(cells[i][k]));
-    row.push_back(r.status);
-    row.push_back(short_number(r.energy_drift_max_rel));
-    row.push_back(r.drift_class.empty() ? "-"
-                  : r.drift_decided_after
-                      ? fmt::format("{} (try {} s)", r.drift_class, number(*r.drift_decided_after, 2))
-                      : r.drift_class);
-    for (const auto& x : {r.angular_momentum_drift_max_rel, r.orientation_defect_max, r.attitude_error_max}) {
-      row.push_back(short_number(x));
-    }
+    for (const Metric* metric : metrics) row.push_back(metric_cell(*metric, study.runs[i].result));
   }
   std::vector<bool> left;
-  for (std::size_t k = 0; k < table[0].size(); ++k) {
-    left.push_back(k == columns.size() || k == columns.size() + 2 ||
-                   (k < columns.size() && names[columns[k]] != "dt_s" && names[columns[k]] != "tolerance"));
-  }
+  for (const std::size_t k : columns) left.push_back(!has_role(names[k], RunOption::Role::size));
+  for (const Metric* metric : metrics) left.push_back(is_text(*metric));
   std::string text = aligned(table, left);
   return text + left_out(study.runs.size(), "runs", "runs.csv") + reasons_of(study);
 }

@@ -21,6 +21,7 @@
 #include "experiments/study/plan/listing.hpp"
 #include "experiments/study/record/study_view.hpp"
 #include "experiments/study/report/tables/results.hpp"
+#include "experiments/study/report/tables/summary.hpp"
 #include "experiments/study/report/tables/tables.hpp"
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/scenario/scenario.hpp"
@@ -38,6 +39,7 @@ std::vector<Metric> with_step_rate() {
                      .label = "pace",
                      .unit = "1/s",
                      .in_summary = true,
+                     .terminal_label = "pace on the terminal",
                      .tex = "StepRate",
                      .judge_label = "step rate"});
   return metrics;
@@ -117,6 +119,10 @@ TEST(MetricTable, OneMoreEntryIsFoundInStoreTablesHelpAndCsv) {
   EXPECT_NE(text_of_file(folder.path() / "tables" / "summary.tex").find("pace"), std::string::npos);
   const std::string values = text_of_file(folder.path() / "tables" / "values.tex");
   EXPECT_NE(lines_with("StepRate}", values).find("{8}"), std::string::npos) << values;
+
+  const std::string terminal = summary_table(study);
+  EXPECT_NE(terminal.find("pace on the terminal\n"), std::string::npos) << terminal;
+  EXPECT_NE(terminal.find(" 8\n"), std::string::npos) << terminal;
 
   const std::string help = lines_with("step_rate_per_s", listing("metrics", metrics));
   EXPECT_NE(help.find("steps in a second of the motion"), std::string::npos) << help;
