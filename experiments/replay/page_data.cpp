@@ -101,14 +101,19 @@ std::string impacts_packed(const Recording& r) {
   return packed(numbers);
 }
 
-/// What tells the runs of a page apart, beside method and step: "orientation matrix, gyroscopic off".
+/// The differences of the run from others of the page, except method and step: "orientation matrix, gyroscopic off".
 std::string detail_of(const Recording& r, const std::vector<Recording>& all) {
+  const auto details = [](const Recording& o) {
+    return facts_of(o.config, {RunOption::Role::method, RunOption::Role::size});
+  };
   std::string detail;
-  for (std::size_t k = 0; k < r.facts.size(); ++k) {
-    const std::string &name = r.facts[k].first, &cell = r.facts[k].second;
-    if (name == "integrator" || name == "dt_s" || name == "tolerance" || cell.empty()) continue;
-    const auto other = [&](const Recording& o) { return k < o.facts.size() && o.facts[k].second != cell; };
-    if (std::any_of(all.begin(), all.end(), other)) detail += (detail.empty() ? "" : ", ") + name + " " + rounded(cell);
+  const auto own = details(r);
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    const auto& [name, cell] = own[k];
+    if (cell.empty()) continue;
+    const auto differs = [&, k](const Recording& o) { return details(o)[k].second != own[k].second; };
+    if (std::any_of(all.begin(), all.end(), differs))
+      detail += (detail.empty() ? "" : ", ") + name + " " + rounded(cell);
   }
   return detail;
 }
@@ -125,7 +130,7 @@ Json run_json(const Recording& r, const std::vector<Recording>& all) {
     for (const double w : p.angular_velocity) rates.push_back(step_of(fastest > 0 ? w / fastest : 0));
   }
   Json facts = Json::array();
-  for (const auto& [name, cell] : r.facts) {
+  for (const auto& [name, cell] : facts_of(r.config)) {
     if (!cell.empty()) facts.push_back({name, cell});
   }
   facts.push_back({"status", r.status + (r.message.empty() ? "" : ": " + r.message)});

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "experiments/study/metrics/references.hpp"
-#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/text/csv.hpp"
 
@@ -115,12 +114,8 @@ Recording record(const PlannedRun& run, std::size_t most) {
     return std::make_unique<Recorder>(system, std::max<std::size_t>(most, 4), recording, scales);
   };
   const RunResult result = carry_out(run.config, *run.scenario, request, nullptr, &truth);
-  std::vector<std::string> keys;
-  for (const Override& o : run.config.varied) keys.push_back(o.key);
-  const NamedOptions all = options_on_demand();
-  const auto columns = config_columns(keys, all), cells = config_cells(run.config, all);
-  for (std::size_t k = 0; k < columns.size(); ++k) recording.facts.emplace_back(columns[k], cells[k]);
   recording.id = run.id;
+  recording.config = run.config;
   recording.status = result.status;
   recording.message = result.message;
   recording.energy_drift_max = csv_cell(result.energy_drift_max_rel);

@@ -8,14 +8,20 @@
 
 namespace polhode::study::replay {
 
+std::vector<std::pair<std::string, std::string>> facts_of(const RunConfig& config, Roles without) {
+  std::vector<std::string> keys;
+  for (const Override& o : config.varied) keys.push_back(o.key);
+  const NamedOptions all = options_on_demand();
+  const auto columns = config_columns(keys, all, without), cells = config_cells(config, all, without);
+  std::vector<std::pair<std::string, std::string>> facts;
+  for (std::size_t k = 0; k < columns.size(); ++k) facts.emplace_back(columns[k], cells[k]);
+  return facts;
+}
+
 std::string label_of(const Recording& r) {
-  std::string method, step;
-  for (const auto& [name, cell] : r.facts) {
-    if (name == "integrator") method = cell;
-    if (name == "dt_s" && !cell.empty()) step = ", dt = " + rounded(cell) + " s";
-    if (name == "tolerance" && !cell.empty()) step = ", tolerance " + rounded(cell);
-  }
-  return method + step;
+  const RunConfig& run = r.config;
+  if (run.tolerance) return run.integrator + ", tolerance " + rounded(*run.tolerance);
+  return run.dt ? run.integrator + ", dt = " + rounded(*run.dt) + " s" : run.integrator;
 }
 
 ShownMomentum shown_momentum(const System<double>& system, const Scenario& scenario) {

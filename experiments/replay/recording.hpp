@@ -10,6 +10,7 @@
 #include "core/run/contact_model.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/study/metrics/drift_meter.hpp"
+#include "experiments/study/record/run_options.hpp"
 
 namespace polhode::study::replay {
 
@@ -23,8 +24,8 @@ struct Placement {
 enum class ShownMomentum { none, linear, angular };
 
 struct Recording {
-  std::string id;                                          ///< id of the run in its study; may be empty
-  std::vector<std::pair<std::string, std::string>> facts;  ///< columns and cells of runs.csv
+  std::string id;  ///< id of the run in its study; may be empty
+  RunConfig config;
   std::string status = "ok", message;
   Scene scene;
   ShownMomentum momentum = ShownMomentum::none;
@@ -38,6 +39,10 @@ struct Recording {
   std::vector<Impact> impacts;                       ///< sorted by time
   std::int64_t instants_seen = 0, impacts_seen = 0;  ///< numbers before any were removed
 };
+
+/// Columns and cells of runs.csv that hold the configuration, without the options of some roles. Includes all options
+/// on demand.
+std::vector<std::pair<std::string, std::string>> facts_of(const RunConfig& config, Roles without = {});
 
 /// Method and step of the run: "rk4, dt = 0.01 s".
 std::string label_of(const Recording& recording);

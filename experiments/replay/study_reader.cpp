@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
+#include <utility>
 
 #include "experiments/study/metrics/references.hpp"
 #include "experiments/study/record/run_options.hpp"
@@ -22,87 +24,104 @@ namespace {
 using Json = nlohmann::json;
 using Path = std::filesystem::path;
 
-/// A row of runs.csv.
-struct Row {
+/// A run of the study.
+struct KeptRun {
   std::string id, status, message, energy_drift_max;
-  std::vector<std::pair<std::string, std::string>> facts;
-  Path motion;  ///< the folder of its trajectory
-
-  std::string fact(std::string_view name) const {
-    const auto found = std::find_if(facts.begin(), facts.end(), [&](const auto& f) { return f.first == name; });
-    return found == facts.end() ? "" : found->second;
-  }
+  RunConfig config;
+  Path motion;  ///< folder of its trajectory
 };
 
-const std::vector<std::string>& usual_columns() {
-  static const auto columns = config_columns({}, options_on_demand());
-  return columns;
-}
-
-/// Whether a column of runs.csv holds a key of the scenario that the study varied.
-bool is_varied(const std::string& column) {
-  return find_key(root_keys(), column.substr(0, column.find('.'))) != nullptr;
-}
-
-/// The places of the columns that say what a run is, in whatever order they stand: the usual ones, then those varied.
-std::vector<std::size_t> columns_of_facts(const CsvReader& table) {
-  std::vector<std::size_t> places = table.columns({"scenario", "integrator"});
-  std::set<std::string> varied;
-  for (const std::string& name : table.names()) {
-    if (is_varied(name)) varied.insert(name);
+/// Reads the configurations of runs from runs.csv, whose columns may stand in any order.
+class ConfigColumns {
+ public:
+  explicit ConfigColumns(const CsvReader& table) {
+    const auto& names = table.names();
+    for (const RunOption* option : options_by_column()) {
+      const bool needed = option->name == "scenario" || option->name == "integrator" || option->name == "t-end";
+      const bool there = std::find(names.begin(), names.end(), option->column) != names.end();
+      if (!option->column.empty() && (needed || there)) options_.emplace_back(option, table.column(option->column));
+    }
+    for (const std::string& name : names) {
+      const bool is_varied = find_key(root_keys(), name.substr(0, name.find('.'))) != nullptr;
+      if (is_varied) varied_[name] = table.column(name);
+    }
   }
-  const auto& names = table.names();
-  for (const std::string& name : usual_columns()) {
-    if (name == "scenario" || name == "integrator") continue;
-    if (std::find(names.begin(), names.end(), name) != names.end()) places.push_back(table.column(name));
-  }
-  for (const std::string& name : varied) places.push_back(table.column(name));
-  return places;
-}
 
-std::vector<Row> read_rows(const Path& folder) {
+  /// The configuration in the present row.
+  RunConfig read(const CsvReader& table) const {
+    RunConfig config;
+    for (const auto& [option, column] : options_) {
+      const bool needed = option->name == "t-end";
+      if (needed || !table.text(column).empty()) set(*option, table, column, config);
+    }
+    for (const auto& [key, column] : varied_) config.varied.push_back({key, table.text(column)});
+    return config;
+  }
+
+ private:
+  static void set(const RunOption& option, const CsvReader& table, std::size_t column, RunConfig& config) {
+    if (option.kind == RunOption::Kind::name) {
+      option.set(config, table.text(column));
+      if (text_of(option.value(config)) != table.text(column)) {
+        table.fail(column,
+                   option.column + " has a value that --" + option.name + " does not take; make the study again");
+      }
+      return;
+    }
+    const double x = table.number(column);
+    if (!(x > 0) || !std::isfinite(x))
+      table.fail(column, option.column + " is not a positive number; make the study again");
+    if (option.kind == RunOption::Kind::whole) option.set(config, table.integer(column));
+    else option.set(config, x);
+  }
+
+  std::vector<std::pair<const RunOption*, std::size_t>> options_;
+  std::map<std::string, std::size_t> varied_;
+};
+
+std::vector<KeptRun> read_runs(const Path& folder) {
   CsvReader table((folder / "runs.csv").string());
   const std::size_t id = table.column("run"), status = table.column("status"), message = table.column("message"),
                     drift = table.column("energy_drift_max_rel");
-  const std::vector<std::size_t> facts = columns_of_facts(table);
-  std::vector<Row> rows;
+  const ConfigColumns configs(table);
+  std::vector<KeptRun> runs;
   while (table.next()) {
-    Row row{table.text(id), table.text(status), table.text(message), table.text(drift), {}, folder};
-    for (const std::size_t k : facts) row.facts.emplace_back(table.names()[k], table.text(k));
-    if (std::filesystem::exists(folder / "trajectories" / row.id)) row.motion = folder / "trajectories" / row.id;
-    rows.push_back(std::move(row));
+    KeptRun run{table.text(id),    table.text(status),  table.text(message),
+                table.text(drift), configs.read(table), folder};
+    if (std::filesystem::exists(folder / "trajectories" / run.id)) run.motion = folder / "trajectories" / run.id;
+    runs.push_back(std::move(run));
   }
-  return rows;
+  return runs;
 }
 
-std::vector<Row> chosen(std::vector<Row> rows, const Path& folder, const std::vector<std::string>& ids,
-                        std::size_t most) {
+std::vector<KeptRun> chosen(std::vector<KeptRun> runs, const Path& folder, const std::vector<std::string>& ids,
+                            std::size_t most) {
   for (const std::string& id : ids) {
-    if (std::none_of(rows.begin(), rows.end(), [&](const Row& r) { return r.id == id; })) {
+    if (std::none_of(runs.begin(), runs.end(), [&](const KeptRun& r) { return r.id == id; })) {
       throw InputError(
           fmt::format("--runs: {} has no run {}; the first column of runs.csv names them", folder.string(), id));
     }
   }
   if (!ids.empty())
-    std::erase_if(rows, [&](const Row& r) { return std::find(ids.begin(), ids.end(), r.id) == ids.end(); });
+    std::erase_if(runs, [&](const KeptRun& r) { return std::find(ids.begin(), ids.end(), r.id) == ids.end(); });
   const bool only_hdf5 =
-      std::any_of(rows.begin(), rows.end(), [](const Row& r) { return exists(r.motion / "trajectory.h5"); });
-  std::erase_if(rows, [](const Row& r) { return !exists(r.motion / "trajectory.csv"); });
-  if (rows.empty()) {
+      std::any_of(runs.begin(), runs.end(), [](const KeptRun& r) { return exists(r.motion / "trajectory.h5"); });
+  std::erase_if(runs, [](const KeptRun& r) { return !exists(r.motion / "trajectory.csv"); });
+  if (runs.empty()) {
     throw InputError(
         folder.string() +
         (only_hdf5 ? " keeps its motion as HDF5 only, which replay does not read" : " keeps no trajectory") +
         "; make it again with --trajectory csv");
   }
-  const auto other = [&](const Row& r) { return r.fact("scenario") != rows.front().fact("scenario"); };
-  if (std::any_of(rows.begin(), rows.end(), other)) {
+  const auto other = [&](const KeptRun& r) { return r.config.scenario != runs.front().config.scenario; };
+  if (std::any_of(runs.begin(), runs.end(), other)) {
     throw InputError(folder.string() + " has runs of several scenarios; name those of one with --runs ID,ID");
   }
-  if (rows.size() > most) {
+  if (runs.size() > most) {
     throw InputError(fmt::format("{} has the motion of {} runs, and a page shows at most {}; choose with --runs ID,ID",
-                                 folder.string(), rows.size(), most));
+                                 folder.string(), runs.size(), most));
   }
-  return rows;
+  return runs;
 }
 
 Json read_manifest(const Path& folder) {
@@ -152,12 +171,11 @@ void check_same(const Json& manifest, const Scenario& scenario, const std::strin
       " has changed since the study was made; name the one it was with --scenario, or make the study again");
 }
 
-std::vector<Override> overrides_of(const Row& row) {
-  std::vector<Override> varied;
-  for (const auto& [column, cell] : row.facts) {
-    if (!cell.empty() && is_varied(column)) varied.push_back({column, cell});
-  }
-  return varied;
+/// The scenario with the varied keys of the run; an empty value leaves a key unchanged.
+Scenario scenario_of(const ScenarioSource& source, const RunConfig& config) {
+  std::vector<Override> varied = config.varied;
+  std::erase_if(varied, [](const Override& o) { return o.value.empty(); });
+  return source.resolve(varied);
 }
 
 void read_energy(const Path& path, double scale, Recording& recording) {
@@ -217,35 +235,18 @@ Vector3<double> momentum_of(const Trajectory& trajectory, std::size_t k, const P
   return sum;
 }
 
-/// s, of the run of that row.
-double duration_of(const Row& row, const Scenario& scenario) {
-  const std::string text = row.fact("t_end_s");
-  if (text.empty()) return scenario.t_end;
-  const double t_end = numbers(text, "runs.csv: t_end_s of run " + row.id).front();
-  if (!(t_end > 0)) throw InputError("runs.csv: t_end_s of run " + row.id + " is " + text + "; make the study again");
-  return t_end;
-}
-
-/// A row of runs.csv with the scenario that its run had.
-struct KeptRun {
-  Row row;
-  Scenario scenario;
-  RunConfig config;  ///< the duration alone
-};
-
-Recording read_recording(const KeptRun& run, References& truth) {
-  const auto& [row, scenario, config] = run;
+Recording read_recording(const KeptRun& run, const Scenario& scenario, References& truth) {
   Recording r;
-  r.id = row.id;
-  r.facts = row.facts;
-  r.status = row.status;
-  r.message = row.message;
-  r.energy_drift_max = row.energy_drift_max;
+  r.id = run.id;
+  r.config = run.config;
+  r.status = run.status;
+  r.message = run.message;
+  r.energy_drift_max = run.energy_drift_max;
   r.scene = scene_of(scenario);
   const auto system = make_system<double>(scenario.problem, {});
-  const MotionScales scales = truth.of(config, scenario, nullptr).scales;
+  const MotionScales scales = truth.of(run.config, scenario, nullptr).scales;
   r.momentum = shown_momentum(*system, scenario);
-  const Trajectory trajectory = read_trajectory((row.motion / "trajectory.csv").string(), scenario.problem);
+  const Trajectory trajectory = read_trajectory((run.motion / "trajectory.csv").string(), scenario.problem);
   r.moving = trajectory.moving;
   r.times = trajectory.times;
   r.instants_seen = std::int64_t(r.times.size());
@@ -254,8 +255,8 @@ Recording read_recording(const KeptRun& run, References& truth) {
                             trajectory.has_matrix ? quaternion_from_rotation_matrix(b.rotation) : b.orientation,
                             b.angular_velocity});
   }
-  read_energy(row.motion / "energy.csv", scales.energy, r);
-  read_impacts(row.motion / "events.csv", scenario.problem.bodies.size(), r);
+  read_energy(run.motion / "energy.csv", scales.energy, r);
+  read_impacts(run.motion / "events.csv", scenario.problem.bodies.size(), r);
   const bool linear = r.momentum == ShownMomentum::linear;
   const Vector3<double> first = momentum_of(trajectory, 0, scenario.problem, linear, scales.mass_center);
   for (std::size_t k = 0; k < r.times.size(); ++k) {
@@ -274,9 +275,9 @@ KeptStudy read_study(const Path& folder, const std::vector<std::string>& ids, co
   if (!std::filesystem::exists(folder / "runs.csv")) {
     throw InputError("--results: " + folder.string() + " holds no study: there is no runs.csv in it");
   }
-  const std::vector<Row> rows = chosen(read_rows(folder), folder, ids, most_runs);
+  const std::vector<KeptRun> runs = chosen(read_runs(folder), folder, ids, most_runs);
   const Json manifest = read_manifest(folder);
-  const std::string name = rows.front().fact("scenario");
+  const std::string name = runs.front().config.scenario;
   const ScenarioSource source = open_scenario(manifest, name, scenario);
   KeptStudy study{
       .scenario = source.resolve(), .command = manifest.value("command", ""), .made_by = {}, .recordings = {}};
@@ -284,15 +285,14 @@ KeptStudy read_study(const Path& folder, const std::vector<std::string>& ids, co
   study.made_by =
       fmt::format("polhode {}, commit {}", manifest.value(Json::json_pointer("/polhode/version"), "unknown"),
                   manifest.value(Json::json_pointer("/polhode/commit"), "unknown"));
-  References truth;  // what runs of the same motion share is computed once
-  std::vector<KeptRun> runs;
-  for (const Row& row : rows) {
-    KeptRun run{row, source.resolve(overrides_of(row)), {}};
-    run.config.t_end = duration_of(row, run.scenario);
-    truth.expect(run.config, run.scenario);
-    runs.push_back(std::move(run));
+  References truth;  // the scales of a motion are computed once for all its runs
+  std::vector<Scenario> scenarios;
+  for (const KeptRun& run : runs) {
+    scenarios.push_back(scenario_of(source, run.config));
+    truth.expect(run.config, scenarios.back());
   }
-  for (const KeptRun& run : runs) study.recordings.push_back(read_recording(run, truth));
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    study.recordings.push_back(read_recording(runs[k], scenarios[k], truth));
   return study;
 }
 

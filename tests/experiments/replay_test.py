@@ -133,6 +133,21 @@ class Pages(unittest.TestCase):
                     self.assertIn(f"column {name}", said)
             table.write_text(text)
 
+    def test_a_configuration_that_no_run_has(self):
+        call("energy_drift", *STUDY, folder=self.folder)
+        table = self.folder / "study/runs.csv"
+        text, rows = table.read_text(), read(table)
+        for column, cell, said in (("t_end_s", "", "t_end_s is empty"), ("t_end_s", "-1", "t_end_s is not a positive number"),
+                                   ("dt_s", "inf", "dt_s is not a positive number"),
+                                   ("orientation", "euler", "orientation has a value that --orientation does not take")):
+            with self.subTest((column, cell)):
+                with open(table, "w", newline="", encoding="utf-8") as file:
+                    writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
+                    writer.writeheader()
+                    writer.writerows([rows[0] | {column: cell}, *rows[1:]])
+                self.assertIn(said, self.refused("--results", "study", "--out", "none.html"))
+        table.write_text(text)
+
     def test_a_manifest_that_is_none(self):
         call("energy_drift", *STUDY, folder=self.folder)
         for text in ("", "[]", "3", "{", '{"command": 3}', '{"axes": {"scenario": [1]}}', "[" * 100_000, '{"scenarios": {"dzhanibekov": 3}}',
