@@ -4,10 +4,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "collision/response.hpp"
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/text/command_line.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/suggestion.hpp"
@@ -16,16 +17,39 @@
 namespace polhode::viewer {
 namespace {
 
+/// A run option on the command line, whose values, default and meaning in a run are those of the table of run options.
+struct RunArgument {
+  const char* option;  ///< name of the run option
+  const char* help;
+  const char* type;
+};
+
+/// The run options that the window takes, without the scenario, the method, its step and the duration.
+constexpr RunArgument run_arguments[] = {
+    {"orientation", "chart of the orientation: quaternion, matrix (default: quaternion)", "CHART"},
+    {"angular-state", "velocity_world, velocity_body, momentum_world (default: velocity_world)", "STATE"},
+    {"gyroscopic", "the gyroscopic term: on, off (default: on)", "ON|OFF"},
+    {"normalize", "orientations: never, step (default: never)", "WHEN"},
+    {"broad-phase", "see --list broad-phases (default: sweep_and_prune)", "NAME"},
+    {"narrow-phase", "see --list narrow-phases (default: what fits the shapes)", "NAME"},
+    {"response", "see --list responses (default: sequential_impulses)", "NAME"},
+    {"impact-timing", "see --list impact-timings (default: time_stepping)", "NAME"},
+};
+
 /// As the options say it.
 struct Said {
   std::string scenario = "dzhanibekov", integrator = "rk4", dt = "1e-3", tolerance = "1e-8";
-  std::string orientation = "quaternion", angular_state = "velocity_world", gyroscopic = "on", normalise = "never";
   std::string drive = "accumulator";
-  std::string broad_phase, narrow_phase, response, impact_timing;
+  std::map<std::string, std::string> options;  ///< of run_arguments, by name; empty: not given
   std::vector<std::string> vary;
   std::string size = "1280x720", show = "trails,contacts";
   std::optional<double> t_end, azimuth, elevation;
 };
+
+[[noreturn]] void refuse(const std::string& option, const std::string& word,
+                         const std::vector<std::string_view>& known) {
+  throw study::InputError(option + ": no '" + word + "'" + study::suggestion(word, "There are", known));
+}
 
 template <class T>
 T one_of(const std::string& option, const std::string& word, const std::map<std::string_view, T>& known) {
@@ -33,7 +57,7 @@ T one_of(const std::string& option, const std::string& word, const std::map<std:
   if (found != known.end()) return found->second;
   std::vector<std::string_view> names;
   for (const auto& entry : known) names.push_back(entry.first);
-  throw study::InputError(option + ": no '" + word + "'" + study::suggestion(word, "There are", names));
+  refuse(option, word, names);
 }
 
 bool on(const std::string& option, const std::string& word) {
@@ -69,28 +93,28 @@ Shown read_shown(const std::string& list) {
   return shown;
 }
 
+/// Sets the run option to the value on the command line. Names in catalogues are checked by refusal().
+void take(const study::RunOption& option, const std::string& value, const study::Scenario& scenario,
+          Configuration& configuration) {
+  const bool without_contact = option.value(configuration.run) == study::OptionValue{};
+  if (value.empty() || without_contact) return;
+  if (!option.takes_all) {
+    std::vector<std::string> known = option.known();
+    std::sort(known.begin(), known.end());
+    if (!std::binary_search(known.begin(), known.end(), value))
+      refuse("--" + option.name, value, {known.begin(), known.end()});
+  }
+  choose_option(configuration, option, value, scenario);
+}
+
 std::vector<Configuration> configurations(const Said& said, const study::Scenario& scenario) {
   Configuration base = usual_configuration(scenario);
   study::RunConfig& run = base.run;
   if (said.t_end) run.t_end = *said.t_end;
-  run.formulation.orientation = one_of<Orientation>(
-      "--orientation", said.orientation, {{"quaternion", Orientation::quaternion}, {"matrix", Orientation::matrix}});
-  run.formulation.angular_state = one_of<AngularState>("--angular-state", said.angular_state,
-                                                       {{"velocity_world", AngularState::velocity_world},
-                                                        {"velocity_body", AngularState::velocity_body},
-                                                        {"momentum_world", AngularState::momentum_world}});
-  run.formulation.gyroscopic = on("--gyroscopic", said.gyroscopic);
-  run.normalise = one_of<bool>("--normalize", said.normalise, {{"never", false}, {"step", true}});
   base.drive =
       one_of<Drive>("--drive", said.drive, {{"accumulator", Drive::accumulator}, {"frame_clock", Drive::frame_clock}});
-  if (run.contact) {
-    study::ContactConfig& c = *run.contact;
-    if (!said.broad_phase.empty()) c.broad_phase = said.broad_phase;
-    if (!said.narrow_phase.empty()) c.narrow_phase = said.narrow_phase;
-    if (!said.response.empty()) c.response = said.response;
-    if (const ResponseEntry* response = find_response(c.response); response && !response->make) c.impact_timing.clear();
-    if (!said.impact_timing.empty()) c.impact_timing = said.impact_timing;
-  }
+  for (const RunArgument& argument : run_arguments)
+    take(study::run_option(argument.option), said.options.at(argument.option), scenario, base);
   std::vector<Configuration> all;
   for (const std::string& method : study::split_list(said.integrator, ',', "--integrator")) {
     choose_integrator(base, method);
@@ -126,7 +150,7 @@ Options parse(const std::string& question, int argc, const char* const* argv) {
   std::string list, out, film, record = "on", captions = "on";
   CLI::App app{question, "viewer"};
   app.get_formatter()->column_width(40);
-  const auto add = [&app](const char* name, auto& to, const char* help, const char* type, const char* group) {
+  const auto add = [&app](const std::string& name, auto& to, const char* help, const char* type, const char* group) {
     return app.add_option(name, to, help)->type_name(type)->group(group);
   };
   const char* const scene = "What moves";
@@ -137,16 +161,8 @@ Options parse(const std::string& question, int argc, const char* const* argv) {
   add("--dt", said.dt, "step in s of fixed-step methods, or several (default: 1e-3)", "S", scene);
   add("--tolerance", said.tolerance, "relative and absolute, of adaptive methods, or several (default: 1e-8)", "X",
       scene);
-  add("--orientation", said.orientation, "chart of the orientation: quaternion, matrix (default: quaternion)", "CHART",
-      scene);
-  add("--angular-state", said.angular_state, "velocity_world, velocity_body, momentum_world (default: velocity_world)",
-      "STATE", scene);
-  add("--gyroscopic", said.gyroscopic, "the gyroscopic term: on, off (default: on)", "ON|OFF", scene);
-  add("--normalize", said.normalise, "orientations: never, step (default: never)", "WHEN", scene);
-  add("--broad-phase", said.broad_phase, "see --list broad-phases (default: sweep_and_prune)", "NAME", scene);
-  add("--narrow-phase", said.narrow_phase, "see --list narrow-phases (default: what fits the shapes)", "NAME", scene);
-  add("--response", said.response, "see --list responses (default: sequential_impulses)", "NAME", scene);
-  add("--impact-timing", said.impact_timing, "see --list impact-timings (default: time_stepping)", "NAME", scene);
+  for (const RunArgument& argument : run_arguments)
+    add("--" + std::string(argument.option), said.options[argument.option], argument.help, argument.type, scene);
   add("--t-end", said.t_end, "duration in s (default: the scenario's)", "S", scene);
   add("--vary", said.vary, "a key of the scenario: body.0.mass=2", "KEY=VALUE", scene);
   add("--drive", said.drive,

@@ -89,12 +89,12 @@ MAY_INCLUDE = {
     "experiments/viewer/drawing": "core/math core/problem experiments/scene experiments/viewer/frame",
     "experiments/viewer/stage": "experiments/study/text experiments/viewer/frame experiments/viewer/session"
                                 " experiments/viewer/drawing",
-    "experiments/viewer/overlay": "integrators collision/contact experiments/study/text experiments/study/scenario"
+    "experiments/viewer/overlay": "experiments/study/text experiments/study/scenario experiments/study/record"
                                   " experiments/viewer/stage",
     "experiments/viewer/pictures": "experiments/study/text experiments/viewer/stage experiments/viewer/overlay",
     "experiments/viewer/window": "experiments/study/text experiments/viewer/stage experiments/viewer/overlay"
                                  " experiments/viewer/pictures",
-    "experiments/viewer": "collision experiments/study/* experiments/viewer/*",
+    "experiments/viewer": "experiments/study/* experiments/viewer/*",
 }
 TOP_FOLDERS = ("core", "integrators", "collision", "experiments", "tests", "papers")
 CPP_SUFFIXES = {".cpp", ".cc", ".cxx", ".hpp", ".hh", ".h", ".inl", ".ipp"}

@@ -8,9 +8,8 @@
 #include <cmath>
 #include <vector>
 
-#include "collision/contact/impact_timing.hpp"
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/scenario/builtin_scenarios.hpp"
-#include "integrators/catalogue.hpp"
 
 namespace polhode::viewer::inline overlay {
 namespace {
@@ -59,20 +58,54 @@ bool enter(Controls& controls, const char* label, const char* name, double& valu
   return true;
 }
 
-template <class Catalogue>
-std::vector<std::string> names_of(const Catalogue& catalogue) {
+std::vector<std::string> scenario_names() {
   std::vector<std::string> names;
-  for (const auto& entry : catalogue) names.emplace_back(entry.name);
+  for (const study::BuiltinScenario& scenario : study::builtin_scenarios()) names.emplace_back(scenario.name);
   return names;
 }
 
-std::vector<std::string> integrators() {
-  std::vector<std::string> names;
-  for (const IntegratorEntry& entry : integrator_catalogue()) names.push_back(entry.declaration.name);
-  return names;
+/// The control of a run option: a check box, or a list of the option's values.
+struct OptionControl {
+  const char* option;  ///< name of the run option
+  const char* label;
+  const char* name;          ///< name of the control
+  const char* checked = "";  ///< value for a checked box; empty: a list
+};
+
+/// The run options with a control, without the method and its step.
+constexpr OptionControl option_controls[] = {
+    {"orientation", "chart", "chart"},
+    {"angular-state", "angular state", "angular_state"},
+    {"gyroscopic", "gyroscopic term", "gyroscopic", "on"},
+    {"normalize", "normalize each step", "normalize", "step"},
+    {"broad-phase", "broad phase", "broad_phase"},
+    {"narrow-phase", "narrow phase", "narrow_phase"},
+    {"response", "response", "response"},
+    {"impact-timing", "timing", "impact_timing"},
+};
+
+/// Draws the control. True if it has changed the value.
+bool choose(Controls& controls, const OptionControl& control, const study::RunOption& option, std::string& value) {
+  const std::vector<std::string> known = option.known();
+  const std::string checked = control.checked;
+  if (checked.empty()) return choose(controls, control.label, control.name, known, value);
+  bool on = value == checked;
+  if (!check(controls, control.label, control.name, on)) return false;
+  value = *std::find_if(known.begin(), known.end(), [&](const std::string& name) { return (name == checked) == on; });
+  return true;
 }
 
 }  // namespace
+
+std::optional<std::string> option_text(const study::RunConfig& run, const std::string& name) {
+  for (const OptionControl& control : option_controls) {
+    if (control.name != name) continue;
+    const std::string text = study::text_of(study::run_option(control.option).value(run));
+    if (*control.checked) return text == control.checked ? "true" : "false";
+    return text.empty() ? "none" : text;
+  }
+  return std::nullopt;
+}
 
 PanelWishes Panel::draw(Stage& stage, Controls& controls, float width, float height) {
   PanelWishes wishes;
@@ -82,8 +115,7 @@ PanelWishes Panel::draw(Stage& stage, Controls& controls, float width, float hei
   ImGui::PushItemWidth(-110);
   if (stage.live()) {
     std::string scenario = stage.setup().scenario;
-    if (choose(controls, "scenario", "scenario", names_of(study::builtin_scenarios()), scenario))
-      wishes.scenario = scenario;
+    if (choose(controls, "scenario", "scenario", scenario_names(), scenario)) wishes.scenario = scenario;
   }
   time(stage, controls);
   const std::size_t runs_before = stage.size();
@@ -171,7 +203,7 @@ void Panel::method(Stage& stage, Controls& controls) {
   Configuration c = stage.views()[run_]->configuration;
   study::RunConfig& run = c.run;
   std::string method = run.integrator;
-  if (choose(controls, "integrator", "integrator", integrators(), method)) {
+  if (choose(controls, "integrator", "integrator", study::run_option("integrator").known(), method)) {
     choose_integrator(c, method, run.dt.value_or(1e-3), run.tolerance.value_or(1e-8));
     change(stage, c);
   }
@@ -186,35 +218,12 @@ void Panel::method(Stage& stage, Controls& controls) {
     c.drive = drive == "accumulator" ? Drive::accumulator : Drive::frame_clock;
     change(stage, c);
   }
-  std::string chart(name(run.formulation.orientation)), state(name(run.formulation.angular_state));
-  if (choose(controls, "chart", "chart", {"quaternion", "matrix"}, chart)) {
-    run.formulation.orientation = chart == "matrix" ? Orientation::matrix : Orientation::quaternion;
+  for (const OptionControl& control : option_controls) {
+    const study::RunOption& option = study::run_option(control.option);
+    std::string value = study::text_of(option.value(run));
+    if (value.empty() || !choose(controls, control, option, value)) continue;
+    choose_option(c, option, value, stage.session(run_).scenario());
     change(stage, c);
-  }
-  if (choose(controls, "angular state", "angular_state", {"velocity_world", "velocity_body", "momentum_world"},
-             state)) {
-    run.formulation.angular_state = state == "velocity_world"  ? AngularState::velocity_world
-                                    : state == "velocity_body" ? AngularState::velocity_body
-                                                               : AngularState::momentum_world;
-    change(stage, c);
-  }
-  if (check(controls, "gyroscopic term", "gyroscopic", run.formulation.gyroscopic)) change(stage, c);
-  if (check(controls, "normalize each step", "normalize", run.normalise)) change(stage, c);
-  if (run.contact) {
-    study::ContactConfig& contact = *run.contact;
-    if (choose(controls, "broad phase", "broad_phase", names_of(broad_phase_catalogue()), contact.broad_phase))
-      change(stage, c);
-    if (choose(controls, "narrow phase", "narrow_phase", names_of(narrow_phase_catalogue()), contact.narrow_phase))
-      change(stage, c);
-    if (choose(controls, "response", "response", names_of(response_catalogue()), contact.response)) {
-      const bool force = !find_response(contact.response)->make;
-      contact.impact_timing = force ? "" : contact.impact_timing.empty() ? "time_stepping" : contact.impact_timing;
-      change(stage, c);
-    }
-    if (!contact.impact_timing.empty() &&
-        choose(controls, "timing", "impact_timing", names_of(impact_timing_catalogue()), contact.impact_timing)) {
-      change(stage, c);
-    }
   }
   if (!refused_.empty()) ImGui::TextWrapped("not changed: %s", refused_.c_str());
 }

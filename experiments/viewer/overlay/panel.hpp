@@ -17,6 +17,10 @@ struct PanelWishes {
   bool camera = false;                  ///< reset the camera
 };
 
+/// The value of a run option by the name of its control; "true" or "false" for a check box, "none" if the run has no
+/// value. Absent if no run option has such a control.
+std::optional<std::string> option_text(const study::RunConfig& run, const std::string& name);
+
 class Panel {
  public:
   /// Draws the panel at the left edge; width and height in pixels.

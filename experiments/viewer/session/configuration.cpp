@@ -82,6 +82,17 @@ void choose_integrator(Configuration& configuration, const std::string& name, do
   configuration.run.tolerance = adaptive ? std::optional(tolerance) : std::nullopt;
 }
 
+void choose_option(Configuration& configuration, const study::RunOption& option, const std::string& value,
+                   const study::Scenario& scenario) {
+  study::RunConfig& run = configuration.run;
+  option.set(run, value);
+  if (!run.contact || option.name != "response") return;
+  const ResponseEntry* response = find_response(run.contact->response);
+  const study::RunOption& timing = study::run_option("impact-timing");
+  if (response && !response->make) run.contact->impact_timing.clear();
+  else if (run.contact->impact_timing.empty()) timing.set(run, timing.preset(scenario));
+}
+
 std::string refusal(const Configuration& configuration, const study::Scenario& scenario) {
   const study::RunConfig& run = configuration.run;
   if (std::string fault = integrator_fault(run); !fault.empty()) return fault;

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "core/system/state.hpp"
-#include "experiments/study/record/run_record.hpp"
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/scenario/scenario.hpp"
 #include "experiments/viewer/frame/frame.hpp"
 
@@ -48,6 +48,10 @@ Configuration usual_configuration(const study::Scenario& scenario);
 /// Sets the method, with the step dt (s) of a fixed-step method or the tolerance of an adaptive one.
 void choose_integrator(Configuration& configuration, const std::string& name, double dt = 1e-3,
                        double tolerance = 1e-8);
+/// Sets an option other than the method and its step. The impact timing is removed if it no longer applies, and set to
+/// its default if it applies again.
+void choose_option(Configuration& configuration, const study::RunOption& option, const std::string& value,
+                   const study::Scenario& scenario);
 /// Reason, in one line, for which the configuration cannot be run; empty if it can.
 std::string refusal(const Configuration& configuration, const study::Scenario& scenario);
 

@@ -202,15 +202,6 @@ std::string Script::value(Stage& stage, const std::string& of) const {
       {"dt", [&] { return run.dt ? fmt::format("{}", *run.dt) : "none"; }},
       {"tolerance", [&] { return run.tolerance ? fmt::format("{}", *run.tolerance) : "none"; }},
       {"drive", [&] { return std::string(viewer::name(view.configuration.drive)); }},
-      {"chart", [&] { return std::string(polhode::name(run.formulation.orientation)); }},
-      {"angular_state", [&] { return std::string(polhode::name(run.formulation.angular_state)); }},
-      {"gyroscopic", [&] { return truth(run.formulation.gyroscopic); }},
-      {"normalize", [&] { return truth(run.normalise); }},
-      {"broad_phase", [&] { return run.contact ? run.contact->broad_phase : "none"; }},
-      {"narrow_phase", [&] { return run.contact ? run.contact->narrow_phase : "none"; }},
-      {"response", [&] { return run.contact ? run.contact->response : "none"; }},
-      {"impact_timing",
-       [&] { return run.contact && !run.contact->impact_timing.empty() ? run.contact->impact_timing : "none"; }},
       {"axes", [&] { return truth(stage.look.axes); }},
       {"angular_velocity", [&] { return truth(stage.look.angular_velocity); }},
       {"angular_momentum", [&] { return truth(stage.look.angular_momentum); }},
@@ -220,6 +211,7 @@ std::string Script::value(Stage& stage, const std::string& of) const {
       {"poinsot", [&] { return truth(stage.look.poinsot); }},
       {"azimuth", [&] { return fmt::format("{}", stage.camera.azimuth); }},
   };
+  if (const auto option = option_text(run, name)) return *option;
   const auto found = values.find(name);
   if (found == values.end()) fail("nothing is called '" + name + "'");
   return found->second();
