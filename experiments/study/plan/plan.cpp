@@ -103,13 +103,13 @@ double cost_of(const RunConfig& config) {
 
 /// The run with its identity. Throws std::invalid_argument for an impossible step.
 PlannedRun planned(const RunConfig& config, const std::shared_ptr<const Scenario>& scenario) {
-  std::string text = fmt::format("{}\n{}\n", results_version, scenario->canonical);
+  const std::string text = fmt::format("{}\n{}\n", results_version, scenario->canonical);
   RunConfig said = config;  // keys that this run does not change are not part of its identity
   std::erase_if(said.varied, [](const Override& o) { return o.value.empty(); });
-  text += identity_of(said);
-  if (config.max_steps) text += fmt::format("\nmax_steps {}", *config.max_steps);
-  return {.id = hash(config.reference ? text + "\nreference" : text),
-          .motion = hash(text),
+  RunConfig motion = said;  // a reference does not change the motion
+  motion.reference = false;
+  return {.id = hash(text + identity_of(said)),
+          .motion = hash(text + identity_of(motion)),
           .config = config,
           .scenario = scenario,
           .refusal = refusal(config, *scenario),

@@ -467,6 +467,8 @@ std::string identity_of(const RunConfig& config) {
   for (const RunOption* option : options_by_column()) {
     if (option->on_demand && !is_usual(*option, config)) text += "\n" + label_of(*option, config);
   }
+  if (config.max_steps) text += fmt::format("\nmax_steps {}", *config.max_steps);
+  if (config.reference) text += "\nreference";
   return text;
 }
 

@@ -110,7 +110,8 @@ std::string config_cell(const RunOption& option, const RunConfig& config);
 /// The option with this column; null if there is none, as for a varied key.
 const RunOption* option_of_column(const std::string& column);
 
-/// The configuration as text. It does not depend on the study that contains the run.
+/// The configuration as text, with --max-steps and --reference, which are settings of a whole study and no axes. It
+/// does not depend on the study that contains the run.
 std::string identity_of(const RunConfig& config);
 
 /// The values of a configuration by which runs are sorted. Keys are comparable if both runs vary the same keys.
