@@ -34,7 +34,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The mean is what a run pays: some broad phases do little in most steps and catch up in a few.
+/// Cost of a step at one number of bodies. The mean decides the cost of a run: some broad phases do most of their work
+/// in a few steps.
 struct Cost {
   double ns_per_box = 0, median_ns_per_box = 0, pairs_per_box = 0;
   std::size_t steps = 0;
@@ -60,7 +61,7 @@ class Measurement {
     for (const std::size_t n : options_.bodies) measure(n);
   }
 
-  /// All of it is from wall times: no two calls leave the same bytes.
+  /// Writes the results and returns the exit status. The files depend on wall times and differ from call to call.
   int finish() const {
     StudyView view;
     view.experiment = "broad_phase";
@@ -86,8 +87,8 @@ class Measurement {
   }
 
  private:
-  /// All at one number of bodies, in turns, so that what disturbs the machine meets all alike; and twice, of which the
-  /// faster counts for each step.
+  /// Measures all broad phases at one number of bodies. They take turns at each step, so that other load on the machine
+  /// affects all alike. There are two rounds; the smaller time of each step counts.
   void measure(std::size_t n) {
     std::vector<Runner> runners = runners_for(n);
     if (runners.empty()) return;
@@ -102,12 +103,14 @@ class Measurement {
     }
   }
 
-  /// Steps; the warm ones until most boxes have left the room that a broad phase gave them at first.
+  /// Numbers of steps. The first `warm` are not measured: in them most boxes leave their initial margins in the broad
+  /// phase.
   static constexpr std::size_t warm = 40, fewest = 20, most = 200;
 
-  /// As many steps as the time allows. Compares the pairs of all, and returns how many there were after the warm steps.
+  /// Takes steps until the time is used up, and compares the pairs of all broad phases. Returns the number of pairs in
+  /// the measured steps.
   double first_round(std::size_t n, std::vector<Runner>& runners) {
-    constexpr double long_enough = 2;  // s, all together
+    constexpr double long_enough = 2;  // time of all broad phases together, s
     FlyingBoxes boxes(n, options_.filling, options_.motion, options_.seed);
     double total = 0, pairs = 0;
     for (std::size_t k = 0; k < warm + most && (k < warm + fewest || total < long_enough); ++k, boxes.step()) {
@@ -146,7 +149,8 @@ class Measurement {
     return std::chrono::duration<double>(Clock::now() - start).count();
   }
 
-  /// Without those of which a step is expected to take too long, by their cost at fewer bodies and its growth at worst.
+  /// The broad phases to measure. Left out are those whose step would take longer than --patience, extrapolated from
+  /// fewer bodies as n².
   std::vector<Runner> runners_for(std::size_t n) {
     std::vector<Runner> runners;
     for (const BroadPhaseEntry* entry : options_.phases) {
@@ -179,7 +183,8 @@ class Measurement {
         expected.size(), other.name, found.size(), shown(a != expected.end(), &*a), shown(b != found.end(), &*b)));
   }
 
-  /// The slope of log cost of a step against log n, by least squares over the upper half of the numbers of bodies.
+  /// The exponent p of the cost of a step ∝ n^p, as text: least-squares slope of the logarithms over the upper half of
+  /// the numbers of bodies.
   static std::string growth(const std::map<std::size_t, Cost>& costs) {
     std::vector<LinePoint> points;
     for (const auto& [n, cost] : costs) points.push_back({std::log(double(n)), std::log(double(n) * cost.ns_per_box)});

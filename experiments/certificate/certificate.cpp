@@ -18,7 +18,7 @@ namespace {
 
 constexpr int many_steps = 20;
 
-/// Those of trait_columns(), in their order.
+/// The findings in the order of trait_columns().
 std::vector<Finding> in_order(std::vector<Finding> findings) {
   std::vector<Finding> sorted;
   for (const TraitColumn& column : trait_columns()) {
@@ -29,7 +29,7 @@ std::vector<Finding> in_order(std::vector<Finding> findings) {
   return sorted;
 }
 
-/// Without the gyroscopic term another equation is solved, which has none of the traits of a rigid body.
+/// Replaces findings on traits that runs without the gyroscopic term cannot have: they solve another equation.
 void drop_what_needs_the_full_equations(std::vector<Finding>& findings) {
   const std::set<std::string> left = {"time_reversibility", "time_reversibility_many", "orientation",
                                       "evaluations_per_step"};

@@ -19,7 +19,7 @@
 namespace polhode::study::certificate {
 namespace {
 
-constexpr std::size_t most_items = 16;  // of a sentence
+constexpr std::size_t most_items = 16;  // largest number of items of a sentence
 
 /// The run options that distinguish certificates.
 constexpr std::array subject_options = {"integrator", "orientation",   "angular-state", "gyroscopic",
@@ -36,7 +36,7 @@ std::string measured_text(const Finding& finding) {
   return number(*finding.measured, 2);
 }
 
-/// What a mark says is in the caption of the overview.
+/// Mark of the verdict in a cell; the last sentences of the report explain the marks.
 std::string mark(const Finding& finding) {
   const bool claims_nothing = finding.declared.empty() && finding.verdict == TraitVerdict::absent;
   switch (finding.verdict) {
@@ -55,7 +55,7 @@ std::string cell(const Finding& finding) {
   if (finding.verdict == TraitVerdict::does_not_hold && (is_order(finding.trait) || is_count(finding.trait))) {
     text += fmt::format(", declared {}", finding.declared);
   }
-  // "bounded", "linear", …, or "diverged" without its message.
+  // The class of the drift, or the status "diverged" without its message.
   if (finding.trait == "energy_forced" && !finding.note.empty()) {
     text += " " + finding.note.substr(0, finding.note.find(':'));
   }
@@ -97,9 +97,10 @@ class Report {
     return all;
   }
 
-  enum class Share { any, some, all };  ///< of the formulations
+  enum class Share { any, some, all };  ///< formulations with the verdict: at least one, not all, or all
 
-  /// "rk4: order, forced 3.20, declared 4, in matrix, velocity_body", one for each method and trait.
+  /// One item for each method and trait with the verdict: "rk4: order, forced 3.20, declared 4 in matrix,
+  /// velocity_body".
   std::vector<std::string> of_verdict(TraitVerdict verdict, Share share) const {
     std::vector<std::string> items;
     for (const std::string& method : methods()) {
@@ -177,7 +178,7 @@ class Report {
     return all;
   }
 
-  /// The worst over the formulations; where a trait that is not declared holds in some of them, their number.
+  /// The worst finding over the formulations. more: " (2 of 6)" if an undeclared trait holds in only some of them.
   static Finding over_formulations(const std::vector<const Certificate*>& those, std::size_t k, std::string& more) {
     std::vector<Finding> findings;
     std::size_t held = 0, all = 0;
@@ -278,7 +279,7 @@ class Report {
     return text;
   }
 
-  /// One after another, so that no step waits for another's.
+  /// Text of cost.csv. Methods are timed one after another, so that they do not slow each other down.
   std::string cost(std::vector<std::string>& sentences) const {
     auto header = subject_columns();
     for (const char* c : {"step_ns", "rhs_per_step", "rhs_ns"}) header.emplace_back(c);

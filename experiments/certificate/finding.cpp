@@ -72,7 +72,7 @@ Finding kept(std::string trait, bool declared, double defect, double limit, std:
                   .verdict = {},
                   .on = std::move(on),
                   .note = {}};
-  const bool holds = defect <= limit;  // false of what is no number
+  const bool holds = defect <= limit;  // false for NaN
   finding.verdict = declared ? (holds ? TraitVerdict::holds : TraitVerdict::does_not_hold)
                              : (holds ? TraitVerdict::undeclared : TraitVerdict::absent);
   return finding;

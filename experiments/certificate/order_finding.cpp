@@ -15,8 +15,8 @@ namespace {
 
 constexpr double order_margin = 0.25;
 constexpr double above_rounding = 10;
-constexpr double tolerance_margin = 0.4;  // of the slope against a tolerance, as the laws of integrators have it
-constexpr double straightness = 0.03;     // of ln(error): methods of several steps come to their order late
+constexpr double tolerance_margin = 0.4;  // for the slope against the tolerance, as in the laws of integrators
+constexpr double straightness = 0.03;  // in ln(error); small, since multistep methods reach their order at small steps
 
 TraitVerdict verdict_of(OrderVerdict seen) {
   switch (seen) {
@@ -36,8 +36,8 @@ TraitVerdict against_tolerance(const OrderEstimate& estimate) {
   return off <= estimate.line->half_width_95 ? TraitVerdict::undecided : TraitVerdict::does_not_hold;
 }
 
-/// The order between the two smallest steps above round-off, where the orders between steps have come nearer to
-/// `declared` from one to the next: what it tends to.
+/// The order between the two smallest steps with an error above round-off. Absent unless the last three orders between
+/// neighbouring steps approach `declared`.
 std::optional<double> limit_order(std::vector<LadderPoint> ladder, double largest, double declared) {
   std::erase_if(ladder, [&](const LadderPoint& p) {
     return !(p.error < largest && p.error > above_rounding * p.round_off && p.step > 0);

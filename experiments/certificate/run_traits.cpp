@@ -16,17 +16,17 @@
 namespace polhode::study::certificate {
 namespace {
 
-/// What one motion is measured on.
+/// The runs on which the traits of one motion are measured.
 struct Motion {
   const Stage* stage = nullptr;
   const Scenario* scenario = nullptr;
-  const Curve* ladder = nullptr;
-  const RunRecord* longest = nullptr;
+  const Curve* ladder = nullptr;       ///< shortest curve of at least three steps; null: none
+  const RunRecord* longest = nullptr;  ///< run of the largest step of the longest curve
 };
 
 double duration(const Curve& curve) { return curve.runs.front()->config.t_end; }
 
-/// By scenario and varied keys.
+/// The motions of the curves: one for each scenario and values of varied keys.
 std::vector<Motion> motions_of(const std::vector<const Curve*>& curves, const std::vector<Stage>& stages,
                                const std::vector<Scenario>& scenarios) {
   std::map<std::string, Motion> motions;
@@ -82,7 +82,7 @@ class RunTraits {
                 const std::function<bool(const Stage&)>& select, const Drift& of) const {
     std::vector<Finding> findings;
     for (const Motion& motion : motions_) {
-      if (motion.longest->config.t_end < longest_) continue;  // it was run for its order
+      if (motion.longest->config.t_end < longest_) continue;  // this motion was run only for its order
       if (select(*motion.stage)) findings.push_back(drift_on(trait, declared, *motion.longest, of));
     }
     return findings.empty() ? not_applicable(trait, none) : worst(findings);
@@ -105,7 +105,7 @@ class RunTraits {
                        [&](const auto* run) { return quantity.of(run->result).has_value(); });
   }
 
-  /// The larger of the errors of all quantities: rad, m.
+  /// The ladder of the largest error of all quantities, in rad or m.
   static std::vector<LadderPoint> largest_errors(const Curve& curve, const std::vector<Quantity>& quantities) {
     std::vector<LadderPoint> all;
     for (const Quantity& quantity : quantities) {
@@ -132,10 +132,10 @@ class RunTraits {
       auto settings = order_settings(d.adaptive);
       settings.epsilon = epsilon(run.config.precision);
       auto ladder = largest_errors(*motion.ladder, quantities);
-      if (!motion.stage->free) {  // sums of forces and torques lose more digits
+      if (!motion.stage->free) {  // sums of forces and torques have larger rounding errors
         for (LadderPoint& point : ladder) point.round_off *= 4;
       }
-      // A body that moves along a straight line, or not at all, has a position that no method gets wrong.
+      // Every method computes the position of a body at rest, or on a straight line, exactly.
       const bool trivial = !attitude && order && estimate_order(ladder, settings).exact;
       finding = trivial ? not_applicable(trait, "no method gets the path of the mass centre wrong")
                         : order_finding(trait, d.adaptive, order ? static_cast<int>(*order) : Declaration::exact_order,
@@ -150,7 +150,7 @@ class RunTraits {
     if (run.result.status == "refused") return without_run(trait, run);
     const double limit = kept_limit * epsilon(run.config.precision) / std::numeric_limits<double>::epsilon();
     const auto most = of(run.result);
-    // A run that ended early shows what was kept until then, if it went any way at all.
+    // A run that ended early counts until its end, unless it ended within the first steps with a small drift.
     constexpr std::int64_t least_steps = 10;
     if (!most || (*most <= limit && run.result.steps < least_steps)) return without_run(trait, run);
     Finding finding = kept(trait, declared.value_or(false), *most, limit, run.config.scenario);
@@ -161,7 +161,7 @@ class RunTraits {
 
   const Subject& subject_;
   std::vector<Motion> motions_;
-  double longest_ = 0;  ///< s
+  double longest_ = 0;  ///< duration of the longest motion, s
 };
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The worst over the stages that `select` names, of what `measure` finds there.
+/// The worst of the findings measure(stage) over the stages for which select(stage) is true.
 template <class Select, class Measure>
 Finding over_stages(const std::string& trait, const Subject& subject, std::span<const Stage> stages,
                     const std::string& none, const Select& select, const Measure& measure) {
@@ -47,15 +47,15 @@ IntegratorSettings settings(const Course& course) {
   return {.dt = course.step, .tolerance = course.tolerance, .t_end = course.t_end};
 }
 
-constexpr double start_time = 0.3;  // s: where a shaking force is none of its special values
+constexpr double start_time = 0.3;  // s: time at which no component of the time-dependent force is 0 or an extremum
 
-/// The largest change of a number, over 1 + the largest number.
+/// Largest change of a component, over 1 + the largest magnitude of a component of `before`.
 double change(const VectorX<double>& now, const VectorX<double>& before) {
   const double away = (now - before).cwiseAbs().maxCoeff() / (1 + before.cwiseAbs().maxCoeff());
   return std::isfinite(away) ? away : infinity;
 }
 
-/// The power of h with which defects above a floor fall.
+/// Text of the power of h that the defects above a floor follow; empty if they do not follow one.
 std::string power_of(std::span<const LadderPoint> defects, double floor) {
   std::vector<LadderPoint> points(defects.begin(), defects.end());
   for (LadderPoint& p : points) p.round_off = floor;
@@ -84,7 +84,7 @@ Finding symplecticity_on(const Subject& subject, const Stage& stage, double larg
       y = state.y;
       return result.ok();
     };
-    // Truncation and round-off add to a defect: the least is nearest to it.
+    // Truncation and round-off of the derivative increase the defect, so that the smaller of two is the better one.
     double least = infinity;
     for (const double part : {1.0, 0.25}) {
       const auto defect = symplecticity_defect<S>(space, map, space.generic(), best_increment<S> * part);
@@ -106,7 +106,8 @@ double casimir_of(const System<double>& system, const VectorX<double>& y, std::s
   return (system.problem().bodies[body].inertia * (now.rotation.transpose() * now.angular_velocity)).norm();
 }
 
-/// Calls look(state) after every few steps, and stops where it says so. Empty, or why a step failed.
+/// Advances the state to t_end and calls look(state) after every ten steps, until it returns false. Returns the reason
+/// for which a step failed; empty: none did.
 template <class Look>
 std::string follow(const Subject& subject, Integrator<double>& integrator, State<double>& state, const Course& course,
                    const Look& look) {
@@ -123,7 +124,7 @@ std::string follow(const Subject& subject, Integrator<double>& integrator, State
   return "";
 }
 
-/// Does nothing but count how often it is asked.
+/// A force of zero that counts its evaluations.
 class Asked final : public ForceModel<double> {
  public:
   explicit Asked(std::int64_t& count) : count_(count) {}
@@ -219,12 +220,13 @@ ShakenMotions::ShakenMotions(std::span<const Stage> stages) {
 
 namespace {
 
-/// The largest error at eight instants of one second.
+/// The largest error at eight instants of one second. size: step (s) or tolerance.
 LadderPoint shaken_error(const Subject& subject, const System<double>& system,
                          const std::shared_ptr<const ReferenceMotion>& reference, double size) {
   constexpr std::int64_t instants = 8;
   const bool adaptive = subject.declaration().adaptive;
-  const auto steps = static_cast<std::int64_t>(std::ceil(1 / size / instants * (1 - 1e-12)));  // between two instants
+  const auto steps =
+      static_cast<std::int64_t>(std::ceil(1 / size / instants * (1 - 1e-12)));  // number of steps between two instants
   const double h = 1 / static_cast<double>(instants * steps);
   const auto integrator = subject.entry.make(system, {.dt = h, .tolerance = adaptive ? size : 0, .t_end = 1});
   State<double> state = system.start();
@@ -250,7 +252,8 @@ LadderPoint shaken_error(const Subject& subject, const System<double>& system,
     }
   }
   if (worst < 100 * reference->uncertainty().largest()) worst = 0;
-  // Four times what a run of the study counts: forces and angular velocities carry more of it than free attitudes.
+  // Four times the level for a run of the study: forces and angular velocities have larger rounding errors than the
+  // attitudes of free bodies.
   const double roundings = std::sqrt(static_cast<double>(std::max<std::int64_t>(taken, 1)));
   return {.step = adaptive ? size : h,
           .error = worst,
@@ -317,7 +320,7 @@ Finding evaluations_per_step(const Subject& subject, std::span<const Stage> stag
 double nanoseconds_per_step(const Subject& subject, std::span<const Stage> stages, const Course& course) {
   using Clock = std::chrono::steady_clock;
   constexpr int repeats = 5;
-  constexpr double long_enough = 1e-3;  // s
+  constexpr double long_enough = 1e-3;  // shortest time of a batch of steps, s
   const auto stage =
       std::find_if(stages.begin(), stages.end(), [&](const Stage& s) { return s.refusal(subject).empty(); });
   if (stage == stages.end()) return std::numeric_limits<double>::quiet_NaN();

@@ -19,14 +19,14 @@
 namespace polhode::study::convergence {
 namespace {
 
-constexpr std::size_t most_items = 16;  // of a sentence
+constexpr std::size_t most_items = 16;  // largest number of items of a sentence
 
 bool is_attitude(const Quantity& quantity) { return quantity.unit == " rad"; }
 
 struct Order {
   const Curve* curve;
   Quantity quantity;
-  std::optional<double> declared;  ///< against the tolerance 1; absent: exact
+  std::optional<double> declared;  ///< declared order, 1 for an adaptive method; absent: exact
   OrderEstimate estimate;
   OrderVerdict verdict;
 };
@@ -66,7 +66,7 @@ class Orders {
     const auto* entry = find_integrator(config.integrator);
     const auto scenario = std::find_if(study_.scenarios.begin(), study_.scenarios.end(),
                                        [&](const auto& s) { return s.name == config.scenario; });
-    // Without the gyroscopic term another equation is solved: its distance from the exact motion has no order.
+    // Runs without the gyroscopic term solve another equation: their distance from the exact motion has no order.
     if (entry == nullptr || scenario == study_.scenarios.end() || !config.formulation.gyroscopic) return;
     for (const auto& quantity : {quantity::attitude_error(), quantity::position_error()}) {
       const bool measured = std::any_of(curve.runs.begin(), curve.runs.end(),
@@ -77,7 +77,7 @@ class Orders {
     }
   }
 
-  /// A body that stays where it is has a position that no method gets wrong: nothing is to be seen in it.
+  /// Removes the position errors of motions that every method computes exactly, such as those of a body at rest.
   void drop_trivial() {
     std::set<std::pair<std::size_t, std::string>> seen;
     for (const Order& o : orders_) {
@@ -90,7 +90,7 @@ class Orders {
 
   const std::string& method(const Order& o) const { return grouping_.methods[o.curve->method_index]; }
 
-  /// "rk4 (matrix) on hairer_vilmart"; the quantity where it is not the attitude.
+  /// "rk4 (matrix) on hairer_vilmart", with ", position" for the position error.
   std::string label(const Order& o) const {
     std::string text = grouping_.label(*o.curve);
     if (grouping_.cases.size() > 1) text += " on " + grouping_.cases[o.curve->case_index].label();
@@ -146,8 +146,8 @@ class Orders {
     return all;
   }
 
-  /// Methods that are as declared, or exact, wherever an order is seen, and how many there are with an order or a
-  /// tolerance.
+  /// Methods whose orders all agree with the declared ones or are exact; and the number of all fixed-step or all
+  /// adaptive methods.
   std::pair<std::vector<std::string>, std::size_t> as_declared(bool against_step) const {
     std::set<std::string> all, good, bad;
     for (const Order& o : orders_) {

@@ -20,10 +20,10 @@ namespace {
 
 constexpr const char* exact_method = "odeint_fehlberg78";
 constexpr double exact_tolerance = 1e-13;
-/// s, and of the energy: an error below it is rounding, or that of the run that stands for the exact one.
+/// Errors below these are rounding errors, or errors of the run that replaces the exact solution; s, and relative.
 constexpr double time_floor = 1e-11, energy_floor = 1e-14;
 
-/// The configuration of the run that stands for the exact one; the same for all runs of a motion.
+/// The configuration of the run that replaces the exact solution; the same for all runs of a motion.
 RunConfig exact_one(const RunRecord& run) {
   RunConfig c = run.config;
   c.integrator = exact_method;
@@ -43,7 +43,7 @@ bool is_exact_one(const RunConfig& c) {
   return c.integrator == exact_method && c.tolerance == exact_tolerance && c.contact->impact_timing == "event_located";
 }
 
-/// True where no pair of bodies that can meet takes energy from them.
+/// True if impacts conserve the energy: every pair of bodies that can collide has restitution 1 and no friction.
 bool keeps_energy(const Scenario& scenario) {
   const auto& all = scenario.colliders;
   for (std::size_t a = 0; a < scenario.problem.moving(); ++a) {
@@ -57,14 +57,15 @@ bool keeps_energy(const Scenario& scenario) {
 
 struct Errors {
   const RunRecord* run;
-  double step;  ///< s, or the tolerance
+  double step;  ///< step (s) or tolerance
   std::optional<double> time, energy, linear, angular;
 };
 
-/// Motion, method, response, timing.
+/// Key of a curve: motion, method, response, timing.
 using Key = std::tuple<std::string, std::string, std::string, std::string>;
 
-/// The slope of log error against log step by least squares, above `floor`.
+/// The order of the errors above `floor`: least-squares slope of log error against log step. Absent for fewer than
+/// three points.
 std::optional<double> order(const std::vector<Errors>& all, std::optional<double> Errors::*error, double floor) {
   std::vector<LinePoint> logs;
   for (const Errors& e : all) {
@@ -190,7 +191,7 @@ class Impacts {
     return all;
   }
 
-  /// Whether it matters which response answers.
+  /// Sentence about the largest difference of the energy between responses.
   std::string of_responses(const std::string& where) const {
     if (responses_.size() < 2) return {};
     double apart = 0;
@@ -267,7 +268,7 @@ class Impacts {
     return text;
   }
 
-  /// A panel for each motion, and for each response where it makes a difference.
+  /// One panel for each motion and, if responses differ, for each response.
   Figure figure(const std::string& name, const std::string& title, const std::string& caption, const PlainAxis& axis,
                 std::optional<double> Errors::*error) const {
     std::vector<Panel> panels;
@@ -312,7 +313,7 @@ class Impacts {
     return std::size_t(std::find(all.begin(), all.end(), one) - all.begin());
   }
 
-  std::map<std::string, std::optional<double>> exact_;  ///< s, the first impact of a motion
+  std::map<std::string, std::optional<double>> exact_;  ///< time of the first impact by motion, s
   std::map<Key, std::vector<Errors>> curves_;           ///< smallest step first
   std::vector<std::string> motions_, methods_, responses_, timings_, failed_;
 };

@@ -13,7 +13,7 @@
 namespace polhode::study::judge {
 namespace {
 
-/// The lowest point of a function between two places, by the golden section.
+/// Minimum of a function between two arguments, by golden-section search.
 template <class F>
 double lowest(const F& f, double low, double high) {
   constexpr double golden = 0.6180339887498949;
@@ -30,7 +30,7 @@ double lowest(const F& f, double low, double high) {
   return (low + high) / 2;
 }
 
-/// The shift (s) with the lowest miss within ten radians.
+/// The shift (s) with the least miss among shifts of up to ten radians of the motion.
 template <class Miss>
 double best_shift(const Miss& miss, double rate) {
   constexpr double reach = 10, grid = 0.2;  // rad
@@ -38,7 +38,7 @@ double best_shift(const Miss& miss, double rate) {
   constexpr std::size_t most_valleys = 5;
   std::vector<double> heights;
   for (int k = -points; k <= points; ++k) heights.push_back(miss(k * grid / rate));
-  // Whole turns of a motion that nearly repeats itself are valleys too: the lowest of the valleys counts.
+  // A nearly periodic motion has a local minimum at each whole turn. The least minimum counts.
   std::vector<std::size_t> valleys;
   for (std::size_t k = 1; k + 1 < heights.size(); ++k) {
     if (heights[k] <= heights[k - 1] && heights[k] <= heights[k + 1]) valleys.push_back(k);
@@ -54,7 +54,7 @@ double best_shift(const Miss& miss, double rate) {
   return shift;
 }
 
-/// The rate with the lowest miss, within 30 % or a wrong unit of time.
+/// The rate of the clock with the least miss: within 30 % of 1, or near the ratio of two units of time.
 template <class Miss>
 double best_rate(const Miss& miss) {
   constexpr double reach = 0.3, grid = 0.01;  // logarithms
@@ -68,9 +68,9 @@ double best_rate(const Miss& miss) {
   return std::exp(lowest(miss, best - grid, best + grid));
 }
 
-/// Whether ω hardly changes over the spans; the rows then show no more of a motion than its angle.
+/// True if ω is nearly constant over the spans, so that the rows determine only the angle of the motion.
 bool steady(const RowStates& rows, const Hypothesis& h) {
-  constexpr double little = 0.1;  // of the turn
+  constexpr double little = 0.1;  // change of ω over the rotation
   double changes = 0;
   for (const auto& [from, to] : rows.spans) {
     const VectorX<double> a = rows.state(from, h.reading), b = rows.state(to, h.reading);

@@ -18,12 +18,12 @@
 namespace polhode::study::judge {
 namespace {
 
-/// rad: what a program in double precision cannot do better is right.
+/// Largest miss of a trajectory without a fault, rad: a program in double precision cannot be expected to do better.
 constexpr double flawless = 1e-7;
-/// A change of the clock's rate below this is not worth a remark.
+/// Smallest relative change of the clock's rate that is remarked upon.
 constexpr double small_rate = 2e-3;
 
-/// Why nothing can be tried, or empty.
+/// Reason for which no hypothesis can be tried; empty: hypotheses can be tried.
 std::string obstacle(const RowStates& rows) {
   if (!rows.trajectory.has_angular_velocity && !rows.trajectory.has_angular_momentum) {
     return "without angular velocity or momentum no reading can be tried";
@@ -39,14 +39,14 @@ std::string obstacle(const RowStates& rows) {
   return {};
 }
 
-/// Whether rows with such a miss (rad) do not follow the equations at all.
+/// True if rows with this miss (rad) do not follow the equations at all.
 bool astray(const RowStates& rows, double miss) {
   constexpr double per_rad = 0.1, most = 0.5;
   return miss > std::min(per_rad * rows.span, most);
 }
 
-/// Whether the errors of the whole run are large enough to ask for a cause in the size of the steps. `miss`: rad, of
-/// the plain reading.
+/// True if the errors of the whole run are so large that the size of the steps may be their cause. miss: miss of the
+/// plain reading, rad.
 bool large_errors(const RowStates& rows, const RunResult& r, double miss) {
   constexpr double small = 0.01;  // rad and relative
   const auto large = [](const std::optional<double>& x) { return x && !(*x < small); };
@@ -56,7 +56,7 @@ bool large_errors(const RowStates& rows, const RunResult& r, double miss) {
   return miss / rows.span * rows.rate * (t.back() - t.front()) > small;
 }
 
-/// The best hypothesis and the best one with another cause; null where there is none.
+/// The best hypothesis and the best one with another cause; null: there is none.
 std::pair<const Hypothesis*, const Hypothesis*> best_two(const std::vector<Hypothesis>& list) {
   const Hypothesis *best = nullptr, *other = nullptr;
   for (const Hypothesis& h : list) {
@@ -68,7 +68,7 @@ std::pair<const Hypothesis*, const Hypothesis*> best_two(const std::vector<Hypot
   return {best, other};
 }
 
-/// Everything that may be wrong alone. First-order steps are tried only where the errors are large.
+/// All hypotheses with a single fault, with their misses. try_steps: includes first-order steps.
 std::vector<Hypothesis> single_hypotheses(const RowStates& rows, const Hypothesis& plain, bool try_steps) {
   std::vector<Hypothesis> list = other_readings(plain, rows.trajectory);
   for (Hypothesis& h : other_motions(plain, rows.trajectory.moving, rows.right.system().forces_exert_torques())) {
@@ -84,7 +84,8 @@ std::vector<Hypothesis> single_hypotheses(const RowStates& rows, const Hypothesi
   return list;
 }
 
-/// Two things that may be wrong at once. Of the pairs without a fit, those that miss by more than `worst` are left out.
+/// Hypotheses with two faults, with their misses. Left out are pairs without a fitted parameter whose miss exceeds
+/// `worst` (rad).
 std::vector<Hypothesis> paired_hypotheses(const RowStates& rows, const Hypothesis& plain,
                                           const std::vector<Hypothesis>& single, double worst) {
   constexpr std::size_t few_spans = 4;
@@ -102,7 +103,7 @@ std::vector<Hypothesis> paired_hypotheses(const RowStates& rows, const Hypothesi
       list.push_back(std::move(h));
     }
   }
-  // Clock and steps must be fitted anew: that is done beside the single hypotheses that help most.
+  // Clock and steps must be fitted anew for each pair. They are combined with the best single hypotheses only.
   constexpr std::size_t most = 3;
   std::vector<const Hypothesis*> helpful;
   for (const Hypothesis& h : single) {
@@ -128,7 +129,7 @@ std::string name_of(const Hypothesis& h) {
   return joined(causes, "+");
 }
 
-/// Whether the motion and its start are right, and only the columns or the clock are not.
+/// True if only the columns or the clock are wrong; the motion and its start are right.
 bool only_misread(const Hypothesis& h) {
   const auto& parts = h.touched;
   return std::none_of(parts.begin(), parts.end(), [](Part part) {
@@ -137,7 +138,8 @@ bool only_misread(const Hypothesis& h) {
   });
 }
 
-/// `other`: the best hypothesis with another cause, or null. `simpler`: what the named one must beat besides.
+/// The diagnosis that names hypothesis h. other: the best hypothesis with another cause, or null. simpler: a further
+/// hypothesis with which h is compared.
 Diagnosis named(const RowStates& rows, const Hypothesis& h, const Hypothesis* other, const Hypothesis& plain,
                 const Hypothesis& simpler) {
   Diagnosis result;
@@ -157,7 +159,7 @@ Diagnosis named(const RowStates& rows, const Hypothesis& h, const Hypothesis* ot
   return result;
 }
 
-/// The verdict where the start counts as `rows` has it. `plain` holds its miss.
+/// The diagnosis of the rows; the start counts if rows.first is not empty. plain: the plain reading with its miss.
 Diagnosis verdict(const RowStates& rows, const Hypothesis& plain, const RunResult& errors) {
   Diagnosis result;
   result.name = "none";
@@ -168,8 +170,8 @@ Diagnosis verdict(const RowStates& rows, const Hypothesis& plain, const RunResul
   const std::vector<Hypothesis> single = single_hypotheses(rows, plain, large);
   const auto [best, other] = best_two(single);
   const bool explains = best->miss * naming_factor <= plain.miss;
-  // Two things at once are looked for where one alone leaves much to explain.
-  constexpr double much = 1e-3;  // rad
+  // Pairs of faults are tried if a single fault leaves a large miss.
+  constexpr double much = 1e-3;  // large miss, rad
   if (explains ? best->miss > much : astray(rows, plain.miss) || large) {
     const double to_beat = std::min(best->miss, plain.miss);
     const std::vector<Hypothesis> pairs = paired_hypotheses(rows, plain, single, to_beat);
@@ -187,11 +189,11 @@ Diagnosis verdict(const RowStates& rows, const Hypothesis& plain, const RunResul
   return result;
 }
 
-/// The verdict on rows that start elsewhere: these miss every motion that starts as the scenario says, so the start
-/// does not count, and the first rows of `rows` are cleared. Empty where the rows do start there, or where nothing
-/// explains them from their own start either.
+/// The diagnosis of rows that do not start as the scenario does. They miss every motion from that start, so that the
+/// start does not count: rows.first is cleared. Absent if the rows do start there, or if no motion from their own start
+/// explains them.
 std::optional<Diagnosis> verdict_without_start(RowStates& rows, Hypothesis& plain, const RunResult& errors) {
-  constexpr double least = 1e-3;  // rad
+  constexpr double least = 1e-3;  // smallest distance of another start, rad
   const double off = miss_of_start(rows, plain);
   rows.first.clear();
   plain.miss = miss_of(rows, plain);

@@ -83,7 +83,7 @@ void FaultyMotion::rate(double t, const VectorX<double>& y, VectorX<double>& dy)
   }
 }
 
-/// ω to Ω in the slots of the rates, or back.
+/// Replaces ω by Ω in the slots of the angular velocities, or Ω by ω.
 void FaultyMotion::change_slots(VectorX<double>& y, bool to_body) const {
   for (const Slot& s : system_->layout().slots) {
     const Matrix3<double> r = rotation_matrix(attitude(std::as_const(y), s));
@@ -92,7 +92,8 @@ void FaultyMotion::change_slots(VectorX<double>& y, bool to_body) const {
   }
 }
 
-/// One step from y by the midpoint rule in 2, 4, 6 and 8 substeps; the error is what the last column changed.
+/// One step from y by the extrapolated midpoint rule with 2, 4, 6 and 8 substeps. The error estimate is the change by
+/// the last extrapolation.
 bool FaultyMotion::extrapolate(double t, double h, const VectorX<double>& y, VectorX<double>& next,
                                double& error) const {
   constexpr int columns = 4;
@@ -129,7 +130,7 @@ bool FaultyMotion::extrapolate(double t, double h, const VectorX<double>& y, Vec
 }
 
 bool FaultyMotion::advance(double t, double span, VectorX<double>& y) const {
-  constexpr double tolerance = 1e-11, longest_turn = 0.7;  // rad, of a first step
+  constexpr double tolerance = 1e-11, longest_turn = 0.7;  // rotation in the first step, rad
   constexpr int most_steps = 1000;
   if (span == 0) return true;
   if (equations_.frame == Equations::Frame::body_turns_world) change_slots(y, true);

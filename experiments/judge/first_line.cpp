@@ -12,7 +12,7 @@
 namespace polhode::study::judge {
 namespace {
 
-/// rad and relative: what changes or errs by more is lost.
+/// Largest drift or error of a quantity that is kept, relative or in rad; beyond it the quantity is lost.
 constexpr double held = 0.01;
 
 /// "energy holds to 1e-9, angular momentum is lost by 123 %"
@@ -58,7 +58,9 @@ std::string errors_words(const RunResult& r) {
 }
 
 struct Pace {
-  double phase = 0, rate = 0, off = 0;  ///< s and s/s, ahead; relative
+  /// Time by which the momentum is ahead along the polhode, s; its rate of change, s/s; distance from the polhode,
+  /// relative.
+  double phase = 0, rate = 0, off = 0;
 };
 std::optional<Pace> pace_of(const TrajectoryScore& score) {
   Pace pace;

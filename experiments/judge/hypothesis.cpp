@@ -16,7 +16,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Changes one part of `h` to that of `from`.
+/// Sets one part of `h` to that of `from`.
 void take_part(Hypothesis& h, const Hypothesis& from, Part part) {
   switch (part) {
     case Part::attitude_columns:

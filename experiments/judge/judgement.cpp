@@ -45,7 +45,7 @@ Table table_of(const StudyView& study, const std::vector<Judged>& judged) {
     auto& row = table.rows.emplace_back();
     row = {s.record.config.integrator, std::to_string(s.instants), r.status, one.diagnosis.name};
     for (const Metric* metric : metrics) {
-      const bool is_exponent = metric->column == "drift_exponent" && r.drift_exponent;  // as precise as its interval
+      const bool is_exponent = metric->column == "drift_exponent" && r.drift_exponent;  // digits as in its interval
       row.push_back(is_exponent ? fmt::format("{:.3f}", *r.drift_exponent) : table_cell(*metric, r));
     }
     row.push_back(printed(s.energy_column_difference_max_rel));
@@ -99,7 +99,7 @@ struct ErrorQuantity {
   Value ErrorPoint::*member;
 };
 
-/// One panel for each kind of error that is known, signed where it has a sign.
+/// One panel for each kind of error that was measured.
 Figure errors_against_time(const StudyView& study, const std::vector<Judged>& judged) {
   Figure figure{.name = "errors_against_time",
                 .title = "Errors against time",

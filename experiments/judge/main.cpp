@@ -22,7 +22,7 @@
 namespace polhode::study::judge {
 namespace {
 
-/// The stem of each file, or its path where two have the same; the folder where all are called trajectory.csv.
+/// Names of the files: their stems; their paths if two stems are equal; their folders if all are called trajectory.csv.
 std::vector<std::string> labels_of(const std::vector<std::string>& files) {
   std::vector<std::string> labels;
   for (const std::string& file : files) {
@@ -38,7 +38,7 @@ std::vector<std::string> labels_of(const std::vector<std::string>& files) {
 }
 
 std::vector<Judged> judged_of(const JudgeOptions& options, const Scenario& scenario) {
-  std::vector<Trajectory> trajectories;  // all are read before anything is made of one
+  std::vector<Trajectory> trajectories;  // all files are read before the first one is scored
   for (const std::string& file : options.files) trajectories.push_back(read_trajectory(file, scenario.problem));
   const auto labels = labels_of(options.files);
   std::vector<Judged> judged;
@@ -71,7 +71,7 @@ int judge(const JudgeOptions& options) {
   for (const Judged& one : judged) {
     const TrajectoryScore& s = one.score;
     view.runs.push_back(s.record);
-    // The score itself says which run it is: another trajectory has another one.
+    // The id is the hash of the score, which differs between trajectories.
     std::string text = scenario.canonical + s.record.config.integrator + std::to_string(s.instants);
     for (const ErrorPoint& p : s.errors) text += exact(p.t) + csv_cell(p.attitude) + csv_cell(p.position);
     for (const SeriesPoint& p : s.record.result.series) text += exact(p.t) + exact(p.energy_drift_rel);
@@ -96,7 +96,7 @@ int judge(const JudgeOptions& options) {
     if (const std::string skipped = write_figures(view); !skipped.empty()) fmt::print(stderr, "judge: {}\n", skipped);
   }
   write_report(view);
-  auto& sentences = view.analysis->sentences;  // what is wrong comes first, above the table
+  auto& sentences = view.analysis->sentences;  // faults come first, above the table
   const auto rest = sentences.begin() + static_cast<std::ptrdiff_t>(judged.size());
   fmt::print("{}\n\n", fmt::join(sentences.begin(), rest, "\n"));
   sentences.erase(sentences.begin(), rest);

@@ -9,7 +9,7 @@
 namespace polhode::study::judge {
 namespace {
 
-/// Follows the motion from one row to another; false where that is not possible.
+/// Advances the motion from one row to another. Returns false if that is not possible.
 bool carry(const RowStates& rows, const Hypothesis& h, const FaultyMotion& motion, std::size_t from, std::size_t to,
            VectorX<double>& y) {
   const auto& t = rows.trajectory.times;
@@ -21,7 +21,7 @@ bool carry(const RowStates& rows, const Hypothesis& h, const FaultyMotion& motio
   return y.allFinite();
 }
 
-/// Follows the motion from the scenario's start to row 0; false where that is not possible.
+/// Advances the motion from the scenario's start to row 0. Returns false if that is not possible.
 bool carry_to_first(const RowStates& rows, const Hypothesis& h, const FaultyMotion& motion, VectorX<double>& y) {
   const auto& times = rows.trajectory.times;
   const double t = h.clock * times.front() + h.shift;

@@ -53,7 +53,7 @@ std::vector<OtherInertia> all_other_inertias(const Body& body) {
 }  // namespace
 
 std::vector<OtherInertia> other_inertias(const Body& body, bool forces_exert_torques) {
-  constexpr double alike = 1e-6;  // relative
+  constexpr double alike = 1e-6;  // largest relative difference of moments that count as equal
   const bool free = !forces_exert_torques;
   const auto shape = [&](const Matrix3<double>& m) { return free ? Matrix3<double>(m / m.trace()) : m; };
   std::vector<Matrix3<double>> seen = {shape(body.inertia)};

@@ -13,17 +13,17 @@
 namespace polhode::study::judge {
 namespace {
 
-/// What a column may hold.
+/// A hypothesis on the contents of a column.
 struct ColumnReading {
   const char* what;
-  double factor;    ///< of the inertia behind the column
-  bool in_body;     ///< a vector in body axes
+  double factor;    ///< inertia from which the column was computed, over the scenario's
+  bool in_body;     ///< the vector is in body axes
   double miss = 0;  ///< sum of squares over the rows
 };
 
-/// `size`: what the sum of squares of the right column is.
+/// The fault that the readings indicate. size: sum of squares of the correct column.
 std::optional<ColumnFault> fault_of(const std::vector<ColumnReading>& readings, double size) {
-  constexpr double least = 1e-3;  // relative
+  constexpr double least = 1e-3;  // smallest relative miss of a faulty column
   const double plain = readings.front().miss;
   const auto less = [](const auto& a, const auto& b) { return a.miss < b.miss; };
   const auto best = std::min_element(readings.begin(), readings.end(), less);

@@ -11,9 +11,9 @@
 namespace polhode::study::judge {
 namespace {
 
-/// Evenly over the trajectory; each span is half a radian long, or one row where rows are further apart.
+/// Spans spread evenly over the trajectory. Each is half a radian long, or one row if rows are further apart.
 std::vector<std::pair<std::size_t, std::size_t>> spans_of(const std::vector<double>& t, double rate) {
-  constexpr double long_enough = 0.5;  // rad
+  constexpr double long_enough = 0.5;  // length of a span, rad
   constexpr std::size_t most = 32;
   const std::size_t n = t.size();
   const auto end_of = [&](std::size_t from) {
@@ -32,7 +32,7 @@ std::vector<std::pair<std::size_t, std::size_t>> spans_of(const std::vector<doub
   return spans;
 }
 
-/// Evenly over the first two radians.
+/// Rows spread evenly over the first two radians.
 std::vector<std::size_t> first_rows_of(const std::vector<double>& t, double rate) {
   constexpr double at_first = 2;  // rad
   constexpr std::size_t most = 12, fewest = 3;

@@ -18,11 +18,11 @@ namespace {
 constexpr std::size_t spans_for_steps = 6;  ///< a few spans are enough to choose among steps
 
 int most_steps_per_row(const RowStates& rows) {
-  constexpr double finest = 1e-3;  // rad
+  constexpr double finest = 1e-3;  // smallest rotation in a step, rad
   return static_cast<int>(std::clamp(rows.spacing / finest, 1.0, 4096.0));
 }
 
-/// Every method, each with the power of two of steps from row to row that fits best.
+/// All first-order methods, each with the number of steps between rows, a power of two, that fits best.
 std::vector<Hypothesis> coarsely_fitted(const RowStates& rows, const Hypothesis& base) {
   using Step = FirstOrderStep;
   const int most = most_steps_per_row(rows);
@@ -67,7 +67,7 @@ void refine(const RowStates& rows, Hypothesis& h) {
   for (int n = low; n <= high; ++n) at(n);
 }
 
-/// A row with its matrix as it is, rotation or not.
+/// The state in a row, with the matrix as stored, even if it is not a rotation.
 VectorX<double> state_as_stored(const RowStates& rows, const System<double>& system, std::size_t row) {
   VectorX<double> y = system.start().y;
   const VectorX<double> plain = rows.state(row, {});
@@ -89,7 +89,7 @@ VectorX<double> state_as_stored(const RowStates& rows, const System<double>& sys
   return y;
 }
 
-/// rad, over spans of rows whose matrices need not be rotations.
+/// Miss over spans of rows whose matrices need not be rotations, rad.
 double miss_as_stored(const RowStates& rows, const System<double>& system, Integrator<double>& integrator,
                       int per_row) {
   const auto& t = rows.trajectory.times;
@@ -131,7 +131,7 @@ Hypothesis fitted_steps(const RowStates& rows, const Hypothesis& base) {
     if (h.miss <= misses[refined - 1]) refine(rows, h);
     least = std::min(least, h.miss);
   }
-  // Several methods are the same in a free motion: the first in the list is the plainest.
+  // Several methods give the same free motion. The first in the list is the simplest.
   const auto best = std::find_if(fits.begin(), fits.end(), [&](const auto& h) { return h.miss <= 2 * least + 1e-9; });
   const double size = rows.spacing / rows.rate / best->steps.per_row;
   Hypothesis h = with_cause(

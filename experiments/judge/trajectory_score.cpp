@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t most_error_points = 256;
 
-/// The states of a trajectory as a system stores them, with what the file leaves out put in.
+/// The states of a trajectory in the layout of a system, with quantities that the file lacks computed from the others.
 class States {
  public:
   States(const Trajectory& trajectory, const System<double>& system, const ExactMotion& exact)
@@ -31,7 +31,7 @@ class States {
   bool knows_velocity() const { return trajectory_.has_velocity || !any_path_ || exact_.has_position(); }
   bool knows_rotation() const { return trajectory_.has_angular_velocity || trajectory_.has_angular_momentum; }
 
-  /// The k-th, with the work done up to then.
+  /// The k-th state, with the work done since the start.
   State<double> at(std::size_t k, double work) const {
     State<double> state = system_.start();
     state.t = trajectory_.times[k];
@@ -80,7 +80,7 @@ double power_of(const System<double>& system, const State<double>& state) {
   return rate[system.layout().work()];
 }
 
-/// Takes back what cannot be known from the columns of the file, and says so.
+/// Removes the results that the columns of the file do not determine, and adds a note about them.
 void blank(const States& states, const Trajectory& trajectory, const System<double>& system, TrajectoryScore& score) {
   RunResult& r = score.record.result;
   const auto drop = [](auto&... values) { (values.reset(), ...); };
@@ -128,10 +128,10 @@ void blank(const States& states, const Trajectory& trajectory, const System<doub
   }
 }
 
-/// Says where the first row is not the scenario's start: then every score contains the difference.
+/// Adds a note if the first row differs from the scenario's start, which affects every score.
 void compare_start(const System<double>& system, const State<double>& first, const Trajectory& trajectory,
                    std::vector<std::string>& notes) {
-  constexpr double negligible = 1e-5;  // single precision passes
+  constexpr double negligible = 1e-5;  // relative difference above that of numbers in single precision
   if (first.t != 0) {
     notes.emplace_back(fmt::format("its first row is at t = {:.6g} s: drifts are against that row", first.t));
     return;
@@ -216,7 +216,7 @@ TrajectoryScore score(const Trajectory& trajectory, const Scenario& scenario, Ru
     }
     ErrorPoint point;
     point.t = state.t;
-    if (polhode) {  // at every row, for it follows the phase from row to row
+    if (polhode) {  // at every row, since the phase is tracked from row to row
       const PolhodeError::At at = polhode->at(state.t, system->snapshot(state.y, 0));
       point.phase = at.phase;
       point.off = at.off;

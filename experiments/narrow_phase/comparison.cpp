@@ -23,7 +23,7 @@ namespace {
 struct Placed {
   Box a, b;
   Pose at_a, at_b;
-  Distance sat;  ///< what `sat` says, which is exact to round-off
+  Distance sat;  ///< signed distance by `sat`, which is exact to round-off
   double smaller, larger;
 
   explicit Placed(const BoxPairCase& pair, const NarrowPhase& judge)
@@ -36,14 +36,14 @@ struct Placed {
         larger(std::max(pair.a.half.maxCoeff(), pair.b.half.maxCoeff())) {}
 };
 
-/// The least and the most over the classes.
+/// Smallest and largest value over the classes of pairs.
 struct Range {
   double least = std::numeric_limits<double>::infinity(), most = 0;
   void take(double x) { least = std::min(least, x), most = std::max(most, x); }
   std::string said() const { return fmt::format("{} to {} ns", number(least, 3), number(most, 3)); }
 };
 
-/// The least time of some rounds over all pairs, in ns for one.
+/// Time of one query, ns: the least of five rounds over all pairs.
 template <class Ask>
 double cost_ns(const std::vector<std::unique_ptr<Placed>>& pairs, const Ask& ask) {
   using Clock = std::chrono::steady_clock;
@@ -60,7 +60,8 @@ double cost_ns(const std::vector<std::unique_ptr<Placed>>& pairs, const Ask& ask
 
 void compare_narrow_phases(const std::vector<const NarrowPhaseEntry*>& entries, std::size_t count, std::uint64_t seed,
                            Analysis& analysis) {
-  // Closer to touching than round-off of the poses, in units of the larger box, an overlap is anybody's guess.
+  // Smallest distance or depth, over the size of the larger box, at which the round-off of the poses cannot change
+  // whether the boxes overlap.
   constexpr double decided = 1e-14;
   const auto judge = find_narrow_phase("sat")->make();
   std::string csv = csv_row({"class", "narrow_phase", "pairs", "overlapping", "wrong_overlaps", "missed_overlaps",
@@ -138,7 +139,7 @@ void compare_narrow_phases(const std::vector<const NarrowPhaseEntry*>& entries, 
 }
 
 void measure_course_report(std::size_t count, std::uint64_t seed, Analysis& analysis) {
-  constexpr int angles = 46;  // 0 to 90 degrees in steps of 2
+  constexpr int angles = 46;  // number of angles: 0 to 90 degrees in steps of 2
   const auto judge = find_narrow_phase("sat")->make(), course = find_narrow_phase("sat_course_report")->make();
   const Box cube(Vector3<double>::Constant(0.5));
   std::string csv =
@@ -151,7 +152,7 @@ void measure_course_report(std::size_t count, std::uint64_t seed, Analysis& anal
     std::size_t apart = 0, wrong = 0, reported = 0;
     PortableRandom random(seed);  // the same places and axes at each angle
     for (std::size_t i = 0; i < count; ++i) {
-      // Centres in the ball within which the spheres around the cubes touch.
+      // The centre is in the ball in which the spheres around the two cubes meet.
       const Vector3<double> centre = random.direction() * (std::sqrt(3.0) * std::cbrt(random.uniform(0, 1)));
       const Pose at_a,
           at_b{centre, rotation_matrix<double>(quaternion_from_rotation_vector<double>(random.direction() * angle))};

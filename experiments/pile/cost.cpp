@@ -20,12 +20,12 @@ struct Pile {
   std::size_t bodies;
   const RunResult& result() const { return run->result; }
   const ContactMeasures& found() const { return run->result.contact; }
-  /// Of the energy at the start.
+  /// Largest rise of the energy over its magnitude at the start.
   double rise() const { return *found().energy_rise_max / std::abs(*result().energy_initial); }
   double steps_per_second() const { return static_cast<double>(result().steps) / result().seconds; }
 };
 
-/// How contact is found and answered, and the step: method, broad phase, narrow phase, response, timing, step.
+/// Key of a curve: method, broad phase, narrow phase, response, timing, step.
 using Key = std::array<std::string, 6>;
 constexpr std::size_t of_response = 3, of_step = 5;
 Key key_of(const RunConfig& c) {
@@ -78,7 +78,7 @@ class Piles {
   }
 
  private:
-  /// The response and the step, and whatever else differs among the runs.
+  /// Name of a curve: response, step, and further parts of the key that differ between runs.
   std::string label(const Key& key) const {
     std::string text = key[of_response] + ", " + key[of_step];
     for (std::size_t k = 0; k < key.size(); ++k) {

@@ -16,14 +16,15 @@
 namespace polhode::study::precision {
 namespace {
 
-constexpr double agrees = 1.25;           ///< a run within this factor of the more precise one shows truncation alone
-constexpr double dominates = 3;           ///< rounding of at least that many times the truncation error
-constexpr double clearly_dominates = 10;  ///< so that the growth in time is that of rounding
-// Errors are measured in double: the energy of a state to about its ε, the exact motion to some.
+constexpr double agrees = 1.25;  ///< largest ratio of two errors that are truncation alone, whichever is larger
+constexpr double dominates = 3;  ///< smallest error over truncation error at which rounding dominates
+/// Smallest such ratio for measuring the growth of the rounding error in time.
+constexpr double clearly_dominates = 10;
+// Rounding errors of the measurement, which is made in double: energy, relative; attitude, rad.
 constexpr double energy_in_double = 2 * std::numeric_limits<double>::epsilon();
 constexpr double motion_in_double = 16 * std::numeric_limits<double>::epsilon();
 
-/// What tells one problem from another, but for the method.
+/// Texts that distinguish problems, besides the method.
 using Key = std::vector<std::string>;
 struct Texts {
   Key motion, formulation;
@@ -41,7 +42,7 @@ Texts texts_of(const RunConfig& c) {
   return texts;
 }
 
-/// The texts at the places where the runs of the study differ.
+/// The texts that differ between runs of the study, joined.
 std::string varying(const std::vector<Texts>& all, const Key Texts::*part, const Key& of) {
   std::vector<std::string> kept;
   for (std::size_t k = 0; k < of.size(); ++k) {
@@ -51,11 +52,11 @@ std::string varying(const std::vector<Texts>& all, const Key Texts::*part, const
   return fmt::format("{}", fmt::join(kept, ", "));
 }
 
-/// The most precise family that is more precise than this one.
+/// The most precise family; null if this one is.
 const Family* yardstick_of(const RoundingProblem& problem, const Family& family) {
   const Family* best = nullptr;
   for (const Family& other : problem.families) {
-    if (other.precision > family.precision) best = &other;  // in rising order, compensated last
+    if (other.precision > family.precision) best = &other;  // families ascend in precision, compensated last
   }
   return best;
 }
@@ -91,7 +92,7 @@ std::optional<double> root_mean_square(const Rung& rung, const Quantity& quantit
   return std::sqrt(sum / static_cast<double>(measured));
 }
 
-/// The slope of a straight line through the logarithms.
+/// Least-squares exponent p of b ∝ a^p. Absent for fewer than three points.
 std::optional<double> power(const std::vector<std::pair<double, double>>& points) {
   if (points.size() < 3) return std::nullopt;
   std::vector<LinePoint> logs;
@@ -174,7 +175,7 @@ std::optional<Split> split(const Family& family, const Quantity& quantity) {
       truncated.push_back({rung.step, *error, motion_in_double});
     }
     if (exact && std::isfinite(*error) && *error > dominates * *exact) rounded.emplace_back(rung.step, *error);
-    const bool now = exact && *exact<lost&& * error> 2 * *exact;  // as much rounding again as there is truncation
+    const bool now = exact && *exact<lost&& * error> 2 * *exact;  // rounding exceeds truncation
     if (now && !rounding_so_far) found.takes_over = rung.step;
     if (!now) found.takes_over.reset();
     rounding_so_far = now;

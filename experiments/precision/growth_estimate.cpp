@@ -13,7 +13,7 @@ constexpr int most_octaves = 5;
 constexpr std::size_t least_octaves = 4, least_points = 3, least_paths = 3;
 constexpr double margin = 0.2;
 
-/// The mean square over [from, to] by the trapezoidal rule on its points, or a negative number where they are too few.
+/// The mean square over [from, to] by the trapezoidal rule; −1 for fewer than three points.
 double mean_square(const std::vector<PathPoint>& path, double from, double to) {
   constexpr double slack = 1e-9;
   double sum = 0, first = 0, last = 0;

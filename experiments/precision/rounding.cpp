@@ -34,7 +34,7 @@ struct Ladder {
   Split split;
 };
 
-/// How the energy drift and the attitude error of the runs grow in which rounding rules.
+/// Growth of energy drift and attitude error in time, over the runs in which rounding dominates.
 struct Rise {
   const RoundingProblem* problem;
   const Family* family;
@@ -120,7 +120,7 @@ class Rounding {
   }
 
  private:
-  /// A body that stays where it is has no error of its position to speak of.
+  /// Removes the position errors of bodies at rest.
   void drop_trivial_positions() {
     const auto trivial = [](const Ladder& l) {
       return l.quantity.unit == " m" && l.split.least_error < 1e-30 && !l.split.truncation.line;
@@ -154,7 +154,7 @@ class Rounding {
     return all;
   }
 
-  /// The first quantity that a family has tells the step; the others are in the table.
+  /// True if the family has an earlier ladder. Sentences mention only the first one; the table contains all.
   bool is_second(const Ladder& ladder) const {
     for (const Ladder& l : ladders_) {
       if (l.family == ladder.family) return &l != &ladder;
@@ -162,7 +162,8 @@ class Rounding {
     return false;
   }
 
-  /// At the smallest step at which both were run and plain summation shows rounding.
+  /// Errors with plain and with compensated summation, at the smallest step if it is the same for both, and if plain
+  /// summation shows rounding there.
   std::vector<std::string> saved() const {
     std::vector<std::string> all;
     for (const RoundingProblem& problem : problems_) {

@@ -19,7 +19,7 @@ using precision::Family;
 using precision::RoundingProblem;
 using precision::Rung;
 
-constexpr std::size_t most_problems = 3;  // beside each other
+constexpr std::size_t most_problems = 3;  // largest number of panels in a row
 constexpr Precision precisions[] = {Precision::single, Precision::dual, Precision::extended};
 
 PlottedCurve curve_of(const Family& family) {
@@ -28,7 +28,7 @@ PlottedCurve curve_of(const Family& family) {
           .variant = family.compensated};
 }
 
-/// One axis for all panels of a row, with so much room above for guides.
+/// One axis for all panels of a row; headroom: factor between its end and the largest value, for guides.
 Axis shared_axis(const std::string& label, const std::vector<Panel>& panels, double headroom = 1) {
   std::vector<double> values;
   Needs needs;
@@ -44,13 +44,13 @@ Axis shared_axis(const std::string& label, const std::vector<Panel>& panels, dou
   return log_axis(label, values, needs);
 }
 
-/// A line of slope `power` through a point, over a stretch of the axis.
+/// A line of slope `power` from the point (x, y) to the abscissa `to`.
 Guide guide_through(double x, double y, double to, double power, std::string label) {
   const double end = y * std::pow(to / x, power);
   return {x, y, to, end, std::move(label), end};
 }
 
-/// Of the curve that stands highest at its end (its beginning for `at_front`): where a guide beside it may start.
+/// The curve of a variant with the largest last value, among those of at least three points; null if there is none.
 const PlottedCurve* highest(const Panel& panel, std::size_t variant) {
   const PlottedCurve* best = nullptr;
   for (const auto& curve : panel.curves) {
@@ -89,7 +89,8 @@ std::vector<Panel> ladder_panels(const std::vector<const RoundingProblem*>& prob
   return panels;
 }
 
-/// Beside the end of plain summation in the lowest precision: what a random walk of n = T/h rounding errors adds up to.
+/// Adds the line of slope −1/2 above the end of the highest curve of plain summation: the sum of n = T/h independent
+/// rounding errors grows as √n.
 void add_step_guides(std::vector<Panel>& panels) {
   for (Panel& panel : panels) {
     const auto* curve = panel.x_column == "dt_s" ? highest(panel, 0) : nullptr;
@@ -99,7 +100,8 @@ void add_step_guides(std::vector<Panel>& panels) {
   }
 }
 
-/// The rung of the largest step whose runs are all of them rounding: the errors of its steps hang together the least.
+/// The rung of the largest step at which rounding dominates in all runs: the rounding errors of its steps are the least
+/// correlated.
 const Rung* largest_in_rounding(const Family& family, bool (*is_rounding)(const Rung::Run&)) {
   const auto rung = std::find_if(family.rungs.begin(), family.rungs.end(),
                                  [&](const Rung& r) { return std::all_of(r.runs.begin(), r.runs.end(), is_rounding); });
@@ -118,7 +120,8 @@ Path attitudes(const RunRecord& run) {
   return path;
 }
 
-/// Root mean square over the starts at times a factor √2 apart, as far as the runs were seen at the same times.
+/// Root mean square over the starts, at times a factor √2 apart. Empty if the runs were observed at different numbers
+/// of times.
 std::vector<Point> spread(const Rung& rung, Path (*path_of)(const RunRecord&)) {
   std::vector<Path> paths;
   for (const auto& run : rung.runs) paths.push_back(path_of(*run.run));
@@ -172,7 +175,7 @@ void add_time_guides(std::vector<Panel>& panels, double power, const std::string
   }
 }
 
-/// The precisions take the place of the methods: a colour and a marker for each.
+/// Sets the legends: precisions stand in place of methods, with a colour and a marker each.
 void finish(Figure& figure, const std::vector<const RoundingProblem*>& problems, std::size_t all) {
   for (const Precision p : precisions) figure.methods.emplace_back(name(p));
   bool compensated = false, plain = false;

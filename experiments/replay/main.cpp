@@ -22,8 +22,8 @@ namespace polhode::study::replay {
 namespace {
 
 constexpr std::size_t most_runs = 16;
-constexpr double most_turn = 1;             ///< rad between two instants, beyond which the way between them is a guess
-constexpr double share_of_impacts = 0.125;  ///< of the room for motion
+constexpr double most_turn = 1;             ///< largest rotation between two instants that can be interpolated, rad
+constexpr double share_of_impacts = 0.125;  ///< largest size of the impacts over that of the motion
 
 struct Motion {
   PageWords words;
@@ -55,7 +55,7 @@ Motion carried_out(const ReplayOptions& options) {
       motion.words.paragraphs.push_back("Left out: " + run.refusal + ".");
       continue;
     }
-    // Four times what could ever fit: enough to choose evenly from.
+    // Four times as many instants as can fit, from which the page chooses evenly.
     const double fit = options.limit_bytes / (26 * double(run.scenario->problem.moving()) + 12);
     motion.recordings.push_back(record(run, std::size_t(4 * fit) + 16));
   }
@@ -75,7 +75,7 @@ double size_of(const std::vector<Recording>& recordings, std::size_t instants) {
   return bytes;
 }
 
-/// The largest n with which the instants of all runs, at most n of each, take no more than `room`.
+/// Largest n such that n instants of each run, or all of a shorter run, fit into `room` bytes.
 std::size_t instants_that_fit(const std::vector<Recording>& recordings, double room) {
   std::size_t low = 0, high = 0;
   for (const Recording& r : recordings) high = std::max(high, r.times.size());
@@ -92,7 +92,7 @@ void say(Motion& motion, const std::string& sentence) {
   motion.words.paragraphs.push_back(sentence + ".");
 }
 
-/// Leaves out what does not fit, and says so.
+/// Removes impacts and instants until the page is at most `limit` bytes. Throws InputError if two instants do not fit.
 void fit(Motion& motion, double limit, const ThreeJs& three) {
   std::vector<Recording> bare = motion.recordings;
   double impacts = 0;
@@ -104,7 +104,7 @@ void fit(Motion& motion, double limit, const ThreeJs& three) {
     r.energy_drift.clear();
     r.momentum_drift.clear();
   }
-  constexpr double sentences = 2000;  // those that are added below
+  constexpr double sentences = 2000;  // size of the notes that are added later, bytes for each run
   const double room = limit - double(page_of(motion.words, bare, three).size()) - sentences * double(bare.size() + 1);
   if (impacts > share_of_impacts * room && impacts + size_of(motion.recordings, std::size_t(-1)) > room) {
     const auto most = std::size_t(std::max(0.0, share_of_impacts * room / bytes_of_impact) / double(bare.size()));
@@ -120,7 +120,7 @@ void fit(Motion& motion, double limit, const ThreeJs& three) {
   for (Recording& r : motion.recordings) keep_instants(r, n);
 }
 
-/// "3 of 7 instants": once for all runs where it is the same for all.
+/// Adds the sentence about each run, or a single one if it is the same for all.
 void say_of_each(Motion& motion, const std::function<std::string(const Recording&)>& sentence) {
   std::vector<std::string> said;
   for (const Recording& r : motion.recordings) said.push_back(sentence(r));

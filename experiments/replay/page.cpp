@@ -23,7 +23,7 @@ std::string_view part(std::string_view name) {
   return found->text;
 }
 
-/// The template with each @name@ filled in; what is filled in is not looked at again.
+/// The template with each @name@ replaced. Inserted texts are not searched for names.
 std::string filled(std::string_view text, const std::map<std::string, std::string, std::less<>>& values) {
   std::string out;
   for (;;) {
@@ -35,7 +35,7 @@ std::string filled(std::string_view text, const std::map<std::string, std::strin
   }
 }
 
-/// A script as it may stand in a page: nothing in it ends its element.
+/// The script with every end tag escaped, so that none ends its element in a page.
 std::string inlined(std::string text) {
   for (auto at = text.find("</script"); at != std::string::npos; at = text.find("</script", at))
     text.insert(at + 1, "\\");
@@ -54,7 +54,7 @@ ThreeJs read_three(const std::filesystem::path& folder) {
                      " is not there: `./run replay` installs three.js (Debian's libjs-three), or name a folder that "
                      "has it with --three");
   }
-  // What the page calls comes and goes from one revision to the next.
+  // The functions that the page calls exist in this revision only.
   if (library->find("REVISION=\"111\"") == std::string::npos) {
     throw InputError((folder / "three.min.js").string() +
                      " is not revision 111 of three.js, for which the page is written: `./run replay` "

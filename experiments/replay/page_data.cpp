@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 static_assert(std::endian::native == std::endian::little, "typed arrays of a browser are little-endian");
 
-/// RFC 4648, section 4.
+/// Base64 of the bytes (RFC 4648, section 4).
 std::string base64(std::span<const unsigned char> bytes) {
   static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -40,7 +40,7 @@ std::string packed(const std::vector<T>& numbers) {
 
 std::vector<float> singles(const std::vector<double>& numbers) { return {numbers.begin(), numbers.end()}; }
 
-/// x of −1 to 1 in 32767 steps.
+/// x, clamped to [−1, 1], as a multiple of 1/32767.
 std::int16_t step_of(double x) { return std::int16_t(std::lround(32767 * std::clamp(x, -1.0, 1.0))); }
 
 template <class V>

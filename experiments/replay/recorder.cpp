@@ -50,7 +50,8 @@ class Recorder final : public TrajectoryWriter {
     momentum_start_ = momentum(sample);
   }
 
-  /// kg m/s, or kg m²/s: of one body about its reference point, of several about their mass centre at the start.
+  /// The shown momentum: linear, kg m/s, or angular, kg m²/s. The angular momentum of a single body is about its
+  /// reference point, that of several bodies about their mass centre at the start.
   Vector3<double> momentum(const Sample& sample) const {
     if (recording_.momentum == ShownMomentum::linear) return sample.seen.linear_momentum;
     if (system_.moving() == 1) return sample.seen.angular_momentum;

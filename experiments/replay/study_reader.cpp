@@ -142,7 +142,7 @@ Json read_manifest(const Path& folder) {
   }
 }
 
-/// What `name` was called on the study's command line: a file, or the name itself.
+/// The scenario `name` as given on the command line of the study: the path of a file, or the name itself.
 std::string said_scenario(const Json& manifest, const std::string& name) {
   const std::string said = manifest.value(Json::json_pointer("/axes/scenario"), name);
   for (const std::string& item : split_list(said, ',', "manifest.json: axes.scenario")) {
@@ -160,7 +160,7 @@ ScenarioSource open_scenario(const Json& manifest, const std::string& name, cons
   }
 }
 
-/// Drawn with another scenario the motion would be a lie.
+/// Throws InputError if the scenario is not that of the study.
 void check_same(const Json& manifest, const Scenario& scenario, const std::string& name) {
   const auto kept = manifest.find("scenarios");
   if (kept == manifest.end() || !kept->contains(name)) return;
@@ -218,7 +218,8 @@ void read_impacts(const Path& path, std::size_t bodies, Recording& recording) {
   recording.impacts_seen = std::int64_t(recording.impacts.size());
 }
 
-/// kg m/s, or kg m²/s: of one body about its reference point, of several about their mass centre at the start.
+/// The momentum at instant k: linear, kg m/s, or angular, kg m²/s. The angular momentum of a single body is about its
+/// reference point, that of several bodies about `mass_center` (m).
 Vector3<double> momentum_of(const Trajectory& trajectory, std::size_t k, const Problem& problem, bool linear,
                             const Vector3<double>& mass_center) {
   Vector3<double> sum = Vector3<double>::Zero(), whole = Vector3<double>::Zero();

@@ -16,32 +16,32 @@
 namespace polhode::study::stability {
 namespace {
 
-constexpr std::size_t most_chart_rows = 40;  // of methods in one chart
-constexpr std::size_t most_charts = 6;       // figures
+constexpr std::size_t most_chart_rows = 40;  // methods in one chart
+constexpr std::size_t most_charts = 6;       // number of figures
 constexpr std::size_t maps_in_figure = 9;
 constexpr std::size_t most_map_figures = 4;
 constexpr double row_height = 17;        // pixels
-constexpr double logarithmic_from = 30;  // largest over smallest value of the varied key
+constexpr double logarithmic_from = 30;  // smallest range, largest over smallest value, of a logarithmic axis
 
-/// In the order of Verdict: blue holds, yellow gains slowly, orange to brown grows, and all differ in lightness as well
-/// as in hue. Then the mark of the motion's limit.
+/// Colours in the order of Verdict, which differ in lightness as well as in hue: blue without growth of the energy,
+/// yellow for a slow gain, orange and brown for growth. The last one marks the limit of the motion.
 std::vector<Shade> shades() {
   return {{"stable", "3B8FC4"},  {"damped", "BFE0F2"},   {"gaining slowly", "FBEFA5"},
           {"gaining", "F5A431"}, {"blown up", "7B2D12"}, {"motion followed up to here", "000000"}};
 }
 constexpr std::size_t limit_shade = 5;
-constexpr double limit_width = 0.006;  // of a mark, as a part of the axis
+constexpr double limit_width = 0.006;  // width of a mark over that of the axis
 
 struct Interval {
   double low, high;
 };
 
-/// Each value with the room half way to its neighbours, in the logarithm where they are on a logarithmic axis.
+/// Cells about the values that reach half way to their neighbours, in the logarithm on a logarithmic axis.
 std::vector<Interval> cells_about(const std::vector<double>& values, bool logarithmic) {
   std::vector<double> at;
   for (const double v : values) at.push_back(logarithmic ? std::log(v) : v);
   const auto back = [&](double x) { return logarithmic ? std::exp(x) : x; };
-  // At its ends as much room as the widest gap has, for a bisection may have been at work there.
+  // The outer cells are as wide as the widest gap, since a bisection may have narrowed the gap beside them.
   double widest = at.size() > 1 ? 0 : 0.1;
   for (std::size_t i = 0; i + 1 < at.size(); ++i) widest = std::max(widest, at[i + 1] - at[i]);
   std::vector<Interval> cells;
@@ -53,7 +53,7 @@ std::vector<Interval> cells_about(const std::vector<double>& values, bool logari
   return cells;
 }
 
-/// Stretches of the step, in h|ω| or s, with one verdict each.
+/// A range of steps, h|ω| or s, with the same verdict.
 struct Band {
   Interval step;
   Verdict verdict;
@@ -77,8 +77,8 @@ std::vector<Band> bands(const StabilityFinding& f) {
   return all;
 }
 
-/// The step, in h|ω| or s, up to which the motion is followed, as a thin stretch of an axis of steps; at an end of the
-/// axis where it is followed nowhere or everywhere. Absent where no motion is known to measure it by.
+/// Mark at the largest step, h|ω| or s, at which the motion is followed; at an end of the axis if it is followed at no
+/// step or at all. Absent if no run was measured against a known motion.
 std::optional<Interval> motion_limit(const StabilityFinding& f, const Axis& axis) {
   if (!f.ladder.measured) return std::nullopt;
   const double half = std::pow(axis.high / axis.low, limit_width / 2);
@@ -106,7 +106,7 @@ Axis axis_of_steps(const std::vector<const StabilityFinding*>& found) {
 
 std::string step_column(const Axis& axis) { return axis.label == "h |ω|" ? "h_omega" : "dt_s"; }
 
-/// The names of the methods from the top down, one unit of the axis for each.
+/// An axis with the names of the methods from top to bottom, one unit for each.
 Axis axis_of_methods(const Grouping& grouping, const std::vector<std::size_t>& methods) {
   Axis axis{.low = 0, .high = static_cast<double>(methods.size()), .named = true};
   for (std::size_t i = 0; i < methods.size(); ++i) {
@@ -182,7 +182,7 @@ Panel map_panel(const Grouping& grouping, const Columns& columns, const std::str
 }  // namespace
 
 std::vector<Figure> stability_charts(const Grouping& grouping, const std::vector<StabilityFinding>& found) {
-  // By motion and variant, in the order of the runs.
+  // Findings by motion and variant, in the order of the runs.
   std::map<std::pair<std::size_t, std::size_t>, std::vector<const StabilityFinding*>> panels;
   for (const auto& f : found) {
     const Curve& curve = *f.ladder.curve;
@@ -217,7 +217,7 @@ std::vector<Figure> stability_charts(const Grouping& grouping, const std::vector
 
 std::vector<Figure> stability_maps(const Grouping& grouping, const std::vector<StabilityFinding>& found,
                                    const std::string& key) {
-  // By scenario; within it by variant and method.
+  // Findings by scenario, then by variant and method.
   std::map<std::string, std::map<std::pair<std::size_t, std::size_t>, Columns>> maps;
   for (const auto& f : found) {
     const Curve& curve = *f.ladder.curve;

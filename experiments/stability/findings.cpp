@@ -43,7 +43,7 @@ std::optional<LinearTheory> linear_theory(const Ladder& ladder) {
 
 using Step = Ladder::Step;
 
-/// The steps below the critical one at which the motion is followed; where there is none, the smallest one.
+/// The steps below the critical ones of energy growth and of the motion; if there are none, the smallest step.
 std::vector<const Step*> usable_steps(const StabilityFinding& f) {
   const auto is_below = [](const Step& step, const CriticalStep& limit) {
     return limit.kind == CriticalStep::Kind::none || step.dt < limit.fails;
@@ -56,8 +56,8 @@ std::vector<const Step*> usable_steps(const StabilityFinding& f) {
   return usable;
 }
 
-/// That of the largest step, where a change is seen best, if the one before it agrees; else the most common one, of
-/// equals the one nearer to stable.
+/// The verdict of the largest step, where changes are largest, if the next smaller step has the same; else the most
+/// frequent one, the first in the order of Verdict among equals.
 Verdict verdict_of(const std::vector<const Step*>& steps) {
   const auto n = steps.size();
   if (n > 1 && steps[n - 1]->verdict == steps[n - 2]->verdict) return steps.back()->verdict;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int path_instants = 200;
 
-/// A reference leaves out an error that is less than a hundred times its own uncertainty.
+/// Errors of less than a hundred times the uncertainty of the reference are absent.
 constexpr double left_out_below = 100;
 
 bool small_by_reference(const std::optional<double>& uncertainty, double bound) {

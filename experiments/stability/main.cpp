@@ -8,7 +8,7 @@
 
 namespace {
 
-/// The second moment of inertia beside 0.6 and 1 kg m², as far as a rigid body can have it.
+/// Values of the second principal moment of inertia, beside 0.6 and 1 kg m², that a rigid body can have.
 const polhode::study::FurtherAxes map_over_inertia = {
     .defaults = {{"scenario", "hairer_vilmart"},
                  {"integrator", "explicit_euler,heun,rk4,simo_wong,lie_midpoint,dmv4"},

@@ -24,14 +24,14 @@ namespace {
 using Kind = CriticalStep::Kind;
 using Role = RunOption::Role;
 
-constexpr std::size_t most_items = 16;  // of a sentence
+constexpr std::size_t most_items = 16;  // largest number of items of a sentence
 
-constexpr int rough = 3;  // digits of a limit of the motion
+constexpr int rough = 3;  // significant digits of a limit of the motion
 
 std::string digits_of(double x, int digits) { return fmt::format("{:.{}g}", x, digits); }
 std::string four(double x) { return digits_of(x, 4); }
 
-/// A radius so that its distance from 1 is seen.
+/// A spectral radius with enough digits for its distance from 1.
 std::string radius_text(double r) {
   const double off = r - 1;
   if (std::abs(off) <= radius_tolerance) return "1";
@@ -103,7 +103,7 @@ class Stability {
     return f.ladder.steps.front().longest().config.scenario;
   }
 
-  /// A step as h|ω| where there is a rate, in s otherwise.
+  /// A step as h|ω|; in s for a motion without a characteristic rate.
   static std::string in_units(const StabilityFinding& f, double dt, int digits = 4) {
     return f.rate ? digits_of(dt * *f.rate, digits) : digits_of(dt, digits) + " s";
   }
@@ -122,7 +122,7 @@ class Stability {
     }
   }
 
-  /// Up to which step the motion is followed.
+  /// The largest step at which the motion is followed.
   static std::string followed_text(const StabilityFinding& f, bool seconds) {
     const CriticalStep& c = f.motion;
     const auto as = [&](double dt) { return seconds ? digits_of(dt, rough) : in_units(f, dt, rough); };
@@ -131,7 +131,7 @@ class Stability {
     return (f.ladder.measured ? "" : "at most ") + as(c.holds);
   }
 
-  /// How much energy is gained, over its scale, in a turn where there is a rate, in a second otherwise.
+  /// Energy gain over the energy scale per turn; per second if a motion of the study has no characteristic rate.
   double in_a_turn(const StabilityFinding& f, double per_second) const {
     return all_have_rates() ? per_second * 2 * std::numbers::pi / *f.rate : per_second;
   }
@@ -197,7 +197,7 @@ class Stability {
     return words(items);
   }
 
-  /// The findings of one method in one variant on one scenario: several where keys of the scenario are varied.
+  /// The findings of one method in one variant on one scenario; several if keys of the scenario are varied.
   struct Group {
     std::string label;
     std::vector<const StabilityFinding*> members{};
@@ -216,7 +216,7 @@ class Stability {
     return all;
   }
 
-  /// Those of a group that pass a test: how they are named, and from where to where their limits go.
+  /// The findings of a group that pass a test: their name, and the range of their limits.
   struct Passed {
     std::string label;
     double low = 0;
@@ -254,7 +254,7 @@ class Stability {
     return listed(std::move(names));
   }
 
-  /// "2 (dmv and velocity_verlet), 2.83 (rk4)", from the least limit on.
+  /// Limits in ascending order with their methods: "2 (dmv and velocity_verlet), 2.83 (rk4)".
   static std::string limits_of(std::vector<Passed> all) {
     std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.low < b.low; });
     std::vector<std::pair<std::string, std::vector<std::string>>> by_limit;
@@ -329,7 +329,7 @@ class Stability {
     return all;
   }
 
-  /// "rk4 (4.3e-10 at h|ω| 0.063 to 1.1e-5 at h|ω| 0.72, ∝ h^5.0)", where no key is varied.
+  /// "rk4 (4.3e-10 at h|ω| 0.063 to 1.1e-5 at h|ω| 0.72, ∝ h^5.0)", for findings without varied keys.
   std::string gains(const std::string& where, Verdict verdict) const {
     std::vector<std::string> items;
     for (const auto& f : found_) {

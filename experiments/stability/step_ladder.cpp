@@ -12,10 +12,10 @@ namespace polhode::study::stability {
 namespace {
 
 constexpr double least_steps = 500;
-constexpr double motion_bracket_width = 0.01;  // its bounds are rough
-constexpr double turns_without_rate = 10;      // that a run is taken for where nothing turns or swings
+constexpr double motion_bracket_width = 0.01;  // wide, since the bounds of a followed motion are rough
+constexpr double turns_without_rate = 10;      // turns in a run of a motion without a characteristic rate
 
-/// Of the energy, over the steps that have a verdict.
+/// The critical step from which the verdict is at least `from`, over the steps with a verdict.
 CriticalStep first_growth(const Ladder& ladder, Verdict from) {
   std::vector<TriedStep> tried;
   for (const Ladder::Step& step : ladder.steps) {
@@ -24,19 +24,20 @@ CriticalStep first_growth(const Ladder& ladder, Verdict from) {
   return critical_step(std::move(tried));
 }
 
-/// s, as long as asked for, rounded up to whole steps.
+/// t_end rounded up to whole steps, s.
 double whole_steps_only(double t_end, double dt) { return std::ceil(t_end / dt * (1 - 1e-12)) * dt; }
 
 bool is_longer(const RunRecord& run, double t_end) { return run.config.t_end > t_end * (1 + 1e-9); }
 
-/// In a linear system with a rate of its own whatever grows does so exponentially. With contact none is linear.
+/// Time unit of slow gains, s (Ladder::turn). Absent for a linear system with a characteristic rate, in which every
+/// growth is exponential. A system with contact is not linear.
 std::optional<double> turn_of(const RunConfig& config, const Scenario& scenario, std::optional<double> rate) {
   if (!rate) return config.t_end / turns_without_rate;
   if (!config.contact && is_linear(*make_system<double>(scenario.problem, config.formulation))) return std::nullopt;
   return 2 * std::numbers::pi / *rate;
 }
 
-/// The runs of a curve, each step once.
+/// The runs of a curve by step.
 std::vector<Ladder::Step> steps_of(const Curve& curve) {
   std::vector<const RunRecord*> runs;
   for (const RunRecord* run : curve.runs) {
@@ -56,7 +57,8 @@ std::vector<Ladder::Step> steps_of(const Curve& curve) {
 
 bool gains_nothing(Verdict v) { return v == Verdict::stable || v == Verdict::damped; }
 
-/// Of the shortest run that has one; a longer run can take a gain back, for it tells a swing from a change for good.
+/// The verdict of the shortest run that has one. If it is a gain and the longest run has none, that of the longest run,
+/// which distinguishes an oscillation from a permanent change.
 Verdict ladder_verdict(const Ladder::Step& step, std::optional<double> turn) {
   for (const RunRecord* run : step.runs) {
     const Verdict verdict = energy_verdict(*run, turn);
@@ -67,7 +69,8 @@ Verdict ladder_verdict(const Ladder::Step& step, std::optional<double> turn) {
   return Verdict::none;
 }
 
-/// The step that decides where the energy first grows, if it stands alone: at the next larger one none is gained.
+/// The smallest step at which the energy is gained, if it is isolated: no energy is gained at the next larger step.
+/// Null if it is not.
 const Ladder::Step* lone_growth(const Ladder& ladder) {
   const auto& steps = ladder.steps;
   const auto first = std::find_if(steps.begin(), steps.end(), [](const auto& s) {
@@ -117,7 +120,8 @@ std::vector<Ladder> ladders(const Grouping& grouping) {
   for (const Curve& curve : grouping.curves) {
     Ladder ladder{.curve = &curve, .steps = steps_of(curve)};
     if (ladder.steps.empty()) continue;
-    const RunConfig& config = ladder.steps.front().shortest().config;  // the smallest step is the last to be lengthened
+    const RunConfig& config =
+        ladder.steps.front().shortest().config;  // the smallest step: rounding up changes its duration least
     const Scenario& scenario = *ladder.steps.front().shortest().scenario;
     ladder.rate = characteristic_rate(scenario.problem);
     ladder.turn = turn_of(config, scenario, ladder.rate);

@@ -11,7 +11,7 @@
 namespace polhode::study::stability {
 namespace {
 
-/// The numbers of y that belong to mass centres, positions before velocities.
+/// Indices in y of positions and velocities of mass centres; positions come first.
 std::vector<int> translation(const Layout& layout) {
   std::vector<int> at;
   for (const bool velocities : {false, true}) {
@@ -23,7 +23,7 @@ std::vector<int> translation(const Layout& layout) {
   return at;
 }
 
-/// A displacement of one length in each direction: 1 m, and velocities so large that they fit to it.
+/// Sizes of displacements: 1 m for positions, 1 m times the characteristic rate for velocities.
 std::vector<double> scales(const System<double>& system, std::size_t n) {
   const double rate = characteristic_rate(system.problem()).value_or(1);
   std::vector<double> all(n, 1.0);
@@ -44,7 +44,7 @@ bool is_linear(const System<double>& system) {
   if (at.size() != 6 * system.moving()) return false;  // a pinned body
   const auto scale = scales(system, at.size());
   const VectorX<double> y0 = system.start().y;
-  // Two displacements in no special direction.
+  // Two displacements in generic directions.
   VectorX<double> u = VectorX<double>::Zero(y0.size()), w = u;
   for (std::size_t k = 0; k < at.size(); ++k) {
     const double x = static_cast<double>(k);
@@ -56,7 +56,7 @@ bool is_linear(const System<double>& system) {
   const double size = f0.norm() + fu.norm() + fw.norm() + both.norm();
   for (int i = 0; i < system.layout().work(); ++i) {
     if (std::find(at.begin(), at.end(), i) == at.end()) {
-      if (f0[i] != 0 || fu[i] != 0 || fw[i] != 0 || both[i] != 0) return false;  // it turns
+      if (f0[i] != 0 || fu[i] != 0 || fw[i] != 0 || both[i] != 0) return false;  // a body rotates
     } else if (!(std::abs(both[i] - fu[i] - fw[i] + f0[i]) <= 1e-12 * size) || later[i] != fu[i]) {
       return false;
     }

@@ -34,7 +34,7 @@ std::array<Range, 4> quarters(const RunResult& result) {
   return ranges;
 }
 
-/// How far, and which way, the energy has changed for good; 0: it has not.
+/// The permanent change of the relative energy drift, signed; 0: there is none.
 double change_for_good(const std::array<Range, 4>& q) {
   const double moved = q[3].middle() - q[0].middle();
   const auto follows = [&](std::size_t i) { return (q[i].middle() - q[i - 1].middle()) * moved > 0; };
@@ -44,14 +44,14 @@ double change_for_good(const std::array<Range, 4>& q) {
   return std::abs(q[3].middle()) > verdict::settled * q[3].width() ? q[3].middle() : 0;
 }
 
-/// The relative change of the energy that rounding may explain.
+/// Largest relative change of the energy that rounding explains.
 double rounding(const RunRecord& run) {
   const RunResult& r = run.result;
   const bool measured = r.energy_round_off && r.energy_scale && *r.energy_scale > 0;
   return std::max(4 * round_off_level(run), measured ? *r.energy_round_off / *r.energy_scale : 0);
 }
 
-/// 1/s
+/// Least-squares slope of the energy drift over the energy scale, 1/s.
 std::optional<double> slope(const RunResult& r) {
   if (!r.energy_drift_rate || !r.energy_scale) return std::nullopt;
   return *r.energy_drift_rate / *r.energy_scale;

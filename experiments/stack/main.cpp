@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
                     {"dt", "0.00833333333333333,0.0166666666666667,0.0333333333333333"},
                     {"response", "sequential_impulses,single_impulse"}},
        .vary = {{"body.box.repeat", "[1,1,2];[1,1,3];[1,1,5];[1,1,10];[1,1,15];[1,1,20]"}},
-       // Its time grows with the cube of the number of contacts.
+       // The computing time of this response grows as the cube of the number of contacts.
        .more = {{.defaults = {{"response", "simultaneous"}},
                  .vary = {{"body.box.repeat", "[1,1,2];[1,1,3]"}},
                  .by_default_only = true}},

@@ -14,19 +14,20 @@
 namespace polhode::study::stack {
 namespace {
 
-/// Of a box of 1 m: further than this from where it was after 2 s, it has moved; deeper than that, it has sunk in.
-constexpr double still = 1e-3, shallow = 5e-3;  // m
+/// For boxes of 1 m: largest displacement since t = 2 s of a box at rest, and largest penetration depth of boxes that
+/// have not sunk in, m.
+constexpr double still = 1e-3, shallow = 5e-3;
 
 struct Stack {
   const RunRecord* run;
   std::size_t boxes;
   const ContactMeasures& found() const { return run->result.contact; }
   bool carried_out() const { return run->result.status == "ok"; }
-  /// s; the whole run where nothing left its place.
+  /// Time at which the first box left its place, s; the duration of the run if none did.
   double stood() const { return found().left_place.value_or(run->result.t_reached); }
 };
 
-/// The runs of one curve: what was not varied in height.
+/// Key of a curve, whose runs differ in the height of the stack.
 using Key =
     std::tuple<std::string, std::string, std::string, std::string, double>;  // scenario, method, response, timing, size
 Key key_of(const RunConfig& c) {

@@ -36,7 +36,7 @@ constexpr RunArgument run_arguments[] = {
     {"impact-timing", "see --list impact-timings (default: time_stepping)", "NAME"},
 };
 
-/// As the options say it.
+/// Values of the options as written on the command line.
 struct Said {
   std::string scenario = "dzhanibekov", integrator = "rk4", dt = "1e-3", tolerance = "1e-8";
   std::string drive = "accumulator";

@@ -10,7 +10,7 @@ namespace {
 
 bool usable(const WorkPoint& p) { return std::isfinite(p.error) && p.error > 0 && std::isfinite(p.cost) && p.cost > 0; }
 
-/// Usable points in the order of their cost.
+/// Points with a positive and finite error and cost, in ascending order of cost.
 std::vector<WorkPoint> by_cost(std::vector<WorkPoint> curve) {
   std::erase_if(curve, [](const WorkPoint& p) { return !usable(p); });
   std::stable_sort(curve.begin(), curve.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
@@ -42,7 +42,7 @@ std::vector<EnvelopePoint> lower_envelope(const std::vector<std::vector<WorkPoin
   }
   std::vector<EnvelopePoint> envelope;
   if (worst == 0) return envelope;
-  constexpr double nearly = 1e-9;  // a decade that is met but for rounding
+  constexpr double nearly = 1e-9;  // tolerance for decades at the ends, which covers rounding
   for (int k = static_cast<int>(std::floor(std::log10(worst) + nearly)); k >= std::log10(best) - nearly; --k) {
     const double error = std::pow(10.0, k) * (1 + nearly);
     std::vector<std::pair<double, std::size_t>> costs;

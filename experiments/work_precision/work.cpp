@@ -24,10 +24,10 @@
 namespace polhode::study::work_precision {
 namespace {
 
-constexpr std::size_t most_coloured = 8;  ///< of more methods, those off the envelope are grey
+constexpr std::size_t most_coloured = 8;  ///< if there are more methods, those off the envelope are grey
 constexpr std::size_t most_panels = 6;
 
-/// What a run costs.
+/// A measure of the cost of a run.
 struct Cost {
   std::string column, words, axis, unit;  ///< "wall_s", "wall time", "wall time (s)", " s"
   double (*of)(const RunResult&);
@@ -40,12 +40,13 @@ const Cost wall_time = {"wall_s", "wall time", "wall time (s)", " s", [](const R
 struct Motion {
   std::size_t case_index = 0;
   Quantity quantity;
-  std::vector<const Curve*> curves;          ///< that compete
-  std::vector<const Curve*> exact, without;  ///< those that solve the motion exactly; those that count no such cost
+  std::vector<const Curve*> curves;  ///< curves that compete
+  /// Curves of methods that solve the motion exactly; curves without a measured cost.
+  std::vector<const Curve*> exact, without;
   std::vector<EnvelopePoint> envelope;
 };
 
-/// By its own declaration, or at round-off at every step: for this motion the method is no approximation.
+/// True if the method solves this motion exactly, by its declaration or by errors at round-off at every step.
 bool is_exact(const StudyView& study, const Curve& curve, const Quantity& quantity) {
   const auto& config = curve.runs.front()->config;
   const auto* entry = find_integrator(config.integrator);
@@ -62,8 +63,9 @@ bool is_exact(const StudyView& study, const Curve& curve, const Quantity& quanti
          });
 }
 
-/// Without runs that do not follow the motion, and without those of larger steps: what they hit they hit by chance. No
-/// error is better than the rounding of its run, or the floor at which those of its curve no longer fall.
+/// Error and cost of the runs below the smallest step that does not follow the motion; larger steps agree with it only
+/// by chance. Errors below the round-off level of the run, or below the floor at which the errors of the curve no
+/// longer decrease, are raised to it.
 std::vector<WorkPoint> work_points(const Curve& curve, const Quantity& quantity, const Cost& cost) {
   std::vector<WorkPoint> points;
   const double floor = observed_order(curve, quantity).floor;
@@ -84,7 +86,7 @@ std::vector<Motion> motions_of(const StudyView& study, const Grouping& grouping,
       Motion motion{.case_index = c, .quantity = quantity, .curves = {}, .exact = {}, .without = {}, .envelope = {}};
       std::vector<std::vector<WorkPoint>> points;
       for (const auto& curve : grouping.curves) {
-        // Without the gyroscopic term another equation is solved.
+        // Runs without the gyroscopic term solve another equation.
         const bool same_equation = curve.runs.front()->config.formulation.gyroscopic;
         if (curve.case_index != c || !same_equation || !is_measured(curve, quantity)) continue;
         auto work = work_points(curve, quantity, cost);
@@ -105,10 +107,10 @@ std::vector<Motion> motions_of(const StudyView& study, const Grouping& grouping,
 
 std::string error_text(int decade) { return fmt::format("1e{}", decade); }
 
-/// A stretch of decades in which one curve is the cheapest.
+/// Consecutive decades of error in which one curve is the cheapest.
 struct Reign {
   std::size_t curve;
-  int from, to;  ///< decades, from the largest error
+  int from, to;  ///< decades of the largest and the smallest error
 };
 std::vector<Reign> reigns(const std::vector<EnvelopePoint>& envelope) {
   std::vector<Reign> all;
@@ -134,7 +136,7 @@ class Work {
     return all;
   }
 
-  /// Methods that do not compete, each with the motions.
+  /// Sentences about methods that do not compete, with the motions.
   std::vector<std::string> outside() const {
     std::vector<std::string> all;
     std::map<std::vector<std::string>, std::vector<std::string>> exact;
@@ -211,7 +213,7 @@ class Work {
       if (panels.size() < most_panels) panels.push_back(panel(motion, coloured));
     }
     share_y_axis(panels, y_axis(panels));
-    add_rows(figure, std::move(panels), 1);  // names along the envelope want the whole width
+    add_rows(figure, std::move(panels), 1);  // names along the envelope require the whole width
     figure.methods = grouping_.methods;
     figure.variants = {""};
     note_marks(figure);
@@ -269,7 +271,7 @@ class Work {
       }
       if (!plotted.points.empty()) panel.curves.push_back(std::move(plotted));
     }
-    // Grey ones first, so that the others lie over them.
+    // Grey curves are drawn first, below the others.
     std::stable_partition(panel.curves.begin(), panel.curves.end(), [](const auto& c) { return c.muted; });
     std::size_t before = std::numeric_limits<std::size_t>::max();
     for (const auto& p : motion.envelope) {
@@ -281,7 +283,7 @@ class Work {
     return panel;
   }
 
-  /// Where the axis must begin so that the names on the left of the envelope stand inside the panel.
+  /// Lower end of the cost axis for which the names to the left of the envelope are inside the panel.
   static double room_for_names(const Panel& panel, const std::vector<double>& costs) {
     constexpr double panel_width = style::figure_width - style::left_margin - style::right_margin;
     const auto [least, most] = std::minmax_element(costs.begin(), costs.end());

@@ -11,10 +11,10 @@ namespace polhode::viewer::inline drawing {
 
 namespace {
 
-/// Of an arrow, and of one among so many that each is small or not looked at.
+/// Numbers of sides of an arrow, and of an arrow among very many.
 constexpr std::uint32_t sides = 10, sides_of_many = 4;
 constexpr std::size_t many = 200;
-constexpr float head_radius = 2.7f, head_length = 7.5f;  // of the shaft's radius
+constexpr float head_radius = 2.7f, head_length = 7.5f;  // over the radius of the shaft
 
 struct ArrowVertex {
   Vector3<float> place;   // across in radii of the shaft; along: 0 at the start, 1 where the head begins, 2 at the tip
@@ -28,7 +28,7 @@ struct ArrowMesh {
 
 ArrowMesh arrow_mesh(std::uint32_t round) {
   ArrowMesh mesh;
-  // A ring of two rims, outward where it goes up or inward.
+  // Adds a ring between two rims. Its triangles face outward if it goes up or inward.
   const auto strip = [&](float low_radius, float low, float high_radius, float high, float tilt) {
     const auto first = std::uint32_t(mesh.vertices.size());
     for (std::uint32_t side = 0; side < round; ++side) {

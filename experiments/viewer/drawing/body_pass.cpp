@@ -80,7 +80,7 @@ out vec4 seen;
 void main() { seen = vec4(0.08, 0.11, 0.16, 0.24 * exp(-max(height, 0.0) / reach)); }
 )";
 
-/// Where the key light comes from: world axes, so that shadows lie still when the camera moves.
+/// Direction to the key light in world axes, so that shadows stay when the camera moves.
 const Eigen::Vector3f light = Eigen::Vector3f(0.45f, -0.25f, 0.86f).normalized();
 
 }  // namespace
@@ -108,7 +108,7 @@ BodyPass::BodyPass(const std::vector<study::Surface>& surfaces)
 
 void BodyPass::place(std::span<std::vector<BodyInstance>> instances) {
   for (std::size_t s = 0; s < surfaces_.size(); ++s) {
-    // The nearest first: what is behind it need not be shaded.
+    // Nearest bodies first, so that hidden parts of others are not shaded.
     std::stable_sort(instances[s].begin(), instances[s].end(), [](const BodyInstance& a, const BodyInstance& b) {
       return a.position.squaredNorm() < b.position.squaredNorm();
     });
@@ -142,8 +142,8 @@ void BodyPass::draw_shadows(const ViewState& view, const Vector3<double>& normal
   shadow_.set("light", light);
   shadow_.set("plane", Eigen::Vector4f(n[0], n[1], n[2], float(offset - normal.dot(view.eye))));
   shadow_.set("reach", float(reach));
-  // On the floor alone, where FloorPass has left a 1, and each pixel once, however many bodies shade it; of a body the
-  // faces towards the light.
+  // Shadows are drawn only on the floor, where FloorPass has set the stencil to 1, once for each pixel however many
+  // bodies shade it. Only faces towards the light are drawn.
   glEnable(GL_STENCIL_TEST);
   glStencilFunc(GL_EQUAL, 1, 0xff);
   glStencilOp(GL_KEEP, GL_KEEP, GL_INCR);

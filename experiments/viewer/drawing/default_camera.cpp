@@ -38,8 +38,8 @@ std::vector<Ball> balls_of(const study::Scene& scene, std::span<const Frame> fra
   return balls;
 }
 
-/// The azimuth from which the balls' longest level extent lies across the picture, turned a little so that it is not
-/// seen flat; the one nearest to the usual.
+/// The azimuth at which the longest horizontal extent of the balls lies across the picture, rotated slightly for a view
+/// in perspective. Of the two, the one nearer to the usual azimuth.
 double azimuth_across(std::span<const Ball> balls, double usual) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const Ball& ball : balls) mean += ball.middle.head<2>() / double(balls.size());
@@ -63,8 +63,9 @@ double azimuth_across(std::span<const Ball> balls, double usual) {
   return best;
 }
 
-/// From one edge of the picture to the other: a ball at x across and z towards the eye, from the target, is seen whole
-/// from the distance d when (d − z) s ∓ (x − shift) c ≥ r, with s and c the sine and cosine of half the angle of view.
+/// Fits the balls between two opposite edges of the picture. A ball of radius r, x across and z towards the eye from
+/// the target, is inside both edges at distance d if (d − z) s ∓ (x − shift) c ≥ r, with s and c the sine and cosine of
+/// half the angle of view.
 struct Fit {
   double distance, shift;
   Fit(std::span<const Ball> balls, const Vector3<double>& across, const Vector3<double>& back, double half_angle) {

@@ -57,7 +57,7 @@ void main() {
 
 using Corner2 = Eigen::Vector2f;
 
-/// What of a polygon is on the side of a line where x · normal >= offset (Sutherland and Hodgman 1974).
+/// The part of a polygon with x · normal >= offset (Sutherland and Hodgman 1974).
 std::vector<Corner2> cut(const std::vector<Corner2>& polygon, const Corner2& normal, float offset) {
   std::vector<Corner2> kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -84,7 +84,7 @@ void FloorPass::draw_background() const {
 void FloorPass::draw_floor(const ViewState& view, std::span<const Plane> planes, std::size_t shown) {
   const Vector3<double>& normal = planes[shown].normal;
   const double offset = planes[shown].offset;
-  // x along the grid is the world's x, as far as the plane allows.
+  // The x axis of the grid is the projection of the world's x axis onto the plane, if it has one.
   const Vector3<double> rough = std::abs(normal[0]) < 0.9 ? Vector3<double>::UnitX() : Vector3<double>::UnitY();
   const Vector3<double> along = (rough - normal * normal.dot(rough)).normalized(), across = normal.cross(along);
   const Vector3<double> middle = view.target - normal * (normal.dot(view.target) - offset);

@@ -31,7 +31,7 @@ GLuint compile(GLenum kind, std::string_view source) {
 Program::Program(std::string_view vertex, std::string_view fragment) : id_(glCreateProgram()) {
   for (const GLuint shader : {compile(GL_VERTEX_SHADER, vertex), compile(GL_FRAGMENT_SHADER, fragment)}) {
     glAttachShader(id_, shader);
-    glDeleteShader(shader);  // lives as long as the program
+    glDeleteShader(shader);  // the program keeps it until it is deleted itself
   }
   glLinkProgram(id_);
   GLint done = GL_FALSE;

@@ -7,7 +7,7 @@ namespace polhode::viewer::inline drawing {
 
 namespace {
 
-// Each line is a rectangle on the screen, a pixel wider than itself; what of it is behind the eye is cut off.
+// Each line is a rectangle on the screen, a pixel wider than the line; the part behind the eye is cut off.
 constexpr const char* vertex = R"(
 layout(location = 0) in vec3 from;
 layout(location = 1) in vec3 to;

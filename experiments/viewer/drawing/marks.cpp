@@ -28,7 +28,7 @@ Vector3<double> arrow(const FrameBody& body, const Vector3<double>& vector, cons
   return vector * (reach * cast.typical_radius * scale.share(length) / length);
 }
 
-/// The helix of a spring from one end to the other: straight at both ends, its turns wider apart the longer it is.
+/// The helix of a spring between its ends: straight at both ends, with a pitch proportional to its length.
 class Coil {
  public:
   Coil(const Vector3<double>& from, const Vector3<double>& to, double radius) : from_(from), way_(to - from) {
@@ -40,7 +40,7 @@ class Coil {
   }
   static constexpr int turns = 11, points_a_turn = 16, points = turns * points_a_turn;
 
-  /// The point of that number, 0 to `points`.
+  /// Point i, from 0 to `points`.
   Vector3<double> point(int i) const {
     return from_ + way_ * (lead + (1 - 2 * lead) * i / points) + radius_ * taper(i) * outward(i);
   }
@@ -51,7 +51,7 @@ class Coil {
 
  private:
   static constexpr double lead = 0.08;
-  /// The first and the last half turn open from the axis.
+  /// In the first and the last half turn the radius grows from 0.
   static double taper(int i) { return std::min({1.0, 2.0 * i / points_a_turn, 2.0 * (points - i) / points_a_turn}); }
   Vector3<double> from_, way_, aside_, up_;
   double radius_;
@@ -170,7 +170,7 @@ void Marks::add_trails(std::span<const Trail> given, const ViewState& view) {
     const auto colour = [&](std::size_t i) {
       return with_alpha(dark, 0.05 + 0.9 * double(i) / double(trail.points.size() - 1));
     };
-    constexpr double least_pixels = 3;  // of a segment: shorter ones are drawn as one
+    constexpr double least_pixels = 3;  // shortest segment; shorter ones are joined
     for (std::size_t i = 1, last = 0; i < trail.points.size(); ++i) {
       const Vector3<double>&from = trail.points[last], &to = trail.points[i];
       const bool short_yet = (to - from).norm() * view.pixels_per_metre(to) < least_pixels;

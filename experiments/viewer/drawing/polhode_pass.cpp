@@ -67,7 +67,7 @@ void main() {
 constexpr double axis_reach = 1.2;
 constexpr int around = 48, down = 24;
 
-/// A grid on the plane that touches the ellipsoid at ω.
+/// A grid on the tangent plane of the ellipsoid at ω.
 void add_plane(const InertiaEllipsoid& e, const ViewState& view, std::vector<LineInstance>& lines) {
   const Vector3<double>& up = e.momentum;
   const Vector3<double> rough = std::abs(up[2]) < 0.8 ? Vector3<double>::UnitZ() : Vector3<double>::UnitX();
@@ -153,7 +153,7 @@ void PolhodePass::draw(const ViewState& view, const InertiaEllipsoid& e, std::sp
 
   const double least = e.moments[0], spread = e.moments[2] - least;
   const bool round = !(spread > 1e-9 * e.moments[2]);
-  const Vector3<double> shares = e.axes.transpose() * e.omega;  // of ω along the principal axes
+  const Vector3<double> shares = e.axes.transpose() * e.omega;  // components of ω along the principal axes
   double level = 0;
   for (int i = 0; i < 3 && !round; ++i)
     level += (e.moments[i] - least) / spread * std::pow(shares[i] / e.semi_axes[i], 2);

@@ -18,7 +18,7 @@ void clip_to(const Rectangle& area) {
   glScissor(area.left, area.bottom, area.width, area.height);
 }
 
-/// How much of each mark shines through the bodies: less, the more there are, and nothing of very many.
+/// Opacity of marks that are hidden by bodies: smaller for more marks, 0 for very many.
 double through(std::size_t marks) {
   constexpr double most = 0.45, in_all = 30, least = 0.05;
   const double share = std::min(most, in_all / double(std::max<std::size_t>(marks, 1)));
@@ -92,7 +92,8 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Look& look, 
   glDepthMask(GL_FALSE);
   for (std::size_t i = 0; i < planes_.size() && look.floor; ++i) {
     const Plane& plane = planes_[i];
-    if (plane.normal.dot(view.eye) <= plane.offset) continue;  // seen from within: it would hide everything
+    if (plane.normal.dot(view.eye) <= plane.offset)
+      continue;  // the eye is inside, where the plane would hide everything
     floor_.draw_floor(view, planes_, i);
     if (look.shadows) bodies_.draw_shadows(view, plane.normal, plane.offset, 6 * cast_.typical_radius);
   }
@@ -105,7 +106,8 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Look& look, 
   if (look.cells) marks_.add_cells(frame, view);
   if (look.trails) marks_.add_trails(past.trails, view);
   if (look.axes) marks_.add_axes(frame, cast_, view);
-  const double thick = 0.032 * cast_.typical_radius, thin = 0.7 * thick;  // both seen where one lies within the other
+  const double thick = 0.032 * cast_.typical_radius,
+               thin = 0.7 * thick;  // both are visible if one lies within the other
   for (const FrameBody& body : frame.bodies) {
     if (look.angular_velocity) {
       const Vector3<double> way = angular_velocity_arrow(body, cast_, scales_);
@@ -147,7 +149,7 @@ void Renderer::draw_polhode(const Frame& frame, const Camera& camera, const Look
   if (!shown) return;
   const Rectangle inset = polhode_area(area, look);
   clip_to(inset);
-  double reach = look.poinsot ? 1.55 : 1;  // the plane's corners
+  double reach = look.poinsot ? 1.55 : 1;  // includes the corners of the plane
   for (const Vector3<double>& omega : past.polhode) reach = std::max(reach, omega.norm() / shown->unit);
   polhode_reach_ = std::isfinite(reach) ? reach : 1;
   const ViewState view(PolhodePass::camera(camera, polhode_reach_), inset, look.line_scale);

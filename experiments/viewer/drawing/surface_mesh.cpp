@@ -13,7 +13,7 @@ using Key = std::array<float, 3>;
 
 Key key(const Vector3<float>& x) { return {x[0] + 0.0f, x[1] + 0.0f, x[2] + 0.0f}; }  // −0 is 0
 
-/// What stands on one side of an edge: the normals at its ends, in the order of the ends.
+/// One side of an edge: the normals at its ends, in the order of the ends.
 struct Side {
   std::array<Vector3<float>, 2> normals;
 };

@@ -11,7 +11,7 @@ namespace {
 
 ImU32 colour(Colour c) { return IM_COL32(c.red, c.green, c.blue, c.alpha); }
 
-/// On a pale ground, so that it is read over anything.
+/// Draws a text on a pale background, so that it is legible over any picture.
 void write(float left, float upper, const std::string& text, Colour ink) {
   ImDrawList* list = ImGui::GetBackgroundDrawList();
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
@@ -27,7 +27,7 @@ std::string state_of(const View& view) {
   return {};
 }
 
-/// The deepest contact, where the run paused at a collision.
+/// Text about the deepest contact of a run that paused at a collision.
 std::string collision(const View& view) {
   if (!view.status.paused_at_collision || view.frame.contacts.empty()) return {};
   const auto deepest = std::max_element(view.frame.contacts.begin(), view.frame.contacts.end(),
@@ -52,7 +52,7 @@ void write_captions(Stage& stage, const std::vector<Label>& labels, const Rectan
     for (const std::string& text : {collision(view), state_of(view)}) {
       if (!text.empty()) write(left, upper += line, text, colours::normal);
     }
-    if (k > 0) {  // a line between the parts
+    if (k > 0) {  // a line between the rectangles of the runs
       ImDrawList* list = ImGui::GetBackgroundDrawList();
       const float from = float(picture_height - part.bottom - part.height), to = float(picture_height - part.bottom);
       list->AddLine({float(part.left), from}, {float(part.left), to}, IM_COL32(120, 128, 140, 255), 1.5F);

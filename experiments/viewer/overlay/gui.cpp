@@ -11,7 +11,7 @@
 namespace polhode::viewer::inline overlay {
 namespace {
 
-/// The font of the figures too, where it is installed.
+/// The font, used if it is installed; it is that of the figures too.
 constexpr const char* font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr float font_size = 15;
 constexpr ImWchar glyphs[] = {0x20,   0xff,   0x370,  0x3ff,  0x2010, 0x2027, 0x2070, 0x209f,

@@ -26,7 +26,7 @@ bool check(Controls& controls, const char* label, const char* name, bool& value)
   return changed;
 }
 
-/// A list to choose from; true where `value` is another one now.
+/// Draws a list of names. True if it has changed the value.
 bool choose(Controls& controls, const char* label, const std::string& name, const std::vector<std::string>& items,
             std::string& value) {
   bool changed = false;
@@ -48,7 +48,7 @@ bool choose(Controls& controls, const char* label, const std::string& name, cons
   return changed;
 }
 
-/// A positive number, taken with Enter.
+/// Draws a field for a positive number, which is set by Enter. True if it has changed the value.
 bool enter(Controls& controls, const char* label, const char* name, double& value) {
   double typed = value;
   const bool entered = ImGui::InputDouble(label, &typed, 0, 0, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue);

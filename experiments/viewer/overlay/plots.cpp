@@ -12,7 +12,7 @@
 namespace polhode::viewer::inline overlay {
 namespace {
 
-/// Okabe and Ito's, as in the figures of a study.
+/// Colours by Okabe and Ito, as in the figures of a study.
 constexpr std::array<ImU32, 6> runs = {IM_COL32(0, 114, 178, 255), IM_COL32(213, 94, 0, 255),
                                        IM_COL32(0, 158, 115, 255), IM_COL32(204, 121, 167, 255),
                                        IM_COL32(230, 159, 0, 255), IM_COL32(0, 0, 0, 255)};
@@ -39,7 +39,7 @@ struct Range {
     high = std::max(high, x);
   }
   bool empty() const { return !(low <= high); }
-  /// Never of no height, so that a constant is a line in the middle.
+  /// The range is never empty, so that a constant is a line in the middle.
   void widen() {
     const double least = std::max(std::abs(low), std::abs(high)) * 1e-12;
     if (high - low > least) return;
@@ -77,7 +77,8 @@ void plot(Stage& stage, const Quantity& quantity, ImVec2 from, ImVec2 to) {
     for (const PlotPoint& p : view.plot) {
       if (const double x = of(p); std::isfinite(x)) curve.push_back(place(p.t, x));
     }
-    for (std::size_t i = 1; i < curve.size(); ++i) list->AddLine(curve[i - 1], curve[i], colour, thick);  // no mitres
+    for (std::size_t i = 1; i < curve.size(); ++i)
+      list->AddLine(curve[i - 1], curve[i], colour, thick);  // segments, without mitres
   };
   for (std::size_t k = 0; k < stage.size(); ++k) {
     const View& view = *stage.views()[k];

@@ -32,8 +32,8 @@ bool has_x264(const std::filesystem::path& path) {
   return asked->wait().printed.find(" libx264 ") != std::string::npos;
 }
 
-/// Whether the boxes of an MP4 file (ISO/IEC 14496-12, 4.2) end where the file does, with pictures and their index
-/// among them: on a full disk ffmpeg may end well without them.
+/// True if the MP4 file is complete: its boxes (ISO/IEC 14496-12, 4.2) end at the end of the file and include the
+/// pictures and their index. On a full disk ffmpeg may report success for an incomplete file.
 bool is_whole(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::error_code error;
@@ -74,9 +74,9 @@ Film::Film(std::filesystem::path path, int width, int height, int pictures_a_sec
   const auto add = [&](std::vector<std::string> more) { command.insert(command.end(), more.begin(), more.end()); };
   add({"-f", "rawvideo", "-pix_fmt", "rgb24", "-video_size", fmt::format("{}x{}", width, height)});
   add({"-framerate", std::to_string(pictures_a_second), "-i", "pipe:0"});
-  // Halved colours want even edges.
+  // Colours at half the resolution require even width and height.
   add({"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"});
-  // With another number of threads libx264 writes other bytes.
+  // The bytes that libx264 writes depend on the number of threads.
   if (has_x264(path_)) {
     add({"-c:v", "libx264", "-preset", "medium", "-crf", "18", "-threads", "4"});
   } else {

@@ -21,7 +21,7 @@ constexpr const char* remedy = "install libegl1 and libgl1-mesa-dri (Mesa's soft
   throw std::runtime_error(fmt::format("cannot draw without a display: {}; {}", what, remedy));
 }
 
-/// The first display that can be initialised, of those that need no window system first.
+/// The first display that can be initialised; those without a window system are tried first.
 EGLDisplay find_display() {
   const auto usable = [](EGLDisplay display) {
     return display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr) == EGL_TRUE;
@@ -54,7 +54,7 @@ struct Offscreen::Context {
   EGLContext context = EGL_NO_CONTEXT;
 
   Context() {
-    ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // what is wrong is said once, by us
+    ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // errors are reported once, by the exception
     display = find_display();
     if (display == EGL_NO_DISPLAY) fail("EGL offers no display");
     try {
@@ -90,7 +90,7 @@ struct Offscreen::Context {
     if (eglMakeCurrent(display, surface, surface, context) != EGL_TRUE) fail("the context cannot be made current");
   }
 
-  /// The display stays initialised: it is one for the whole program, and other contexts may be on it.
+  /// The display stays initialised: the whole program shares it, and other contexts may use it.
   void end() {
     eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);

@@ -31,7 +31,7 @@ int show_offscreen(StageSetup setup, const OffscreenSettings& settings) {
   stage.want();
   stage.each([&](Session& s) { s.pause_on_collision(settings.pause_on_collision); });
   stage.each([](Session& s) { s.play(); });
-  const auto go_on = [&](double seconds) {  // by pieces that no session lets go of
+  const auto go_on = [&](double seconds) {  // in parts so short that no session drops time
     constexpr double piece = 0.25;
     for (double left = seconds; left > 0; left -= piece) {
       stage.tick(std::min(left, piece));

@@ -15,7 +15,7 @@ namespace {
 
 using study::rounded;
 
-/// The first name of a session that is not taken.
+/// The first session_N.toml that does not exist.
 std::filesystem::path free_name(const std::filesystem::path& folder) {
   for (int n = 1;; ++n) {
     std::filesystem::path name = folder / fmt::format("session_{}.toml", n);
@@ -23,7 +23,7 @@ std::filesystem::path free_name(const std::filesystem::path& folder) {
   }
 }
 
-/// The run that a study kept there, by its method and step; of any other file its folder's name.
+/// Method and step of the run, for a trajectory in the folder of a study; otherwise the name of its folder.
 std::string title_of(const std::filesystem::path& trajectory) {
   const std::filesystem::path folder = std::filesystem::absolute(trajectory).parent_path();
   const std::filesystem::path table = folder.parent_path().parent_path() / "runs.csv";
@@ -106,7 +106,7 @@ std::string Stage::finish() {
 }
 
 void Stage::want() {
-  constexpr std::size_t most_trails = 12;  // more of them hide the bodies
+  constexpr std::size_t most_trails = 12;  // more would hide the bodies
   Wanted wanted;
   wanted.contacts = look.contacts;
   wanted.cells = cells;

@@ -17,12 +17,12 @@
 namespace polhode::viewer::inline window {
 namespace {
 
-/// How many words stand after each.
+/// Commands with the numbers of arguments that they take.
 const std::map<std::string, std::vector<std::size_t>> commands = {
     {"click", {1}},     {"choose", {2}}, {"drag", {2}}, {"type", {2}},    {"wait", {1}},  {"until", {1, 2}},
     {"expect", {2, 3}}, {"pull", {2}},   {"key", {1}},  {"picture", {1}}, {"places", {1}}};
 const std::map<std::string, int> keys = {{"space", GLFW_KEY_SPACE}, {"right", GLFW_KEY_RIGHT}, {"home", GLFW_KEY_HOME}};
-constexpr int most_frames = 20000;  // of waiting
+constexpr int most_frames = 20000;  // longest wait
 
 }  // namespace
 
@@ -128,7 +128,7 @@ void Script::take(Stage& stage, Controls& controls) {
     inputs_.pop_back();
     Input again = inputs_.back();
     again.pressed = true;
-    inputs_.push_back(again);  // the second of a double click, which selects all
+    inputs_.push_back(again);  // the second click of a double click, which selects all
     again.pressed = false;
     inputs_.push_back(again);
     again.typed = w[2];
@@ -176,7 +176,7 @@ void Script::take(Stage& stage, Controls& controls) {
 std::string Script::value(Stage& stage, const std::string& of) const {
   std::size_t k = 0;
   std::string name = of;
-  if (of.size() > 2 && of[of.size() - 2] == '#') {  // t#2: of the second run
+  if (of.size() > 2 && of[of.size() - 2] == '#') {  // t#2: time of the second run
     k = std::size_t(of.back() - '1');
     name = of.substr(0, of.size() - 2);
   }

@@ -35,7 +35,7 @@ std::string glfw_fault;
 /// A window with a context of OpenGL 3.3.
 class Window {
  public:
-  /// `samples` a pixel; none: 4, or 1 where the processor draws.
+  /// samples: number for each pixel; absent: 4, or 1 with a software renderer.
   Window(int width, int height, std::optional<int> samples) {
     glfwSetErrorCallback([](int, const char* text) { glfw_fault = text; });
     if (!glfwInit()) fail("no display");
@@ -45,7 +45,7 @@ class Window {
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
     glfwWindowHint(GLFW_STENCIL_BITS, 8);
     open(width, height, samples.value_or(4));
-    if (!samples && draws_in_software()) {  // several samples a pixel cost a processor three times as much
+    if (!samples && draws_in_software()) {  // several samples for each pixel triple the time of a software renderer
       glfwDestroyWindow(window_);
       open(width, height, 1);
     }
@@ -91,7 +91,7 @@ Picture read_window(int width, int height) {
   return picture;
 }
 
-/// The mouse moves the camera, keys the time, where no control takes them.
+/// Applies mouse and keys that no control uses: the mouse moves the camera, keys change the time.
 void steer(Stage& stage) {
   const ImGuiIO& io = ImGui::GetIO();
   if (!io.WantCaptureMouse) {
@@ -112,7 +112,7 @@ void steer(Stage& stage) {
   if (ImGui::IsKeyPressed(GLFW_KEY_HOME, false)) stage.each([](Session& s) { s.reset(); });
 }
 
-/// One window over one stage after another.
+/// A window that shows one stage after another.
 class Show {
  public:
   Show(StageSetup setup, const WindowSettings& settings)
@@ -210,7 +210,7 @@ class Show {
     if (wishes.scenario) other(*wishes.scenario);
   }
 
-  /// Of the frame drawn last.
+  /// Writes the places of the bodies in the last frame, and their colours.
   void write_places(const std::filesystem::path& file) const {
     std::string csv = "run,body,x_px,y_px,red,green,blue\n";
     for (std::size_t k = 0; k < stage_->size(); ++k) {
@@ -253,8 +253,8 @@ class Show {
   std::unique_ptr<StagePainter> painter_;
   std::filesystem::path picture_;
   std::string unwritten_;  ///< the first file that could not be written, and why
-  Rectangle area_;         ///< where the runs were drawn last
-  int height_ = 0;         ///< px, of the picture
+  Rectangle area_;         ///< rectangle in which the runs were drawn last
+  int height_ = 0;         ///< height of the picture, pixels
 };
 
 }  // namespace
