@@ -130,12 +130,7 @@ class Report {
   }
 
   static std::string joined(std::vector<std::string> items) {
-    if (items.size() > most_items) {
-      const auto rest = items.size() - most_items;
-      items.resize(most_items);
-      items.push_back(fmt::format("{} more", rest));
-    }
-    return fmt::format("{}", fmt::join(items, "; "));
+    return fmt::format("{}", fmt::join(first_items(std::move(items), most_items), "; "));
   }
 
   std::vector<std::string> sentences() const {

@@ -117,12 +117,7 @@ class Orders {
       if (o.verdict != verdict || o.curve->adaptive == against_step) continue;
       items.push_back(fmt::format("{} ({}{})", label(o), observed(o), against_step ? ", declared " + declared(o) : ""));
     }
-    if (items.size() > most_items) {
-      const auto rest = items.size() - most_items;
-      items.resize(most_items);
-      items.push_back(fmt::format("{} more", rest));
-    }
-    return words(items);
+    return words(first_items(std::move(items), most_items));
   }
 
   /// "At round-off at every step or tolerance on peters_hsu, position: rk4 and heun."
@@ -136,12 +131,8 @@ class Orders {
     }
     std::vector<std::string> all;
     for (auto& [place, labels] : places) {
-      if (labels.size() > most_items) {
-        const auto rest = labels.size() - most_items;
-        labels.resize(most_items);
-        labels.push_back(fmt::format("{} more", rest));
-      }
-      all.push_back(fmt::format("At round-off at every step or tolerance on {}: {}.", place, words(labels)));
+      all.push_back(fmt::format("At round-off at every step or tolerance on {}: {}.", place,
+                                words(first_items(std::move(labels), most_items))));
     }
     return all;
   }

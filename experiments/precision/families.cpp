@@ -188,6 +188,18 @@ std::optional<Split> split(const Family& family, const Quantity& quantity) {
   return found;
 }
 
+std::vector<PathPoint> energy_path(const RunRecord& run) {
+  std::vector<PathPoint> path;
+  for (const auto& p : run.result.series) path.push_back({p.t, p.energy_drift_rel});
+  return path;
+}
+
+std::vector<PathPoint> attitude_path(const RunRecord& run) {
+  std::vector<PathPoint> path;
+  for (const auto& p : run.result.attitude_errors) path.push_back({p.t, p.error_rad});
+  return path;
+}
+
 bool is_rounding(const Rung::Run& run) {
   if (run.exact == nullptr || !completed(*run.run) || !completed(*run.exact)) return false;
   const auto drift = run.run->result.energy_drift_max_rel, exact = run.exact->result.energy_drift_max_rel;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/precision/growth_estimate.hpp"
 #include "experiments/study/curves/curves.hpp"
 #include "experiments/study/statistics/order_estimate.hpp"
 
@@ -59,6 +60,11 @@ struct Split {
 };
 /// The errors of a family. Absent if the quantity is not measured.
 std::optional<Split> split(const Family& family, const Quantity& quantity);
+
+/// The relative energy drift of a run against time.
+std::vector<PathPoint> energy_path(const RunRecord& run);
+/// The attitude error (rad) of a run against time.
+std::vector<PathPoint> attitude_path(const RunRecord& run);
 
 /// True if the energy drift of this run is due to rounding: more than ten times that of its counterpart, and more than
 /// ten times the error of its measurement in double.

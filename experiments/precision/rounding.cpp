@@ -41,17 +41,6 @@ struct Rise {
   std::optional<GrowthEstimate> energy, attitude;
 };
 
-std::vector<PathPoint> energy_path(const RunRecord& run) {
-  std::vector<PathPoint> path;
-  for (const auto& p : run.result.series) path.push_back({p.t, p.energy_drift_rel});
-  return path;
-}
-std::vector<PathPoint> attitude_path(const RunRecord& run) {
-  std::vector<PathPoint> path;
-  for (const auto& p : run.result.attitude_errors) path.push_back({p.t, p.error_rad});
-  return path;
-}
-
 Rise rise_of(const RoundingProblem& problem, const Family& family) {
   std::vector<double> energy, attitude;
   for (const Rung& rung : family.rungs) {

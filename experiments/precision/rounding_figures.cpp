@@ -108,17 +108,7 @@ const Rung* largest_in_rounding(const Family& family, bool (*is_rounding)(const 
   return rung == family.rungs.end() ? nullptr : &*rung;
 }
 
-using Path = std::vector<std::pair<double, double>>;
-Path energies(const RunRecord& run) {
-  Path path;
-  for (const auto& p : run.result.series) path.emplace_back(p.t, p.energy_drift_rel);
-  return path;
-}
-Path attitudes(const RunRecord& run) {
-  Path path;
-  for (const auto& p : run.result.attitude_errors) path.emplace_back(p.t, p.error_rad);
-  return path;
-}
+using Path = std::vector<PathPoint>;
 
 /// Root mean square over the starts, at times a factor √2 apart. Empty if the runs were observed at different numbers
 /// of times.
@@ -132,10 +122,10 @@ std::vector<Point> spread(const Rung& rung, Path (*path_of)(const RunRecord&)) {
   }
   double next = 0;
   for (std::size_t i = 1; i < n; ++i) {
-    const double t = paths.front()[i].first;
+    const double t = paths.front()[i].t;
     if (!(t >= next)) continue;
     double square = 0;
-    for (const auto& path : paths) square += path[i].second * path[i].second / static_cast<double>(paths.size());
+    for (const auto& path : paths) square += path[i].value * path[i].value / static_cast<double>(paths.size());
     if (square > 0) points.push_back({t, std::sqrt(square), 0, Mark::value});
     next = t * std::sqrt(2.0) * (1 - 1e-9);
   }
@@ -217,10 +207,11 @@ std::vector<Figure> rounding_figures(const std::vector<RoundingProblem>& problem
                     "Root mean square over the starts, at the largest step at which the error of every run is "
                     "rounding. A random walk of the energy is parallel to √t, and the attitude that follows from it to "
                     "t to the 3/2."};
-  auto energy = growth_panels(shown, "energy drift (relative)", "energy_drift_rel", energies, precision::is_rounding);
+  auto energy =
+      growth_panels(shown, "energy drift (relative)", "energy_drift_rel", energy_path, precision::is_rounding);
   add_time_guides(energy, 0.5, "t^{1/2}");
-  auto attitude =
-      growth_panels(shown, "attitude error (rad)", "attitude_error_rad", attitudes, precision::is_rounding_in_attitude);
+  auto attitude = growth_panels(shown, "attitude error (rad)", "attitude_error_rad", attitude_path,
+                                precision::is_rounding_in_attitude);
   add_time_guides(attitude, 1.5, "t^{3/2}");
   if (!energy.empty()) add_rows(growth, std::move(energy), most_problems);
   if (!attitude.empty()) add_rows(growth, std::move(attitude), most_problems);

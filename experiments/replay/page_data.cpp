@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "experiments/study/plot/figure_style.hpp"
 #include "experiments/study/text/notation.hpp"
@@ -15,27 +16,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 static_assert(std::endian::native == std::endian::little, "typed arrays of a browser are little-endian");
 
-/// Base64 of the bytes (RFC 4648, section 4).
-std::string base64(std::span<const unsigned char> bytes) {
-  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t three = std::uint32_t(bytes[i]) << 16;
-    if (n > 1) three |= std::uint32_t(bytes[i + 1]) << 8;
-    if (n > 2) three |= bytes[i + 2];
-    text += digits[three >> 18];
-    text += digits[three >> 12 & 63];
-    text += n > 1 ? digits[three >> 6 & 63] : '=';
-    text += n > 2 ? digits[three & 63] : '=';
-  }
-  return text;
-}
-
 template <class T>
 std::string packed(const std::vector<T>& numbers) {
-  return base64({reinterpret_cast<const unsigned char*>(numbers.data()), numbers.size() * sizeof(T)});
+  return base64(std::string_view(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(T)));
 }
 
 std::vector<float> singles(const std::vector<double>& numbers) { return {numbers.begin(), numbers.end()}; }

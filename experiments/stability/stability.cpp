@@ -188,14 +188,7 @@ class Stability {
 
   // In words.
 
-  static std::string listed(std::vector<std::string> items) {
-    if (items.size() > most_items) {
-      const auto rest = items.size() - most_items;
-      items.resize(most_items);
-      items.push_back(fmt::format("{} more", rest));
-    }
-    return words(items);
-  }
+  static std::string listed(std::vector<std::string> items) { return words(first_items(std::move(items), most_items)); }
 
   /// The findings of one method in one variant on one scenario; several if keys of the scenario are varied.
   struct Group {

@@ -8,10 +8,10 @@
 #include <set>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 
 #include "collision/narrow_phase.hpp"
 #include "collision/shapes/half_space.hpp"
+#include "tests/collision/narrow/manifold_parts.hpp"
 #include "tests/laws/shape_pairs.hpp"
 
 namespace polhode {
@@ -40,12 +40,6 @@ double outside(const Shape& shape, const Pose& pose, const Vector& point) {
   return most;
 }
 
-double deepest(const Manifold& m) {
-  double depth = m.points[0].depth;
-  for (std::size_t k = 1; k < m.count; ++k) depth = std::max(depth, m.points[k].depth);
-  return depth;
-}
-
 void check(const NarrowPhase& narrow, const ShapePair& p, double margin) {
   const Distance d = narrow.distance(*p.a, p.at_a, *p.b, p.at_b);
   const Manifold m = narrow.manifold(*p.a, p.at_a, *p.b, p.at_b, margin);
@@ -53,7 +47,7 @@ void check(const NarrowPhase& narrow, const ShapePair& p, double margin) {
   const double slack = (p.round ? 1e-6 : 1e-9) * p.scale;
   ASSERT_LE(m.count, Manifold::capacity);
   ASSERT_GE(deepest(m), d.distance > 0 ? -margin * (1 + 1e-9) : -d.distance - slack);
-  std::set<std::tuple<Feature::Kind, std::uint32_t, std::uint32_t>> names;
+  std::set<FeatureName> names;
   // A point is no better than the witnesses of the distance, where it is made of them.
   const double witnesses = (d.on_a - d.on_b - d.distance * d.normal).norm();
   for (std::size_t i = 0; i < m.count; ++i) {

@@ -11,6 +11,7 @@
 #include "collision/shapes/half_space.hpp"
 #include "collision/shapes/shape_catalogue.hpp"
 #include "core/problem/inertia.hpp"
+#include "tests/collision/shapes/corner_obj.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace polhode::laws {
@@ -26,28 +27,15 @@ struct Sample {
   bool (*holds)(const Vector&, double slack);
 };
 
-/// Written where the test runs: an L of two cuboids, 3 × 1 × 1 and 1 × 1 × 2 above its end; and a pyramid.
+/// The file of a pyramid, or of the L of write_corner_obj().
 std::string obj_file(bool pyramid) {
   static const TemporaryFolder folder;
   const std::string path = (folder.path() / (pyramid ? "pyramid.obj" : "corner.obj")).string();
-  std::ofstream file(path);
   if (pyramid) {
-    file << "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 0 0 3\nv 0 0 1 # inside\n";
-    return path;
+    std::ofstream(path) << "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 0 0 3\nv 0 0 1 # inside\n";
+  } else {
+    write_corner_obj(path);
   }
-  const auto cuboid = [&](const char* name, int base, const Vector& low, const Vector& high) {
-    file << "o " << name << "\n";
-    for (int k = 0; k < 8; ++k) {
-      for (int i = 0; i < 3; ++i) file << (i ? " " : "v ") << (k >> i & 1 ? high[i] : low[i]);
-      file << "\n";
-    }
-    for (const auto& f :
-         {std::array{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
-      file << "f " << base + f[0] << " " << base + f[1] << " " << base + f[2] << " " << base + f[3] << "\n";
-    }
-  };
-  cuboid("foot", 1, {0, 0, 0}, {3, 1, 1});
-  cuboid("post", 9, {2, 0, 1}, {3, 1, 3});
   return path;
 }
 

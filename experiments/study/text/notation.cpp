@@ -82,6 +82,14 @@ std::string words(const std::vector<std::string>& items) {
   return out;
 }
 
+std::vector<std::string> first_items(std::vector<std::string> items, std::size_t most) {
+  if (items.size() <= most) return items;
+  const std::size_t rest = items.size() - most;
+  items.resize(most);
+  items.push_back(fmt::format("{} more", rest));
+  return items;
+}
+
 std::string html(std::string_view text) {
   return escaped(text, [](char c) -> std::string_view {
     switch (c) {

@@ -29,6 +29,9 @@ std::string count(std::size_t n, std::string_view noun);
 /// "a", "a and b", "a, b and c".
 std::string words(const std::vector<std::string>& items);
 
+/// The first `most` items and "3 more"; all items if they are not more than `most`.
+std::vector<std::string> first_items(std::vector<std::string> items, std::size_t most);
+
 std::string html(std::string_view text);
 std::string markdown(std::string_view text);  ///< for a cell of a table
 std::string tex(std::string_view text);

@@ -6,11 +6,11 @@
 
 #include <numbers>
 #include <set>
-#include <tuple>
 
 #include "collision/shapes/box.hpp"
 #include "core/math/portable_random.hpp"
 #include "experiments/narrow_phase/box_pairs.hpp"
+#include "tests/collision/narrow/manifold_parts.hpp"
 
 namespace polhode {
 namespace {
@@ -29,24 +29,11 @@ Manifold manifold(const PosedBox& a, const PosedBox& b, double margin = 0) {
   return boxes_manifold(at(a), at(b), margin);
 }
 
-std::set<std::tuple<Kind, std::uint32_t, std::uint32_t>> names(const Manifold& m) {
-  std::set<std::tuple<Kind, std::uint32_t, std::uint32_t>> all;
-  for (std::size_t k = 0; k < m.count; ++k)
-    all.insert({m.points[k].feature.kind, m.points[k].feature.of_a, m.points[k].feature.of_b});
-  return all;
-}
-
-double deepest(const Manifold& m) {
-  double depth = -1e300;
-  for (std::size_t k = 0; k < m.count; ++k) depth = std::max(depth, m.points[k].depth);
-  return depth;
-}
-
 TEST(BoxManifold, TiltedCubesKeepAFourPointFaceContact) {
   const Vector axes[] = {Vector(1, 1, 1).normalized(), Vector::UnitX(), Vector::UnitZ(),
                          Vector(1, 0.2, -0.7).normalized()};
   for (const Vector& axis : axes) {
-    std::set<std::tuple<Kind, std::uint32_t, std::uint32_t>> before;
+    std::set<FeatureName> before;
     for (double tilt = 0; tilt <= 0.05001; tilt += 0.0005) {
       const Manifold m = manifold(cube(0.5, {0, 0, 0}), cube(0.5, {0.1, 0.99, 0.05}, tilt * axis));
       ASSERT_EQ(m.count, 4u) << tilt << " about " << axis.transpose();

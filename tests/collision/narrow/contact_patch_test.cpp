@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 #include <set>
-#include <tuple>
 #include <vector>
 
 #include "collision/shapes/box.hpp"
@@ -18,13 +17,13 @@
 #include "collision/shapes/half_space.hpp"
 #include "core/math/portable_random.hpp"
 #include "core/math/quaternion.hpp"
+#include "tests/collision/narrow/manifold_parts.hpp"
 
 namespace polhode {
 namespace {
 
 using Vector = Vector3<double>;
 using Kind = Feature::Kind;
-using Name = std::tuple<Kind, std::uint32_t, std::uint32_t>;
 
 const NarrowPhase& phase(const char* name) {
   static const auto gjk = find_narrow_phase("gjk")->make(), sat = find_narrow_phase("sat")->make();
@@ -34,19 +33,6 @@ const NarrowPhase& gjk() { return phase("gjk"); }
 
 Pose at(const Vector& position, const Vector& turn = Vector::Zero()) {
   return {position, rotation_matrix<double>(quaternion_from_rotation_vector<double>(turn))};
-}
-
-std::set<Name> names(const Manifold& m) {
-  std::set<Name> all;
-  for (std::size_t k = 0; k < m.count; ++k)
-    all.insert({m.points[k].feature.kind, m.points[k].feature.of_a, m.points[k].feature.of_b});
-  return all;
-}
-
-double deepest(const Manifold& m) {
-  double depth = -1e300;
-  for (std::size_t k = 0; k < m.count; ++k) depth = std::max(depth, m.points[k].depth);
-  return depth;
 }
 
 /// Whether some point of the manifold is there.
@@ -88,7 +74,7 @@ TEST(ContactPatch, WhatStandsOnAFloorTouchesWithAllItsCorners) {
   }
   EXPECT_EQ(
       names(of_box),
-      (std::set<Name>{
+      (std::set<FeatureName>{
           {Kind::vertex_face, 0, 0}, {Kind::vertex_face, 1, 0}, {Kind::vertex_face, 2, 0}, {Kind::vertex_face, 3, 0}}));
   const Manifold of_hull = gjk().manifold(floor, {}, hull, at({5, 6, 0.9}));
   ASSERT_EQ(of_hull.count, 4u);
@@ -168,7 +154,7 @@ TEST(ContactPatch, TiltedCubesKeepAFourPointFaceContact) {
   for (const char* name : {"gjk", "sat"}) {
     for (const Vector& axis : {Vector(1, 0, 0), Vector(0, 0, 1), Vector(1, 0, 1).normalized().eval(),
                                Vector(1, 0.2, -0.7).normalized().eval()}) {
-      std::set<Name> before;
+      std::set<FeatureName> before;
       for (double tilt = 0; tilt <= 0.05001; tilt += 0.0005) {
         const Manifold m = phase(name).manifold(cube, {}, cube, at({0.1, 0.99, 0.05}, tilt * axis));
         ASSERT_EQ(m.count, 4u) << name << tilt << " about " << axis.transpose();
@@ -237,7 +223,7 @@ TEST(ContactPatch, ACapsuleLiesOnABoxWithTwoPoints) {
   ASSERT_EQ(whole.count, 2u);
   EXPECT_TRUE(has(whole, {0, 0, 0.995}, 1e-9));
   EXPECT_TRUE(has(whole, {2, 0, 0.995}, 1e-9));
-  EXPECT_EQ(names(whole), (std::set<Name>{{Kind::face_vertex, 5, 0}, {Kind::face_vertex, 5, 1}}));
+  EXPECT_EQ(names(whole), (std::set<FeatureName>{{Kind::face_vertex, 5, 0}, {Kind::face_vertex, 5, 1}}));
   const Manifold beyond = gjk().manifold(table, {}, capsule, at({4.5, 0, 1.49}, on_side));
   ASSERT_EQ(beyond.count, 2u);
   EXPECT_TRUE(has(beyond, {3.5, 0, 0.995}, 1e-9));
@@ -289,7 +275,7 @@ TEST(ContactPatch, NamesStayWhileAPairSlides) {
                                                  {&cylinder, at({0.1, 0.1, 1.299})},
                                                  {&capsule, at({0.1, 0.1, 1.299}, on_side)}};
   for (const auto& [shape, start] : upper) {
-    std::set<Name> before;
+    std::set<FeatureName> before;
     for (int step = 0; step < 40; ++step) {
       Pose pose = start;
       pose.position += step * Vector(5e-4, 3e-4, 0);

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <fstream>
 #include <map>
 
 #include "collision/shapes/box.hpp"
@@ -14,6 +13,7 @@
 #include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/shape_inertia.hpp"
 #include "experiments/study/scenario/builtin_scenarios.hpp"
+#include "tests/collision/shapes/corner_obj.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace polhode::study {
@@ -21,24 +21,10 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// An L of two cuboids, 3 × 1 × 1 and 1 × 1 × 2 above its end.
 std::string obj_file() {
   static const TemporaryFolder folder;
   const std::string path = (folder.path() / "corner.obj").string();
-  std::ofstream file(path);
-  const auto cuboid = [&](const char* name, int base, const Vector& low, const Vector& high) {
-    file << "o " << name << "\n";
-    for (int k = 0; k < 8; ++k) {
-      for (int i = 0; i < 3; ++i) file << (i ? " " : "v ") << (k >> i & 1 ? high[i] : low[i]);
-      file << "\n";
-    }
-    for (const auto& f :
-         {std::array{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
-      file << "f " << base + f[0] << " " << base + f[1] << " " << base + f[2] << " " << base + f[3] << "\n";
-    }
-  };
-  cuboid("foot", 1, {0, 0, 0}, {3, 1, 1});
-  cuboid("post", 9, {2, 0, 1}, {3, 1, 3});
+  write_corner_obj(path);
   return path;
 }
 

@@ -143,9 +143,7 @@ std::string curve_label(const Grouping& grouping, const Curve& curve) {
 /// The first few items, and the number of those left out.
 std::string first_few(std::vector<std::string> items) {
   constexpr std::size_t most = 8;
-  const std::size_t rest = items.size() > most ? items.size() - most : 0;
-  if (rest > 0) items.resize(most), items.push_back(fmt::format("{} more", rest));
-  return words(items);
+  return words(first_items(std::move(items), most));
 }
 
 /// Sentences about methods whose quantity decreases more slowly than their order (or that there is none), and about
