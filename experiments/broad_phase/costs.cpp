@@ -53,6 +53,9 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+/// The measurement:
+/// 1. run(): for each number of bodies the mean and the median cost of a step, and a comparison of the pairs.
+/// 2. finish(): writes table, CSV, figure and report.
 class Measurement {
  public:
   explicit Measurement(const BroadPhaseOptions& options) : options_(options) {}

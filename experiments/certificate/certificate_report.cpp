@@ -63,6 +63,10 @@ std::string cell(const Finding& finding) {
   return text;
 }
 
+/// The analysis:
+/// 1. measures_of(): settings of the measurements, from the runs of the study.
+/// 2. certify(): for each method and formulation the traits, from the runs and from measurements of single steps.
+/// 3. analysis(): sentences, tables, certificate.csv; cost.csv from wall times.
 class Report {
  public:
   explicit Report(const StudyView& study)

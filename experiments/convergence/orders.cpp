@@ -36,6 +36,12 @@ Order order_of(const Curve& curve, const Quantity& quantity, std::optional<doubl
   return {&curve, quantity, declared, estimate, judge(estimate, declared)};
 }
 
+/// The analysis:
+/// 1. group(): curves of runs that differ only in the step or the tolerance.
+/// 2. add(): for each curve the observed order of the attitude and the position error, and its verdict beside the
+///    declared order.
+/// 3. drop_trivial(): removes the position errors of motions that every method computes exactly.
+/// 4. analysis(): sentences, the table of orders, orders.csv.
 class Orders {
  public:
   explicit Orders(const StudyView& study) : study_(study), grouping_(group(study)) {

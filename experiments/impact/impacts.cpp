@@ -77,6 +77,11 @@ std::optional<double> order(const std::vector<Errors>& all, std::optional<double
   return std::isfinite(slope) ? std::optional(slope) : std::nullopt;
 }
 
+/// The analysis:
+/// 1. Time of the first impact of each motion, from the run that replaces the exact solution (exact_impacts()).
+/// 2. add(): errors of every other run: time of the first impact, energy, momenta.
+/// 3. Curves: the errors by motion, method, response and timing, smallest step first.
+/// 4. analysis(): sentences, table, impacts.csv and figures.
 class Impacts {
  public:
   explicit Impacts(const StudyView& study) {

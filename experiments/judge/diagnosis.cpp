@@ -214,20 +214,24 @@ std::optional<Diagnosis> verdict_without_start(RowStates& rows, Hypothesis& plai
 }  // namespace
 
 Diagnosis diagnose(const Trajectory& trajectory, const Scenario& scenario, const TrajectoryScore& plain_score) {
+  // 1. Whether the columns of the file suffice for hypotheses.
   RowStates rows(trajectory, scenario);
   if (std::string why = obstacle(rows); !why.empty()) {
     Diagnosis none;
     none.untried = std::move(why);
     return none;
   }
+  // 2. The miss of the plain reading, and the hypotheses that explain it.
   const RunResult& errors = plain_score.record.result;
   Hypothesis plain;
   plain.problem = scenario.problem;
   plain.miss = miss_of(rows, plain);
   Diagnosis result = verdict(rows, plain, errors);
+  // 3. Rows that no hypothesis explains may start elsewhere than the scenario.
   if (result.name == "none" || result.name == "unexplained") {
     if (auto elsewhere = verdict_without_start(rows, plain, errors)) return *elsewhere;
   }
+  // 4. In a right motion the file's own columns of momentum and energy may be wrong.
   if (result.name == "none") {
     if (auto fault = own_column_fault(rows)) {
       result.name = fault->name;

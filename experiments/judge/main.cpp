@@ -57,6 +57,7 @@ std::vector<Judged> judged_of(const JudgeOptions& options, const Scenario& scena
 }
 
 int judge(const JudgeOptions& options) {
+  // 1. Scores and diagnoses of the trajectories.
   StudyView view;
   view.experiment = "judge";
   view.question = judge_question;
@@ -66,6 +67,7 @@ int judge(const JudgeOptions& options) {
   view.invariants = scenario.invariants;
   std::sort(view.invariants.begin(), view.invariants.end());
   const auto judged = judged_of(options, scenario);
+  // 2. Each trajectory as a run of a study.
   Plan plan;
   std::set<std::string> ids;
   for (const Judged& one : judged) {
@@ -80,6 +82,7 @@ int judge(const JudgeOptions& options) {
     plan.identity += view.runs.back().id;
   }
   plan.identity = identity_of(plan.identity);
+  // 3. The files of the study.
   view.folder = options.out.empty()
                     ? std::filesystem::path("results") / ("judge-" + scenario.name + "-" + plan.identity.substr(0, 8))
                     : std::filesystem::path(options.out);
@@ -96,6 +99,7 @@ int judge(const JudgeOptions& options) {
     if (const std::string skipped = write_figures(view); !skipped.empty()) fmt::print(stderr, "judge: {}\n", skipped);
   }
   write_report(view);
+  // 4. The summary.
   auto& sentences = view.analysis->sentences;  // faults come first, above the table
   const auto rest = sentences.begin() + static_cast<std::ptrdiff_t>(judged.size());
   fmt::print("{}\n\n", fmt::join(sentences.begin(), rest, "\n"));

@@ -84,6 +84,7 @@ void compare_narrow_phases(const std::vector<const NarrowPhaseEntry*>& entries, 
                     {"distance", "ns"},
                     {"contacts", "ns"}},
                    {}};
+  // 1. For each class of pairs: errors and cost of each narrow phase.
   std::map<std::string, std::array<Range, 3>> ranges;
   BoxPairs make(seed);
   const std::size_t classes = box_pair_classes().size();
@@ -120,6 +121,7 @@ void compare_narrow_phases(const std::vector<const NarrowPhaseEntry*>& entries, 
       range[0].take(overlap_ns), range[1].take(distance_ns), range[2].take(manifold_ns);
     }
   }
+  // 2. Sentences, tables and files.
   for (const NarrowPhaseEntry* entry : entries) {
     const auto& [overlap, distance, manifold] = ranges[entry->name];
     analysis.timed.sentences.push_back(
@@ -142,6 +144,7 @@ void measure_course_report(std::size_t count, std::uint64_t seed, Analysis& anal
   constexpr int angles = 46;  // number of angles: 0 to 90 degrees in steps of 2
   const auto judge = find_narrow_phase("sat")->make(), course = find_narrow_phase("sat_course_report")->make();
   const Box cube(Vector3<double>::Constant(0.5));
+  // 1. At each angle: pairs that are apart, those called overlapping, and all overlaps that are reported.
   std::string csv =
       csv_row({"angle_deg", "pairs_apart", "called_overlapping", "share_of_pairs_apart", "share_of_overlaps_reported"});
   PlottedCurve of_apart{.label = "of the pairs that are apart"},
@@ -171,6 +174,7 @@ void measure_course_report(std::size_t count, std::uint64_t seed, Analysis& anal
       worst_angle = angle_deg;
     }
   }
+  // 2. Sentence, file and figure.
   analysis.sentences.push_back(
       fmt::format("sat_course_report calls up to {} % of the pairs of cubes that are apart, and whose "
                   "surrounding spheres meet, overlapping: at a turn of {} degrees about a random axis.",

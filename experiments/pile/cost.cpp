@@ -33,6 +33,10 @@ Key key_of(const RunConfig& c) {
           c.contact->response, c.contact->impact_timing, fmt::format("h = {} s", number(*c.dt))};
 }
 
+/// The analysis:
+/// 1. The parts of the key that differ between runs, for the names of curves.
+/// 2. Curves: completed runs by key, smallest pile first; other runs with the reason.
+/// 3. analysis(): sentences, table, piles.csv, figure; wall times apart in Analysis::timed.
 class Piles {
  public:
   explicit Piles(const StudyView& study) {

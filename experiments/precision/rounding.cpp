@@ -62,6 +62,12 @@ std::string words_of(const Quantity& quantity) {
 }
 std::string between(const GrowthEstimate& e) { return fmt::format("{:.2f} ± {:.2f}", e.exponent, e.half_width_95); }
 
+/// The analysis:
+/// 1. problems_of(): runs by problem, arithmetic and step, each with its counterpart in the highest precision.
+/// 2. split(): rounding and truncation errors of each ladder of steps.
+/// 3. rise_of(): growth in time of the errors in which rounding dominates.
+/// 4. drop_trivial_positions(): removes the position errors of bodies at rest.
+/// 5. analysis(): sentences, tables, figures, rounding.csv and growth.csv.
 class Rounding {
  public:
   explicit Rounding(const StudyView& study) : problems_(problems_of(study)) {

@@ -170,9 +170,12 @@ int replay(const ReplayOptions& options) {
     throw InputError("--out: " + options.out.string() +
                      " is there already and is no replay page; name another file, or overwrite it with --force");
   }
+  // 1. The motions: of runs that are carried out now, or of a study.
   Motion motion = options.results.empty() ? carried_out(options) : kept(options);
+  // 2. Reduction to the size of the page, with notes about it.
   fit(motion, options.limit_bytes, three);
   say_what_is_left(motion, options.limit_bytes);
+  // 3. The page, and a link to it in the report of the study.
   const std::string page = page_of(motion.words, motion.recordings, three);
   if (options.out.has_parent_path()) std::filesystem::create_directories(options.out.parent_path());
   write_text(options.out, page);

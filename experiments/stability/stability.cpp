@@ -39,6 +39,11 @@ std::string radius_text(double r) {
   return number(r, 4);
 }
 
+/// The analysis of the runs, to which bisection() (step_ladder.hpp) has added those that narrow the brackets:
+/// 1. group(): curves of runs that differ only in the step.
+/// 2. stability_findings(): for each curve the critical steps, the verdict below them, the energy gain, and linear
+/// theory.
+/// 3. analysis(): sentences, tables, charts, maps, critical_steps.csv and stability.csv.
 class Stability {
  public:
   explicit Stability(const StudyView& study)

@@ -34,6 +34,10 @@ Key key_of(const RunConfig& c) {
   return {c.scenario, c.integrator, c.contact->response, c.contact->impact_timing, c.dt ? *c.dt : *c.tolerance};
 }
 
+/// The analysis:
+/// 1. Curves: completed runs by key, smallest stack first; other runs with the reason.
+/// 2. The responses, steps and other parts of the key that occur, for the names of curves.
+/// 3. analysis(): sentences, table, standing.csv, figure.
 class Standing {
  public:
   explicit Standing(const StudyView& study) {

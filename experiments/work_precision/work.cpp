@@ -121,6 +121,10 @@ std::vector<Reign> reigns(const std::vector<EnvelopePoint>& envelope) {
   return all;
 }
 
+/// The analysis for one measure of cost:
+/// 1. motions_of(): for each motion the curves that compete, their points of error and cost, and the lower envelope.
+/// 2. sentences(), outside(): the cheapest methods down to each error; methods that do not compete.
+/// 3. table(), figure(), csv(): the envelope at each decade of error.
 class Work {
  public:
   Work(const StudyView& study, const Grouping& grouping, const Cost& cost)
