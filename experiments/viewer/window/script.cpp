@@ -13,6 +13,7 @@
 
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/text_file.hpp"
+#include "experiments/viewer/overlay/panel.hpp"
 
 namespace polhode::viewer::inline window {
 namespace {
