@@ -20,7 +20,8 @@
 #include <utility>
 
 #include "core/math/flatten.hpp"
-#include "core/system/rigid_bodies.hpp"
+#include "core/system/concepts.hpp"
+#include "core/system/visit_system.hpp"
 #include "integrators/catalogue.hpp"
 
 namespace polhode::inline integrators {

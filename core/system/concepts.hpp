@@ -2,7 +2,7 @@
 // The concepts of a mechanical system: the operations that a method may use, in groups, with the identities that each
 // group satisfies. A method states the group that it uses: static_assert(LieGroup<System>). The laws in
 // tests/laws/motion_law_test.cpp check every identity in every formulation, for one body, for many bodies, and in
-// lanes. The operations are those of core/system/rigid_bodies.hpp.
+// lanes. core/system/rigid_bodies.hpp lists the files of the operations.
 //
 // y is a flat state (q, v, work). A Tangent has the layout of v: for each body a linear part, unless the body is
 // pinned, and an angular part. ξ, θ, η are tangent vectors. t and h are in s.

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "core/exact/free_top.hpp"
-#include "core/system/rigid_bodies.hpp"
+#include "core/system/concepts.hpp"
+#include "core/system/visit_system.hpp"
 #include "tests/laws/probe_forces.hpp"
 #include "tests/laws/problems.hpp"
 #include "tests/laws/random_motion.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/system/rigid_bodies.hpp"
+#include "core/system/visit_system.hpp"
 #include "tests/laws/formulations.hpp"
 #include "tests/laws/plain_equations.hpp"
 #include "tests/laws/problems.hpp"

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/system/system.hpp"
+
+#include "core/forces/catalogue.hpp"
+
+namespace polhode {
+
+template <class S>
+System<S>::System(std::vector<Problem> problems, const Formulation& formulation)
+    : problems_(std::move(problems)), formulation_(formulation) {
+  const int chart = formulation_.orientation == Orientation::quaternion ? 4 : 9;
+  const std::size_t n = problem().moving();
+  int q = 0, v = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool pinned = problem().bodies[i].pinned;
+    Layout::Slot slot;
+    if (!pinned) {
+      slot.position = q;
+      slot.velocity = v;
+      q += 3;
+      v += 3;
+    }
+    slot.orientation = q;
+    slot.angular = v;
+    q += chart;
+    v += 3;
+    layout_.slots.push_back(slot);
+  }
+  for (Layout::Slot& slot : layout_.slots) {
+    if (slot.velocity >= 0) slot.velocity += q;
+    slot.angular += q;
+  }
+  layout_.configuration_size = q;
+  layout_.velocity_size = v;
+  for (std::size_t k = 0; k < problem().forces.size(); ++k) {
+    if constexpr (is_lanes<S>) {
+      add_force(make_force_in_lanes(problems_, k));
+    } else {
+      add_force(make_force<S>(problem().forces[k], problem().bodies));
+    }
+  }
+}
+
+template class System<float>;
+template class System<double>;
+template class System<long double>;
+template class System<Lanes>;
+
+}  // namespace polhode
