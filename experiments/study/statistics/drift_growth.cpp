@@ -1,258 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/statistics/drift_growth.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
 #include <algorithm>
-#include <array>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <numbers>
 #include <optional>
 
+#include "experiments/study/statistics/cosine_spectrum.hpp"
 #include "experiments/study/statistics/quantiles.hpp"
+#include "experiments/study/statistics/spectral_lines.hpp"
 
 namespace polhode::study::inline statistics {
 namespace {
 
-using Eigen::Index;
-using Vector = Eigen::VectorXd;
-using Matrix = Eigen::MatrixXd;
+using namespace spectral;
 
-constexpr Index most_cosines = 64, fewest_cosines = 9, most_regressors = 6;
-using Spectrum = Vector;    ///< over the cosines
-using Regressors = Matrix;  ///< a column each, over the cosines
-using Normal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_regressors, most_regressors>;
-using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_regressors, 1>;
+constexpr Index most_cosines = 64;
 constexpr double significance = 0.005;  // of the test for a secular drift
-/// Fewer half periods than this in the run: no line is looked for, since it would not be told from a trend.
-constexpr Index lowest_line = 8;
 /// A number that comes once in some 3000 normal ones, in squares of their deviation.
 constexpr double stands_out = 13;
-
-/// Quantities that depend only on the number n of blocks.
-class Cosines {
- public:
-  explicit Cosines(Index n) : blocks(n), size(n - 1), even_(size / 2, (n + 1) / 2), odd_(size - size / 2, (n + 1) / 2) {
-    const double pi = std::numbers::pi, blocks_ = static_cast<double>(n);
-    Vector table(4 * n);
-    for (Index j = 0; j < 4 * n; ++j) {
-      table[j] = std::sqrt(2 / blocks_) * std::cos(pi * static_cast<double>(j) / (2 * blocks_));
-    }
-    for (Index i = 0; i < (n + 1) / 2; ++i) {
-      Index place = 0;  // k (2i + 1) modulo 4n
-      for (Index k = 1; k <= size; ++k) {
-        place += 2 * i + 1;
-        if (place >= 4 * n) place -= 4 * n;
-        (k % 2 == 0 ? even_(k / 2 - 1, i) : odd_(k / 2, i)) = table[place];
-      }
-    }
-    log_frequency.resize(size);
-    log_averaging.resize(size);
-    for (Index k = 1; k <= size; ++k) {
-      const double theta = pi * static_cast<double>(k) / blocks_;
-      log_frequency[k - 1] = std::log(2 * std::sin(theta / 2));
-      log_averaging[k - 1] = std::log((2 + std::cos(theta)) / 3);
-    }
-    const Spectrum walk = (log_averaging - 2 * log_frequency).array().exp();
-    double ratio = 1e-5;
-    for (auto& shape : shapes) {
-      shape.variance = &shape == &shapes.front()  ? Spectrum(Spectrum::Ones(size))
-                       : &shape == &shapes.back() ? walk
-                                                  : Spectrum(1 + (ratio *= 8) * walk.array());
-      shape.logarithm = shape.variance.array().log();
-    }
-  }
-
-  /// c_k, k = 1 … count, of a series of n numbers.
-  Spectrum transform(const Vector& series, Index count) const {
-    // Even cosines see the even part of the series about its middle, odd ones the odd part.
-    const Index half = (blocks + 1) / 2, middle = blocks % 2;
-    const Vector first = series.head(half).array() - series.mean();
-    Vector last = series.tail(half).reverse().array() - series.mean();
-    if (middle) last[half - 1] = 0;
-    Vector symmetric = first + last, antisymmetric = first - last;
-    if (middle) antisymmetric[half - 1] = 0;
-    // Block after block, not cosine after cosine: sums of many at once, and none waits for the one before it.
-    Spectrum even = Spectrum::Zero(count / 2), odd = Spectrum::Zero(count - count / 2), c(count);
-    for (Index i = 0; i < half; ++i) {
-      even += symmetric[i] * even_.col(i).head(even.size());
-      odd += antisymmetric[i] * odd_.col(i).head(odd.size());
-    }
-    for (Index k = 1; k <= count; ++k) c[k - 1] = k % 2 == 0 ? even[k / 2 - 1] : odd[k / 2];
-    return c;
-  }
-  Spectrum transform(const Vector& series) const { return transform(series, size); }
-
-  /// Pulses at the first and the last block and, if there are enough cosines, at their neighbours: the spectrum that an
-  /// oscillation with arbitrary phases at the ends has far below its line.
-  Regressors edges(Index count) const {
-    constexpr Index enough = 24;
-    const Index each = count < enough ? 1 : 2;
-    Regressors x(count, 2 * each);
-    for (Index k = 1; k <= count; ++k) {
-      for (Index i = 0; i < each; ++i) {
-        x(k - 1, i) = k % 2 == 0 ? even_(k / 2 - 1, i) : odd_(k / 2, i);
-        x(k - 1, each + i) = k % 2 == 0 ? x(k - 1, i) : -x(k - 1, i);
-      }
-    }
-    return x;
-  }
-
-  Index blocks, size;
-  Spectrum log_frequency;  ///< ln(2 sin(θ/2)), θ = πk/n
-  Spectrum log_averaging;  ///< ln((2 + cos θ)/3): what the means over blocks leave of a random walk
-  struct Shape {
-    Spectrum variance, logarithm;
-  };
-  /// Shapes of the noise a + b g_k, from b = 0 to a = 0.
-  std::array<Shape, 9> shapes;
-
- private:
-  /// √(2/n) cos(πk (2i + 1)/2n) over the first half of the blocks, for k = 2, 4, … and 1, 3, …
-  Matrix even_, odd_;
-};
-
-/// Generalised least squares of c on the columns of x with variances s² v_k.
-struct Fit {
-  Coefficients coefficients;
-  Normal covariance;      ///< of them, over s²
-  double squares = 0;     ///< weighted sum of the residuals' squares
-  double restricted = 0;  ///< logarithm of the restricted likelihood, the scale s² at its best
-  double degrees = 0;     ///< of freedom
-  double scale2() const { return squares / degrees; }
-};
-
-/// In four sums, none of which waits for another.
-template <class A, class B>
-double dot(const A& a, const B& b) {
-  const Index n = a.size();
-  double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
-  Index i = 0;
-  for (; i + 4 <= n; i += 4) {
-    s0 += a[i] * b[i];
-    s1 += a[i + 1] * b[i + 1];
-    s2 += a[i + 2] * b[i + 2];
-    s3 += a[i + 3] * b[i + 3];
-  }
-  for (; i < n; ++i) s0 += a[i] * b[i];
-  return (s0 + s1) + (s2 + s3);
-}
-
-Fit fit(const Spectrum& c, const Regressors& x, const Spectrum& v, double sum_of_log_v) {
-  Fit f;
-  const Spectrum weight = v.cwiseInverse();
-  const Regressors weighted = weight.asDiagonal() * x;
-  Normal normal(x.cols(), x.cols());
-  Coefficients right(x.cols());
-  for (Index j = 0; j < x.cols(); ++j) {
-    for (Index i = 0; i <= j; ++i) normal(i, j) = normal(j, i) = dot(x.col(i), weighted.col(j));
-    right[j] = dot(weighted.col(j), c);
-  }
-  const Eigen::LDLT<Normal> factors(normal);
-  f.covariance = factors.solve(Normal::Identity(x.cols(), x.cols()));
-  f.coefficients = f.covariance * right;
-  const Spectrum rest = c - x * f.coefficients;
-  // The data are of size one: below this there is nothing but the rounding of this arithmetic.
-  constexpr double rounding2 = 1e-30;
-  f.squares = std::max(dot(rest.cwiseAbs2().eval(), weight), rounding2);
-  f.degrees = static_cast<double>(c.size() - x.cols());
-  f.restricted = -0.5 * (sum_of_log_v + f.degrees * std::log(f.squares) + factors.vectorD().array().log().sum());
-  return f;
-}
-Fit fit(const Spectrum& c, const Regressors& x, const Spectrum& v) { return fit(c, x, v, 0); }
-
-/// The variances, to a factor, that are most likely beside these regressors.
-Spectrum noise_shape(const Cosines& cosines, const Spectrum& c, const Regressors& x) {
-  Spectrum best;
-  double most = -std::numeric_limits<double>::infinity();
-  for (const auto& shape : cosines.shapes) {
-    const Spectrum v = shape.variance.head(c.size());
-    const double likelihood = fit(c, x, v, shape.logarithm.head(c.size()).sum()).restricted;
-    if (likelihood > most) {
-      most = likelihood;
-      best = v;
-    }
-  }
-  return best;
-}
-
-/// The same of a series without regressors, divided out of the squares.
-Spectrum whitened(const Cosines& cosines, const Spectrum& power) {
-  Spectrum best = power;
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& shape : cosines.shapes) {
-    const Spectrum white = power.cwiseQuotient(shape.variance.head(power.size()));
-    const double minus_likelihood = shape.logarithm.head(power.size()).mean() + std::log(white.mean());
-    if (minus_likelihood < least) {
-      least = minus_likelihood;
-      best = white;
-    }
-  }
-  return best;
-}
-
-/// A line among the first cosines, that is, an oscillation that the blocks resolve: a square 25 times the mean of those
-/// below it, or of the noise there. `rest`: of a fit by t and t², which takes the first cosines.
-std::optional<Index> line_in(const Cosines& cosines, const Spectrum& rest) {
-  constexpr double line = 25;
-  constexpr Index lowest = lowest_line, gap = 3;  // four oscillations in the run; a line's flank
-  const Spectrum power = rest.cwiseAbs2();
-  if (!(power.maxCoeff() > 0)) return std::nullopt;
-  const Spectrum white = whitened(cosines, power);
-  Index at = 0;
-  if (white.maxCoeff(&at) >= line * white.mean() && at + 1 >= lowest) return at + 1;
-  const double peak = power.maxCoeff(&at);
-  if (at + 1 >= lowest && peak >= line * power.head(at - gap).mean()) return at + 1;
-  return std::nullopt;
-}
-
-/// cos and sin of ω (i + ½), i = 0 … n − 1.
-Matrix oscillation(double omega, Index n) {
-  Matrix x(n, 2);
-  const double c = std::cos(omega), s = std::sin(omega);
-  x(0, 0) = std::cos(omega / 2);
-  x(0, 1) = std::sin(omega / 2);
-  for (Index i = 1; i < n; ++i) {
-    x(i, 0) = c * x(i - 1, 0) - s * x(i - 1, 1);
-    x(i, 1) = s * x(i - 1, 0) + c * x(i - 1, 1);
-  }
-  return x;
-}
-
-/// The oscillation of the best frequency near the k-th cosine, of a least-squares fit by it and by the columns of
-/// `trend`, which are orthonormal.
-Vector fitted_oscillation(const Vector& series, const Matrix& trend, Index k) {
-  const Index n = series.size();
-  const double unit = std::numbers::pi / static_cast<double>(n), near = static_cast<double>(k);
-  const Vector rest = series - trend * (trend.transpose() * series);
-  const auto fit_at = [&](double place, Vector& oscillating) {
-    const Matrix x = oscillation(place * unit, n);
-    const Matrix free = x - trend.lazyProduct(trend.transpose().lazyProduct(x).eval());
-    const Eigen::Matrix2d normal = free.transpose().lazyProduct(free);
-    const Eigen::Vector2d amplitudes = normal.ldlt().solve(free.transpose().lazyProduct(rest));
-    oscillating = x * amplitudes;
-    return (rest - free * amplitudes).squaredNorm();
-  };
-  Vector oscillating;
-  const auto squares = [&](double place) { return fit_at(place, oscillating); };
-  constexpr int bits = 16;
-  constexpr double reach = 1.2;
-  fit_at(boost::math::tools::brent_find_minima(squares, near - reach, near + reach, bits).first, oscillating);
-  return oscillating;
-}
-
-/// Number of the first cosines that lie well below every line.
-Index below_lines(const Cosines& cosines, const Spectrum& rest) {
-  Index count = rest.size();
-  while (count > fewest_cosines) {
-    const auto line = line_in(cosines, rest.head(count));
-    if (!line) break;
-    count = std::max(fewest_cosines, *line * 3 / 5);
-  }
-  return count;
-}
 
 struct Exponent {
   double value = 0, half_width = 0;
@@ -450,38 +218,7 @@ class Estimator {
   Index slowest_line_ = 0;
 };
 
-/// Kept for later calls, since many runs of a study have as many blocks: at most half a megabyte each.
-const Cosines& cosines_of(Index n) {
-  constexpr std::size_t most = 16;
-  thread_local std::map<Index, Cosines> kept;
-  if (kept.size() >= most && !kept.contains(n)) kept.clear();
-  return kept.try_emplace(n, n).first->second;
-}
-
 }  // namespace
-
-void BlockMeans::close() {
-  sums_.push_back(open_);
-  open_ = {};
-  in_open_ = 0;
-  if (sums_.size() < capacity) return;
-  for (std::size_t i = 0; i < capacity / 2; ++i) {
-    const BlockMean &a = sums_[2 * i], &b = sums_[2 * i + 1];
-    sums_[i] = {a.t + b.t, a.value + b.value};
-  }
-  sums_.resize(capacity / 2);
-  per_block_ *= 2;
-}
-
-std::vector<BlockMean> BlockMeans::finish() const {
-  std::vector<BlockMean> means;
-  const auto mean = [&](const BlockMean& sum, std::size_t n) {
-    means.push_back({sum.t / static_cast<double>(n), sum.value / static_cast<double>(n)});
-  };
-  for (const BlockMean& sum : sums_) mean(sum, per_block_);
-  if (2 * in_open_ >= per_block_ && in_open_ > 0) mean(open_, in_open_);
-  return means;
-}
 
 std::optional<DriftGrowth> growth_of(const std::vector<BlockMean>& blocks) {
   if (blocks.size() < fewest_blocks) return std::nullopt;

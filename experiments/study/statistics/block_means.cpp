@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/statistics/block_means.hpp"
+
+namespace polhode::study::inline statistics {
+
+void BlockMeans::close() {
+  sums_.push_back(open_);
+  open_ = {};
+  in_open_ = 0;
+  if (sums_.size() < capacity) return;
+  for (std::size_t i = 0; i < capacity / 2; ++i) {
+    const BlockMean &a = sums_[2 * i], &b = sums_[2 * i + 1];
+    sums_[i] = {a.t + b.t, a.value + b.value};
+  }
+  sums_.resize(capacity / 2);
+  per_block_ *= 2;
+}
+
+std::vector<BlockMean> BlockMeans::finish() const {
+  std::vector<BlockMean> means;
+  const auto mean = [&](const BlockMean& sum, std::size_t n) {
+    means.push_back({sum.t / static_cast<double>(n), sum.value / static_cast<double>(n)});
+  };
+  for (const BlockMean& sum : sums_) mean(sum, per_block_);
+  if (2 * in_open_ >= per_block_ && in_open_ > 0) mean(open_, in_open_);
+  return means;
+}
+
+}  // namespace polhode::study::statistics

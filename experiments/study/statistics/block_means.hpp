@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reduction of a series of any length to at most 128 means.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace polhode::study::inline statistics {
+
+struct BlockMean {
+  double t = 0;      ///< s
+  double value = 0;  ///< of the drift, in any unit
+};
+
+/// Means of a series over blocks of equally many samples; when all blocks are in use, neighbours are merged.
+class BlockMeans {
+ public:
+  void add(double t, double value) {
+    open_.t += t;
+    open_.value += value;
+    if (++in_open_ == per_block_) close();
+  }
+  /// The blocks. The last one is included if it is at least half full.
+  std::vector<BlockMean> finish() const;
+
+ private:
+  static constexpr std::size_t capacity = 128;
+  void close();
+
+  std::vector<BlockMean> sums_;
+  BlockMean open_;
+  std::size_t in_open_ = 0, per_block_ = 1;
+};
+
+}  // namespace polhode::study::statistics

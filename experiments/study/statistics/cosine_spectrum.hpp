@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The cosine transform of a series of n numbers, c_k with k = 1, 2, … half periods in the series, and fits in it: noise
+// of variance v_k beside regressors.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+namespace polhode::study::inline statistics::spectral {
+
+using Eigen::Index;
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+
+constexpr Index most_regressors = 6;
+using Spectrum = Vector;    ///< over the cosines
+using Regressors = Matrix;  ///< a column each, over the cosines
+using Normal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_regressors, most_regressors>;
+using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_regressors, 1>;
+
+/// Quantities that depend only on the number n of blocks.
+class Cosines {
+ public:
+  explicit Cosines(Index n);
+
+  /// c_k, k = 1 … count, of a series of n numbers.
+  Spectrum transform(const Vector& series, Index count) const;
+  Spectrum transform(const Vector& series) const { return transform(series, size); }
+
+  /// Pulses at the first and the last block and, if there are enough cosines, at their neighbours: the spectrum that an
+  /// oscillation with arbitrary phases at the ends has far below its line.
+  Regressors edges(Index count) const;
+
+  Index blocks, size;
+  Spectrum log_frequency;  ///< ln(2 sin(θ/2)), θ = πk/n
+  Spectrum log_averaging;  ///< ln((2 + cos θ)/3): what the means over blocks leave of a random walk
+  struct Shape {
+    Spectrum variance, logarithm;
+  };
+  /// Shapes of the noise a + b g_k, from b = 0 to a = 0.
+  std::array<Shape, 9> shapes;
+
+ private:
+  /// √(2/n) cos(πk (2i + 1)/2n) over the first half of the blocks, for k = 2, 4, … and 1, 3, …
+  Matrix even_, odd_;
+};
+
+/// The cosines of n blocks. Kept for later calls, since many runs of a study have as many: at most half a megabyte each.
+const Cosines& cosines_of(Index n);
+
+/// Generalised least squares of c on the columns of x with variances s² v_k.
+struct Fit {
+  Coefficients coefficients;
+  Normal covariance;      ///< of them, over s²
+  double squares = 0;     ///< weighted sum of the residuals' squares
+  double restricted = 0;  ///< logarithm of the restricted likelihood, the scale s² at its best
+  double degrees = 0;     ///< of freedom
+  double scale2() const { return squares / degrees; }
+};
+
+Fit fit(const Spectrum& c, const Regressors& x, const Spectrum& v, double sum_of_log_v);
+inline Fit fit(const Spectrum& c, const Regressors& x, const Spectrum& v) { return fit(c, x, v, 0); }
+
+/// The variances, to a factor, that are most likely beside these regressors.
+Spectrum noise_shape(const Cosines& cosines, const Spectrum& c, const Regressors& x);
+
+/// The squares of a series without regressors over its most likely variances.
+Spectrum whitened(const Cosines& cosines, const Spectrum& power);
+
+}  // namespace polhode::study::statistics::spectral

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lines of a cosine spectrum: oscillations that the blocks of a series resolve.
+#pragma once
+
+#include <optional>
+
+#include "experiments/study/statistics/cosine_spectrum.hpp"
+
+namespace polhode::study::inline statistics::spectral {
+
+constexpr Index fewest_cosines = 9;
+/// Fewer half periods than this in the run: no line is looked for, since it would not be told from a trend.
+constexpr Index lowest_line = 8;
+
+/// A line among the first cosines, that is, an oscillation that the blocks resolve: a square 25 times the mean of those
+/// below it, or of the noise there. `rest`: of a fit by t and t², which takes the first cosines.
+std::optional<Index> line_in(const Cosines& cosines, const Spectrum& rest);
+
+/// Number of the first cosines that lie well below every line.
+Index below_lines(const Cosines& cosines, const Spectrum& rest);
+
+/// The oscillation of the best frequency near the k-th cosine, of a least-squares fit by it and by the columns of
+/// `trend`, which are orthonormal.
+Vector fitted_oscillation(const Vector& series, const Matrix& trend, Index k);
+
+}  // namespace polhode::study::statistics::spectral
