@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A uniform grid without bounds, with coarser ones above it for boxes that are too large: the hierarchical hash grid of
 // Ericson, "Real-Time Collision Detection" (2005), section 7.2, after Mirtich, "Impulse-based Dynamic Simulation"
-// (1996), section 3.4. Half a cell is as large as common boxes are; the cells of each further level are four times as
-// wide.
+// (1996), section 3.4. Half a cell is as large as common boxes are (broad/cell_size.hpp); the cells of each further
+// level are four times as wide.
 //
 // The grid holds fat boxes, and only a body that left its own is looked up again; pairs of fat boxes are kept. A box
 // stands in the cell of its lower corner, on the first level on which it reaches no further than the next half cell.
@@ -18,6 +18,7 @@
 
 #include "collision/broad/boxes.hpp"
 #include "collision/broad/cell_block.hpp"
+#include "collision/broad/cell_size.hpp"
 #include "collision/broad/fat_boxes.hpp"
 #include "collision/broad/grid_cells.hpp"
 #include "collision/broad/kept_pairs.hpp"
@@ -32,10 +33,7 @@ using broad::PlainBox;
 
 constexpr Index none = ~Index(0), on_no_level = none - 1;
 constexpr std::size_t most_levels = 16;
-constexpr double coarser = 4;               // cells of the next level
-constexpr double common = 2;                // times the median size: still a common box
-constexpr double half_cell_of_size = 1.05;  // half the edge of a cell over the largest common size
-constexpr double still_right = 1.3;         // half a cell over what it would be now, or the other way round
+constexpr double coarser = 4;  // cells of the next level
 constexpr std::size_t slots_per_body = 1;
 constexpr std::size_t boxes_ahead = 8, blocks_ahead = 6;  // bodies, when memory is asked for theirs
 constexpr std::uint32_t steps_between_looks = 32;         // at the sizes of boxes
@@ -76,7 +74,7 @@ class UniformGrid final : public BroadPhase {
 
  private:
   void begin_scene() {
-    half_cell_ = -1;
+    cell_size_.forget();
     steps_ = 0;
     choose_cells();
     int bits = 6;
@@ -108,52 +106,15 @@ class UniformGrid final : public BroadPhase {
     levels_ = 0;
   }
 
-  /// So that all common boxes are on the first level, for each further one is searched too. False where cells stay, as
-  /// they do while the largest of these needs no others.
+  /// False if the cells keep their size.
   bool choose_cells() {
-    const double most = common * median_size();
-    double largest_size = -1;
-    for (Index i = 0; i < fat_.size(); ++i) {
-      const double size = FatBoxes::too_large(fat_.fat(i)) ? -1 : size_of(fat_.fat(i));
-      if (size <= most) largest_size = std::max(largest_size, size);
-    }
-    if (largest_size < 0) return false;
-    double edge = half_cell_of_size * largest_size;
-    if (!(edge >= smallest_edge)) edge = edge_for_points();
-    if (largest_size <= half_cell_ && edge <= still_right * half_cell_ && half_cell_ <= still_right * edge)
-      return false;
-    half_cell_ = edge;
+    if (!cell_size_.choose(fat_)) return false;
+    double edge = cell_size_.half_cell();
     for (double& per_metre : per_metre_) {
       per_metre = (1 << half_cell_bits) / edge;
       edge *= coarser;
     }
     return true;
-  }
-
-  /// The median size of a sample of the bodies; negative if there is none.
-  double median_size() {
-    constexpr std::size_t most_samples = 512;
-    sample_.clear();
-    sample_.reserve(most_samples + 1);
-    const std::size_t stride = fat_.size() / most_samples + 1;
-    for (std::size_t i = 0; i < fat_.size(); i += stride) {
-      const PlainBox& b = fat_.fat(static_cast<Index>(i));
-      if (!FatBoxes::too_large(b)) sample_.push_back(size_of(b));
-    }
-    if (sample_.empty()) return -1;
-    const auto middle = sample_.begin() + static_cast<std::ptrdiff_t>(sample_.size() / 2);
-    std::nth_element(sample_.begin(), middle, sample_.end());
-    return *middle;
-  }
-
-  /// Boxes without any size: cells by how far apart they are.
-  double edge_for_points() const {
-    double reach = 0;
-    for (Index i = 0; i < fat_.size(); ++i) {
-      if (FatBoxes::too_large(fat_.fat(i))) continue;
-      for (const double x : fat_.fat(i).low) reach = std::max(reach, std::abs(x));
-    }
-    return std::max(reach / std::cbrt(double(fat_.size())), smallest_edge);
   }
 
   /// Beyond so many units, where numbers are further apart than cells, all is one cell.
@@ -460,10 +421,9 @@ class UniformGrid final : public BroadPhase {
     for (Index other = 0; other < fat_.size(); ++other) found(body, other);
   }
 
-  static constexpr double smallest_edge = 1e-150;
-
   FatBoxes fat_;
   broad::KeptPairs kept_;
+  broad::CellSize cell_size_;                    // of the first level
   std::array<double, most_levels> per_metre_{};  // units
   std::array<Index, most_levels> bodies_{};      // how many on each level
   struct Hit {
@@ -486,8 +446,6 @@ class UniformGrid final : public BroadPhase {
   std::vector<Index> starts_;  // of that order
   std::vector<Index> place_;   // of each body: its block and lane
   std::vector<Index> large_;   // on no level
-  double half_cell_ = -1;      // of the first level, m
-  std::vector<double> sample_;
   std::uint32_t steps_ = 0;
   std::span<const BodyPair> pairs_;
 };
