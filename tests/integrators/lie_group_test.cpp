@@ -13,7 +13,8 @@ const std::vector<std::string> lie_methods = {"lie_euler", "crouch_grossman3", "
                                               "buss2",     "lie_midpoint",     "simo_wong"};
 
 // Hairer & Vilmart 2006, |Δy| at t = 10 with h = 0.05 and the body angular velocity as state, to 1 %; Lie–Euler with
-// the coadjoint action, that is, with the world momentum. (The rows of the textbook methods: closed_form_test.cpp.)
+// the coadjoint action, that is, with the world momentum. (The rows of the textbook methods:
+// rotation_closed_form_test.cpp.)
 TEST(HairerVilmart, ErrorsOfLieMethods) {
   const auto error = [](const char* method, const Formulation& f) {
     Motion run(method, hairer_vilmart(), f);

@@ -25,9 +25,9 @@ class Motion {
   }
 
   /// n steps of h; the time is k h as the driver counts it.
-  void steps(double h, std::int64_t n = 1) {
+  void steps(double h, std::int64_t n = 1, bool project = false) {
     const double t = state_.t;
-    const StepResult result = integrator_->advance(state_, h, n);
+    const StepResult result = integrator_->advance(state_, {.h = h, .count = n, .t0 = t, .project = project});
     if (!result.ok()) ADD_FAILURE() << result.failure;
     state_.t = t + double(n) * h;
   }
@@ -37,7 +37,27 @@ class Motion {
   BodySnapshot<double> body() const { return system_->snapshot(state_.y, 0); }
   Measurement<double> measure() const { return system_->measure(state_.y); }
   double energy() const { return measure().energy(); }
-  /// L in body axes, of the first body.
+  VectorX<double> rate() const {
+    VectorX<double> dy(state_.y.size());
+    system_->rate(state_.t, state_.y.data(), dy.data());
+    return dy;
+  }
+
+  // The first body.
+
+  const Layout::Slot& slot() const { return system_->layout().slots.front(); }
+  V3 angular_state() const { return state_.y.segment<3>(slot().angular); }
+  V3 position() const { return state_.y.segment<3>(slot().position); }
+  V3 velocity() const { return state_.y.segment<3>(slot().velocity); }
+  Quaternion<double> quaternion() const { return state_.y.segment<4>(slot().orientation); }
+  Matrix3<double> matrix() const { return Eigen::Map<const Matrix3<double>>(state_.y.data() + slot().orientation); }
+  /// The nearest rotation, as a unit quaternion.
+  Quaternion<double> attitude() const {
+    VectorX<double> y = state_.y;
+    system_->project(y);
+    return system_->snapshot(y, 0).orientation;
+  }
+  /// L in body axes.
   V3 body_momentum() const { return body().rotation.transpose() * body().angular_momentum; }
 
  private:
@@ -45,6 +65,10 @@ class Motion {
   IntegratorPointer<double> integrator_;
   State<double> state_;
 };
+
+constexpr Formulation world_quaternion{};
+constexpr Formulation body_quaternion{Orientation::quaternion, AngularState::velocity_body};
+constexpr Formulation body_matrix{Orientation::matrix, AngularState::velocity_body};
 
 /// Hairer & Vilmart 2006, asymmetric body, and where it is at t = 10.
 inline Problem hairer_vilmart() {

@@ -1,76 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the textbook schemes do in closed form, and the published figures that they must give: growth and phase of the
-// two charts, energy per step, stability, modified energies, secular drift, invariants of tops.
-// Sources: stand at each test. θ = h|ω|, y = JΩ (body axes).
-#include <gtest/gtest.h>
+// Rotation by the textbook schemes in closed form, and the published figures that they must give: growth and phase of
+// the two charts, energy per step, secular drift. Sources: stand at each test. θ = h|ω|, y = JΩ (body axes).
+#include <algorithm>
 
-#include <cmath>
-#include <numbers>
-
-#include "core/run/simulate.hpp"
-#include "core/system/invariants.hpp"
 #include "core/system/orientation_chart.hpp"
-#include "integrators/catalogue.hpp"
-#include "tests/laws/formulations.hpp"
-#include "tests/laws/problems.hpp"
+#include "tests/integrators/motion.hpp"
 
-namespace polhode {
+namespace polhode::by_hand {
 namespace {
 
-using laws::diagonal;
-using laws::force;
 using laws::gyroscopic_formulations;
 using laws::label;
-using V3 = Vector3<double>;
-
-constexpr Formulation world_quaternion{};
-constexpr Formulation body_quaternion{Orientation::quaternion, AngularState::velocity_body};
-constexpr Formulation body_matrix{Orientation::matrix, AngularState::velocity_body};
-
-/// A run that a test steps by hand; state.t = k h as the driver counts it.
-class Motion {
- public:
-  Motion(const char* method, const Problem& problem, const Formulation& formulation)
-      : system_(make_system<double>(problem, formulation)),
-        integrator_(find_integrator(method)->make(*system_, {})),
-        state_(system_->start()) {
-    integrator_->begin(state_);
-  }
-
-  void steps(double h, std::int64_t n, bool project = false) {
-    const double t = state_.t;
-    const StepBatch batch{.h = h, .count = n, .t0 = t, .project = project};
-    if (!integrator_->advance(state_, batch).ok()) ADD_FAILURE() << "a step failed";
-    state_.t = t + double(n) * h;
-  }
-
-  const VectorX<double>& y() const { return state_.y; }
-  const Layout::Slot& slot() const { return system_->layout().slots.front(); }
-  BodySnapshot<double> body() const { return system_->snapshot(state_.y, 0); }
-  Measurement<double> measure() const { return system_->measure(state_.y); }
-  double energy() const { return measure().kinetic + measure().potential; }
-  V3 angular_state() const { return state_.y.segment<3>(slot().angular); }
-  V3 position() const { return state_.y.segment<3>(slot().position); }
-  V3 velocity() const { return state_.y.segment<3>(slot().velocity); }
-  Quaternion<double> quaternion() const { return state_.y.segment<4>(slot().orientation); }
-  Matrix3<double> matrix() const { return Eigen::Map<const Matrix3<double>>(state_.y.data() + slot().orientation); }
-  /// The nearest rotation, as a unit quaternion.
-  Quaternion<double> attitude() const {
-    VectorX<double> y = state_.y;
-    system_->project(y);
-    return system_->snapshot(y, 0).orientation;
-  }
-  VectorX<double> rate() const {
-    VectorX<double> dy(state_.y.size());
-    system_->rate(state_.t, state_.y.data(), dy.data());
-    return dy;
-  }
-
- private:
-  std::unique_ptr<System<double>> system_;
-  IntegratorPointer<double> integrator_;
-  State<double> state_;
-};
 
 /// A sphere with I = 1, whose angular velocity is constant to the bit in its own axes.
 Problem sphere(const V3& angular_velocity) {
@@ -81,33 +21,7 @@ Problem sphere(const V3& angular_velocity) {
 }
 const V3 turning(0.9, -1.3, 2.1);
 
-/// Hairer & Vilmart 2006, asymmetric body: the free top of the laws at rest in its place.
-Problem hairer_vilmart() {
-  Problem p = laws::free_top();
-  p.starts[0].velocity.setZero();
-  return p;
-}
 const V3 hairer_vilmart_moments(0.6, 0.8, 1.0);
-const V3 hairer_vilmart_end(1.765962508518208, -0.695464197033089, 0.779554981481872);
-
-/// Peters & Hsu, the free-floating box, complex case.
-Problem peters_hsu() {
-  Problem p;
-  p.bodies.push_back({.name = "box", .mass = 10, .inertia = diagonal(0.80833333, 0.68333333, 0.14166667)});
-  p.starts.push_back({.velocity = {-2, 2, 8}, .angular_velocity = {0.1, 5, 0.1}});
-  p.forces.push_back(force("uniform_gravity", {0}, {{"acceleration", V3(0, 0, -9.8)}}));
-  return p;
-}
-
-/// A mass on a spring of no rest length at its centre: ω² = k/m.
-constexpr double oscillator_rate = 2.0;  // rad/s
-Problem oscillator() {
-  Problem p;
-  p.bodies.push_back({.name = "mass", .mass = 0.5});
-  p.starts.push_back({.position = {0.3, -0.4, 0.2}, .velocity = {0.5, 0.1, -0.7}});
-  p.forces.push_back(force("spring", {0}, {{"stiffness", 0.5 * oscillator_rate * oscillator_rate}}));
-  return p;
-}
 
 class Textbook : public testing::TestWithParam<AngularState> {};
 INSTANTIATE_TEST_SUITE_P(ConstantRotation, Textbook,
@@ -300,95 +214,14 @@ TEST(GyroscopicTermLeftOut, KeepsTheEnergyAndLosesTheMomentum) {
   }
 }
 
-// Explicit Euler multiplies the energy of an oscillator by 1 + (hω)² at each step, the explicit midpoint by 1 +
-// (hω)⁴/4.
-TEST(Oscillator, ExplicitMethodsFeedIt) {
-  for (const double h : {0.01, 0.3, 1.0}) {
-    const double x = h * oscillator_rate;
-    Motion euler("explicit_euler", oscillator(), world_quaternion),
-        midpoint("explicit_midpoint", oscillator(), world_quaternion), rk4("rk4", oscillator(), world_quaternion);
-    const double start = euler.energy();
-    for (int n = 1; n <= 50; ++n) {
-      euler.steps(h, 1);
-      midpoint.steps(h, 1);
-      rk4.steps(h, 1);
-      EXPECT_NEAR(euler.energy() / start / std::pow(1 + x * x, n), 1, 1e-14 * n);
-      EXPECT_NEAR(midpoint.energy() / start / std::pow(1 + std::pow(x, 4) / 4, n), 1, 1e-14 * n);
-      EXPECT_NEAR(rk4.energy() / start / std::pow(1 - std::pow(x, 6) / 72 + std::pow(x, 8) / 576, n), 1, 1e-14 * n);
-    }
-  }
-}
-
-// The largest energy of 4000 steps, relative to the first.
-double growth_of_oscillator(const char* method, double h_omega) {
-  Motion run(method, oscillator(), world_quaternion);
-  const double start = run.energy();
-  double most = 1;
-  for (int n = 0; n < 4000; ++n) {
-    run.steps(h_omega / oscillator_rate, 1);
-    most = std::max(most, run.energy() / start);
-  }
-  return most;
-}
-
-// Stable for hω < 2 (semi-implicit Euler) and hω < 2√2 (RK4); explicit Euler never.
-TEST(Oscillator, StabilityLimits) {
-  EXPECT_LT(growth_of_oscillator("semi_implicit_euler", 1.99), 1000);
-  EXPECT_GT(growth_of_oscillator("semi_implicit_euler", 2.01), 1e100);
-  const double limit = 2 * std::numbers::sqrt2;
-  EXPECT_EQ(growth_of_oscillator("rk4", 0.999 * limit), 1);
-  EXPECT_GT(growth_of_oscillator("rk4", 1.001 * limit), 1e3);
-  EXPECT_GT(growth_of_oscillator("explicit_euler", 0.05), 1e3);
-}
-
-// Semi-implicit Euler keeps E − (h/2) k x·v of an oscillator: its own energy is that of a neighbour.
-TEST(Oscillator, SemiImplicitEulerKeepsAModifiedEnergy) {
-  const double h = 0.1, k = 0.5 * oscillator_rate * oscillator_rate;
-  Motion run("semi_implicit_euler", oscillator(), world_quaternion);
-  const auto modified = [&] { return run.energy() - h / 2 * k * run.position().dot(run.velocity()); };
-  const double start = modified();
-  for (int n = 0; n < 1000; ++n) {
-    run.steps(h, 1);
-    ASSERT_NEAR(modified(), start, 1e-13 * start);
-  }
-}
-
-// Free fall: semi-implicit Euler keeps E − (h/2) m g v, explicit Euler E + (h/2) m g v, v upward; RK4 is exact.
-TEST(FreeFall, ModifiedEnergies) {
-  const double h = 0.01, m = 10, g = 9.8;
-  for (const auto& [method, sign] : {std::pair("semi_implicit_euler", -1.0), {"explicit_euler", 1.0}, {"rk4", 0.0}}) {
-    Motion run(method, peters_hsu(), body_quaternion);
-    // The rotation has an energy of its own.
-    const auto modified = [&, s = sign] {
-      return m * (0.5 * run.velocity().squaredNorm() + g * run.position()[2] + s * h / 2 * g * run.velocity()[2]);
-    };
-    const double start = modified();
-    for (int n = 0; n < 500; ++n) {
-      run.steps(h, 1);
-      ASSERT_NEAR(modified(), start, 1e-12 * start) << method;
-    }
-  }
-}
-
-// Peters & Hsu: the position error of semi-implicit Euler is ½ g h T, and of the two half steps of Simbody's half of
-// it.
-TEST(FreeFall, PositionErrorOfSemiImplicitEuler) {
-  for (const double h : {1e-4, 1e-3}) {
-    Motion run("semi_implicit_euler", peters_hsu(), world_quaternion);
-    run.steps(h, std::lround(10 / h));
-    const V3 exact(-20, 20, 80 - 0.5 * 9.8 * 100);
-    EXPECT_NEAR((run.position() - exact).norm(), 0.5 * 9.8 * h * 10, 1e-9);
-  }
-}
-
 // A constant torque about a principal axis: ω = ω0 + τt/I, of every method; the angle ω0 t + τt²/2I.
 TEST(AxialTorque, SpinIsLinearInTime) {
   const double inertia = 0.8, torque = 0.4, spin = 0.7, h = 1e-3;
   Problem p;
-  p.bodies.push_back({.name = "body", .inertia = diagonal(0.5, inertia, 1.2)});
+  p.bodies.push_back({.name = "body", .inertia = laws::diagonal(0.5, inertia, 1.2)});
   p.starts.push_back({.angular_velocity = {0, spin, 0}});
   for (const char* frame : {"world", "body"}) {
-    p.forces = {force("constant_torque", {0}, {{"torque", V3(0, torque, 0)}, {"frame", std::string(frame)}})};
+    p.forces = {laws::force("constant_torque", {0}, {{"torque", V3(0, torque, 0)}, {"frame", std::string(frame)}})};
     for (const Formulation& f : gyroscopic_formulations()) {
       for (const char* method : {"explicit_euler", "semi_implicit_euler", "explicit_midpoint", "rk4"}) {
         Motion run(method, p, f);
@@ -431,75 +264,5 @@ TEST(PetersHsu, EndStateInEveryFormulation) {
   }
 }
 
-struct Drift {
-  double energy = 0, p_phi = 0, p_psi = 0, kovalevskaya = 0;  // relative
-};
-/// The largest drifts over 10 s of RK4 at 1e-4, looked at every 0.05 s. k = mgl/I3.
-Drift drift_of_top(const Problem& p, const Formulation& f, double k) {
-  Motion run("rk4", p, f);
-  const auto values = [&] {
-    const BodySnapshot<double> s = run.body();
-    const Matrix3<double> to_body = s.rotation.transpose();
-    const V3 w = to_body * s.angular_velocity, gamma = to_body.col(2);
-    Drift v;
-    v.energy = run.energy();
-    v.p_phi = s.angular_momentum[2];
-    v.p_psi = (to_body * s.angular_momentum)[2];
-    v.kovalevskaya =
-        std::pow(w[0] * w[0] - w[1] * w[1] - k * gamma[0], 2) + std::pow(2 * w[0] * w[1] - k * gamma[1], 2);
-    return v;
-  };
-  const Drift start = values();
-  Drift most;
-  const auto keep = [](double& largest, double now, double then) {
-    largest = std::max(largest, std::abs(now - then) / std::abs(then));
-  };
-  for (int n = 0; n < 200; ++n) {
-    run.steps(1e-4, 500);
-    const Drift v = values();
-    keep(most.energy, v.energy, start.energy);
-    keep(most.p_phi, v.p_phi, start.p_phi);
-    keep(most.p_psi, v.p_psi, start.p_psi);
-    keep(most.kovalevskaya, v.kovalevskaya, start.kovalevskaya);
-  }
-  return most;
-}
-
-/// A pinned top with its mass centre at l along the body's axis `axis`; orientation and spin of nothing special.
-Problem top(const V3& moments, int axis) {
-  Problem p;
-  V3 center = V3::Zero();
-  center[axis] = 0.4;
-  p.bodies.push_back(
-      {.name = "top", .mass = 1.5, .inertia = moments.asDiagonal(), .pinned = true, .center_of_mass = center});
-  p.starts.push_back({.orientation = Quaternion<double>(0.8, 0.3, -0.4, 0.2).normalized(),
-                      .angular_velocity = {1.5, -0.7, 2.5},
-                      .angular_velocity_in_body = true});
-  p.forces.push_back(force("uniform_gravity", {0}, {{"acceleration", V3(0, 0, -9.81)}}));
-  return p;
-}
-constexpr double top_weight = 1.5 * 9.81 * 0.4;  // m g l, N m
-
-TEST(Tops, SlowLagrangeKeepsEnergyAndBothMomenta) {
-  for (const Formulation& f : gyroscopic_formulations()) {
-    const Drift d = drift_of_top(top({0.9, 0.9, 0.4}, 2), f, top_weight / 0.4);
-    EXPECT_LT(d.energy, 1e-10) << label(f);
-    EXPECT_LT(d.p_phi, 1e-10) << label(f);
-    EXPECT_LT(d.p_psi, 1e-10) << label(f);
-    EXPECT_GT(d.kovalevskaya, 1e-3) << "which is no invariant here";
-  }
-}
-
-// J = (2, 2, 1) I3, mass centre along e1.
-TEST(Tops, SlowKovalevskayaKeepsHerIntegral) {
-  for (const Formulation& f : gyroscopic_formulations()) {
-    const Drift d = drift_of_top(top({0.8, 0.8, 0.4}, 0), f, top_weight / 0.4);
-    EXPECT_LT(d.energy, 1e-10) << label(f);
-    EXPECT_LT(d.p_phi, 1e-10) << label(f);
-    EXPECT_LT(d.kovalevskaya, 1e-10) << label(f);
-    EXPECT_GT(d.p_psi, 1e-3) << "which is no invariant here";
-  }
-}
-
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::by_hand
