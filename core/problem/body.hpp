@@ -20,7 +20,7 @@ struct Body {
   Vector3<double> center_of_mass = Vector3<double>::Zero();  ///< m, body axes, from the pivot; pinned only
 };
 
-/// Position and motion of a body at one instant.
+/// The start of a body as a scenario states it: of the reference point, with ω in the axes in which it was given.
 struct BodyStart {
   Vector3<double> position = Vector3<double>::Zero();              ///< m, world, of the reference point
   Quaternion<double> orientation = identity_quaternion<double>();  ///< body to world

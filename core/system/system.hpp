@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/math/lanes.hpp"
+#include "core/problem/body_snapshot.hpp"
 #include "core/problem/problem.hpp"
 #include "core/system/formulation.hpp"
 #include "core/system/ode.hpp"
@@ -32,17 +33,6 @@ struct Measurement {
 
   /// Total energy, J.
   S energy() const { return kinetic + potential; }
-};
-
-/// Motion of one body in world axes and SI units, for trajectories.
-template <class S>
-struct BodySnapshot {
-  Vector3<S> position;          ///< position of the mass centre, m
-  Quaternion<S> orientation;    ///< quaternion as stored, or from the stored matrix by Shepperd's method
-  Matrix3<S> rotation;          ///< rotation matrix R in the equations of motion
-  Vector3<S> velocity;          ///< velocity of the mass centre, m/s
-  Vector3<S> angular_velocity;  ///< angular velocity ω, rad/s
-  Vector3<S> angular_momentum;  ///< angular momentum about the reference point, kg m²/s
 };
 
 /// Interface of a system of rigid bodies in the scalar S.

@@ -14,14 +14,18 @@ Quaternion<double> read_so(const Quaternion<double>& q, const Reading& reading) 
 }
 
 Trajectory read_so(Trajectory trajectory, const Reading& reading) {
-  for (TrajectoryBody& body : trajectory.bodies) {
-    if (trajectory.has_matrix && reading.transposed) body.rotation = body.rotation.transpose().eval();
-    if (!trajectory.has_matrix) body.orientation = read_so(body.orientation, reading);
+  for (BodySnapshot<double>& body : trajectory.bodies) {
+    if (trajectory.has_matrix) {
+      if (reading.transposed) body.rotation = body.rotation.transpose().eval();
+      body.orientation = quaternion_from_rotation_matrix(body.rotation);
+    } else {
+      body.orientation = read_so(body.orientation, reading);
+      body.rotation = rotation_matrix(body.orientation);
+    }
     body.angular_velocity *= reading.rate_unit;
     if (!reading.rates_in_body) continue;
-    const Matrix3<double> r = trajectory.has_matrix ? body.rotation : rotation_matrix(body.orientation);
     Vector3<double>& rate = trajectory.has_angular_velocity ? body.angular_velocity : body.angular_momentum;
-    rate = (r * rate).eval();
+    rate = (body.rotation * rate).eval();
   }
   return trajectory;
 }

@@ -63,16 +63,9 @@ VectorX<double> RowStates::state(std::size_t row, const Reading& reading) const 
   const System<double>& system = right.system();
   VectorX<double> y = system.start().y;
   for (std::size_t i = 0; i < trajectory.moving; ++i) {
-    const TrajectoryBody& body = trajectory.bodies[row * trajectory.moving + i];
+    const BodySnapshot<double>& body = trajectory.bodies[row * trajectory.moving + i];
     const Layout::Slot s = system.layout().slots[i];
-    Quaternion<double> q = body.orientation;
-    if (trajectory.has_matrix) {
-      q = quaternion_from_rotation_matrix(body.rotation);
-      if (reading.transposed) q = conjugate<double>(q);
-    } else {
-      q = read_so(body.orientation, reading);
-    }
-    q.normalize();
+    const Quaternion<double> q = read_so(body.orientation, reading).normalized();
     const Matrix3<double> r = rotation_matrix(q);
     Vector3<double> omega = body.angular_velocity * reading.rate_unit;
     if (trajectory.has_angular_velocity) {

@@ -72,7 +72,7 @@ VectorX<double> state_as_stored(const RowStates& rows, const System<double>& sys
   VectorX<double> y = system.start().y;
   const VectorX<double> plain = rows.state(row, {});
   for (std::size_t i = 0; i < rows.trajectory.moving; ++i) {
-    const TrajectoryBody& body = rows.trajectory.bodies[row * rows.trajectory.moving + i];
+    const BodySnapshot<double>& body = rows.trajectory.bodies[row * rows.trajectory.moving + i];
     const Layout::Slot s = system.layout().slots[i], from = rows.right.system().layout().slots[i];
     Eigen::Map<Matrix3<double>>{y.data() + s.orientation} = body.rotation;
     Vector3<double> angular = plain.segment<3>(from.angular);
@@ -107,7 +107,7 @@ double miss_as_stored(const RowStates& rows, const System<double>& system, Integ
     double sum = 0;
     for (std::size_t i = 0; i < moving; ++i) {
       const BodySnapshot<double> now = system.snapshot(state.y, i);
-      const TrajectoryBody& row = rows.trajectory.bodies[to * moving + i];
+      const BodySnapshot<double>& row = rows.trajectory.bodies[to * moving + i];
       const double size = std::sqrt(2.0 / 3) * row.rotation.norm();  // √2 for a rotation
       sum += (now.rotation - row.rotation).squaredNorm() / (size * size) +
              (now.angular_velocity - row.angular_velocity).squaredNorm() / (rows.rate * rows.rate);

@@ -36,7 +36,7 @@ class States {
     State<double> state = system_.start();
     state.t = trajectory_.times[k];
     for (std::size_t i = 0; i < trajectory_.moving; ++i) {
-      const TrajectoryBody& body = trajectory_.bodies[k * trajectory_.moving + i];
+      const BodySnapshot<double>& body = trajectory_.bodies[k * trajectory_.moving + i];
       const Layout::Slot slot = system_.layout().slots[i];
       double* y = state.y.data();
       Matrix3<double> rotation = body.rotation;
@@ -44,9 +44,9 @@ class States {
         Eigen::Map<Matrix3<double>>{y + slot.orientation} = body.rotation;
       } else {
         Eigen::Map<Quaternion<double>>{y + slot.orientation} = body.orientation;
-        rotation = system_.formulation().rotation_from == RotationFrom::stored
-                       ? rotation_matrix_stored(body.orientation)
-                       : rotation_matrix(body.orientation);
+        if (system_.formulation().rotation_from == RotationFrom::stored) {
+          rotation = rotation_matrix_stored(body.orientation);
+        }
       }
       Vector3<double> omega = body.angular_velocity;
       if (!trajectory_.has_angular_velocity && trajectory_.has_angular_momentum) {

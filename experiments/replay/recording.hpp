@@ -14,6 +14,7 @@
 
 namespace polhode::study::replay {
 
+/// The part of a BodySnapshot that a page shows: 80 bytes instead of 200, for every body at every instant.
 struct Placement {
   Vector3<double> position = Vector3<double>::Zero();              ///< of the mass centre, world frame, m
   Quaternion<double> orientation = identity_quaternion<double>();  ///< body to world, any length

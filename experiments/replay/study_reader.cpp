@@ -224,7 +224,7 @@ Vector3<double> momentum_of(const Trajectory& trajectory, std::size_t k, const P
                             const Vector3<double>& mass_center) {
   Vector3<double> sum = Vector3<double>::Zero(), whole = Vector3<double>::Zero();
   for (std::size_t i = 0; i < trajectory.moving; ++i) {
-    const TrajectoryBody& body = trajectory.bodies[k * trajectory.moving + i];
+    const BodySnapshot<double>& body = trajectory.bodies[k * trajectory.moving + i];
     const Vector3<double> p = problem.bodies[i].mass * body.velocity;
     whole += p;
     if (linear) sum += p;
@@ -251,10 +251,8 @@ Recording read_recording(const KeptRun& run, const Scenario& scenario, Reference
   r.moving = trajectory.moving;
   r.times = trajectory.times;
   r.instants_seen = std::int64_t(r.times.size());
-  for (const TrajectoryBody& b : trajectory.bodies) {
-    r.placements.push_back({b.position,
-                            trajectory.has_matrix ? quaternion_from_rotation_matrix(b.rotation) : b.orientation,
-                            b.angular_velocity});
+  for (const BodySnapshot<double>& b : trajectory.bodies) {
+    r.placements.push_back({b.position, b.orientation, b.angular_velocity});
   }
   read_energy(run.motion / "energy.csv", scales.energy, r);
   read_impacts(run.motion / "events.csv", scenario.problem.bodies.size(), r);

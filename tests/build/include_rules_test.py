@@ -83,7 +83,7 @@ MAY_INCLUDE = {
     "experiments/stack": "core/* integrators collision/* experiments/study/*",
     "experiments/work_precision": "core/* integrators collision/* experiments/study/*",
 
-    "experiments/viewer/frame": "core/math collision",
+    "experiments/viewer/frame": "core/problem collision",
     "experiments/viewer/session": "core/* integrators collision collision/contact experiments/study/*"
                                   " experiments/viewer/frame",
     "experiments/viewer/drawing": "core/math core/problem experiments/scene experiments/viewer/frame",

@@ -209,14 +209,16 @@ class Parser {
     return static_cast<std::size_t>(x);
   }
 
-  void read_body(const std::vector<Cell>& cells, TrajectoryBody& body) const {
+  void read_body(const std::vector<Cell>& cells, BodySnapshot<double>& body) const {
     const bool first = result_.times.size() == 1;
     if (result_.has_matrix) {
       for (int k = 0; k < 9; ++k) body.rotation(k / 3, k % 3) = number(cells, matrix_group.columns[std::size_t(k)]);
       check_matrix(body.rotation, first, cell_column(cells, "r11"));
+      body.orientation = quaternion_from_rotation_matrix(body.rotation);
     } else {
       for (int k = 0; k < 4; ++k) body.orientation[k] = number(cells, quaternion_group.columns[std::size_t(k)]);
       check_quaternion(body.orientation.norm(), first, cell_column(cells, "qw"));
+      body.rotation = rotation_matrix(body.orientation);
     }
     if (result_.has_position) body.position = vector(cells, position_group);
     if (result_.has_velocity) body.velocity = vector(cells, velocity_group);

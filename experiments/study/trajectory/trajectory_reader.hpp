@@ -9,25 +9,19 @@
 #include <string_view>
 #include <vector>
 
-#include "core/math/quaternion.hpp"
+#include "core/problem/body_snapshot.hpp"
 #include "core/problem/problem.hpp"
 
 namespace polhode::study::inline trajectory {
 
-struct TrajectoryBody {
-  Vector3<double> position = Vector3<double>::Zero(), velocity = Vector3<double>::Zero();  ///< of the mass centre
-  Quaternion<double> orientation = identity_quaternion<double>();  ///< if the file has no matrix
-  Matrix3<double> rotation = Matrix3<double>::Identity();          ///< if the file has one
-  Vector3<double> angular_velocity = Vector3<double>::Zero(), angular_momentum = Vector3<double>::Zero();
-};
-
 struct Trajectory {
+  /// The columns of the file. What it lacks is zero in `bodies`. Of orientation and rotation each gives the other.
   bool has_matrix = false, has_position = false, has_velocity = false, has_angular_velocity = false;
   bool has_angular_momentum = false, has_energy = false;
-  std::size_t moving = 1;              ///< number of moving bodies
-  std::vector<double> times;           ///< s, increasing, not negative
-  std::vector<TrajectoryBody> bodies;  ///< `moving` bodies for each instant, in the problem's order
-  std::vector<double> energy;          ///< J, at each instant, as given in the file
+  std::size_t moving = 1;                    ///< number of moving bodies
+  std::vector<double> times;                 ///< s, increasing, not negative
+  std::vector<BodySnapshot<double>> bodies;  ///< `moving` bodies for each instant, in the problem's order
+  std::vector<double> energy;                ///< J, at each instant, as given in the file
 };
 
 /// Parses a text; `origin` is its name in errors. Required columns: t_s; an orientation (qw … qz, or r11 … r33, which

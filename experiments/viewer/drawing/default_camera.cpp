@@ -26,7 +26,7 @@ std::vector<Ball> balls_of(const study::Scene& scene, std::span<const Frame> fra
   };
   for (const Frame& frame : frames) {
     for (std::size_t i = 0; i < std::min(frame.bodies.size(), cast.moving.size()); ++i) {
-      const FrameBody& body = frame.bodies[i];
+      const BodySnapshot<double>& body = frame.bodies[i];
       add(body.position, std::max(look.axes ? axis_length(cast.radius[i]) : cast.radius[i], arrows));
       const Vector3<double>& center = scene.bodies[cast.moving[i]].center_of_mass;
       if (!center.isZero()) add(body.position - rotation_matrix(body.orientation) * center, 0.1 * cast.radius[i]);

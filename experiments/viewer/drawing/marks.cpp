@@ -21,8 +21,8 @@ void add_line(std::vector<LineInstance>& lines, const Vector3<float>& from, cons
   lines.push_back({from, to, colour, colour, width, 0});
 }
 
-Vector3<double> arrow(const FrameBody& body, const Vector3<double>& vector, const VectorScale& scale, double reach,
-                      const Cast& cast) {
+Vector3<double> arrow(const BodySnapshot<double>& body, const Vector3<double>& vector, const VectorScale& scale,
+                      double reach, const Cast& cast) {
   const double length = vector.norm();
   if (!(body.angular_velocity.norm() > least_angular_velocity) || !(length > 0)) return Vector3<double>::Zero();
   return vector * (reach * cast.typical_radius * scale.share(length) / length);
@@ -61,7 +61,7 @@ class Coil {
 
 void VectorScales::see(const Frame& frame) {
   double fastest = 0, most = 0;
-  for (const FrameBody& body : frame.bodies) {
+  for (const BodySnapshot<double>& body : frame.bodies) {
     if (!(body.angular_velocity.norm() > least_angular_velocity)) continue;
     fastest = std::max(fastest, body.angular_velocity.norm());
     most = std::max(most, body.angular_momentum.norm());
@@ -70,11 +70,11 @@ void VectorScales::see(const Frame& frame) {
   angular_momentum.see(most);
 }
 
-Vector3<double> angular_velocity_arrow(const FrameBody& body, const Cast& cast, const VectorScales& scales) {
+Vector3<double> angular_velocity_arrow(const BodySnapshot<double>& body, const Cast& cast, const VectorScales& scales) {
   return arrow(body, body.angular_velocity, scales.angular_velocity, longest_angular_velocity, cast);
 }
 
-Vector3<double> angular_momentum_arrow(const FrameBody& body, const Cast& cast, const VectorScales& scales) {
+Vector3<double> angular_momentum_arrow(const BodySnapshot<double>& body, const Cast& cast, const VectorScales& scales) {
   return arrow(body, body.angular_momentum, scales.angular_momentum, longest_angular_momentum, cast);
 }
 
@@ -99,7 +99,7 @@ void Marks::add_springs(const study::Scene& scene, const Cast& cast, const Frame
     const auto found = std::lower_bound(cast.moving.begin(), cast.moving.end(), body);
     const Vector3<double> from_center = anchor - scene.bodies[body].center_of_mass;
     if (found == cast.moving.end() || *found != body) return scene.bodies[body].start.to_world(from_center);
-    const FrameBody& b = frame.bodies[std::size_t(found - cast.moving.begin())];
+    const BodySnapshot<double>& b = frame.bodies[std::size_t(found - cast.moving.begin())];
     return b.position + rotation_matrix(b.orientation) * from_center;
   };
   for (const study::SceneSpring& spring : scene.springs) {
@@ -128,7 +128,7 @@ void Marks::add_pivots(const study::Scene& scene, const Cast& cast, const Frame&
   for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
     const Vector3<double>& center = scene.bodies[cast.moving[i]].center_of_mass;
     if (center.isZero()) continue;
-    const FrameBody& body = frame.bodies[i];
+    const BodySnapshot<double>& body = frame.bodies[i];
     const Vector3<double> pivot = body.position - rotation_matrix(body.orientation) * center;
     const Vector3<float> foot = view.from_eye(pivot);
     add_line(over, foot, view.from_eye(body.position), colours::ink, 2.5f);

@@ -26,8 +26,8 @@ constexpr double least_angular_velocity = 1e-9;
 constexpr double longest_angular_velocity = 1.6, longest_angular_momentum = 1.9;
 
 /// Vector (m) from the mass centre to the tip of the arrow of ω or L; zero for a body at rest.
-Vector3<double> angular_velocity_arrow(const FrameBody& body, const Cast& cast, const VectorScales& scales);
-Vector3<double> angular_momentum_arrow(const FrameBody& body, const Cast& cast, const VectorScales& scales);
+Vector3<double> angular_velocity_arrow(const BodySnapshot<double>& body, const Cast& cast, const VectorScales& scales);
+Vector3<double> angular_momentum_arrow(const BodySnapshot<double>& body, const Cast& cast, const VectorScales& scales);
 /// Length (m) of the arrows of a body's axes.
 inline double axis_length(double body_radius) { return 1.35 * body_radius; }
 

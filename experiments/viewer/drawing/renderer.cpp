@@ -57,7 +57,7 @@ void Renderer::place_bodies(const Frame& frame, const ViewState& view, const Loo
       instances_[*body.surface].push_back(
           {body.start.rotation.cast<float>(), view.from_eye(body.start.position), colours::fixed, 0});
     } else {
-      const FrameBody& now = frame.bodies[number];
+      const BodySnapshot<double>& now = frame.bodies[number];
       if (!now.position.allFinite() || !now.orientation.allFinite()) continue;  // the run has diverged
       instances_[*body.surface].push_back({rotation_matrix(now.orientation).cast<float>(), view.from_eye(now.position),
                                            body_colour(number), look.selected == number ? 1.0f : 0.0f});
@@ -108,7 +108,7 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Look& look, 
   if (look.axes) marks_.add_axes(frame, cast_, view);
   const double thick = 0.032 * cast_.typical_radius,
                thin = 0.7 * thick;  // both are visible if one lies within the other
-  for (const FrameBody& body : frame.bodies) {
+  for (const BodySnapshot<double>& body : frame.bodies) {
     if (look.angular_velocity) {
       const Vector3<double> way = angular_velocity_arrow(body, cast_, scales_);
       marks_.add_arrow(body.position, way, thick, colours::angular_velocity, view);
@@ -137,7 +137,7 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Look& look, 
 std::optional<InertiaEllipsoid> Renderer::ellipsoid(const Frame& frame, const Look& look) const {
   const std::size_t body = look.selected.value_or(0);
   if (!look.polhode || body >= frame.bodies.size()) return std::nullopt;
-  const FrameBody& b = frame.bodies[body];
+  const BodySnapshot<double>& b = frame.bodies[body];
   const Matrix3<double> rotation = rotation_matrix(b.orientation);
   return InertiaEllipsoid::of(scene_.bodies[cast_.moving[body]].inertia, rotation.transpose() * b.angular_velocity,
                               look.poinsot ? rotation : Matrix3<double>::Identity());
@@ -180,7 +180,7 @@ std::vector<Label> Renderer::labels(const Frame& frame, const Camera& camera, co
   };
   constexpr std::array<const char*, 3> axis_names = {"x", "y", "z"};
   for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
-    const FrameBody& body = frame.bodies[i];
+    const BodySnapshot<double>& body = frame.bodies[i];
     if (look.axes) {
       const Matrix3<double> axes = rotation_matrix(body.orientation) * axis_length(cast_.radius[i]);
       for (std::size_t k = 0; k < 3; ++k) {

@@ -6,17 +6,9 @@
 #include <vector>
 
 #include "collision/shape.hpp"
-#include "core/math/quaternion.hpp"
+#include "core/problem/body_snapshot.hpp"
 
 namespace polhode::viewer::inline frame {
-
-struct FrameBody {
-  Vector3<double> position = Vector3<double>::Zero();              ///< m, of the mass centre
-  Quaternion<double> orientation = identity_quaternion<double>();  ///< body to world
-  Vector3<double> velocity = Vector3<double>::Zero();              ///< m/s, of the mass centre
-  Vector3<double> angular_velocity = Vector3<double>::Zero();      ///< rad/s
-  Vector3<double> angular_momentum = Vector3<double>::Zero();      ///< kg m²/s, about the reference point
-};
 
 struct FrameContact {
   std::size_t a = 0, b = 0;
@@ -26,15 +18,15 @@ struct FrameContact {
 };
 
 struct Frame {
-  double t = 0;                        ///< s
-  std::int64_t step = 0;               ///< of the session, from its start
-  std::vector<FrameBody> bodies;       ///< the moving ones, in the problem's order
-  std::vector<FrameContact> contacts;  ///< where they are asked for, or where the run paused at a collision
-  std::vector<Bounds> cells;           ///< of the broad phase, where they are asked for
-  double kinetic = 0, potential = 0;   ///< J
-  double energy_drift = 0;             ///< J, what the ledger cannot explain
-  double momentum_drift = 0;           ///< kg m²/s, |L − L(0)|
-  double defect = 0;                   ///< of the worst orientation
+  double t = 0;                              ///< s
+  std::int64_t step = 0;                     ///< of the session, from its start
+  std::vector<BodySnapshot<double>> bodies;  ///< the moving ones, in the problem's order
+  std::vector<FrameContact> contacts;        ///< where they are asked for, or where the run paused at a collision
+  std::vector<Bounds> cells;                 ///< of the broad phase, where they are asked for
+  double kinetic = 0, potential = 0;         ///< J
+  double energy_drift = 0;                   ///< J, what the ledger cannot explain
+  double momentum_drift = 0;                 ///< kg m²/s, |L − L(0)|
+  double defect = 0;                         ///< of the worst orientation
 };
 
 }  // namespace polhode::viewer::frame

@@ -114,12 +114,11 @@ class RecordedSession final : public Session {
     view_.reset();
   }
 
-  const study::TrajectoryBody& body(std::size_t sample, std::size_t i) const {
+  const BodySnapshot<double>& body(std::size_t sample, std::size_t i) const {
     return motion_.bodies[sample * motion_.moving + i];
   }
   Quaternion<double> orientation(std::size_t sample, std::size_t i) const {
-    const study::TrajectoryBody& b = body(sample, i);
-    return (motion_.has_matrix ? quaternion_from_rotation_matrix<double>(b.rotation) : b.orientation).normalized();
+    return body(sample, i).orientation.normalized();
   }
 
   /// State interpolated between samples k and k + 1 at the fraction s (0 to 1).
@@ -127,7 +126,7 @@ class RecordedSession final : public Session {
     const std::size_t next = s > 0 ? k + 1 : k;
     VectorX<double> y = VectorX<double>::Zero(system_->layout().size());
     for (std::size_t i = 0; i < motion_.moving; ++i) {
-      const study::TrajectoryBody &a = body(k, i), &b = body(next, i);
+      const BodySnapshot<double>&a = body(k, i), &b = body(next, i);
       BodySnapshot<double> at;
       const auto mean = [s](const Vector3<double>& x, const Vector3<double>& z) {
         return Vector3<double>((1 - s) * x + s * z);
@@ -146,7 +145,7 @@ class RecordedSession final : public Session {
   double defect(std::size_t sample) const {
     double worst = 0;
     for (std::size_t i = 0; i < motion_.moving; ++i) {
-      const study::TrajectoryBody& b = body(sample, i);
+      const BodySnapshot<double>& b = body(sample, i);
       const double now = motion_.has_matrix ? (b.rotation.transpose() * b.rotation - Matrix3<double>::Identity()).norm()
                                             : std::abs(b.orientation.norm() - 1);
       worst = std::max(worst, now);
@@ -213,8 +212,7 @@ class RecordedSession final : public Session {
     frame.momentum_drift = point.momentum_drift;
     frame.defect = point.defect;
     for (std::size_t i = 0; i < motion_.moving; ++i) {
-      const BodySnapshot<double> b = system_->snapshot(y, i);
-      frame.bodies.push_back({b.position, b.orientation, b.velocity, b.angular_velocity, b.angular_momentum});
+      frame.bodies.push_back(system_->snapshot(y, i));
     }
     if (lookout_ && (wanted_.contacts || collided_)) frame.contacts = lookout_->contacts(*system_, y);
     if (lookout_ && wanted_.cells) frame.cells = lookout_->cells(*system_, y);

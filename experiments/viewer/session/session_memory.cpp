@@ -82,8 +82,7 @@ Frame SessionMemory::frame(const Kept& kept) {
   frame.step = kept.step;
   frame.bodies.reserve(looked_at.moving());
   for (std::size_t i = 0; i < looked_at.moving(); ++i) {
-    const BodySnapshot<double> b = looked_at.snapshot(kept.state.y, i);
-    frame.bodies.push_back({b.position, b.orientation, b.velocity, b.angular_velocity, b.angular_momentum});
+    frame.bodies.push_back(looked_at.snapshot(kept.state.y, i));
   }
   const PlotPoint point = plot_point(kept);
   frame.kinetic = point.kinetic;

@@ -14,7 +14,7 @@ double reach(const Camera& camera, std::span<const Frame> frames, double width_o
   const int height = 1000, width = int(height * width_over_height);
   double most = 0;
   for (const Frame& frame : frames) {
-    for (const FrameBody& body : frame.bodies) {
+    for (const BodySnapshot<double>& body : frame.bodies) {
       for (unsigned i = 0; i < 8; ++i) {
         const Vector3<double> corner =
             body.position + 0.2 * Vector3<double>(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);

@@ -77,7 +77,8 @@ TEST_F(RendererStage, TheSameFrameGivesTheSameBytes) {
   study::Scene scene = cubes(apart.size());
   add_floor(scene, -1);
   Frame frame = standing_at(apart);
-  for (FrameBody& body : frame.bodies) body.angular_velocity = body.angular_momentum = Vector3<double>(1, 2, 3);
+  for (BodySnapshot<double>& body : frame.bodies)
+    body.angular_velocity = body.angular_momentum = Vector3<double>(1, 2, 3);
   frame.contacts.push_back({0, 1, {0.2, 0, 0}, Vector3<double>::UnitX(), 0.1});
   Look all;
   all.axes = all.angular_velocity = all.angular_momentum = all.polhode = true;

@@ -45,7 +45,7 @@ TEST(RecordedSession, ShowsWhatTheRunWas) {
       EXPECT_NEAR(a->frame.energy_drift, b->frame.energy_drift, 1e-12 * (1 + a->frame.kinetic));
       ASSERT_EQ(a->frame.bodies.size(), b->frame.bodies.size());
       for (std::size_t i = 0; i < a->frame.bodies.size(); ++i) {
-        const FrameBody &x = a->frame.bodies[i], &y = b->frame.bodies[i];
+        const BodySnapshot<double>&x = a->frame.bodies[i], &y = b->frame.bodies[i];
         EXPECT_LT((x.position - y.position).norm(), 1e-12);
         EXPECT_LT(angle_between<double>(x.orientation, y.orientation), 1e-12);
         EXPECT_LT((x.angular_velocity - y.angular_velocity).norm(), 1e-12);

@@ -60,7 +60,7 @@ inline bool same(const Frame& a, const Frame& b) {
     return false;
   }
   for (std::size_t i = 0; i < a.bodies.size(); ++i) {
-    const FrameBody &x = a.bodies[i], &y = b.bodies[i];
+    const BodySnapshot<double>&x = a.bodies[i], &y = b.bodies[i];
     if (x.position != y.position || x.orientation != y.orientation || x.velocity != y.velocity ||
         x.angular_velocity != y.angular_velocity || x.angular_momentum != y.angular_momentum) {
       return false;

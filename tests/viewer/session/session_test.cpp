@@ -223,7 +223,7 @@ TEST(Session, ChangesItsFormulationWhileItRuns) {
         EXPECT_EQ(after->frame.step, before->frame.step);
         ASSERT_EQ(after->frame.bodies.size(), before->frame.bodies.size());
         for (std::size_t i = 0; i < after->frame.bodies.size(); ++i) {
-          const FrameBody &x = before->frame.bodies[i], &y = after->frame.bodies[i];
+          const BodySnapshot<double>&x = before->frame.bodies[i], &y = after->frame.bodies[i];
           EXPECT_LT((x.position - y.position).norm(), 1e-15 * (1 + x.position.norm()));
           EXPECT_LT((x.velocity - y.velocity).norm(), 1e-14 * (1 + x.velocity.norm()));
           EXPECT_LT(angle_between<double>(x.orientation, y.orientation), 1e-14);

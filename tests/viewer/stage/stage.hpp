@@ -37,7 +37,7 @@ inline study::Scene cubes(std::size_t count) {
 inline Frame standing_at(const std::vector<Vector3<double>>& positions) {
   Frame frame;
   for (const Vector3<double>& x : positions) {
-    FrameBody body;
+    BodySnapshot<double> body;
     body.position = x;
     frame.bodies.push_back(body);
   }

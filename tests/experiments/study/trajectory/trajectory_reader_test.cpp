@@ -117,7 +117,8 @@ TEST(TrajectoryReader, NeverFallsOver) {
       ASSERT_GE(t.times.size(), 2u);
       ASSERT_EQ(t.bodies.size(), 2 * t.times.size());
       for (std::size_t k = 1; k < t.times.size(); ++k) ASSERT_LT(t.times[k - 1], t.times[k]);
-      for (const TrajectoryBody& b : t.bodies) ASSERT_TRUE(b.orientation.allFinite() && b.angular_velocity.allFinite());
+      for (const BodySnapshot<double>& b : t.bodies)
+        ASSERT_TRUE(b.orientation.allFinite() && b.angular_velocity.allFinite());
     } catch (const InputError& error) {
       ASSERT_THAT(error.what(), testing::StartsWith("x.csv"));
       ASSERT_EQ(std::string(error.what()).find('\n'), std::string::npos);
@@ -136,10 +137,11 @@ Trajectory exact_trajectory(const Scenario& scenario, double duration, std::size
   for (std::size_t k = 0; k <= n; ++k) {
     t.times.push_back(duration * static_cast<double>(k) / static_cast<double>(n));
     const auto at = exact.at(t.times.back(), 0);
-    TrajectoryBody body;
+    BodySnapshot<double> body;
     body.position = at.path->position;
     body.velocity = at.path->velocity;
     body.orientation = *at.rotation->orientation;
+    body.rotation = rotation_matrix(body.orientation);
     body.angular_velocity = at.rotation->angular_velocity;
     t.bodies.push_back(body);
   }
@@ -161,7 +163,7 @@ TEST(TrajectoryScore, DerivesWhatIsMissingOrLeavesItEmpty) {
   const Scenario scenario = ScenarioSource::open("peters_hsu").resolve();
   Trajectory t = exact_trajectory(scenario, 10, 500);
   t.has_position = t.has_velocity = false;
-  for (TrajectoryBody& b : t.bodies) b.position.setZero(), b.velocity.setZero();
+  for (BodySnapshot<double>& b : t.bodies) b.position.setZero(), b.velocity.setZero();
   const auto rotation_only = score(t, scenario, {});
   EXPECT_EQ(rotation_only.record.result.drift_class, "round-off");
   EXPECT_FALSE(rotation_only.record.result.position_error_max);
@@ -173,7 +175,7 @@ TEST(TrajectoryScore, DerivesWhatIsMissingOrLeavesItEmpty) {
                attitude_only.record.result.polhode_off_error_max_rel);
   EXPECT_LE(*attitude_only.record.result.attitude_error_max, 1e-14);
   t.has_angular_momentum = true;
-  for (TrajectoryBody& b : t.bodies) {
+  for (BodySnapshot<double>& b : t.bodies) {
     const Matrix3<double> r = rotation_matrix(b.orientation);
     b.angular_momentum = r * scenario.problem.bodies[0].inertia * (r.transpose() * b.angular_velocity);
   }
@@ -185,7 +187,7 @@ TEST(TrajectoryScore, DerivesWhatIsMissingOrLeavesItEmpty) {
 TEST(TrajectoryScore, SaysWhereTheStartIsAnother) {
   const Scenario scenario = ScenarioSource::open("peters_hsu").resolve();
   Trajectory t = exact_trajectory(scenario, 10, 500);
-  for (TrajectoryBody& b : t.bodies) b.position.x() += 0.25;
+  for (BodySnapshot<double>& b : t.bodies) b.position.x() += 0.25;
   t.has_energy = true;
   t.energy.assign(t.times.size(), 1e3);
   const auto s = score(t, scenario, {});
