@@ -30,8 +30,8 @@ void set_twist(const Bodies& bodies, const typename Bodies::Tangent& xi, typenam
 }
 
 template <class Bodies>
-void acceleration(const Bodies& bodies, const typename Bodies::Flat& y, const typename Bodies::Tangent& wrench,
-                  typename Bodies::Tangent& rate) {
+inline void acceleration(const Bodies& bodies, const typename Bodies::Flat& y, const typename Bodies::Tangent& wrench,
+                         typename Bodies::Tangent& rate) {
   using Vector = typename Bodies::Vector;
   for (std::size_t i = 0; i < bodies.count(); ++i) {
     const Layout::Slot s = bodies.slot(i);

@@ -45,7 +45,8 @@ class Cosines {
   Matrix even_, odd_;
 };
 
-/// The cosines of n blocks. Kept for later calls, since many runs of a study have as many: at most half a megabyte each.
+/// The cosines of n blocks. Kept for later calls, since many runs of a study have as many: at most half a megabyte
+/// each.
 const Cosines& cosines_of(Index n);
 
 /// Generalised least squares of c on the columns of x with variances s² v_k.
