@@ -43,7 +43,7 @@ struct Range {
   void widen() {
     const double least = std::max(std::abs(low), std::abs(high)) * 1e-12;
     if (high - low > least) return;
-    const double by = std::max(std::abs(high) * 0.5, 1e-300);
+    const double by = high == 0 ? 1 : std::abs(high) * 0.5;
     low -= by;
     high += by;
   }
