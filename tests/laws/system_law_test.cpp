@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/system/concepts.hpp"
 #include "core/system/visit_system.hpp"
 #include "tests/laws/formulations.hpp"
 #include "tests/laws/plain_equations.hpp"
