@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/problem/catalogue.hpp"
-
 #include "integrators/catalogue.hpp"
+
+#include "core/problem/catalogue.hpp"
 
 // One line for each method. The function with the name of the method declares it, in the file with that name.
 #define POLHODE_INTEGRATORS(METHOD) \
@@ -53,14 +53,7 @@
 
 namespace polhode::inline integrators {
 
-#define POLHODE_DECLARE(name) IntegratorEntry name();
-POLHODE_INTEGRATORS(POLHODE_DECLARE)
-
-const std::vector<IntegratorEntry>& integrator_catalogue() {
-#define POLHODE_ENTRY(name) name(),
-  static const std::vector<IntegratorEntry> entries = {POLHODE_INTEGRATORS(POLHODE_ENTRY)};
-  return entries;
-}
+POLHODE_CATALOGUE(IntegratorEntry, integrator_catalogue, POLHODE_INTEGRATORS)
 
 const IntegratorEntry* find_integrator(std::string_view name) {
   return find_entry(integrator_catalogue(), name, [](const auto& entry) { return entry.declaration.name; });

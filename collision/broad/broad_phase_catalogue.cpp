@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-
 #include "collision/broad_phase.hpp"
 #include "core/problem/catalogue.hpp"
 
@@ -15,14 +14,7 @@
 
 namespace polhode::inline collision {
 
-#define POLHODE_DECLARE(name) BroadPhaseEntry name();
-POLHODE_BROAD_PHASES(POLHODE_DECLARE)
-
-const std::vector<BroadPhaseEntry>& broad_phase_catalogue() {
-#define POLHODE_ENTRY(name) name(),
-  static const std::vector<BroadPhaseEntry> entries = {POLHODE_BROAD_PHASES(POLHODE_ENTRY)};
-  return entries;
-}
+POLHODE_CATALOGUE(BroadPhaseEntry, broad_phase_catalogue, POLHODE_BROAD_PHASES)
 
 const BroadPhaseEntry* find_broad_phase(std::string_view name) { return find_entry(broad_phase_catalogue(), name); }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-
 #include "collision/narrow_phase.hpp"
 #include "core/problem/catalogue.hpp"
 
@@ -11,14 +10,7 @@
 
 namespace polhode::inline collision {
 
-#define POLHODE_DECLARE(name) NarrowPhaseEntry name();
-POLHODE_NARROW_PHASES(POLHODE_DECLARE)
-
-const std::vector<NarrowPhaseEntry>& narrow_phase_catalogue() {
-#define POLHODE_ENTRY(name) name(),
-  static const std::vector<NarrowPhaseEntry> entries = {POLHODE_NARROW_PHASES(POLHODE_ENTRY)};
-  return entries;
-}
+POLHODE_CATALOGUE(NarrowPhaseEntry, narrow_phase_catalogue, POLHODE_NARROW_PHASES)
 
 const NarrowPhaseEntry* find_narrow_phase(std::string_view name) { return find_entry(narrow_phase_catalogue(), name); }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-
 #include "collision/response.hpp"
 #include "core/problem/catalogue.hpp"
 
@@ -12,14 +11,7 @@
 
 namespace polhode::inline collision {
 
-#define POLHODE_DECLARE(name) ResponseEntry name();
-POLHODE_RESPONSES(POLHODE_DECLARE)
-
-const std::vector<ResponseEntry>& response_catalogue() {
-#define POLHODE_ENTRY(name) name(),
-  static const std::vector<ResponseEntry> entries = {POLHODE_RESPONSES(POLHODE_ENTRY)};
-  return entries;
-}
+POLHODE_CATALOGUE(ResponseEntry, response_catalogue, POLHODE_RESPONSES)
 
 const ResponseEntry* find_response(std::string_view name) { return find_entry(response_catalogue(), name); }
 

@@ -16,14 +16,7 @@
 
 namespace polhode::inline collision {
 
-#define POLHODE_DECLARE(name) ShapeEntry name();
-POLHODE_SHAPES(POLHODE_DECLARE)
-
-const std::vector<ShapeEntry>& shape_catalogue() {
-#define POLHODE_ENTRY(name) name(),
-  static const std::vector<ShapeEntry> entries = {POLHODE_SHAPES(POLHODE_ENTRY)};
-  return entries;
-}
+POLHODE_CATALOGUE(ShapeEntry, shape_catalogue, POLHODE_SHAPES)
 
 const ShapeEntry* find_shape(std::string_view name) { return find_entry(shape_catalogue(), name); }
 

@@ -22,3 +22,15 @@ const Entry* find_entry(const std::vector<Entry>& catalogue, std::string_view na
 }
 
 }  // namespace polhode
+
+/// Defines `const std::vector<Entry>& catalogue()` for the entries of LIST, a macro with one line ITEM(name) for each
+/// entry. The function `Entry name()`, in the same namespace, makes the entry.
+#define POLHODE_CATALOGUE(Entry, catalogue, LIST) \
+  const std::vector<Entry>& catalogue() { \
+    using Listed = Entry; \
+    LIST(POLHODE_DECLARE_ENTRY) \
+    static const std::vector<Entry> entries = {LIST(POLHODE_MAKE_ENTRY)}; \
+    return entries; \
+  }
+#define POLHODE_DECLARE_ENTRY(name) extern Listed name();
+#define POLHODE_MAKE_ENTRY(name) name(),
