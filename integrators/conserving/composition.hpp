@@ -7,6 +7,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <string>
+#include <utility>
+
+#include "core/run/integrator.hpp"
 
 namespace polhode::inline integrators {
 
@@ -40,6 +44,14 @@ struct KahanLi6 {
     return {a, b, c, d, e, d, c, b, a};
   }
 };
+
+/// Declaration of a composition of the method `base`: it has the properties of the method and an order of its own.
+inline Declaration composition_of(Declaration base, std::string name, std::string summary, int order) {
+  base.name = std::move(name);
+  base.summary = std::move(summary);
+  base.order = order;
+  return base;
+}
 
 /// The composition of the method Base. Base::step() returns a const char*, null or the reason of a failure, and
 /// Base::evaluations() counts the right-hand sides.

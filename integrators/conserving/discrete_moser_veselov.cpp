@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discrete Moser–Veselov algorithm for the free rigid body, with modified moments of inertia for orders 4 and 6.
+// The discrete Moser–Veselov algorithm for the free rigid body, with modified moments of inertia for orders 4 and 6, in
+// a Strang splitting with kicks: order 2 under forces.
 //
 // One step with moments J solves for the rotation R(ρ) of the unit quaternion ρ = (ρ0, ρ1, ρ2, ρ3) with
 //   h m1 = 2 J1 ρ0 ρ1 + 2 (J3 − J2) ρ2 ρ3, and cyclically,
@@ -16,8 +17,6 @@
 //   60 e3² s5 = (2 e2² − e1 e3) H² + (8 e3 − 2 e1 e2) H C + (2 e1² − 6 e2) C²,
 //   60 e3² d5 = −(e1 e2 + 6 e3) H² + (8 e2 − e1²) H C − e1 C².
 // These coefficients follow by inserting the Taylor series of the exact ρ into the equations above.
-#pragma once
-
 #include <cmath>
 #include <limits>
 
@@ -91,5 +90,58 @@ struct MoserVeselov {
     }
   }
 };
+
+template <class System>
+using Dmv = RotorSplitting<System, MoserVeselov<2>>;
+
+IntegratorEntry dmv() {
+  return rotor_method<Dmv>({.name = "dmv",
+                            .family = "conserving",
+                            .summary = "kick, h m* = R D - D R^T and m' = R^T m (discrete Moser-Veselov), kick",
+                            .order = 2,
+                            .implicit = true,
+                            .lie_group = true,
+                            .symplectic = true,
+                            .symmetric = true,
+                            .conserves_energy = true,
+                            .conserves_momentum = true,
+                            .conserves_casimir = true});
+}
+
+// Moments of inertia modified up to h²: order 4 for free bodies.
+template <class System>
+using Dmv4 = RotorSplitting<System, MoserVeselov<4>>;
+
+IntegratorEntry dmv4() {
+  return rotor_method<Dmv4>({.name = "dmv4",
+                             .family = "conserving",
+                             .summary = "kick, discrete Moser-Veselov with moments prepared to h^2, kick",
+                             .order = 2,
+                             .free_order = 4,
+                             .implicit = true,
+                             .lie_group = true,
+                             .symmetric = true,
+                             .conserves_energy = true,
+                             .conserves_momentum = true,
+                             .conserves_casimir = true});
+}
+
+// Moments of inertia modified up to h⁴: order 6 for free bodies.
+template <class System>
+using Dmv6 = RotorSplitting<System, MoserVeselov<6>>;
+
+IntegratorEntry dmv6() {
+  return rotor_method<Dmv6>({.name = "dmv6",
+                             .family = "conserving",
+                             .summary = "kick, discrete Moser-Veselov with moments prepared to h^4, kick",
+                             .order = 2,
+                             .free_order = 6,
+                             .implicit = true,
+                             .lie_group = true,
+                             .symmetric = true,
+                             .conserves_energy = true,
+                             .conserves_momentum = true,
+                             .conserves_casimir = true});
+}
 
 }  // namespace polhode::integrators
