@@ -3,8 +3,8 @@
 
 #include "core/problem/catalogue.hpp"
 
-// One line for each method. The function with the name of the method declares it, in the file with that name or with the
-// name of its family.
+// One line for each method. The function with the name of the method declares it, in the file with that name or with
+// the name of its family.
 #define POLHODE_INTEGRATORS(METHOD) \
   METHOD(explicit_euler) \
   METHOD(semi_implicit_euler) \

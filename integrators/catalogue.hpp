@@ -20,7 +20,7 @@ template <class S>
 using IntegratorMaker = std::function<IntegratorPointer<S>(const System<S>&, const IntegratorSettings&)>;
 /// Builds a fixed-step method for the ODE of the change of the state (ShiftedSystem).
 template <class S>
-using IncrementMaker = std::function<IntegratorPointer<S>(const ShiftedSystem<S>&)>;
+using IncrementMaker = std::function<IntegratorPointer<S>(const ShiftedSystem<S>&, const IntegratorSettings&)>;
 
 /// A method with one builder for each supported scalar. An empty builder means that the scalar is not supported. The
 /// system must outlive the integrator.

@@ -21,8 +21,11 @@ void add(S& sum, S& carried, S addend) {
 template <class S>
 class Compensated final : public Integrator<S> {
  public:
-  Compensated(const IncrementMaker<S>& make, const System<S>& system)
-      : shifted_(system), increment_{0, shifted_.zero()}, carried_(shifted_.zero()), method_(make(shifted_)) {}
+  Compensated(const IncrementMaker<S>& make, const System<S>& system, const IntegratorSettings& settings)
+      : shifted_(system),
+        increment_{0, shifted_.zero()},
+        carried_(shifted_.zero()),
+        method_(make(shifted_, settings)) {}
 
   void begin(const State<S>& state) override {
     carried_.setZero();
@@ -63,13 +66,17 @@ class Compensated final : public Integrator<S> {
 }  // namespace
 
 template <class S>
-IntegratorPointer<S> make_compensated(const IntegratorEntry& entry, const System<S>& system) {
+IntegratorPointer<S> make_compensated(const IntegratorEntry& entry, const System<S>& system,
+                                      const IntegratorSettings& settings) {
   if (!entry.declaration.additive) throw std::invalid_argument(entry.declaration.name + " is not additive");
-  return std::make_unique<Compensated<S>>(entry.increment<S>(), system);
+  return std::make_unique<Compensated<S>>(entry.increment<S>(), system, settings);
 }
 
-template IntegratorPointer<float> make_compensated(const IntegratorEntry&, const System<float>&);
-template IntegratorPointer<double> make_compensated(const IntegratorEntry&, const System<double>&);
-template IntegratorPointer<long double> make_compensated(const IntegratorEntry&, const System<long double>&);
+template IntegratorPointer<float> make_compensated(const IntegratorEntry&, const System<float>&,
+                                                   const IntegratorSettings&);
+template IntegratorPointer<double> make_compensated(const IntegratorEntry&, const System<double>&,
+                                                    const IntegratorSettings&);
+template IntegratorPointer<long double> make_compensated(const IntegratorEntry&, const System<long double>&,
+                                                         const IntegratorSettings&);
 
 }  // namespace polhode::integrators

@@ -19,6 +19,7 @@ namespace polhode::inline integrators {
 /// the stored round-off, which belongs to the state before the projection. The system must outlive the integrator.
 /// Throws std::invalid_argument for a method that is not additive.
 template <class S>
-IntegratorPointer<S> make_compensated(const IntegratorEntry& entry, const System<S>& system);
+IntegratorPointer<S> make_compensated(const IntegratorEntry& entry, const System<S>& system,
+                                      const IntegratorSettings& settings);
 
 }  // namespace polhode::integrators

@@ -2,7 +2,8 @@
 // Adapter that turns a fixed-step method, written as a class template, into an entry of the catalogue.
 //
 // Requirements on a method:
-//   Method(const System&)    constructor.
+//   Method(const System&)    constructor; Method(const System&, const IntegratorSettings&) of a method with settings of
+//                            its own (Declaration::settings).
 //   step(system, t, h, y)    advances the flat state y from time t (s) by h (s). A step that can fail returns a
 //                            const char*: null on success, otherwise the reason; y is then unspecified.
 //   static_assert(…)         states the concept of core/system/concepts.hpp that the method uses, for example
@@ -33,12 +34,12 @@ class FixedStep final : public Integrator<typename System::Scalar> {
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
 
-  FixedStep(const System& system, int evaluations_per_step)
-      : system_(system), method_(system), evaluations_per_step_(evaluations_per_step) {}
+  FixedStep(const System& system, const IntegratorSettings& settings, int evaluations_per_step)
+      : system_(system), settings_(settings), method_(made()), evaluations_per_step_(evaluations_per_step) {}
 
   void begin(const State<S>&) override {
     steps_ = 0;
-    method_ = Method(system_);
+    method_ = made();
   }
   StepResult step(State<S>& state, double h) override {
     if constexpr (can_fail) {
@@ -76,6 +77,14 @@ class FixedStep final : public Integrator<typename System::Scalar> {
   }
 
  private:
+  Method made() const {
+    if constexpr (std::is_constructible_v<Method, const System&, const IntegratorSettings&>) {
+      return Method(system_, settings_);
+    } else {
+      return Method(system_);
+    }
+  }
+
   static constexpr bool can_fail =
       std::is_same_v<const char*, decltype(std::declval<Method&>().step(std::declval<const System&>(), S(), S(),
                                                                         std::declval<Flat&>()))>;
@@ -143,6 +152,7 @@ class FixedStep final : public Integrator<typename System::Scalar> {
   [[gnu::noinline]] S energy(Flat y) const { return system_.measure_flat(y.data()).energy(); }
 
   const System& system_;
+  IntegratorSettings settings_;
   Method method_;
   int evaluations_per_step_;
   std::int64_t steps_ = 0;
@@ -153,18 +163,16 @@ class FixedStep final : public Integrator<typename System::Scalar> {
 template <template <class> class Method, bool with_lanes = false>
 IntegratorEntry fixed_step(Declaration declaration) {
   const int evaluations = declaration.evaluations_per_step;
-  const auto maker = [evaluations]<class S>(const System<S>& system) -> IntegratorPointer<S> {
+  const auto maker = [evaluations]<class S>(const System<S>& system,
+                                            const IntegratorSettings& settings) -> IntegratorPointer<S> {
     return visit_system(system, [&]<class Concrete>(const Concrete& concrete) -> IntegratorPointer<S> {
-      return std::make_unique<FixedStep<Method<Concrete>, Concrete>>(concrete, evaluations);
+      return std::make_unique<FixedStep<Method<Concrete>, Concrete>>(concrete, settings, evaluations);
     });
   };
-  IntegratorMaker<Lanes> lanes;
-  if constexpr (with_lanes) lanes = [maker](const System<Lanes>& s, const IntegratorSettings&) { return maker(s); };
-  return {.declaration = std::move(declaration),
-          .make = [maker](const System<double>& s, const IntegratorSettings&) { return maker(s); },
-          .make_float = [maker](const System<float>& s, const IntegratorSettings&) { return maker(s); },
-          .make_long_double = [maker](const System<long double>& s, const IntegratorSettings&) { return maker(s); },
-          .make_lanes = std::move(lanes)};
+  IntegratorEntry entry{
+      .declaration = std::move(declaration), .make = maker, .make_float = maker, .make_long_double = maker};
+  if constexpr (with_lanes) entry.make_lanes = maker;
+  return entry;
 }
 
 /// Builds the catalogue entry of an additive method. Its step adds an increment to the flat state and uses only a
@@ -173,13 +181,12 @@ template <template <class> class Method, bool with_lanes = false>
 IntegratorEntry additive_step(Declaration declaration) {
   declaration.additive = true;
   IntegratorEntry entry = fixed_step<Method, with_lanes>(std::move(declaration));
-  const auto maker = [evaluations = entry.declaration.evaluations_per_step]<class S>(const ShiftedSystem<S>& change) {
+  const auto maker = [evaluations = entry.declaration.evaluations_per_step]<class S>(
+                         const ShiftedSystem<S>& change, const IntegratorSettings& settings) -> IntegratorPointer<S> {
     using Change = ShiftedSystem<S>;
-    return IntegratorPointer<S>(std::make_unique<FixedStep<Method<Change>, Change>>(change, evaluations));
+    return std::make_unique<FixedStep<Method<Change>, Change>>(change, settings, evaluations);
   };
-  entry.increments = {[maker](const ShiftedSystem<float>& s) { return maker(s); },
-                      [maker](const ShiftedSystem<double>& s) { return maker(s); },
-                      [maker](const ShiftedSystem<long double>& s) { return maker(s); }};
+  entry.increments = {maker, maker, maker};
   return entry;
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/run/setting.hpp"
 #include "core/system/system.hpp"
 
 namespace polhode {
@@ -22,16 +23,15 @@ struct StepResult {
 
 /// Declared properties of a method. The conformance tests verify each of them by measurement.
 struct Declaration {
-  std::string name;                         ///< name in the catalogue
-  std::string family;                       ///< for example textbook, SUNDIALS, Boost.Odeint
-  std::string summary;                      ///< formula or principle in one line
-  int order = 0;                            ///< order of the global error under forces; 0: variable
-  int free_order = 0;                       ///< order for bodies without forces; exact_order: exact; 0: same as `order`
-  int lowest_order = 0, highest_order = 0;  ///< range of IntegratorSettings::order; 0: the order is fixed
-  bool adaptive = false;                    ///< controls its step size by a tolerance; false: fixed step h
-  bool implicit = false;                    ///< solves equations in each step
-  int evaluations_per_step = 0;             ///< right-hand sides per step; 0: not constant, counted by the method
-  bool multi_step = false;                  ///< uses past steps, which an impact or a projection invalidates
+  std::string name;              ///< name in the catalogue
+  std::string family;            ///< for example textbook, SUNDIALS, Boost.Odeint
+  std::string summary;           ///< formula or principle in one line
+  int order = 0;                 ///< order of the global error under forces; 0: variable
+  int free_order = 0;            ///< order for bodies without forces; exact_order: exact; 0: same as `order`
+  bool adaptive = false;         ///< controls its step size by a tolerance; false: fixed step h
+  bool implicit = false;         ///< solves equations in each step
+  int evaluations_per_step = 0;  ///< right-hand sides per step; 0: not constant, counted by the method
+  bool multi_step = false;       ///< uses past steps, which an impact or a projection invalidates
   /// The step adds an increment to the flat state, y' = y + Δ(t, h, y), so that the sum can be compensated.
   bool additive = false;
   bool lie_group = false;   ///< updates orientations by group elements, so that they stay on their manifold
@@ -45,6 +45,7 @@ struct Declaration {
   bool conserves_energy = false;
   bool conserves_momentum = false;  ///< conserves the angular momentum in world axes
   bool conserves_casimir = false;   ///< conserves |IΩ|, the length of the angular momentum in body axes
+  std::vector<Setting> settings{};  ///< settings of its own; the method reads them from IntegratorSettings
 
   static constexpr int exact_order = 1000;  ///< value of free_order of a method that is exact for free bodies
 };
@@ -55,7 +56,12 @@ struct IntegratorSettings {
   double tolerance = 1e-8;  ///< both relative and absolute tolerance
   double t_end = 1;         ///< end time, s; only sets the sign and scale of the first step
   bool project = false;     ///< project after each step: by the method if it can, else by the loop
-  int order = 0;            ///< order of a method that offers several; 0: the method's default
+  SettingValues chosen{};   ///< chosen values of the method's own settings
+
+  /// The chosen or usual value of a setting of the method. Throws std::invalid_argument if it is not allowed.
+  std::int64_t whole(const Setting& setting) const { return std::get<std::int64_t>(value_of(chosen, setting)); }
+  double number(const Setting& setting) const { return std::get<double>(value_of(chosen, setting)); }
+  std::string text(const Setting& setting) const { return std::get<std::string>(value_of(chosen, setting)); }
 };
 
 /// Scalar function of the state whose zeros are events.

@@ -30,7 +30,7 @@ RunConfig exact_one(const RunRecord& run) {
   c.formulation = {};
   c.normalise = false;
   c.precision = Precision::dual;
-  if (c.order) c.order = 0;
+  c.settings.clear();
   if (c.summation) c.summation = Summation::plain;
   c.contact = ContactConfig{"sweep_and_prune", narrow_phase_for(*run.scenario), "sequential_impulses", "event_located"};
   c.dt.reset();

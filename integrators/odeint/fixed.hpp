@@ -75,14 +75,14 @@ class OdeintFixed final : public Integrator<S> {
 template <template <class> class Stepper>
 IntegratorEntry odeint_fixed(Declaration declaration) {
   declaration.additive = true;
-  const auto maker = []<class S>(const Ode<S>& ode) { return std::make_unique<OdeintFixed<Stepper, S>>(ode); };
+  const auto maker = []<class S>(const Ode<S>& ode, const IntegratorSettings&) -> IntegratorPointer<S> {
+    return std::make_unique<OdeintFixed<Stepper, S>>(ode);
+  };
   return {.declaration = std::move(declaration),
-          .make = [maker](const System<double>& s, const IntegratorSettings&) { return maker(s); },
-          .make_float = [maker](const System<float>& s, const IntegratorSettings&) { return maker(s); },
-          .make_long_double = [maker](const System<long double>& s, const IntegratorSettings&) { return maker(s); },
-          .increments = {[maker](const ShiftedSystem<float>& s) { return maker(s); },
-                         [maker](const ShiftedSystem<double>& s) { return maker(s); },
-                         [maker](const ShiftedSystem<long double>& s) { return maker(s); }}};
+          .make = maker,
+          .make_float = maker,
+          .make_long_double = maker,
+          .increments = {maker, maker, maker}};
 }
 
 }  // namespace polhode::integrators

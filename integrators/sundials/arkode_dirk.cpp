@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ARKODE's embedded diagonally implicit Runge–Kutta methods with error control, Newton iteration and a dense
-// difference-quotient Jacobian. The default table has order 4 (SDIRK 5(3)4, L-stable); IntegratorSettings::order
+// difference-quotient Jacobian. The default table has order 4 (SDIRK 5(3)4, L-stable); the setting `order`
 // selects orders 2 to 5. Source: Hairer & Wanner, Solving Ordinary Differential Equations II, IV.6; Reynolds et al.,
 // ARKODE, ACM TOMS 49 (2023).
 #include <arkode/arkode_arkstep.h>
@@ -9,7 +9,6 @@
 
 #include <cstdlib>
 #include <new>
-#include <stdexcept>
 
 #include "integrators/sundials/sundials_integrator.hpp"
 
@@ -23,11 +22,10 @@ using DirkMemory = std::unique_ptr<void, Destroy<free_dirk>>;
 
 class ArkodeDirk final : public SundialsIntegrator {
  public:
+  static Setting order() { return table_order(2, 5); }
+
   ArkodeDirk(const System<double>& system, const IntegratorSettings& settings)
-      : SundialsIntegrator(system, settings), order_(settings.order == 0 ? 4 : settings.order) {
-    // ARKODE would silently use its default order.
-    if (order_ < 2 || order_ > 5) throw std::invalid_argument("arkode_dirk has the orders 2 to 5");
-  }
+      : SundialsIntegrator(system, settings), order_(static_cast<int>(settings.whole(order()))) {}
 
  private:
   void create(double t, N_Vector y, SundialsIntegrator* self) override {
@@ -76,12 +74,11 @@ class ArkodeDirk final : public SundialsIntegrator {
 IntegratorEntry arkode_dirk() {
   return {{.name = "arkode_dirk",
            .family = "SUNDIALS",
-           .summary = "ARKODE, embedded diagonally implicit Runge-Kutta of order 4, or --order 2 to 5",
+           .summary = "ARKODE, embedded diagonally implicit Runge-Kutta of order 4",
            .order = 4,
-           .lowest_order = 2,
-           .highest_order = 5,
            .adaptive = true,
-           .implicit = true},
+           .implicit = true,
+           .settings = {ArkodeDirk::order()}},
           [](const System<double>& system, const IntegratorSettings& settings) {
             return std::make_unique<ArkodeDirk>(system, settings);
           }};

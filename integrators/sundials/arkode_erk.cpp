@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ARKODE's embedded explicit Runge–Kutta methods with error control. The default table has order 4 (Zonneveld 5(3)4);
-// IntegratorSettings::order selects orders 2 to 8 (Heun–Euler, Bogacki–Shampine, Zonneveld, Cash–Karp, Verner 6(5),
+// the setting `order` selects orders 2 to 8 (Heun–Euler, Bogacki–Shampine, Zonneveld, Cash–Karp, Verner 6(5),
 // Fehlberg 8(7) for 7 and 8). Source: Reynolds et al., ARKODE, ACM TOMS 49 (2023); the ARKODE 5.4 user guide, "Butcher
 // tables".
 #include <arkode/arkode_erkstep.h>
 
 #include <cstdlib>
 #include <new>
-#include <stdexcept>
 
 #include "integrators/sundials/sundials_integrator.hpp"
 
@@ -21,11 +20,10 @@ using ErkMemory = std::unique_ptr<void, Destroy<free_erk>>;
 
 class ArkodeErk final : public SundialsIntegrator {
  public:
+  static Setting order() { return table_order(2, 8); }
+
   ArkodeErk(const System<double>& system, const IntegratorSettings& settings)
-      : SundialsIntegrator(system, settings), order_(settings.order == 0 ? 4 : settings.order) {
-    // ARKODE would silently use its default order.
-    if (order_ < 2 || order_ > 8) throw std::invalid_argument("arkode_erk has the orders 2 to 8");
-  }
+      : SundialsIntegrator(system, settings), order_(static_cast<int>(settings.whole(order()))) {}
 
  private:
   void create(double t, N_Vector y, SundialsIntegrator* self) override {
@@ -68,11 +66,10 @@ class ArkodeErk final : public SundialsIntegrator {
 IntegratorEntry arkode_erk() {
   return {{.name = "arkode_erk",
            .family = "SUNDIALS",
-           .summary = "ARKODE, embedded explicit Runge-Kutta of order 4 (Zonneveld), or --order 2 to 8",
+           .summary = "ARKODE, embedded explicit Runge-Kutta of order 4 (Zonneveld)",
            .order = 4,
-           .lowest_order = 2,
-           .highest_order = 8,
-           .adaptive = true},
+           .adaptive = true,
+           .settings = {ArkodeErk::order()}},
           [](const System<double>& system, const IntegratorSettings& settings) {
             return std::make_unique<ArkodeErk>(system, settings);
           }};

@@ -24,6 +24,14 @@ void check(int flag, const char* function) {
   if (flag != 0) throw std::runtime_error(std::string(function) + " failed with " + std::to_string(flag));
 }
 
+Setting table_order(int lowest, int highest) {
+  return {.key = "order",
+          .usual = 4,
+          .meaning = "of methods that offer several",
+          .lowest = double(lowest),
+          .highest = double(highest)};
+}
+
 SundialsIntegrator::SundialsIntegrator(const System<double>& system, const IntegratorSettings& settings)
     : system_(system), tolerance_(settings.tolerance) {
   SUNContext context = nullptr;

@@ -12,6 +12,10 @@
 
 namespace polhode::inline integrators::sundials {
 
+/// The order of ARKODE's table of coefficients. ARKODE would silently use order 4 in place of one that it does not
+/// have.
+Setting table_order(int lowest, int highest);
+
 constexpr long max_steps = 100000000;  // limit of steps between two returns; the libraries' default is 500
 
 /// Throws if `flag` is an error code of the named function. Used for calls that fail only if memory is exhausted.

@@ -41,7 +41,7 @@ MAY_INCLUDE = {
     "experiments/study/scenario": "core/* collision collision/shapes collision/contact experiments/study/text",
     "experiments/study/plot": "experiments/study/text",
     "experiments/study/trajectory": "core/* experiments/study/text",
-    "experiments/study/record": "core/system integrators collision collision/contact experiments/study/text"
+    "experiments/study/record": "core/run core/system integrators collision collision/contact experiments/study/text"
                                 " experiments/study/scenario experiments/study/plot",
     "experiments/study/store": "experiments/study/text experiments/study/record",
     "experiments/study/setup": "core/* integrators collision collision/contact experiments/study/text"

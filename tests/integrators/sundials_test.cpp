@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "core/run/simulate.hpp"
@@ -188,9 +189,10 @@ TEST(Sundials, DetestB5) {
   const auto system = make_system<double>(p, {.angular_state = AngularState::velocity_body});
   const V3 scale(1 / std::sqrt(1.53), 1 / std::sqrt(0.51), 1 / std::sqrt(3.0));
   const V3 exact(-0.939657079872920, -0.342117775400075, 0.741412659619995);
-  for (const auto& [name, order] : {std::pair("cvode_adams", 0), std::pair("arkode_erk", 8)}) {
+  for (const auto& [name, chosen] :
+       {std::pair("cvode_adams", SettingValues{}), std::pair("arkode_erk", SettingValues{{"order", 8}})}) {
     State<double> state = system->start();
-    const auto integrator = make(name, *system, {.tolerance = 1e-14, .t_end = 20, .order = order});
+    const auto integrator = make(name, *system, {.tolerance = 1e-14, .t_end = 20, .chosen = chosen});
     integrator->begin(state);
     while (state.t < 20) ASSERT_TRUE(integrator->step(state, 20 - state.t).ok());
     const V3 y = state.y.segment<3>(system->layout().slots[0].angular).cwiseProduct(scale);
@@ -201,8 +203,10 @@ TEST(Sundials, DetestB5) {
 // A higher order takes fewer right-hand sides to a tight tolerance; one that there is not is told.
 TEST(Arkode, TakesTheOrderThatIsAskedFor) {
   const auto system = make_system<double>(laws::free_top(), {});
-  const auto evaluations = [&](const std::string& name, int order, double tolerance) {
-    const auto integrator = make(name, *system, {.tolerance = tolerance, .t_end = 1, .order = order});
+  const auto evaluations = [&](const std::string& name, std::optional<int> order, double tolerance) {
+    IntegratorSettings settings{.tolerance = tolerance, .t_end = 1};
+    if (order) settings.chosen["order"] = *order;
+    const auto integrator = make(name, *system, settings);
     State<double> state = system->start();
     integrator->begin(state);
     while (state.t < 1) {
@@ -210,8 +214,8 @@ TEST(Arkode, TakesTheOrderThatIsAskedFor) {
     }
     return integrator->evaluations();
   };
-  EXPECT_EQ(evaluations("arkode_erk", 0, 1e-8), evaluations("arkode_erk", 4, 1e-8));
-  EXPECT_EQ(evaluations("arkode_dirk", 0, 1e-6), evaluations("arkode_dirk", 4, 1e-6));
+  EXPECT_EQ(evaluations("arkode_erk", std::nullopt, 1e-8), evaluations("arkode_erk", 4, 1e-8));
+  EXPECT_EQ(evaluations("arkode_dirk", std::nullopt, 1e-6), evaluations("arkode_dirk", 4, 1e-6));
   std::int64_t more = evaluations("arkode_erk", 2, 1e-10);
   for (const int order : {3, 4, 5}) {
     const std::int64_t fewer = evaluations("arkode_erk", order, 1e-10);
@@ -225,8 +229,10 @@ TEST(Arkode, TakesTheOrderThatIsAskedFor) {
   EXPECT_LT(evaluations("arkode_dirk", 4, 1e-8), evaluations("arkode_dirk", 2, 1e-8));
   EXPECT_GT(evaluations("arkode_dirk", 3, 1e-6), 0);
   EXPECT_GT(evaluations("arkode_dirk", 5, 1e-6), 0);
-  for (const int order : {1, 9}) EXPECT_THROW(make("arkode_erk", *system, {.order = order}), std::invalid_argument);
-  for (const int order : {1, 6}) EXPECT_THROW(make("arkode_dirk", *system, {.order = order}), std::invalid_argument);
+  for (const int order : {1, 9})
+    EXPECT_THROW(make("arkode_erk", *system, {.chosen = {{"order", order}}}), std::invalid_argument);
+  for (const int order : {1, 6})
+    EXPECT_THROW(make("arkode_dirk", *system, {.chosen = {{"order", order}}}), std::invalid_argument);
 }
 
 // A right-hand side that is no number ends a run with the library's name and its reason.

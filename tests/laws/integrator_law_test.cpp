@@ -8,7 +8,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <stdexcept>
+#include <string>
 
 #include "tests/laws/reference_flow.hpp"
 
@@ -31,6 +34,32 @@ TEST_P(IntegratorLaw, DeclaresWhatItIs) {
     EXPECT_EQ(d.evaluations_per_step, 0) << "an adaptive method counts its evaluations";
   } else {
     EXPECT_GT(d.order, 0) << "a fixed-step method has an order";
+  }
+}
+
+// A method reads each of its settings: it takes the ends of the range and every choice, and refuses other values.
+TEST_P(IntegratorLaw, ReadsItsSettings) {
+  const auto system = build<double>(trials().front(), {});
+  const auto made = [&](const Setting& setting, const SettingValue& value) {
+    return entry().make(*system, {.chosen = {{setting.key, value}}}) != nullptr;
+  };
+  for (const Setting& setting : declared().settings) {
+    SCOPED_TRACE(setting.key);
+    EXPECT_FALSE(setting.meaning.empty());
+    EXPECT_EQ(setting.fault(setting.usual), "");
+    EXPECT_EQ(setting.choices.empty(), !std::holds_alternative<std::string>(setting.usual));
+    for (const std::string& choice : setting.choices) EXPECT_TRUE(made(setting, choice));
+    if (!setting.choices.empty()) {
+      EXPECT_THROW(made(setting, "no such choice"), std::invalid_argument);
+      continue;
+    }
+    EXPECT_GT(setting.lowest, 0);
+    const bool whole = std::holds_alternative<std::int64_t>(setting.usual);
+    const auto value = [&](double x) { return whole ? SettingValue(static_cast<std::int64_t>(x)) : SettingValue(x); };
+    EXPECT_TRUE(made(setting, value(setting.lowest)));
+    EXPECT_TRUE(made(setting, value(setting.highest)));
+    EXPECT_THROW(made(setting, value(setting.lowest - 1)), std::invalid_argument);
+    EXPECT_THROW(made(setting, value(setting.highest + 1)), std::invalid_argument);
   }
 }
 
@@ -250,6 +279,19 @@ TEST_P(IntegratorLaw, RunsDoNotDisturbEachOther) {
 TEST(IntegratorCatalogue, NamesAreUniqueAndFound) {
   for (const IntegratorEntry& e : integrator_catalogue()) EXPECT_EQ(find_integrator(e.declaration.name), &e);
   EXPECT_EQ(find_integrator("no such method"), nullptr);
+}
+
+// Settings with the same key are one option of a run.
+TEST(IntegratorCatalogue, SettingsWithTheSameKeyMeanTheSame) {
+  std::map<std::string, Setting> known;
+  for (const IntegratorEntry& e : integrator_catalogue()) {
+    for (const Setting& setting : e.declaration.settings) {
+      const Setting& first = known.emplace(setting.key, setting).first->second;
+      EXPECT_EQ(setting.usual.index(), first.usual.index()) << e.declaration.name << ": " << setting.key;
+      EXPECT_EQ(setting.meaning, first.meaning) << e.declaration.name << ": " << setting.key;
+      EXPECT_EQ(setting.unit, first.unit) << e.declaration.name << ": " << setting.key;
+    }
+  }
 }
 
 }  // namespace

@@ -102,13 +102,13 @@ TEST_P(IntegratorTrait, SymmetricMethodsReturn) {
 TEST_P(IntegratorTrait, AdditiveMethodsTakeCompensatedSteps) {
   if (!declared().additive) {
     const auto system = make_system<double>(free_top(), {});
-    EXPECT_THROW(make_compensated<double>(entry(), *system), std::invalid_argument);
+    EXPECT_THROW(make_compensated<double>(entry(), *system, {}), std::invalid_argument);
     return;
   }
   everywhere([&](const Trial& trial, const Formulation& f) {
     const auto system = build<double>(trial, f);
     const auto plain = make(*system);
-    const auto compensated = make_compensated<double>(entry(), *system);
+    const auto compensated = make_compensated<double>(entry(), *system, {});
     State<double> a = system->start(), b = a;
     plain->begin(a);
     compensated->begin(b);
@@ -140,7 +140,7 @@ TEST_P(IntegratorTrait, CompensatedSumsLoseLess) {
     const State<float> start = system->start();
     const auto truth = after(*make<long double>(*exact), State<long double>{0, start.y.cast<long double>()});
     const double plain = difference(after(*make<float>(*system), start), truth);
-    const double compensated = difference(after(*make_compensated<float>(entry(), *system), start), truth);
+    const double compensated = difference(after(*make_compensated<float>(entry(), *system, {}), start), truth);
     EXPECT_LT(compensated, plain / 5);
     EXPECT_LT(compensated, 1e-6);
     EXPECT_GT(plain, 1e-6);

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Carries out the recipes that the README gives for a force and a shape, on copies of the files that they name.
+"""Carries out the recipes that the README gives for a force and a shape, on copies of the files that they name, and lists
+the method of tests/recipes/two_stage.cpp.
 
 carry_out.py CHECKOUT FOLDER: FOLDER then has the new files and the changed copies, by their paths in the checkout.
 """
@@ -72,6 +73,8 @@ def main():
     line = one("the shape's line", r"`(SHAPE\(.*?\))`", shape)
     copies.add("collision/shapes/shape_catalogue.cpp", r"#define POLHODE_SHAPES\(SHAPE\) \\\n", f"  {line} \\\n")
     copies.add("tests/laws/shape_law_test.cpp", samples, sample)
+
+    copies.add("integrators/catalogue.cpp", r"#define POLHODE_INTEGRATORS\(METHOD\) \\\n", "  METHOD(two_stage) \\\n")
 
 
 main()

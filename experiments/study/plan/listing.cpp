@@ -15,6 +15,7 @@
 #include "collision/shapes/shape_catalogue.hpp"
 #include "core/forces/catalogue.hpp"
 #include "core/system/invariants.hpp"
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/scenario/builtin_scenarios.hpp"
 #include "experiments/study/scenario/scenario.hpp"
 #include "experiments/study/text/input_error.hpp"
@@ -35,7 +36,7 @@ std::string integrators() {
   for (const IntegratorEntry& e : integrator_catalogue()) {
     const Declaration& d = e.declaration;
     const std::string order = d.order > 0 ? fmt::format("order {}", d.order) : "variable order";
-    text += line(d.name, fmt::format("{} ({}, {}, {}{})", d.summary, d.family, order,
+    text += line(d.name, fmt::format("{} ({}, {}, {}{})", summary_of(d), d.family, order,
                                      d.implicit ? "implicit" : "explicit", d.adaptive ? ", takes --tolerance" : ""));
   }
   return text;

@@ -8,12 +8,15 @@
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "collision/broad_phase.hpp"
 #include "collision/contact/impact_timing.hpp"
 #include "collision/narrow_phase.hpp"
 #include "collision/response.hpp"
+#include "core/run/integrator.hpp"
 #include "experiments/study/scenario/narrow_phase_choice.hpp"
 #include "experiments/study/text/value_lists.hpp"
 #include "integrators/catalogue.hpp"
@@ -104,9 +107,9 @@ bool is_adaptive(const RunConfig& config) {
   const IntegratorEntry* method = find_integrator(config.integrator);
   return method && method->declaration.adaptive;
 }
-bool has_orders(const RunConfig& config) {
+bool has_setting(const RunConfig& config, const std::string& key) {
   const IntegratorEntry* method = find_integrator(config.integrator);
-  return method && method->declaration.highest_order > 0;
+  return method && find_setting(method->declaration.settings, key);
 }
 bool answers_impacts(const RunConfig& config) {
   if (!config.contact) return false;
@@ -198,8 +201,8 @@ std::vector<RunOption> options_of_formulation() {
               names_of({Precision::single, Precision::dual, Precision::extended}))};
 }
 
-std::vector<RunOption> options_of_method() {
-  RunOption summation = choice(
+std::vector<RunOption> options_of_summation() {
+  return {choice(
       {.name = "summation",
        .values = "plain|compensated",
        .help = "how increments are added to the state; compensated: what rounding loses is "
@@ -209,27 +212,82 @@ std::vector<RunOption> options_of_method() {
        .header = "summation",
        .term = "summation of the state",
        .usual = std::string("plain")},
-      [](auto& c) -> auto& { return c.summation; }, names_of({Summation::plain, Summation::compensated}));
-  RunOption order{.name = "order",
-                  .values = "N",
-                  .help = "of methods that offer several, as --list integrators says",
-                  .kind = Kind::whole,
-                  .column = "order",
-                  .on_demand = true,
-                  .header = "order",
-                  .term = "order, of methods that offer several",
-                  .word = "order",
-                  .in_tex_names = false,
-                  .applies = [](const RunConfig& c) { return c.order.value_or(0) > 0 || has_orders(c); },
-                  .no_effect = "no method here offers several orders",
-                  .remedy = "or name one that does, such as arkode_erk"};
-  order.fault = [](double n) { return n != std::floor(n) || n > 100 ? "is not an order" : ""; };
-  order.value = [](const RunConfig& c) -> OptionValue {
-    if (c.order.value_or(0) > 0) return std::int64_t(*c.order);
-    return {};
+      [](auto& c) -> auto& { return c.summation; }, names_of({Summation::plain, Summation::compensated}))};
+}
+
+std::string option_name(std::string key) {
+  std::replace(key.begin(), key.end(), '_', '-');
+  return key;
+}
+
+/// The option of a setting. `method` is the first method that has the setting.
+RunOption option_of(const Setting& setting, const std::string& method) {
+  const bool whole = std::holds_alternative<std::int64_t>(setting.usual), named = !setting.choices.empty();
+  const std::string noun = setting.words(), &unit = setting.unit;
+  RunOption option{.name = option_name(setting.key),
+                   .values = named   ? fmt::format("{}", fmt::join(setting.choices, "|"))
+                             : whole ? "N"
+                                     : "X",
+                   .help = setting.meaning + ", as --list integrators says",
+                   .kind = named   ? Kind::name
+                           : whole ? Kind::whole
+                                   : Kind::number,
+                   .of_methods = true,
+                   .of_unit = unit.empty() ? "" : " of " + unit,
+                   .column = unit.empty() ? setting.key : setting.key + "_" + unit,
+                   .on_demand = true,
+                   .header = noun,
+                   .unit = unit,
+                   .term = (unit.empty() ? noun : noun + " (" + unit + ")") + ", " + setting.meaning,
+                   .word = noun,
+                   .in_tex_names = false,
+                   .no_effect = "no method here offers several " + noun + "s",
+                   .remedy = "or name one that does, such as " + method};
+  if (named) option.known = [choices = setting.choices] { return choices; };
+  if (whole) {
+    const bool vowel = std::string_view("aeiou").find(noun.front()) != std::string_view::npos;
+    option.fault = [fault = (vowel ? "is not an " : "is not a ") + noun](double n) {
+      return n != std::floor(n) || n > 9e15 ? fault : "";
+    };
+  }
+  option.value = [key = setting.key](const RunConfig& config) -> OptionValue {
+    const auto found = config.settings.find(key);
+    if (found == config.settings.end()) return {};
+    return std::visit([](const auto& value) -> OptionValue { return value; }, found->second);
   };
-  order.set = [](RunConfig& c, const OptionValue& said) { c.order = static_cast<int>(std::get<std::int64_t>(said)); };
-  return {summation, order};
+  option.set = [key = setting.key](RunConfig& config, const OptionValue& said) {
+    std::visit(
+        [&]<class T>(const T& value) {
+          if constexpr (!std::is_same_v<T, std::monostate>) config.settings[key] = value;
+        },
+        said);
+  };
+  option.applies = [key = setting.key](const RunConfig& config) {
+    return config.settings.contains(key) || has_setting(config, key);
+  };
+  return option;
+}
+
+/// One option for each key among the settings that methods declare. Methods that share a key may differ in the choices.
+std::vector<RunOption> options_of_settings() {
+  std::vector<std::pair<Setting, std::string>> settings;  // with the first method that has it
+  for (const IntegratorEntry& entry : integrator_catalogue()) {
+    for (const Setting& setting : entry.declaration.settings) {
+      const auto same = [&](const auto& known) { return known.first.key == setting.key; };
+      const auto known = std::find_if(settings.begin(), settings.end(), same);
+      if (known == settings.end()) {
+        settings.emplace_back(setting, entry.declaration.name);
+        continue;
+      }
+      std::vector<std::string>& all = known->first.choices;
+      for (const std::string& choice : setting.choices) {
+        if (std::find(all.begin(), all.end(), choice) == all.end()) all.push_back(choice);
+      }
+    }
+  }
+  std::vector<RunOption> options;
+  for (const auto& [setting, method] : settings) options.push_back(option_of(setting, method));
+  return options;
 }
 
 std::vector<RunOption> options_of_time() {
@@ -332,8 +390,8 @@ std::vector<RunOption> options_of_contact() {
 std::vector<RunOption>& table() {
   static std::vector<RunOption> all = [] {
     std::vector<RunOption> options;
-    for (const auto& part :
-         {options_of_motion(), options_of_formulation(), options_of_method(), options_of_time(), options_of_contact()})
+    for (const auto& part : {options_of_motion(), options_of_formulation(), options_of_summation(),
+                             options_of_settings(), options_of_time(), options_of_contact()})
       options.insert(options.end(), part.begin(), part.end());
     return options;
   }();
@@ -411,6 +469,12 @@ std::string file_key(const RunOption& option) {
   std::string key = option.name;
   std::replace(key.begin(), key.end(), '-', '_');
   return key;
+}
+
+std::string summary_of(const Declaration& method) {
+  std::string text = method.summary;
+  for (const Setting& setting : method.settings) text += ", or --" + option_name(setting.key) + " " + setting.range();
+  return text;
 }
 
 std::string text_of(const OptionValue& value) {

@@ -4,7 +4,7 @@
 // The command line, study files, the planner, the identity and the order of runs, runs.csv, the tables, figures and
 // report, session files and replays loop over this table. To add an option: add an entry, and the code that implements
 // it. Make an option that stored studies do not contain `on_demand`: it then changes neither their columns nor their
-// ids.
+// ids. The settings that methods declare (core/run/setting.hpp) are in the table by themselves.
 #pragma once
 
 #include <functional>
@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "core/run/integrator.hpp"
 #include "experiments/study/record/run_record.hpp"
 
 namespace polhode::study::inline record {
@@ -33,6 +34,7 @@ struct RunOption {
   std::string help;    ///< meaning and default, in --help
   Kind kind = Kind::name;
   Role role = Role::variant;
+  bool of_methods = false;                            ///< a setting that some methods declare (Declaration::settings)
   std::function<std::vector<std::string>()> known{};  ///< the valid names
   bool takes_all = false;                             ///< "all" stands for all valid names
   std::string of_unit{};                              ///< appended to "it must be a positive number": " of seconds"
@@ -89,6 +91,9 @@ class AddedRunOption {
 
 /// Name of an option in files: "angular_state".
 std::string file_key(const RunOption& option);
+
+/// The summary of a method with the options of its settings: "…, or --order 2 to 8".
+std::string summary_of(const Declaration& method);
 
 /// The value as text, with all digits; empty if there is no value.
 std::string text_of(const OptionValue& value);

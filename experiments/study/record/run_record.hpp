@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/run/setting.hpp"
 #include "core/system/formulation.hpp"
 #include "experiments/study/scenario/scenario.hpp"
 
@@ -55,7 +56,6 @@ struct RunConfig {
   Formulation formulation;
   bool normalise = false;  ///< --normalize step
   Precision precision = Precision::dual;
-  std::optional<int> order;                      ///< absent or 0: the default order of the method
   std::optional<Summation> summation;            ///< absent: plain, and not given by the study
   std::optional<ContactConfig> contact;          ///< absent: the scenario has no contact
   std::optional<double> dt;                      ///< s; fixed-step methods only
@@ -64,6 +64,7 @@ struct RunConfig {
   double t_end = 1;                              ///< s
   std::optional<std::int64_t> samples;           ///< absent: observed after every step
   bool reference = false;                        ///< --reference: a reference motion replaces unknown exact solutions
+  SettingValues settings{};                      ///< chosen values of the method's own settings (Declaration::settings)
   std::map<std::string, OptionValue> further{};  ///< values of the options without a member here, by option name
 };
 

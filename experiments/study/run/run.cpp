@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "collision/contact/impact_timing.hpp"
+#include "core/run/setting.hpp"
 #include "core/run/simulate_ensemble.hpp"
 #include "experiments/study/metrics/contact_meter.hpp"
 #include "experiments/study/metrics/drift_meter.hpp"
@@ -164,11 +165,8 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
                        *config.tolerance, epsilon(config.precision), name(config.precision));
   }
   const Declaration& declared = entry->declaration;
-  if (const int order = config.order.value_or(0);
-      order > 0 && (order < declared.lowest_order || order > declared.highest_order)) {
-    return fmt::format("{} has the orders {} to {}, not {}", config.integrator, declared.lowest_order,
-                       declared.highest_order, order);
-  }
+  if (std::string fault = settings_fault(declared.settings, config.settings); !fault.empty())
+    return config.integrator + " " + fault;
   if (is_compensated(config) && !entry->declaration.additive) {
     return config.integrator + (entry->declaration.adaptive
                                     ? ": compensated summation is for methods of a fixed step"

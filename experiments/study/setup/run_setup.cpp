@@ -25,10 +25,10 @@ std::unique_ptr<Integrator<S>> integrator_of(const RunConfig& config, const Syst
                                     .tolerance = config.tolerance.value_or(0),
                                     .t_end = config.t_end,
                                     .project = config.normalise,
-                                    .order = config.order.value_or(0)};
+                                    .chosen = config.settings};
   const IntegratorEntry& entry = *find_integrator(config.integrator);
   if constexpr (!is_lanes<S>) {
-    if (is_compensated(config)) return make_compensated<S>(entry, system);
+    if (is_compensated(config)) return make_compensated<S>(entry, system, settings);
   }
   return entry.maker<S>()(system, settings);
 }

@@ -77,7 +77,7 @@ void choose_integrator(Configuration& configuration, const std::string& name, do
   const IntegratorEntry* entry = find_integrator(name);
   const bool adaptive = entry && entry->declaration.adaptive;
   configuration.run.integrator = name;
-  configuration.run.order.reset();
+  configuration.run.settings.clear();
   configuration.run.dt = adaptive ? std::nullopt : std::optional(dt);
   configuration.run.tolerance = adaptive ? std::optional(tolerance) : std::nullopt;
 }

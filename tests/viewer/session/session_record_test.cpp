@@ -269,6 +269,31 @@ TEST(SessionRecord, FaultsAreSaidWithTheirPlace) {
   EXPECT_THROW(read_session("/"), study::InputError);
 }
 
+TEST(SessionRecord, ASettingOfTheMethodIsKeptAndChecked) {
+  const TemporaryFolder folder;
+  Configuration c = with("peters_hsu", "arkode_erk", 0, 10);
+  c.run.settings["order"] = 3;
+  {
+    const auto session = open("peters_hsu", c, folder.path());
+    session->step(10);
+    session->settle();
+  }
+  const std::string text = text_of(folder.path() / "session.toml");
+  EXPECT_THAT(text, testing::HasSubstr("tolerance = 1e-06\norder = 3\nt_end = 10\n"));
+  EXPECT_EQ(rerun((folder.path() / "session.toml").string()).mismatch, "");
+  EXPECT_EQ(parse_session(text, "s.toml").segments.at(0).configuration.run.settings, c.run.settings);
+  const auto with_order = [&](std::string other, const std::string& order) {
+    return fault(other.replace(other.find("order = 3"), 9, order));
+  };
+  EXPECT_THAT(with_order(text, "order = 9"), testing::HasSubstr("segment.0: arkode_erk has the orders 2 to 8, not 9"));
+  EXPECT_THAT(with_order(text, "order = 2.5"), testing::HasSubstr("segment.0.order: 2.5"));
+  std::string adams = text;
+  adams.replace(adams.find("arkode_erk"), 10, "cvode_adams");
+  EXPECT_THAT(fault(adams), testing::HasSubstr("segment.0: cvode_adams takes no order; leave it out"));
+  choose_integrator(c, "rk4");
+  EXPECT_TRUE(c.run.settings.empty());
+}
+
 TEST(SessionRecordFuzz, MutatedRecordsAreReadOrRefused) {
   const std::string text = a_record();
   const std::vector<std::string> snippets = {"-1",

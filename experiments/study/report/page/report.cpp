@@ -253,7 +253,7 @@ std::string catalogue_table(const Grouping& grouping) {
     const auto& d = entry->declaration;
     table.rows.push_back({name, d.family, d.order > 0 ? std::to_string(d.order) : "variable",
                           d.adaptive ? "chosen to a tolerance" : "fixed",
-                          fmt::format("{}{}", d.summary, d.implicit ? " (implicit)" : "")});
+                          fmt::format("{}{}", summary_of(d), d.implicit ? " (implicit)" : "")});
   }
   return html(table);
 }

@@ -147,6 +147,16 @@ TEST(RunOptions, ValuesAreReadPrintedAndSetTheSameWay) {
   }
 }
 
+// Among them the settings of methods, which are named where a method is.
+TEST(RunOptions, NamesAndColumnsAreUnique) {
+  std::set<std::string> names, columns;
+  for (const RunOption& option : run_options()) {
+    EXPECT_TRUE(names.insert(option.name).second) << option.name;
+    EXPECT_TRUE(option.column.empty() || columns.insert(option.column).second) << option.column;
+  }
+  EXPECT_TRUE(names.contains("order")) << "of arkode_erk";
+}
+
 TEST(RunOptions, RunsAreSortedByTheirNumbersAndNotByTheirDigits) {
   const Plan plan = planned({"--dt", "9e-3,0.01,1e-4", "--vary", "body.0.mass=9,10,1e1,100"});
   std::vector<std::string> order;
