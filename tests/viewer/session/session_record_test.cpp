@@ -279,7 +279,7 @@ TEST(SessionRecord, ASettingOfTheMethodIsKeptAndChecked) {
     session->settle();
   }
   const std::string text = text_of(folder.path() / "session.toml");
-  EXPECT_THAT(text, testing::HasSubstr("tolerance = 1e-06\norder = 3\nt_end = 10\n"));
+  EXPECT_THAT(text, testing::HasSubstr("tolerance = 1e-08\norder = 3\nt_end = 10\n"));
   EXPECT_EQ(rerun((folder.path() / "session.toml").string()).mismatch, "");
   EXPECT_EQ(parse_session(text, "s.toml").segments.at(0).configuration.run.settings, c.run.settings);
   const auto with_order = [&](std::string other, const std::string& order) {
