@@ -44,7 +44,8 @@ study::OptionValue value_of(const TomlCursor& cursor, const SegmentOption& said)
   if (option.kind == study::RunOption::Kind::number) return cursor.number(option.unit, Range::positive);
   if (option.kind == study::RunOption::Kind::whole) {
     const double x = cursor.number("", Range::positive);
-    if (x != std::floor(x) || (option.fault && !option.fault(x).empty())) cursor.refuse("a whole number, not too large");
+    if (x != std::floor(x) || (option.fault && !option.fault(x).empty()))
+      cursor.refuse("a whole number, not too large");
     return static_cast<std::int64_t>(x);
   }
   if (option.takes_all) return cursor.text("a name");
