@@ -159,7 +159,7 @@ def cases():
           *CHARTS, "--trajectory", "csv")
     study("angular_state", *top, "--integrator", FIXED_STEP_METHODS, *CHARTS,
           "--angular-state", "velocity_world,velocity_body,momentum_world", "--gyroscopic", "on,off", "--normalize", "never,step")
-    study("rotation_from", *top, "--integrator", "rk4", "--rotation-from", "normalised,stored")
+    study("rotation_from", *top, "--integrator", "rk4", "--rotation-from", "normalized,stored")
     study("precision", *top, "--integrator", "explicit_euler,rk4,lie_midpoint", *CHARTS, "--precision", "float,double,long_double",
           "--summation", "plain,compensated")
     study("all_methods", "--scenario", "hairer_vilmart", "--t-end", 1, "--dt", 0.02, "--tolerance", 1e-6, "--integrator", "all",

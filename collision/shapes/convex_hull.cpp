@@ -46,7 +46,7 @@ std::size_t furthest(std::span<const Vector3<double>> points, const F& f) {
 }
 
 /// The points about the middle of their bounds, in units of their largest size; refuses what has no hull.
-std::vector<Vector3<double>> normalised(std::span<const Vector3<double>> points) {
+std::vector<Vector3<double>> normalized(std::span<const Vector3<double>> points) {
   if (points.size() < 4) {
     throw std::invalid_argument("a convex_hull needs at least 4 points, not " + std::to_string(points.size()));
   }
@@ -98,7 +98,7 @@ Polytope hull_polytope(std::span<const Vector3<double>> points, std::vector<std:
 }
 
 Polytope hull_of(std::span<const Vector3<double>> points) {
-  const auto x = normalised(points);
+  const auto x = normalized(points);
   try {
     return hull_polytope(points, qhull_faces(x, false));
   } catch (const std::invalid_argument&) {

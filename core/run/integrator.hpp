@@ -35,7 +35,7 @@ struct Declaration {
   /// The step adds an increment to the flat state, y' = y + Δ(t, h, y), so that the sum can be compensated.
   bool additive = false;
   bool lie_group = false;   ///< updates orientations by group elements, so that they stay on their manifold
-  bool normalises = false;  ///< normalizes the orientations at the end of its own step
+  bool normalizes = false;  ///< normalizes the orientations at the end of its own step
   /// Conserves every quadratic invariant of the flat ODE, among them |q|² and RᵀR. Gauss methods do.
   bool conserves_quadratics = false;
   bool symplectic = false;  ///< preserves the canonical two-form if the forces have a potential

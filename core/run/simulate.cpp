@@ -70,7 +70,7 @@ class Loop {
         contact_(contact),
         t0_(state.t),
         observed_(state.t),
-        account_(schedule.normalise && system.projection_changes_energy()) {}
+        account_(schedule.normalize && system.projection_changes_energy()) {}
 
   RunOutcome run() {
     if constexpr (std::is_same_v<S, double>) {
@@ -177,7 +177,7 @@ class Loop {
     }
     if (const NativeProjection* native = integrator_.native_projection()) {
       projection_energy_ = native->projection_energy();
-    } else if (schedule_.normalise) {
+    } else if (schedule_.normalize) {
       const double before = account_ ? energy() : 0.0;
       system_.project(state_.y);
       if (account_) projection_energy_ += energy() - before;
@@ -236,7 +236,7 @@ class Loop {
   }
 
   bool take_batch(std::int64_t k, std::int64_t n) {
-    const StepBatch batch{schedule_.dt, n, t0_, k, schedule_.normalise, samples_.data()};
+    const StepBatch batch{schedule_.dt, n, t0_, k, schedule_.normalize, samples_.data()};
     if (!done([&] { return integrator_.advance(state_, batch); })) return false;
     outcome_.steps += n;
     const std::span<Sample> samples(samples_.data(), static_cast<std::size_t>(n));
@@ -267,7 +267,7 @@ class Loop {
     std::int64_t next = 1;
     // Steps must end exactly at the sample times under projection or contact, or if the method has no dense output.
     const DenseOutput<S>* dense = integrator_.dense_output();
-    const bool shorten = schedule_.samples && (schedule_.normalise || contact_ || !dense);
+    const bool shorten = schedule_.samples && (schedule_.normalize || contact_ || !dense);
     while (state_.t < schedule_.t_end) {
       const double target = shorten ? sample_time(next) : schedule_.t_end;
       if (outcome_.steps >= schedule_.most_steps) return fail(too_many_steps());

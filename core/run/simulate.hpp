@@ -25,7 +25,7 @@ struct Schedule {
   bool adaptive = false;  ///< the method controls its step size; dt is ignored
   std::optional<std::int64_t>
       samples;             ///< number of samples, exactly at t0 + k (t_end − t0)/samples; absent: after every step
-  bool normalise = false;  ///< project every orientation after each step
+  bool normalize = false;  ///< project every orientation after each step
   /// Maximum number of steps of an adaptive method. A run that has not reached t_end by then has failed. Fixed-step
   /// methods ignore it: the number of their steps is known beforehand.
   std::int64_t most_steps = 100'000'000;

@@ -60,7 +60,7 @@ class EnsembleLoop {
     std::int64_t k = 0;
     while (k < steps && any_running() && !interrupted()) {
       // The last step ends exactly at t_end and may be shorter.
-      StepBatch batch{schedule_.dt, 1, 0, k, schedule_.normalise};
+      StepBatch batch{schedule_.dt, 1, 0, k, schedule_.normalize};
       if (k < steps - 1) {
         batch.count = std::min(longest_batch, steps - 1 - k);
         for (std::size_t i = 0; i < runs_.size(); ++i) {
@@ -68,7 +68,7 @@ class EnsembleLoop {
           batch.count = std::min(batch.count, step_of_next_state(runs_[i].observer, 0, schedule_.dt, k) - k);
         }
       } else if (plan.last > 0) {
-        batch = {plan.last, 1, static_cast<double>(k) * schedule_.dt, 0, schedule_.normalise};
+        batch = {plan.last, 1, static_cast<double>(k) * schedule_.dt, 0, schedule_.normalize};
       }
       batch.samples = samples_.data();
       batch.lanes = static_cast<int>(runs_.size());

@@ -106,7 +106,7 @@ class BodyVariables : public std::conditional_t<N == BodyCount::one, System<S>, 
 
   /// True if R is a rotation for every state by construction, as the rotation of q/|q| is.
   bool orthonormal() const {
-    return O == Orientation::quaternion && this->formulation().rotation_from == RotationFrom::normalised;
+    return O == Orientation::quaternion && this->formulation().rotation_from == RotationFrom::normalized;
   }
 
   /// ω in world axes from the angular state a.

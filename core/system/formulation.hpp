@@ -19,7 +19,7 @@ enum class AngularState {
 
 /// Rotation matrix of a quaternion q that is not of unit length.
 enum class RotationFrom {
-  normalised,  ///< rotation of q/|q|
+  normalized,  ///< rotation of q/|q|
   stored       ///< formula 1 − 2(y² + z²) … applied to q without normalization
 };
 
@@ -32,14 +32,14 @@ constexpr std::string_view name(AngularState a) {
     default: return "momentum_world";
   }
 }
-constexpr std::string_view name(RotationFrom r) { return r == RotationFrom::normalised ? "normalised" : "stored"; }
+constexpr std::string_view name(RotationFrom r) { return r == RotationFrom::normalized ? "normalized" : "stored"; }
 
 /// Choice of variables and equations.
 struct Formulation {
   Orientation orientation = Orientation::quaternion;
   AngularState angular_state = AngularState::velocity_world;
   bool gyroscopic = true;  ///< include the term ω × Iω; both source documents omit it. momentum_world has no such term.
-  RotationFrom rotation_from = RotationFrom::normalised;  ///< for quaternions only
+  RotationFrom rotation_from = RotationFrom::normalized;  ///< for quaternions only
 };
 
 }  // namespace polhode

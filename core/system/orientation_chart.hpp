@@ -25,7 +25,7 @@ struct Chart<S, Orientation::quaternion> {
   static void store(const Value& q, S* c) { Eigen::Map<Value>{c} = q; }
 
   static Matrix3<S> rotation(const Value& q, RotationFrom from) {
-    return from == RotationFrom::normalised ? rotation_matrix<S>(q) : rotation_matrix_stored<S>(q);
+    return from == RotationFrom::normalized ? rotation_matrix<S>(q) : rotation_matrix_stored<S>(q);
   }
 
   static Value rate_world(const Value& q, const Vector3<S>& w) {

@@ -84,7 +84,7 @@ void free_flow(const Bodies& bodies, typename Bodies::Scalar h, typename Bodies:
     const ChartValue old = ChartOf::load(c);
     Vector omega = load_vector(a), m = omega;  // angular velocity Ω and angular momentum in body axes
     Matrix r = Matrix::Identity();
-    if constexpr (!Bodies::in_body_axes) r = ChartOf::rotation(old, RotationFrom::normalised);
+    if constexpr (!Bodies::in_body_axes) r = ChartOf::rotation(old, RotationFrom::normalized);
     if constexpr (variable == AngularState::velocity_world) omega = unturned<Bodies::orientation>(r, omega);
     m = variable == AngularState::momentum_world ? Vector(r.transpose() * m) : b.momentum(omega);
     if (!b.principal) m = b.axes.transpose() * m;
@@ -100,7 +100,7 @@ void free_flow(const Bodies& bodies, typename Bodies::Scalar h, typename Bodies:
     const Vector omega_now = omega + b.velocity(change);
     if constexpr (Bodies::in_body_axes) store_vector(omega_now, a);
     else if constexpr (variable == AngularState::velocity_world) {
-      const Matrix r_now = ChartOf::rotation(now, RotationFrom::normalised);
+      const Matrix r_now = ChartOf::rotation(now, RotationFrom::normalized);
       store_vector(load_vector(a) + (r_now * omega_now - r * omega), a);
     }
     if (!bodies.pinned(i)) {

@@ -50,7 +50,7 @@ const std::vector<TraitColumn>& trait_columns() {
       {"energy_forced", "energy, forced", "the same under forces with a potential"},
       {"angular_momentum", "angular momentum", "largest relative drift of the momentum of a free body, in the world"},
       {"casimir", "Casimir", "largest relative drift of |IΩ| of a free body"},
-      {"orientation", "orientation", "largest distance of an orientation from its manifold, without normalisation"},
+      {"orientation", "orientation", "largest distance of an orientation from its manifold, without normalization"},
       {"evaluations_per_step", "rhs per step", "right-hand sides per step, as the force that is asked counts them"},
   };
   return columns;

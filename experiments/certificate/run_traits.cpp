@@ -191,7 +191,7 @@ std::vector<Finding> run_traits(const Subject& subject, const std::vector<const 
           std::move(forced),
           traits.drift("angular_momentum", d.conserves_momentum, "no body without forces", free,
                        [](const RunResult& r) { return r.angular_momentum_drift_max_rel; }),
-          traits.drift("orientation", d.lie_group || d.normalises || d.conserves_quadratics, "no run", any,
+          traits.drift("orientation", d.lie_group || d.normalizes || d.conserves_quadratics, "no run", any,
                        [](const RunResult& r) { return r.orientation_defect_max; })};
 }
 

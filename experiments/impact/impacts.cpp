@@ -28,8 +28,8 @@ RunConfig exact_one(const RunRecord& run) {
   RunConfig c = run.config;
   c.integrator = exact_method;
   c.formulation = {};
-  c.normalise = false;
-  c.precision = Precision::dual;
+  c.normalize = false;
+  c.precision = Precision::double_precision;
   c.settings.clear();
   if (c.summation) c.summation = Summation::plain;
   c.contact = ContactConfig{"sweep_and_prune", narrow_phase_for(*run.scenario), "sequential_impulses", "event_located"};

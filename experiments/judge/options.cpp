@@ -26,17 +26,17 @@ JudgeOptions parse_judge_options(int argc, const char* const* argv) {
       "--reference", options.reference,
       "where no exact solution is known, measure errors against a motion in extended precision that proves its "
       "digits by halving its step");
-  std::string rotation = "normalised";
-  app.add_option("--rotation-from", rotation, "what a quaternion off the unit sphere stands for (default: normalised)")
-      ->type_name("normalised|stored")
-      ->check(CLI::IsMember({"normalised", "stored"}).description(""));
+  std::string rotation = "normalized";
+  app.add_option("--rotation-from", rotation, "what a quaternion off the unit sphere stands for (default: normalized)")
+      ->type_name("normalized|stored")
+      ->check(CLI::IsMember({"normalized", "stored"}).description(""));
   app.add_option("--out", options.out, "folder of the results (default: results/judge-<scenario>-<hash>)")
       ->type_name("FOLDER");
   app.add_flag("--force", options.force, "overwrite other results in that folder");
   add_no_figures(app, options.figures);
   options.exit_status = parse_command_line(app, argc, argv);
   if (options.exit_status) return options;
-  options.rotation_from = rotation == "stored" ? RotationFrom::stored : RotationFrom::normalised;
+  options.rotation_from = rotation == "stored" ? RotationFrom::stored : RotationFrom::normalized;
   for (const std::string& list : lists) {
     for (const std::string& file : split_list(list, ',', "--trajectory-file")) options.files.push_back(file);
   }

@@ -14,7 +14,7 @@ struct JudgeOptions {
   std::string scenario;            ///< built-in name or file
   std::vector<std::string> files;  ///< trajectories, without duplicates
   bool reference = false;
-  RotationFrom rotation_from = RotationFrom::normalised;
+  RotationFrom rotation_from = RotationFrom::normalized;
   std::string out;  ///< empty: results/judge-<scenario>-<hash>
   bool force = false, figures = true;
   std::string command;             ///< the command line, quoted for a shell

@@ -116,7 +116,7 @@ class BoxPairs {
     q[axis + 1] = std::sin(angle / 2);
     return q;
   }
-  /// A random rotation of the symmetry group of the cube, as an exact quaternion, not normalised.
+  /// A random rotation of the symmetry group of the cube, as an exact quaternion, not normalized.
   Quaternion<double> cube_turn() {
     Quaternion<double> q(1, 0, 0, 0);
     for (int k = 0; k < 3; ++k) {

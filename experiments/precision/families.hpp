@@ -24,7 +24,7 @@ struct Rung {
 };
 
 struct Family {
-  Precision precision = Precision::dual;
+  Precision precision = Precision::double_precision;
   bool compensated = false;
   std::vector<Rung> rungs;  ///< largest step first
 

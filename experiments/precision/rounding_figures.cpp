@@ -20,7 +20,8 @@ using precision::RoundingProblem;
 using precision::Rung;
 
 constexpr std::size_t most_problems = 3;  // largest number of panels in a row
-constexpr Precision precisions[] = {Precision::single, Precision::dual, Precision::extended};
+constexpr Precision precisions[] = {Precision::single_precision, Precision::double_precision,
+                                    Precision::extended_precision};
 
 PlottedCurve curve_of(const Family& family) {
   return {.label = family.arithmetic(),

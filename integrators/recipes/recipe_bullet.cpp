@@ -52,11 +52,11 @@ IntegratorEntry recipe_bullet() {
   return engine_recipe<BulletStep>(
       {.name = "recipe_bullet",
        .family = "engine recipe",
-       .summary = "Bullet: one Newton step of the implicit gyroscopic equation, then q' = exp(h w') q, normalised",
+       .summary = "Bullet: one Newton step of the implicit gyroscopic equation, then q' = exp(h w') q, normalized",
        .order = 1,
        .evaluations_per_step = 1,
        .lie_group = true,
-       .normalises = true});
+       .normalizes = true});
 }
 
 }  // namespace polhode::integrators

@@ -10,10 +10,10 @@ namespace polhode::inline integrators {
 IntegratorEntry recipe_ode() {
   return engine_recipe<OdeStep>({.name = "recipe_ode",
                                  .family = "engine recipe",
-                                 .summary = "ODE: v' = v + h a, then q' = q + h/2 w' q, normalised",
+                                 .summary = "ODE: v' = v + h a, then q' = q + h/2 w' q, normalized",
                                  .order = 1,
                                  .evaluations_per_step = 1,
-                                 .normalises = true});
+                                 .normalizes = true});
 }
 
 }  // namespace polhode::integrators

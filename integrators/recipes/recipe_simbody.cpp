@@ -30,7 +30,7 @@ IntegratorEntry recipe_simbody() {
                                      .summary = "Simbody: ODE's recipe in two half steps",
                                      .order = 1,
                                      .evaluations_per_step = 2,
-                                     .normalises = true});
+                                     .normalizes = true});
 }
 
 }  // namespace polhode::integrators

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The coursework study as a student would write it: one file, plain doubles, no generality. Body angular velocity, unit
-// quaternion normalised after each step, a spring at the mass centre, energy after every step. It runs 4 methods × 10
+// quaternion normalized after each step, a spring at the mass centre, energy after every step. It runs 4 methods × 10
 // steps × 5 angular velocities over 50 s and prints the largest relative energy drift of each run. The yardstick of
 // tests/benchmarks/coursework.sh, which times the same study through energy_drift.
 #include <cmath>

@@ -72,7 +72,7 @@ void polhode_pile(benchmark::State& state) {
     energy = {};
     const auto outcome =
         simulate<double>(*system, *system, *method, end,
-                         {.t_end = steps * dt, .dt = dt, .samples = {}, .normalise = true}, energy, nullptr, &contact);
+                         {.t_end = steps * dt, .dt = dt, .samples = {}, .normalize = true}, energy, nullptr, &contact);
     if (outcome.status != RunStatus::ok) state.SkipWithError(outcome.message.c_str());
     shape_poses(*system, end.y, poses);
   }

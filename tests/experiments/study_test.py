@@ -636,7 +636,7 @@ class Results(StudyTest):
                 self.assertNotRegex(cell, r"(?i)^[-+]?(nan|inf)", column)
                 if column not in words and cell:
                     self.assertTrue(math.isfinite(float(cell)), f"{column}: {cell}")
-            self.assertEqual(row["rotation_from"], "" if row["orientation"] == "matrix" else "normalised")
+            self.assertEqual(row["rotation_from"], "" if row["orientation"] == "matrix" else "normalized")
             self.assertEqual((row["dt_s"] == "") + (row["tolerance"] == ""), 1)
             self.assertEqual(row["p_phi_drift_max_rel"] != "", row["scenario"] == "lagrange_top")
             self.assertEqual(row["linear_momentum_drift_max_rel"], "")  # gravity, and in the other case a pivot
@@ -747,7 +747,7 @@ class Physics(StudyTest):
             self.assertAlmostEqual(drift, measured, delta=1e-12)
 
     def test_peters_and_hsu_s_row_of_ode(self):
-        """Semi-implicit Euler on the world velocity, normalised, is their ODE: energy, momentum and position."""
+        """Semi-implicit Euler on the world velocity, normalized, is their ODE: energy, momentum and position."""
         published = {1e-4: (0.00124711, 0.0012715, 0.0049), 1e-3: (0.012462, 0.0130708, 0.049)}
         rows = self.rows("--integrator", "semi_implicit_euler", "--angular-state", "velocity_world", "--normalize", "step",
                          "--dt", "1e-3,1e-4", "--no-figures")

@@ -77,7 +77,7 @@ TEST(PetersHsu, TheGyroscopicTermCanBeLeftOut) {
   }
 }
 
-TEST(EngineRecipes, KeepTheQuaternionNormalised) {
+TEST(EngineRecipes, KeepTheQuaternionNormalized) {
   for (const char* method : {"recipe_ode", "recipe_bullet", "recipe_simbody"}) {
     Motion run(method, peters_hsu(), engine);
     run.steps(1e-3, 10000);

@@ -229,7 +229,7 @@ TEST(AxialTorque, SpinIsLinearInTime) {
         const double t = 2, rate = spin + torque * t / inertia, angle = spin * t + torque * t * t / (2 * inertia);
         const std::string what = std::string(method) + ", " + label(f) + ", " + frame;
         // A matrix or a stored quaternion that has grown changes what the torque does, at the method's order.
-        const bool exact = f.orientation == Orientation::quaternion && f.rotation_from == RotationFrom::normalised;
+        const bool exact = f.orientation == Orientation::quaternion && f.rotation_from == RotationFrom::normalized;
         const double order = method == std::string("rk4")                 ? 1e-11
                              : method == std::string("explicit_midpoint") ? 1e-5
                                                                           : 1e-2;
@@ -243,7 +243,7 @@ TEST(AxialTorque, SpinIsLinearInTime) {
 }
 
 // Peters & Hsu, complex case, exact state at t = 10: RK4 at h = 2e-4 reaches it to 1e-8 (rad, and relative in ω) in
-// every formulation, normalised after each step. Left alone it does so too, but with the matrix and the world angular
+// every formulation, normalized after each step. Left alone it does so too, but with the matrix and the world angular
 // velocity, where the equations read R RᵀR: there the method itself is off by 2e-8, and by a sixteenth of that at half
 // the step.
 TEST(PetersHsu, EndStateInEveryFormulation) {

@@ -129,7 +129,7 @@ TEST(NativeProjection, KeepsTheManifoldAndTheHistory) {
       const auto integrator = make("cvode_bdf", *system, {.tolerance = 1e-6, .t_end = 1, .project = natively});
       EXPECT_EQ(integrator->native_projection() != nullptr, natively);
       state = system->start();
-      const Schedule schedule{.t_end = 1, .adaptive = true, .samples = {}, .normalise = true};
+      const Schedule schedule{.t_end = 1, .adaptive = true, .samples = {}, .normalize = true};
       const RunOutcome outcome = simulate(*system, *system, *integrator, state, schedule, watch);
       EXPECT_EQ(outcome.status, RunStatus::ok) << outcome.message;
       return outcome.evaluations;

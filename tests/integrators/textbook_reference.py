@@ -5,7 +5,7 @@
 One free body (off-diagonal inertia too) under gravity, an off-centre damped spring and a torque fixed in the body, with
 steps large enough that every orientation leaves its manifold. The equations are those of the design, in 50 digits:
 
-  orientation   R of a quaternion: normalised, R v = q v q^-1; stored, 1 - 2 (y^2 + z^2) ... with q as it is; R as stored
+  orientation   R of a quaternion: normalized, R v = q v q^-1; stored, 1 - 2 (y^2 + z^2) ... with q as it is; R as stored
   kinematics    q' = 1/2 w q or 1/2 q W, R' = w* R or R W*, with W the angular velocity in body axes; p' = v
   world velocity   w' = R I^-1 R^T (torque - w x R I R^T w)     body velocity   W' = I^-1 (R^T torque - W x I W)
   world momentum   L' = torque, w = R I^-1 R^T L                 translation     m v' = force
@@ -96,7 +96,7 @@ class Box:
         if self.chart == "matrix":
             return orientation
         w, x, y, z = orientation
-        if self.rotation_from == "normalised":
+        if self.rotation_from == "normalized":
             return self.turn_by_sandwich([w, x, y, z])
         return matrix([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
                        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
@@ -178,7 +178,7 @@ def step(scheme, box, y, h):
 def formulations():
     for chart, angular_state, gyroscopic, rotation_from in itertools.product(
             ("quaternion", "matrix"), ("velocity_world", "velocity_body", "momentum_world"), (True, False),
-            ("normalised", "stored")):
+            ("normalized", "stored")):
         if angular_state == "momentum_world" and not gyroscopic or chart == "matrix" and rotation_from == "stored":
             continue
         yield chart, angular_state, gyroscopic, rotation_from

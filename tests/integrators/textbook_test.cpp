@@ -66,7 +66,7 @@ std::vector<Row> table() {
       if (cells[3] == name(a)) row.formulation.angular_state = a;
     }
     row.formulation.gyroscopic = cells[4] == "on";
-    row.formulation.rotation_from = cells[5] == "stored" ? RotationFrom::stored : RotationFrom::normalised;
+    row.formulation.rotation_from = cells[5] == "stored" ? RotationFrom::stored : RotationFrom::normalized;
     std::vector<long double> y;
     const auto take = [&](std::size_t cell) { y.push_back(std::strtold(cells[cell].c_str(), nullptr)); };
     for (std::size_t k = 6; k < 9; ++k) take(k);

@@ -143,15 +143,15 @@ TEST_P(EnsembleLaw, ShowsWhatARunAloneShows) {
   for (const Trial& trial : trials()) {
     for (const Formulation& f : all_formulations()) {
       for (const bool other_forces : {false, true}) {
-        for (const bool normalise : {false, true}) {
+        for (const bool normalize : {false, true}) {
           SCOPED_TRACE(trial.name + ", " + label(f) + (other_forces ? ", other forces" : "") +
-                       (normalise ? ", step" : ""));
+                       (normalize ? ", step" : ""));
           std::vector<Problem> problems;
           for (int i = 0; i < std::min(lane_count, 3); ++i)
             problems.push_back(relative(trial.problem, i, other_forces));
           // A last step that is shortened, and one that is not.
           expect_same_digits(problems, f,
-                             {.t_end = 0.5, .dt = normalise ? 0.007 : 0.005, .samples = {}, .normalise = normalise});
+                             {.t_end = 0.5, .dt = normalize ? 0.007 : 0.005, .samples = {}, .normalize = normalize});
         }
       }
     }
@@ -163,7 +163,7 @@ TEST_P(EnsembleLaw, ALaneMayEndBeforeItsNeighbours) {
   for (int i = 0; i < lane_count; ++i) problems.push_back(relative(box_on_spring(), i % 2, false));
   problems[0].starts[0].velocity = {1e3, 0, 0};                // beyond the bound at once
   problems[1].starts[0].angular_velocity = {1e200, 1e200, 1};  // overflows
-  expect_same_digits(problems, {}, {.t_end = 1, .dt = 0.01, .samples = {}, .normalise = true}, 1e5);
+  expect_same_digits(problems, {}, {.t_end = 1, .dt = 0.01, .samples = {}, .normalize = true}, 1e5);
 }
 
 TEST(Ensemble, ItsKeyTellsWhatFitsTogether) {

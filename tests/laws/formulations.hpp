@@ -20,7 +20,7 @@ inline std::vector<Formulation> all_formulations() {
     for (const AngularState angular_state : {velocity_world, velocity_body, momentum_world}) {
       for (const bool gyroscopic : {true, false}) {
         if (!gyroscopic && angular_state == momentum_world) continue;
-        for (const RotationFrom from : {RotationFrom::normalised, RotationFrom::stored}) {
+        for (const RotationFrom from : {RotationFrom::normalized, RotationFrom::stored}) {
           if (orientation == matrix && from == RotationFrom::stored) continue;
           all.push_back({orientation, angular_state, gyroscopic, from});
         }

@@ -103,10 +103,10 @@ TEST_P(IntegratorLaw, TheDriverSeesTheSameWithAndWithoutBatches) {
   if (adaptive()) GTEST_SKIP() << "it chooses its steps";
   everywhere([&](const Trial& trial, const Formulation& f) {
     const auto system = build<double>(trial, f);
-    for (const bool normalise : {false, true}) {
+    for (const bool normalize : {false, true}) {
       for (const bool all_states : {false, true}) {
         const Schedule schedule{
-            .t_end = 1, .dt = 0.0073, .samples = {}, .normalise = normalise};  // the last step is shortened
+            .t_end = 1, .dt = 0.0073, .samples = {}, .normalize = normalize};  // the last step is shortened
         const auto run = [&](Integrator<double>& integrator, Rows& rows, State<double>& state) {
           rows.all_states = all_states;
           return simulate(*system, *system, integrator, state, schedule, rows);
@@ -121,7 +121,7 @@ TEST_P(IntegratorLaw, TheDriverSeesTheSameWithAndWithoutBatches) {
         EXPECT_EQ(first.evaluations, second.evaluations);
         EXPECT_EQ(x.t, 1);
         EXPECT_TRUE(same_bytes(x, y));
-        if (!normalise) {
+        if (!normalize) {
           State<double> by_hand = system->start();
           const auto integrator = make(*system);
           integrator->begin(by_hand);

@@ -150,7 +150,7 @@ TEST_P(IntegratorTrait, CompensatedSumsLoseLess) {
 // Without projection the orientation stays on its manifold to round-off by group steps, to the tolerance of the
 // iteration where quadratic invariants are conserved, and otherwise leaves it.
 TEST_P(IntegratorTrait, OrientationsStayOnTheirManifold) {
-  const bool stays = declared().lie_group || declared().normalises || declared().conserves_quadratics;
+  const bool stays = declared().lie_group || declared().normalizes || declared().conserves_quadratics;
   expect_kept(stays, 1000, declared().conserves_quadratics ? 1e-11 : 1e-12, 1e-10,
               [](const System<double>& system, const State<double>& state) {
                 return system.measure(state.y).orientation_defect;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The equations of motion a second time, as a textbook writes them and with no thought of speed: the judge of
 // core/system/flat_ode.hpp. What an orientation off its manifold means:
-//   R of a quaternion: normalised, R v = q v q⁻¹; stored, R = 1 + 2 w v* + 2 v* v* with (w, v) as it is
+//   R of a quaternion: normalized, R v = q v q⁻¹; stored, R = 1 + 2 w v* + 2 v* v* with (w, v) as it is
 //   R of a matrix: as stored; the world inverse inertia is R I⁻¹ Rᵀ; Ω = Rᵀω, L = R I Ω, ω = R I⁻¹ Rᵀ L
 //   q̇ = ½ ω q or ½ q Ω, Ṙ = ω* R or R Ω*, with q and R as stored
 #pragma once

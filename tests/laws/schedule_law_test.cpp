@@ -35,8 +35,8 @@ void expect_same(const Rows& a, const Rows& b) {
 TEST_P(ScheduleLaw, GivenStepsAreThoseOfTheFixedLoop) {
   everywhere([&](const Trial& trial, const Formulation& f) {
     const auto system = build<double>(trial, f);
-    for (const bool normalise : {false, true}) {
-      Schedule schedule{.t_end = 1, .dt = h, .samples = {}, .normalise = normalise};
+    for (const bool normalize : {false, true}) {
+      Schedule schedule{.t_end = 1, .dt = h, .samples = {}, .normalize = normalize};
       Rows fixed, given;
       State<double> x = system->start(), y = x;
       ASSERT_EQ(simulate(*system, *system, *make(*system), x, schedule, fixed).status, RunStatus::ok);

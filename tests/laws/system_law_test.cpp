@@ -428,11 +428,11 @@ TEST(SystemLaws, EveryFormulationGivesTheSameMotion) {
 TEST(SystemLaws, RotationFromMeansNothingToTheMatrixChart) {
   const Problem problem = moved(five_bodies(), 3u);
   Formulation f{.orientation = Orientation::matrix};
-  const auto normalised = make_system<double>(problem, f);
+  const auto normalized = make_system<double>(problem, f);
   f.rotation_from = RotationFrom::stored;
   const auto stored = make_system<double>(problem, f);
   const VectorX<double> y = off_manifold(*stored, stored->start().y, 0.1, 4);
-  EXPECT_EQ(rate(*normalised, y), rate(*stored, y));
+  EXPECT_EQ(rate(*normalized, y), rate(*stored, y));
 }
 
 TEST(SystemLaws, WhatMakesNoSenseIsRefused) {

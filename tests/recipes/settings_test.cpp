@@ -158,10 +158,10 @@ TEST(MethodSettings, OfEveryTypeReachTheMethod) {
   EXPECT_NEAR(drift(twice) / drift(halved), 1, 1e-6);
   EXPECT_EQ(drift(config_of("two_stage", {{"weighting", "last"}})), usual) << "with c = 1/2 the first stage weighs 0";
   EXPECT_GT(drift(config_of("two_stage", {{"node", 1.0}, {"weighting", "last"}})), 10 * usual) << "order 1";
-  for (const Precision precision : {Precision::single, Precision::extended}) {
+  for (const Precision precision : {Precision::single_precision, Precision::extended_precision}) {
     RunConfig heun = config_of("heun", {}), same = config_of("two_stage", {{"node", 1.0}});
     heun.precision = same.precision = precision;
-    EXPECT_NEAR(drift(same) / drift(heun), 1, precision == Precision::single ? 0.1 : 1e-6);
+    EXPECT_NEAR(drift(same) / drift(heun), 1, precision == Precision::single_precision ? 0.1 : 1e-6);
   }
   RunConfig heun = config_of("heun", {}), same = config_of("two_stage", {{"node", 1.0}});
   heun.summation = same.summation = Summation::compensated;

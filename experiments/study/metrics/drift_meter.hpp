@@ -49,7 +49,7 @@ class DriftMeter final : public Observer {
   /// motion.reference: replaces exact solutions that are unknown; may be null.
   /// precision: arithmetic of the run.
   DriftMeter(const System<double>& system, const std::vector<std::string>& invariants, double t_end,
-             bool exact_at_samples, TrueMotion motion, Precision precision = Precision::dual);
+             bool exact_at_samples, TrueMotion motion, Precision precision = Precision::double_precision);
 
   void on_start(const State<double>& state, const Sample& sample) override;
   std::size_t on_samples(std::span<const Sample> samples) override;

@@ -230,7 +230,7 @@ MotionScales along_true_motion(const Scenario& scenario, double t_end, const std
 
 double MotionScales::energy_round_off(Precision precision, std::int64_t steps) const {
   // Energies are measured in double, whatever the precision of the run.
-  const double unit = std::max(epsilon(precision), epsilon(Precision::dual)),
+  const double unit = std::max(epsilon(precision), epsilon(Precision::double_precision)),
                n = static_cast<double>(std::max<std::int64_t>(steps, 1));
   return unit * (std::sqrt(n) * (16 * kinetic_terms + force_terms) + 4 * force_terms + n * steady_terms);
 }
@@ -238,7 +238,7 @@ double MotionScales::energy_round_off(Precision precision, std::int64_t steps) c
 MotionScales motion_scales(const Scenario& scenario, double t_end, const std::atomic<bool>* stop) {
   MotionScales scales = along_true_motion(scenario, t_end, stop);
   // Energies within rounding errors are no motion.
-  if (scales.energy <= 1e3 * epsilon(Precision::dual) * scales.force_terms) scales.energy = 0;
+  if (scales.energy <= 1e3 * epsilon(Precision::double_precision) * scales.force_terms) scales.energy = 0;
   if (scenario.energy_scale) scales.energy = *scenario.energy_scale;
   double mass = 0, inertia = 0;
   for (std::size_t i = 0; i < scenario.problem.moving(); ++i) {

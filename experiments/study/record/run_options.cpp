@@ -176,12 +176,12 @@ std::vector<RunOption> options_of_formulation() {
                .column = "normalize",
                .header = "normalize",
                .word = "normalize"},
-              [](auto& c) -> auto& { return c.normalise; }, Names<bool>{{"never", false}, {"step", true}}),
+              [](auto& c) -> auto& { return c.normalize; }, Names<bool>{{"never", false}, {"step", true}}),
           // This option has no effect on a matrix, which is used as stored.
           choice(
               {.name = "rotation-from",
-               .values = "normalised|stored",
-               .help = "what a quaternion off the unit sphere stands for (default: normalised)",
+               .values = "normalized|stored",
+               .help = "what a quaternion off the unit sphere stands for (default: normalized)",
                .column = "rotation_from",
                .header = "rotation from",
                .term = "rotation from (quaternions)",
@@ -190,7 +190,7 @@ std::vector<RunOption> options_of_formulation() {
                .no_effect = "a matrix is used as it is stored",
                .remedy = "or take --orientation quaternion"},
               [](auto& c) -> auto& { return c.formulation.rotation_from; },
-              names_of({RotationFrom::normalised, RotationFrom::stored})),
+              names_of({RotationFrom::normalized, RotationFrom::stored})),
           choice(
               {.name = "precision",
                .values = "float|double|long_double",
@@ -198,7 +198,7 @@ std::vector<RunOption> options_of_formulation() {
                .column = "precision",
                .header = "precision"},
               [](auto& c) -> auto& { return c.precision; },
-              names_of({Precision::single, Precision::dual, Precision::extended}))};
+              names_of({Precision::single_precision, Precision::double_precision, Precision::extended_precision}))};
 }
 
 std::vector<RunOption> options_of_summation() {

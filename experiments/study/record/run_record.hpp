@@ -18,16 +18,16 @@
 
 namespace polhode::study::inline record {
 
-enum class Precision { single, dual, extended };
+enum class Precision { single_precision, double_precision, extended_precision };
 constexpr std::string_view name(Precision p) {
-  return p == Precision::single ? "float" : p == Precision::dual ? "double" : "long_double";
+  return p == Precision::single_precision ? "float" : p == Precision::double_precision ? "double" : "long_double";
 }
 
 /// The distance from 1 to the next larger number of the arithmetic.
 constexpr double epsilon(Precision p) {
-  return p == Precision::single ? std::numeric_limits<float>::epsilon()
-         : p == Precision::dual ? std::numeric_limits<double>::epsilon()
-                                : static_cast<double>(std::numeric_limits<long double>::epsilon());
+  return p == Precision::single_precision   ? std::numeric_limits<float>::epsilon()
+         : p == Precision::double_precision ? std::numeric_limits<double>::epsilon()
+                                            : static_cast<double>(std::numeric_limits<long double>::epsilon());
 }
 
 /// How increments are added to the state.
@@ -54,8 +54,8 @@ struct RunConfig {
   std::vector<Override> varied;
   std::string integrator;
   Formulation formulation;
-  bool normalise = false;  ///< --normalize step
-  Precision precision = Precision::dual;
+  bool normalize = false;  ///< --normalize step
+  Precision precision = Precision::double_precision;
   std::optional<Summation> summation;            ///< absent: plain, and not given by the study
   std::optional<ContactConfig> contact;          ///< absent: the scenario has no contact
   std::optional<double> dt;                      ///< s; fixed-step methods only

@@ -65,8 +65,8 @@ RunOutcome run_on(const System<double>& truth, const RunConfig& config, Observer
     return run_in<S>(*system, truth, config, observer, stop, seconds);
   };
   switch (config.precision) {
-    case Precision::single: return other.operator()<float>();
-    case Precision::extended: return other.operator()<long double>();
+    case Precision::single_precision: return other.operator()<float>();
+    case Precision::extended_precision: return other.operator()<long double>();
     default: return run_in<double>(truth, truth, config, observer, stop, seconds, contact);
   }
 }
@@ -156,9 +156,9 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
   if (!config.formulation.gyroscopic && config.formulation.angular_state == AngularState::momentum_world) {
     return "gyroscopic off makes no sense with the momentum state: dL/dt = torque has no gyroscopic term to leave out";
   }
-  const bool has = config.precision == Precision::single     ? static_cast<bool>(entry->make_float)
-                   : config.precision == Precision::extended ? static_cast<bool>(entry->make_long_double)
-                                                             : static_cast<bool>(entry->make);
+  const bool has = config.precision == Precision::single_precision     ? static_cast<bool>(entry->make_float)
+                   : config.precision == Precision::extended_precision ? static_cast<bool>(entry->make_long_double)
+                                                                       : static_cast<bool>(entry->make);
   if (!has) return config.integrator + " works in double only, not in " + std::string(name(config.precision));
   if (config.tolerance && *config.tolerance < epsilon(config.precision)) {
     return fmt::format("{}: a tolerance of {:g} is below the {:.2g} to which numbers are kept in {}", config.integrator,
@@ -174,7 +174,7 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
                                       "and an increment");
   }
   if (config.contact) {
-    if (config.precision != Precision::dual)
+    if (config.precision != Precision::double_precision)
       return "contact works in double only, not in " + std::string(name(config.precision));
     if (config.reference) return "no reference can be made of a motion with contact; leave --reference out";
     const std::string& timing = config.contact->impact_timing;
@@ -218,14 +218,15 @@ std::string ensemble_key(const RunConfig& config, const Scenario& scenario, cons
   const auto& options = run_options();
   const bool usual = std::all_of(options.begin(), options.end(),
                                  [&](const RunOption& o) { return !o.on_demand || is_usual(o, config); });
-  const bool plain = config.dt && !config.contact && !config.samples && config.precision == Precision::dual && usual &&
+  const bool plain = config.dt && !config.contact && !config.samples &&
+                     config.precision == Precision::double_precision && usual &&
                      trajectory.format == TrajectoryFormat::none;
   if (!plain || !find_integrator(config.integrator)->make_lanes) return {};
   const std::string key = lane_key(*make_system<double>(scenario.problem, config.formulation));
   if (key.empty()) return {};
   const Formulation& f = config.formulation;
   return fmt::format("{} {} {} {} {} {} {} {} {}", key, config.integrator, name(f.orientation), name(f.angular_state),
-                     f.gyroscopic, name(f.rotation_from), config.normalise, *config.dt, config.t_end);
+                     f.gyroscopic, name(f.rotation_from), config.normalize, *config.dt, config.t_end);
 }
 
 std::vector<RunResult> carry_out_together(std::span<const LanedRun> runs, const std::atomic<bool>* stop,

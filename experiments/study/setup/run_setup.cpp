@@ -15,7 +15,7 @@ Schedule schedule_of(const RunConfig& config) {
   schedule.dt = config.dt.value_or(0);
   if (config.max_steps) schedule.most_steps = *config.max_steps;
   schedule.samples = config.samples;
-  schedule.normalise = config.normalise;
+  schedule.normalize = config.normalize;
   return schedule;
 }
 
@@ -24,7 +24,7 @@ std::unique_ptr<Integrator<S>> integrator_of(const RunConfig& config, const Syst
   const IntegratorSettings settings{.dt = config.dt.value_or(0),
                                     .tolerance = config.tolerance.value_or(0),
                                     .t_end = config.t_end,
-                                    .project = config.normalise,
+                                    .project = config.normalize,
                                     .chosen = config.settings};
   const IntegratorEntry& entry = *find_integrator(config.integrator);
   if constexpr (!is_lanes<S>) {

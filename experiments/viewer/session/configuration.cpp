@@ -98,7 +98,8 @@ std::string refusal(const Configuration& configuration, const study::Scenario& s
   if (std::string fault = integrator_fault(run); !fault.empty()) return fault;
   if (std::string fault = contact_fault(run, scenario); !fault.empty()) return fault;
   if (!(run.t_end > 0) || !std::isfinite(run.t_end)) return "t_end must be a positive number of seconds";
-  if (run.precision != study::Precision::dual) return "a session works in double only; leave the precision out";
+  if (run.precision != study::Precision::double_precision)
+    return "a session works in double only; leave the precision out";
   if (run.samples || run.reference)
     return "a session shows every step and takes no reference; leave samples and reference out";
   if (configuration.drive == Drive::frame_clock && !run.dt) {

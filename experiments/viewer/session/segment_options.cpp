@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 3> fixed_options = {"scenario", "precisio
 
 SegmentOption as_in_file(const study::RunOption& option) {
   if (option.name == "gyroscopic") return {&option, "gyroscopic", "on"};
-  if (option.name == "normalize") return {&option, "normalise", "step"};
+  if (option.name == "normalize") return {&option, study::file_key(option), "step"};
   return {&option, study::file_key(option), ""};
 }
 

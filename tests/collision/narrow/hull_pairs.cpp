@@ -121,7 +121,7 @@ Quaternion<double> almost_none(PortableRandom& random) {
   return random.chance(0.5) ? Quaternion<double>(1, 0, 0, 0) : about(random.direction(), random.power_of_ten(-17, 0));
 }
 
-/// One of the turns that take a cube to itself, not normalised and so exact.
+/// One of the turns that take a cube to itself, not normalized and so exact.
 Quaternion<double> of_a_cube(PortableRandom& random) {
   Quaternion<double> q(1, 0, 0, 0);
   for (int k = 0; k < 3; ++k) {

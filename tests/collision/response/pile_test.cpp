@@ -41,7 +41,7 @@ void drop(int cubes, double t_end) {
   State<double> state = system->start();
   Watch watch;
   const RunOutcome outcome =
-      simulate<double>(*system, *system, *method, state, {.t_end = t_end, .dt = dt, .samples = {}, .normalise = true},
+      simulate<double>(*system, *system, *method, state, {.t_end = t_end, .dt = dt, .samples = {}, .normalize = true},
                        watch, nullptr, &contact);
   ASSERT_EQ(outcome.status, RunStatus::ok) << outcome.message;
   EXPECT_LE(watch.rise, 1e-3 * watch.first);

@@ -69,7 +69,7 @@ std::vector<Formulation> formulations() {
   for (const Orientation o : {Orientation::quaternion, Orientation::matrix}) {
     for (const AngularState a :
          {AngularState::velocity_world, AngularState::velocity_body, AngularState::momentum_world}) {
-      all.push_back({o, a, true, RotationFrom::normalised});
+      all.push_back({o, a, true, RotationFrom::normalized});
     }
   }
   return all;

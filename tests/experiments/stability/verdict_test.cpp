@@ -100,7 +100,7 @@ TEST(Verdict, HasTheRateOfTheLeastSquaresLineOverTheScale) {
 TEST(Verdict, OfFloatsCountsNoRounding) {
   auto run = run_of([](double t) { return 1e-6 * t; });
   EXPECT_EQ(stability_verdict(run), Verdict::gaining);
-  run.config.precision = Precision::single;
+  run.config.precision = Precision::single_precision;
   EXPECT_EQ(stability_verdict(run), Verdict::stable);
 }
 

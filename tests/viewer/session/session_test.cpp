@@ -250,7 +250,7 @@ TEST(Session, OneLedgerGoesThroughAllChanges) {
   for (const std::string& scenario : {in_air, std::string("bouncing_ball")}) {
     Configuration c = with(scenario, "semi_implicit_euler", 1e-2, 10);
     c.run.formulation.orientation = Orientation::matrix;
-    c.run.normalise = true;
+    c.run.normalize = true;
     const auto session = open(scenario, c);
     session->step(150);
     for (const AngularState a :
@@ -302,7 +302,7 @@ TEST(Session, ARefusedChangeLeavesItAsItWas) {
   refused("takes dt", [](Configuration& c) { c.run.dt.reset(); });
   refused("positive", [](Configuration& c) { c.run.dt = -1; });
   refused("too small", [](Configuration& c) { c.run.dt = 1e-300; });
-  refused("double", [](Configuration& c) { c.run.precision = study::Precision::single; });
+  refused("double", [](Configuration& c) { c.run.precision = study::Precision::single_precision; });
   refused("no narrow phase", [](Configuration& c) { c.run.contact->narrow_phase = "sut"; });
   refused("has contact", [](Configuration& c) { c.run.contact.reset(); });
   refused("gyroscopic", [](Configuration& c) {

@@ -136,7 +136,7 @@ auto comparison_key(const Curve& curve) {
     if (option.on_demand) on_demand.push_back(label_of(option, c));
   }
   return std::tuple(curve.case_index, curve.method_index, curve.adaptive, c.formulation.orientation,
-                    c.formulation.angular_state, c.formulation.rotation_from, c.normalise, c.precision, on_demand);
+                    c.formulation.angular_state, c.formulation.rotation_from, c.normalize, c.precision, on_demand);
 }
 
 /// Runs of both curves at the smallest step that both completed.
