@@ -19,9 +19,9 @@ namespace polhode::study {
 namespace {
 
 /// SplitMix64 (Steele, Lea & Flood 2014): the same numbers with every standard library.
-class Random {
+class FuzzRandom {
  public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
+  explicit FuzzRandom(std::uint64_t seed) : state_(seed) {}
   std::size_t below(std::size_t n) {
     state_ += 0x9e3779b97f4a7c15u;
     std::uint64_t z = state_;
@@ -79,7 +79,7 @@ std::string joined(const std::vector<std::string>& all) {
   return text;
 }
 
-void mutate_bytes(std::string& text, Random& dice) {
+void mutate_bytes(std::string& text, FuzzRandom& dice) {
   const std::size_t at = dice.below(text.size() + 1);
   switch (dice.below(4)) {
     case 0: text.insert(at, dice.of(snippets)); break;
@@ -90,7 +90,7 @@ void mutate_bytes(std::string& text, Random& dice) {
   }
 }
 
-void mutate_lines(std::string& text, Random& dice) {
+void mutate_lines(std::string& text, FuzzRandom& dice) {
   std::vector<std::string> all = split(text);
   const auto at = [&] { return all.begin() + static_cast<std::ptrdiff_t>(dice.below(all.size())); };
   switch (dice.below(4)) {
@@ -107,7 +107,7 @@ void mutate_lines(std::string& text, Random& dice) {
 }
 
 /// Another value for one of the numbers that stand after an equals sign.
-void mutate_number(std::string& text, Random& dice) {
+void mutate_number(std::string& text, FuzzRandom& dice) {
   const std::size_t start = dice.below(text.size() + 1);
   for (std::size_t i = start; i < text.size(); ++i) {
     const bool begins =
@@ -162,7 +162,7 @@ TEST(ScenarioFuzz, MutatedTextsAreReadOrRefused) {
   constexpr int rounds = 1500;
   int read_well = 0, all = 0;
   for (const BuiltinScenario& builtin : builtin_scenarios()) {
-    Random dice(static_cast<std::uint64_t>(all) + 1);
+    FuzzRandom dice(static_cast<std::uint64_t>(all) + 1);
     if (builtin.name == "pile_100" || builtin.name == "pile_1000") continue;  // the text of pile_10, and slow to build
     for (int i = 0; i < rounds && !testing::Test::HasFailure(); ++i, ++all) {
       std::string text(builtin.text);
@@ -187,7 +187,7 @@ TEST(ScenarioFuzz, MutatedTextsAreReadOrRefused) {
 TEST(ScenarioFuzz, EndlessNestingIsRefused) {
   const std::vector<std::string> openings = {"a.", "a . ", "\"a\".", "'='.",    "\",\".", "[",
                                              "[[", "{a=",  "[{a.b=", "a = [\n", "x={"};
-  Random dice(11);
+  FuzzRandom dice(11);
   for (int i = 0; i < 30 && !testing::Test::HasFailure(); ++i) {
     std::vector<std::string> text = split(std::string(builtin_scenarios()[dice.below(8)].text));
     const std::string& opening = dice.of(openings);
@@ -209,7 +209,7 @@ TEST(ScenarioFuzz, RandomOverridesAreReadOrRefused) {
                                           "box",         "mass",  "inertia", "shape",    "radius",    "position",
                                           "kind",        "t_end", "",        "static",   "stiffness", "bodies",
                                           "orientation", "x",     "pinned",  "velocity", "-1",        "\n"};
-  Random dice(7);
+  FuzzRandom dice(7);
   int read_well = 0;
   for (int i = 0; i < 6000 && !testing::Test::HasFailure(); ++i) {
     const std::string text(dice.of(builtin_scenarios()).text);
