@@ -28,28 +28,22 @@ struct Group {
 };
 
 std::vector<Group> groups_of(const Grouping& grouping, const Quantity& quantity) {
-  std::vector<Group> groups;
+  std::map<std::tuple<std::size_t, std::size_t, bool>, Group> found;
   for (const auto& curve : grouping.curves) {
     const bool defined = std::any_of(curve.runs.begin(), curve.runs.end(),
                                      [&](const auto* run) { return quantity.of(run->result) || ended_early(*run); });
     if (!defined) continue;
-    auto at = std::find_if(groups.begin(), groups.end(), [&](const Group& g) {
-      return g.case_index == curve.case_index && g.variant_index == curve.variant_index && g.adaptive == curve.adaptive;
-    });
-    if (at == groups.end()) {
-      groups.push_back({curve.case_index, curve.variant_index, curve.adaptive, {}});
-      at = groups.end() - 1;
-    }
-    at->curves.push_back(&curve);
+    const std::tuple key(curve.case_index, curve.variant_index, curve.adaptive);
+    const auto at = found.try_emplace(key, Group{curve.case_index, curve.variant_index, curve.adaptive, {}}).first;
+    at->second.curves.push_back(&curve);
   }
+  std::vector<Group> groups;
+  for (auto& entry : found) groups.push_back(std::move(entry.second));
   std::erase_if(groups, [&](const Group& g) {
     return std::none_of(g.curves.begin(), g.curves.end(), [&](const auto* curve) {
       return std::any_of(curve->runs.begin(), curve->runs.end(),
                          [&](const auto* run) { return value(*run, quantity).has_value(); });
     });
-  });
-  std::stable_sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
-    return std::tie(a.case_index, a.variant_index, a.adaptive) < std::tie(b.case_index, b.variant_index, b.adaptive);
   });
   return groups;
 }
@@ -363,8 +357,9 @@ std::string part_of(const Grouping& grouping, const std::vector<const Curve*>& s
 std::set<std::size_t> quiet_cases(const std::vector<const Curve*>& kept, const std::vector<const Curve*>& all) {
   std::set<std::size_t> cases;
   for (const auto* curve : all) cases.insert(curve->case_index);
+  const std::set<const Curve*> quiet(kept.begin(), kept.end());
   for (const auto* curve : all) {
-    if (std::find(kept.begin(), kept.end(), curve) == kept.end()) cases.erase(curve->case_index);
+    if (!quiet.contains(curve)) cases.erase(curve->case_index);
   }
   return cases;
 }

@@ -129,14 +129,23 @@ std::vector<std::string> gyroscopic_not_checked(const Grouping& grouping) {
 }
 
 /// Key of curves that are comparable: everything except the gyroscopic term.
-auto comparison_key(const Curve& curve) {
+using ComparisonKey = std::tuple<std::size_t, std::size_t, bool, Orientation, AngularState, RotationFrom, bool,
+                                 Precision, std::vector<std::string>>;
+ComparisonKey comparison_key(const Curve& curve) {
   const auto& c = curve.runs.front()->config;
   std::vector<std::string> on_demand;
   for (const RunOption& option : run_options()) {
     if (option.on_demand) on_demand.push_back(label_of(option, c));
   }
-  return std::tuple(curve.case_index, curve.method_index, curve.adaptive, c.formulation.orientation,
-                    c.formulation.angular_state, c.formulation.rotation_from, c.normalize, c.precision, on_demand);
+  return {curve.case_index,
+          curve.method_index,
+          curve.adaptive,
+          c.formulation.orientation,
+          c.formulation.angular_state,
+          c.formulation.rotation_from,
+          c.normalize,
+          c.precision,
+          on_demand};
 }
 
 /// Runs of both curves at the smallest step that both completed.
@@ -204,11 +213,17 @@ std::optional<GyroscopicComparison> gyroscopic_comparison(const Grouping& groupi
                   {"attitude error, on", "rad"},
                   {"attitude error, off", "rad"}},
       .rows = {}};
+  std::map<ComparisonKey, std::vector<const Curve*>> left_out;
+  for (const auto& curve : grouping.curves) {
+    if (leaves_gyroscopic_out(curve)) left_out[comparison_key(curve)].push_back(&curve);
+  }
+  if (left_out.empty()) return std::nullopt;
   for (const auto& with : grouping.curves) {
     if (leaves_gyroscopic_out(with)) continue;
-    for (const auto& without : grouping.curves) {
-      if (!leaves_gyroscopic_out(without) || comparison_key(with) != comparison_key(without)) continue;
-      const auto [a, b] = smallest_common(with, without);
+    const auto comparable = left_out.find(comparison_key(with));
+    if (comparable == left_out.end()) continue;
+    for (const Curve* without : comparable->second) {
+      const auto [a, b] = smallest_common(with, *without);
       if (a == nullptr) continue;
       table.rows.push_back(comparison_row(grouping, with, *a, *b));
       differs = differs || differ(*a, *b);
