@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <utility>
 #include <vector>
 
 #include "experiments/study/text/input_error.hpp"
@@ -16,12 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// 0, or the system's reason.
-int written(const fs::path& path, std::string_view text) {
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  if (!file) return errno;
-  const int reason = std::fwrite(text.data(), 1, text.size(), file) == text.size() ? 0 : errno;
-  return std::fclose(file) == 0 ? reason : reason != 0 ? reason : errno;
+/// True if the path is a device or a pipe, which is written directly.
+bool is_special(const fs::path& path) {
+  std::error_code ignored;
+  const auto kind = fs::status(path, ignored).type();
+  return kind != fs::file_type::regular && kind != fs::file_type::not_found;
 }
 
 }  // namespace
@@ -53,20 +53,50 @@ std::string read_text(const std::string& path, std::size_t most) {
   return text;
 }
 
-void write_text(const fs::path& path, std::string_view text) {
+TextFile::TextFile(fs::path path) : path_(std::move(path)), at_(path_) {
   std::error_code ignored;
-  if (const auto kind = fs::status(path, ignored).type();
-      kind != fs::file_type::regular && kind != fs::file_type::not_found) {
-    if (const int reason = written(path, text)) throw WriteError(path, reason);
-    return;
+  if (!is_special(path_)) {
+    target_ = fs::is_symlink(path_, ignored) ? fs::weakly_canonical(path_) : path_;  // the link stays
+    at_ = target_.string() + ".new";
   }
-  const fs::path target = fs::is_symlink(path, ignored) ? fs::weakly_canonical(path) : path;  // the link stays
-  const fs::path temporary = target.string() + ".new";
-  int reason = written(temporary, text);
-  if (reason == 0 && std::rename(temporary.c_str(), target.c_str()) != 0) reason = errno;
+  file_ = std::fopen(at_.c_str(), "wb");
+  if (!file_) fail(errno);
+}
+
+TextFile::~TextFile() { abandon(); }
+
+void TextFile::abandon() {
+  if (!file_) return;
+  std::fclose(file_);
+  file_ = nullptr;
+  std::error_code ignored;
+  if (!target_.empty()) fs::remove(at_, ignored);
+}
+
+void TextFile::fail(int reason) {
+  abandon();
+  throw WriteError(path_, reason);
+}
+
+void TextFile::add(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) fail(errno);
+}
+
+void TextFile::finish() {
+  if (std::fflush(file_) != 0) fail(errno);
+  std::FILE* closing = std::exchange(file_, nullptr);
+  int reason = std::fclose(closing) == 0 ? 0 : errno;
+  if (reason == 0 && !target_.empty() && std::rename(at_.c_str(), target_.c_str()) != 0) reason = errno;
   if (reason == 0) return;
-  fs::remove(temporary, ignored);
-  throw WriteError(path, reason);
+  std::error_code ignored;
+  if (!target_.empty()) fs::remove(at_, ignored);
+  throw WriteError(path_, reason);
+}
+
+void write_text(const fs::path& path, std::string_view text) {
+  TextFile file(path);
+  file.add(text);
+  file.finish();
 }
 
 }  // namespace polhode::study::text

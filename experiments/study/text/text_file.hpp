@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads and writes whole text files.
+// Reads whole text files; writes text files, whole or in parts.
 #pragma once
 
 #include <cstddef>
+#include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -24,8 +25,30 @@ struct WriteError : std::runtime_error {
   WriteError(const std::filesystem::path& path, int reason);  ///< `reason`: errno
 };
 
-/// Writes a file atomically: a reader finds the old or the new contents, never a part. A device or a pipe is written
-/// directly. Throws WriteError.
+/// A text file that is written in parts and atomically: a reader finds the old or the new contents, never a part. The
+/// parts stand in NAME.new until finish(); without finish() they are removed. A device or a pipe is written directly.
+class TextFile {
+ public:
+  /// Throws WriteError.
+  explicit TextFile(std::filesystem::path path);
+  TextFile(const TextFile&) = delete;
+  TextFile& operator=(const TextFile&) = delete;
+  ~TextFile();
+
+  /// Appends the text. Throws WriteError.
+  void add(std::string_view text);
+  /// Gives the file its name. Throws WriteError.
+  void finish();
+
+ private:
+  void abandon();
+  [[noreturn]] void fail(int reason);
+
+  std::filesystem::path path_, target_, at_;  ///< as named; behind links (empty: written directly); being written
+  std::FILE* file_ = nullptr;
+};
+
+/// Writes a whole file as TextFile does. Throws WriteError.
 void write_text(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace polhode::study::text

@@ -87,24 +87,26 @@ void write_runs_csv(const StudyView& study) {
   add(header, config_columns(study.varied_keys, study.named));
   const auto metrics = metrics_of(study);
   for (const Metric* metric : metrics) add(header, csv_columns(*metric, study.invariants));
-  std::string text = csv_row(header);
+  TextFile file(study.folder / "runs.csv");
+  file.add(csv_row(header));
   for (const RunRecord& run : study.runs) {
     std::vector<std::string> row = {run.id};
     add(row, config_cells(run.config, study.named));
     for (const Metric* metric : metrics) add(row, csv_cells(*metric, run.result, study.invariants));
-    text += csv_row(row);
+    file.add(csv_row(row));
   }
-  write_text(study.folder / "runs.csv", text);
+  file.finish();
 }
 
 void write_timings_csv(const StudyView& study) {
-  std::string text = "run,wall_s,steps,wall_per_step_s\n";
+  TextFile file(study.folder / "timings.csv");
+  file.add("run,wall_s,steps,wall_per_step_s\n");
   for (const RunRecord& run : study.runs) {
     const RunResult& r = run.result;
-    text += fmt::format("{},{},{},{}\n", run.id, exact(r.seconds), r.steps,
-                        r.steps > 0 ? exact(r.seconds / static_cast<double>(r.steps)) : "");
+    file.add(fmt::format("{},{},{},{}\n", run.id, exact(r.seconds), r.steps,
+                         r.steps > 0 ? exact(r.seconds / static_cast<double>(r.steps)) : ""));
   }
-  write_text(study.folder / "timings.csv", text);
+  file.finish();
 }
 
 void write_manifest(const StudyView& study, const Options& options, const Plan& plan) {
