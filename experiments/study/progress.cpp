@@ -9,17 +9,18 @@
 
 namespace polhode::study {
 
-Progress::Progress(std::string name, std::size_t runs, double cost)
-    : name_(std::move(name)), runs_(runs), cost_(cost), terminal_(isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(std::string name, std::size_t runs)
+    : name_(std::move(name)), runs_(runs), terminal_(isatty(STDERR_FILENO) != 0) {}
 
-void Progress::report(std::size_t runs_done, double cost_done) {
-  const auto now = Clock::now();
-  const double elapsed = std::chrono::duration<double>(now - started_).count();
-  if (std::chrono::duration<double>(now - last_).count() < (terminal_ ? 0.1 : 10.0)) return;
-  last_ = now;
-  const double share = cost_ > 0 ? cost_done / cost_ : 1;
-  std::string left = "estimating the time left";
-  if (share > 0.01) left = "about " + duration_text(elapsed * (1 - share) / share) + " left";
+bool Progress::is_due() const {
+  const double pause = terminal_ ? 0.1 : 10;  // s
+  return std::chrono::duration<double>(Clock::now() - last_).count() >= pause;
+}
+
+void Progress::report(std::size_t runs_done, double share, std::optional<double> seconds_left) {
+  last_ = Clock::now();
+  const std::string left =
+      seconds_left ? "about " + duration_text(*seconds_left) + " left" : std::string("estimating the time left");
   const std::string line = fmt::format("{}: {} of {} runs, {:.0f} %, {}", name_, runs_done, runs_, 100 * share, left);
   if (terminal_) fmt::print(stderr, "\r{}\x1b[K", line);
   else fmt::print(stderr, "{}\n", line);

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace polhode::study {
@@ -11,11 +12,13 @@ namespace polhode::study {
 /// Prints the progress to standard error. Not thread-safe.
 class Progress {
  public:
-  /// runs: number of runs to carry out; cost: their total work, in any unit.
-  Progress(std::string name, std::size_t runs, double cost);
-  /// Reports the number and the cost of finished runs. Prints at most ten times a second on a terminal, at most every
-  /// ten seconds in a log.
-  void report(std::size_t runs_done, double cost_done);
+  /// runs: number of runs to carry out.
+  Progress(std::string name, std::size_t runs);
+  /// True if report() would print: at most ten times a second on a terminal, at most every ten seconds in a log.
+  bool is_due() const;
+  /// Prints the number of finished runs, the share of the work that is done (0 to 1) and the time left (s; absent: not
+  /// known yet).
+  void report(std::size_t runs_done, double share, std::optional<double> seconds_left);
   /// Clears the line, on a terminal.
   void finish();
 
@@ -23,9 +26,8 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   std::string name_;
   std::size_t runs_;
-  double cost_;
   bool terminal_;
-  Clock::time_point started_ = Clock::now(), last_ = started_;
+  Clock::time_point last_ = Clock::now();
   bool printed_ = false;
 };
 

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
+#include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <new>
 #include <stdexcept>
-#include <thread>
 
+#include "experiments/study/interruption.hpp"
 #include "experiments/study/metrics/references.hpp"
 #include "experiments/study/plan/listing.hpp"
 #include "experiments/study/plan/options.hpp"
@@ -33,20 +33,6 @@
 
 namespace polhode::study {
 namespace {
-
-constexpr int interrupted = 130;  ///< exit status of an interrupted study
-
-std::atomic<bool> stop_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free);  // so that a signal handler may set it
-
-/// The first Ctrl-C stops the study and keeps finished runs; the second one kills it.
-void stop_on_signals() {
-  struct sigaction action = {};
-  action.sa_handler = [](int) { stop_requested = true; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 std::filesystem::path folder_of(const Experiment& experiment, const Options& options, const Plan& plan) {
   if (!options.out.empty()) return options.out;
@@ -117,12 +103,13 @@ std::vector<Batch> batches_of(const std::vector<const PlannedRun*>& runs, const 
 /// Carries out one run. If the experiment requires best times, a run shorter than 0.04 s is repeated and the least time
 /// kept, since disturbances by other programs only increase it.
 RunResult carry_out_alone(const Experiment& experiment, const PlannedRun& run, const TrajectoryRequest& trajectory,
-                          References& references) {
+                          References& references, Interruption& interruption, std::atomic<double>& share) {
   constexpr double long_enough = 0.04;  // s
   constexpr int most_times = 5;
-  RunResult result = carry_out(run.config, *run.scenario, trajectory, &stop_requested, &references);
-  for (int k = 1; k < most_times && experiment.best_times && result.seconds < long_enough && !stop_requested; ++k) {
-    const RunResult again = carry_out(run.config, *run.scenario, {}, &stop_requested, &references);
+  const std::atomic<bool>* stop = &interruption.stop();
+  RunResult result = carry_out(run.config, *run.scenario, trajectory, stop, &references, &share);
+  for (int k = 1; k < most_times && experiment.best_times && result.seconds < long_enough && !*stop; ++k) {
+    const RunResult again = carry_out(run.config, *run.scenario, {}, stop, &references);
     if (again.status == result.status) result.seconds = std::min(result.seconds, again.seconds);
   }
   return result;
@@ -131,7 +118,7 @@ RunResult carry_out_alone(const Experiment& experiment, const PlannedRun& run, c
 /// Carries out the runs that the store does not contain yet. Returns false if interrupted.
 bool carry_out_missing(const Experiment& experiment, const Options& options, const Plan& plan,
                        const std::filesystem::path& folder, Store& store, std::map<std::string, RunResult>& results,
-                       bool say_what_is_there) {
+                       Interruption& interruption, bool say_what_is_there) {
   std::vector<const PlannedRun*> missing;
   for (const PlannedRun& run : plan.runs) {
     const bool done = results.contains(run.id) && has_trajectory(trajectory_of(experiment, options, folder, run));
@@ -145,17 +132,18 @@ bool carry_out_missing(const Experiment& experiment, const Options& options, con
   References references;
   for (const PlannedRun* run : missing) references.expect(run->config, *run->scenario);
   const auto trajectory = [&](const PlannedRun& run) { return trajectory_of(experiment, options, folder, run); };
-  const auto work = [&](const Batch& batch) -> std::vector<RunResult> {
+  const auto work = [&](const Batch& batch, std::atomic<double>& share) -> std::vector<RunResult> {
     if (batch.size() == 1) {
-      return {carry_out_alone(experiment, *batch.front(), trajectory(*batch.front()), references)};
+      const PlannedRun& run = *batch.front();
+      return {carry_out_alone(experiment, run, trajectory(run), references, interruption, share)};
     }
     std::vector<LanedRun> runs;
     for (const PlannedRun* run : batch) runs.push_back({run->config, *run->scenario});
-    return carry_out_together(runs, &stop_requested, &references);
+    return carry_out_together(runs, &interruption.stop(), &references);
   };
   const auto key = [&](const PlannedRun& run) { return ensemble_key(run.config, *run.scenario, trajectory(run)); };
-  run_all(experiment.name, batches_of(missing, key), work, options.jobs, store, stop_requested, results);
-  if (!stop_requested) return true;
+  run_all(experiment.name, batches_of(missing, key), work, options.jobs, store, interruption.no_more(), results);
+  if (!interruption.no_more()) return true;
   const auto here =
       std::count_if(plan.runs.begin(), plan.runs.end(), [&](const auto& r) { return results.contains(r.id); });
   fmt::print(stderr, "{}: interrupted; {} of {} runs are kept in {}; the same command goes on from there\n",
@@ -265,14 +253,15 @@ int run_study(const Experiment& experiment, const Options& options) {
   }
   const std::set<std::string> ids = ids_of(experiment, options, plan, folder);
   const ResultFolder held(folder, ids, options.force);
-  stop_on_signals();
+  Interruption interruption;
   Store store(folder);
   auto results = stored(experiment, options, folder, store);
   bool first = true;
   do {
-    if (!carry_out_missing(experiment, options, plan, folder, store, results, first)) return interrupted;
+    if (!carry_out_missing(experiment, options, plan, folder, store, results, interruption, first)) return interrupted;
     first = false;
   } while (widened(experiment, options, plan, folder, results));
+  interruption.study_is_stored();
   const auto take = [](RunResult& result) { return std::move(result); };
   StudyView view = view_of(experiment, options, plan, folder, results, take);
   if (experiment.analysis) view.analysis = experiment.analysis(view);

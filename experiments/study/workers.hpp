@@ -16,11 +16,14 @@ namespace polhode::study {
 /// Runs that are carried out together by one call in one thread.
 using Batch = std::vector<const PlannedRun*>;
 
-/// Calls work(batch) for each batch, `jobs` at a time (0: one for each core), and puts the results, one for each run of
-/// the batch, into the store and into `results`. If `stop` is set meanwhile, it returns early and finished runs are
-/// kept. Rethrows exceptions of `work` and of the store.
-void run_all(const std::string& name, std::vector<Batch> batches,
-             const std::function<std::vector<RunResult>(const Batch&)>& work, int jobs, Store& store,
-             std::atomic<bool>& stop, std::map<std::string, RunResult>& results);
+/// Carries out a batch; returns one result for each of its runs. It may store the share of its work that is done, 0 to
+/// 1, into `share`.
+using Work = std::function<std::vector<RunResult>(const Batch&, std::atomic<double>& share)>;
+
+/// Calls work(batch) for each batch, `jobs` at a time (0: one for each core), and puts the results into the store and
+/// into `results`. No batch begins once no_more is set, which an exception does as well; finished runs are kept.
+/// Rethrows exceptions of `work` and of the store.
+void run_all(const std::string& name, std::vector<Batch> batches, const Work& work, int jobs, Store& store,
+             std::atomic<bool>& no_more, std::map<std::string, RunResult>& results);
 
 }  // namespace polhode::study

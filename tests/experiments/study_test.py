@@ -215,13 +215,14 @@ class Resuming(StudyTest):
         self.study(*SMALL, out=out)
 
     def test_interrupted_it_says_how_to_go_on(self):
-        for wanted, go_on in ((signal.SIGINT, True), (signal.SIGTERM, False)):
+        for wanted, go_on in ((signal.SIGINT, True), (signal.SIGTERM, False), (signal.SIGUSR1, False),
+                              (signal.SIGXCPU, False)):
             out = self.new_out()
             program = self.start(*MANY, "--out", out)
             self.wait_for("20 stored runs", lambda: stored(out) >= 20, program)
             program.send_signal(wanted)
             _, text = program.communicate(timeout=PATIENCE)
-            self.assertEqual(program.returncode, 130, text)
+            self.assertEqual(program.returncode, 75, text)
             found = re.search(r"interrupted; (\d+) of 240 runs are kept in (\S+); the same command goes on", text)
             self.assertTrue(found, text)
             self.assertEqual(int(found[1]), stored(out))
@@ -231,6 +232,36 @@ class Resuming(StudyTest):
             done = self.call("energy_drift", *MANY, "--out", out)
             self.assertIn(f"{found[1]} of 240 runs are there already", done.stderr)
             self.assertEqual((out / "runs.csv").read_bytes(), self.runs)
+
+    def test_after_a_first_signal_a_short_run_ends_and_after_a_second_one_a_long_run_is_stopped(self):
+        short = ["--integrator", "rk4", "--dt", "1e-6", "--t-end", "8", "--no-figures", "--jobs", "1"]  # about two seconds
+        out = self.new_out()
+        program = self.start(*short, "--out", out)
+        self.wait_for("the store", lambda: (out / "results.sqlite").exists(), program)
+        time.sleep(0.3)  # until the run has begun
+        program.send_signal(signal.SIGUSR1)
+        _, text = program.communicate(timeout=PATIENCE)
+        self.assertEqual(program.returncode, 75, text)
+        self.assertIn("1 of 1 runs are kept", text)
+        self.assertIn("a second signal stops them", text)
+        long = ["--scenario", "free_symmetric_top", "--integrator", "rk4", "--dt", "1e-4", "--t-end", "1e5",
+                "--no-figures", "--jobs", "1"]
+        for second in (signal.SIGTERM, None):  # without a second one it ends after five seconds
+            out = self.new_out()
+            program = self.start(*long, "--out", out)
+            self.wait_for("the store", lambda: (out / "results.sqlite").exists(), program)
+            time.sleep(0.3)
+            began = time.monotonic()
+            program.send_signal(signal.SIGUSR1)
+            if second:
+                time.sleep(0.2)
+                self.assertIsNone(program.poll(), "the first signal lets runs under way go on")
+                program.send_signal(second)
+            _, text = program.communicate(timeout=PATIENCE)
+            self.assertEqual(program.returncode, 75, text)
+            self.assertIn("0 of 1 runs are kept", text)
+            if not second:
+                self.assertGreater(time.monotonic() - began, 4.5)
 
     def test_the_number_of_jobs_changes_nothing(self):
         for jobs in (1, 2, 5):
@@ -615,7 +646,7 @@ class ResultFolders(StudyTest):
         self.assertIsNone(first.poll(), "the first program must not be disturbed")
         first.send_signal(signal.SIGINT)
         _, text = first.communicate(timeout=PATIENCE)
-        self.assertEqual(first.returncode, 130, text)
+        self.assertEqual(first.returncode, 75, text)
         self.assertIn("0 of 1 runs", text)
 
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <new>
 #include <stdexcept>
 
@@ -33,6 +34,24 @@ std::string_view status_text(RunStatus status) {
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Tells which part of its duration a run has done.
+class ShareMeter final : public Observer {
+ public:
+  ShareMeter(std::atomic<double>& share, double t_end) : share_(share), t_end_(t_end) {}
+
+  void on_start(const State<double>&, const Sample&) override {}
+  std::size_t on_samples(std::span<const Sample> samples) override {
+    if (!samples.empty()) share_.store(samples.back().t / t_end_, std::memory_order_relaxed);
+    return samples.size();
+  }
+  void on_state(const State<double>&, const Sample&) override {}
+  double next_state() const override { return std::numeric_limits<double>::infinity(); }
+
+ private:
+  std::atomic<double>& share_;
+  double t_end_;
+};
 
 RunResult result_of(const RunOutcome& outcome, DriftMeter& meter, double seconds) {
   RunResult result;
@@ -97,7 +116,7 @@ RunOutcome guarded(const Scenario& scenario, const Run& run) {
 }
 
 RunResult measured(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory,
-                   const std::atomic<bool>* stop, References* references) {
+                   const std::atomic<bool>* stop, References* references, std::atomic<double>* share) {
   const auto truth = make_system<double>(scenario.problem, config.formulation);
   std::optional<ContactSetup> contact;
   if (config.contact) contact.emplace(*truth, scenario, *config.contact);
@@ -111,6 +130,8 @@ RunResult measured(const RunConfig& config, const Scenario& scenario, const Traj
   if (writer) observers.add(*writer);
   if (contact_meter) observers.add(*contact_meter);
   observers.add(meter);
+  std::optional<ShareMeter> share_meter;
+  if (share) observers.add(share_meter.emplace(*share, config.t_end));
   double seconds = 0;
   const RunOutcome outcome = guarded(scenario, [&] {
     return run_on(*truth, config, observers, stop, seconds, contact ? contact->model.get() : nullptr);
@@ -199,10 +220,10 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
 }
 
 RunResult carry_out(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory,
-                    const std::atomic<bool>* stop, References* references) {
+                    const std::atomic<bool>* stop, References* references, std::atomic<double>* share) {
   RunResult result;
   const RunOutcome outcome = guarded(scenario, [&] {
-    result = measured(config, scenario, trajectory, stop, references);
+    result = measured(config, scenario, trajectory, stop, references, share);
     return RunOutcome{};
   });
   if (outcome.status == RunStatus::failed) {

@@ -30,9 +30,10 @@ struct TrajectoryRequest {
 /// Carries out one run. Exceptions from the run become its failure, with their message; only TrajectoryError is
 /// rethrown. All numbers of the result are finite. A run stopped from outside has the status "interrupted" and must not
 /// be stored. `references`: the references shared by the runs of a study; null: the run computes its own if it needs
-/// one.
+/// one. `share`: gets the part of the duration that is done, 0 to 1, if it is not null.
 RunResult carry_out(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory,
-                    const std::atomic<bool>* stop, References* references = nullptr);
+                    const std::atomic<bool>* stop, References* references = nullptr,
+                    std::atomic<double>* share = nullptr);
 
 /// Runs with the same non-empty key differ only in initial values and parameters and can share the lanes of an
 /// ensemble. Empty: the run is carried out alone.

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Signals that end a study early: Ctrl-C (SIGINT), and the warnings that a batch system sends before it kills a job
+// (SIGTERM, SIGUSR1, SIGXCPU). All of them mean the same.
+#pragma once
+
+#include <atomic>
+
+namespace polhode::study {
+
+/// Exit status of an interrupted study: EX_TEMPFAIL of sysexits.h. The same command continues the study.
+inline constexpr int interrupted = 75;
+
+/// Time that runs under way have to finish after the first signal, s.
+inline constexpr unsigned grace = 5;
+
+/// Handles the signals while it lives; restores their former actions at the end. At most one object at a time.
+///   first signal:  no further run begins; runs under way have `grace` seconds to finish
+///   second signal: runs under way are stopped at once; finished runs are kept
+/// After study_is_stored() a signal ends the process at once with the exit status `interrupted`, because nothing is
+/// left that could be lost.
+class Interruption {
+ public:
+  Interruption();
+  ~Interruption();
+  Interruption(const Interruption&) = delete;
+  Interruption& operator=(const Interruption&) = delete;
+
+  /// True: no further run may begin.
+  std::atomic<bool>& no_more();
+  /// True: runs under way must end.
+  std::atomic<bool>& stop();
+
+  void study_is_stored();
+};
+
+}  // namespace polhode::study
