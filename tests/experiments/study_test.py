@@ -636,7 +636,8 @@ class ResultFolders(StudyTest):
 
     def test_two_programs_do_not_share_a_folder(self):
         out = self.new_out()
-        long = ["--integrator", "rk4", "--dt", "1e-4", "--t-end", "1e5", "--no-figures", "--out", out]
+        long = ["--scenario", "free_symmetric_top", "--integrator", "rk4", "--dt", "1e-4", "--t-end", "1e5",
+                "--no-figures", "--out", out]
         first = self.start(*long)
         self.wait_for("the store", lambda: (out / "results.sqlite").exists(), first)
         for force in ([], ["--force"]):
