@@ -11,6 +11,7 @@ LinearMotion::LinearMotion(double stiffness, double damping)
       gap_((std::sqrt(stiffness) - damping / 2) * (std::sqrt(stiffness) + damping / 2)) {}
 
 LinearMotion::Response LinearMotion::at(double t) const {
+  if (stiffness_ == 0 && half_damping_ == 0) return {t, t * t / 2, 1};
   const double speed = std::sqrt(std::abs(gap_)), angle = speed * t;
   if ((std::sqrt(stiffness_) + half_damping_) * std::abs(t) < 1) {
     // Power series of by_acceleration in t: (n + 1)(n + 2) c_(n+2) = −2γ (n + 1) c_(n+1) − ω² c_n.

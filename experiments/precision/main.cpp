@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
                     {"t-end", "256"},
                     {"samples", "128"}},
        .vary = {{"body.0.angular_velocity.2", "0.5:0.84375:12"}},
+       .curves_are_results = true,
        .analysis = polhode::study::precision::rounding_and_truncation},
       argc, argv);
 }

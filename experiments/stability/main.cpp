@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
                                          .more = {map_over_inertia},
                                          .fixed_steps_only = true,
                                          .failures_are_results = true,
+                                         .curves_are_results = true,
                                          .duration = polhode::study::stability::whole_steps,
                                          .refine = polhode::study::stability::bisection,
                                          .analysis = polhode::study::stability::stability},

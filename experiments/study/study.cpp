@@ -17,6 +17,7 @@
 #include "experiments/study/plan/plan.hpp"
 #include "experiments/study/progress.hpp"
 #include "experiments/study/record/run_options.hpp"
+#include "experiments/study/record/shown_runs.hpp"
 #include "experiments/study/report/figures/study_figures.hpp"
 #include "experiments/study/report/page/report.hpp"
 #include "experiments/study/report/tables/results.hpp"
@@ -81,6 +82,26 @@ bool has_trajectory(const TrajectoryRequest& request) {
   }
 }
 
+/// Chooses the runs whose curves against time are kept.
+void choose_curves(const Options& options, Plan& plan) {
+  std::vector<const RunConfig*> runs;
+  for (PlannedRun& run : plan.runs) {
+    run.keeps_curves = false;
+    runs.push_back(&run.config);
+  }
+  for (const std::size_t i : shown_runs(runs, options.curves.value_or(runs.size()))) plan.runs[i].keeps_curves = true;
+}
+
+void drop_curves(RunResult& result) {
+  result.series = {};
+  result.attitude_errors = {};
+}
+
+/// True if the result has all that is kept of it. A run that took no step has no curves.
+bool is_complete(const RunResult& result, const PlannedRun& run) {
+  return !run.keeps_curves || !result.series.empty() || result.steps == 0;
+}
+
 /// Groups runs of equal key into batches of at most lane_count runs, in their order. Runs with an empty key are batches
 /// of one.
 template <class Key>
@@ -121,7 +142,9 @@ bool carry_out_missing(const Experiment& experiment, const Options& options, con
                        Interruption& interruption, bool say_what_is_there) {
   std::vector<const PlannedRun*> missing;
   for (const PlannedRun& run : plan.runs) {
-    const bool done = results.contains(run.id) && has_trajectory(trajectory_of(experiment, options, folder, run));
+    const auto found = results.find(run.id);
+    const bool done = found != results.end() && is_complete(found->second, run) &&
+                      has_trajectory(trajectory_of(experiment, options, folder, run));
     if (run.refusal.empty() && !done) missing.push_back(&run);
   }
   if (missing.empty()) return true;
@@ -132,7 +155,7 @@ bool carry_out_missing(const Experiment& experiment, const Options& options, con
   References references;
   for (const PlannedRun* run : missing) references.expect(run->config, *run->scenario);
   const auto trajectory = [&](const PlannedRun& run) { return trajectory_of(experiment, options, folder, run); };
-  const auto work = [&](const Batch& batch, std::atomic<double>& share) -> std::vector<RunResult> {
+  const auto carry_out_batch = [&](const Batch& batch, std::atomic<double>& share) -> std::vector<RunResult> {
     if (batch.size() == 1) {
       const PlannedRun& run = *batch.front();
       return {carry_out_alone(experiment, run, trajectory(run), references, interruption, share)};
@@ -140,6 +163,13 @@ bool carry_out_missing(const Experiment& experiment, const Options& options, con
     std::vector<LanedRun> runs;
     for (const PlannedRun* run : batch) runs.push_back({run->config, *run->scenario});
     return carry_out_together(runs, &interruption.stop(), &references);
+  };
+  const auto work = [&](const Batch& batch, std::atomic<double>& share) {
+    std::vector<RunResult> done = carry_out_batch(batch, share);
+    for (std::size_t i = 0; i < done.size(); ++i) {
+      if (!batch[i]->keeps_curves) drop_curves(done[i]);
+    }
+    return done;
   };
   const auto key = [&](const PlannedRun& run) { return ensemble_key(run.config, *run.scenario, trajectory(run)); };
   run_all(experiment.name, batches_of(missing, key), work, options.jobs, store, interruption.no_more(), results);
@@ -172,6 +202,7 @@ StudyView view_of(const Experiment& experiment, const Options& options, const Pl
       record.result.message = run.refusal;
     } else {
       record.result = give(results.at(run.id));
+      if (!run.keeps_curves) drop_curves(record.result);
     }
     view.runs.push_back(std::move(record));
   }
@@ -183,7 +214,9 @@ bool widened(const Experiment& experiment, const Options& options, Plan& plan, c
              const std::map<std::string, RunResult>& results) {
   if (!experiment.refine) return false;
   const auto copy = [](const RunResult& result) { return result; };
-  return widen(plan, experiment.refine(view_of(experiment, options, plan, folder, results, copy))) > 0;
+  if (widen(plan, experiment.refine(view_of(experiment, options, plan, folder, results, copy))) == 0) return false;
+  choose_curves(options, plan);
+  return true;
 }
 
 /// Ids of the runs of the study, including further runs requested on the basis of results already in its folder. Plans
@@ -246,6 +279,7 @@ std::string missed_text(const std::vector<const RunRecord*>& missed, std::size_t
 
 int run_study(const Experiment& experiment, const Options& options) {
   Plan plan = make_plan(experiment, options);
+  choose_curves(options, plan);
   const std::filesystem::path folder = folder_of(experiment, options, plan);
   if (options.dry_run) {
     fmt::print("{}", plan_text(experiment, plan, folder));

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <type_traits>
@@ -137,7 +138,7 @@ Grouping group(const StudyView& study) {
   std::map<std::string, std::size_t> method_index, cases, variants;
   for (const auto& method : grouping.methods) method_index.emplace(method, method_index.size());
   std::map<std::tuple<std::size_t, std::size_t, std::size_t, bool>, std::size_t> curves;
-  std::vector<double> sizes;  // m, of the motions of the cases
+  std::vector<std::optional<double>> sizes;  // m, of the motions of the cases with measured positions
   const Durations durations(study);
   const Variants options(study.runs);
 
@@ -146,8 +147,10 @@ Grouping group(const StudyView& study) {
     const auto [case_index, new_case] = index_of(cases, identity(motion, run.config));
     if (new_case) {
       grouping.cases.push_back(std::move(motion));
-      sizes.push_back(run.scenario ? motion_size(*run.scenario, run.config.t_end)
-                                   : std::numeric_limits<double>::infinity());
+      sizes.emplace_back();
+    }
+    if (!sizes[case_index] && run.scenario && run.result.position_error_max) {
+      sizes[case_index] = motion_size(*run.scenario, run.config.t_end);
     }
 
     const auto variant = joined(options.describe(run.config));
@@ -157,10 +160,19 @@ Grouping group(const StudyView& study) {
     const auto method = method_index.at(run.config.integrator);
     const bool adaptive = run.config.tolerance.has_value();
     const auto [curve, new_curve] = index_of(curves, std::tuple(case_index, variant_index, method, adaptive));
-    if (new_curve) grouping.curves.push_back({case_index, variant_index, method, adaptive, sizes[case_index], {}});
+    if (new_curve) {
+      Curve& added = grouping.curves.emplace_back();
+      added.case_index = case_index;
+      added.variant_index = variant_index;
+      added.method_index = method;
+      added.adaptive = adaptive;
+    }
     grouping.curves[curve].runs.push_back(&run);
   }
-  for (auto& curve : grouping.curves) sort_by_step(curve);
+  for (auto& curve : grouping.curves) {
+    if (const auto& size = sizes[curve.case_index]) curve.motion_size = *size;
+    sort_by_step(curve);
+  }
   return grouping;
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "experiments/study/record/shown_runs.hpp"
 #include "experiments/study/text/notation.hpp"
 
 namespace polhode::study::inline curves {
@@ -15,14 +16,6 @@ namespace {
 
 constexpr std::size_t max_methods_in_panel = 8;
 constexpr std::size_t max_variants = 4;
-
-/// So many indices of 0 … n−1, evenly spread, the ends among them.
-std::vector<std::size_t> evenly(std::size_t n, std::size_t wanted) {
-  std::vector<std::size_t> chosen;
-  if (wanted == 1) return {0};
-  for (std::size_t i = 0; i < wanted; ++i) chosen.push_back((i * (n - 1) + (wanted - 1) / 2) / (wanted - 1));
-  return chosen;
-}
 
 bool contains(const std::vector<std::size_t>& all, std::size_t one) {
   return std::find(all.begin(), all.end(), one) != all.end();
@@ -70,7 +63,7 @@ void Selection::keep_evenly(std::string_view what, std::vector<std::size_t>& all
   if (all.size() <= limit) return;
   omissions_ += fmt::format(" Shown: {} of {} {}, evenly chosen; runs.csv has them all.", limit, all.size(), what);
   std::vector<std::size_t> kept;
-  for (const auto i : evenly(all.size(), limit)) kept.push_back(all[i]);
+  for (const auto i : evenly_spread(all.size(), limit)) kept.push_back(all[i]);
   all = std::move(kept);
 }
 

@@ -36,6 +36,7 @@ struct Experiment {
   bool best_times = false;            ///< short runs are repeated, and the least wall time is kept
   bool fixed_steps_only = false;      ///< adaptive methods are not allowed
   bool failures_are_results = false;  ///< failed runs are results and do not change the exit status
+  bool curves_are_results = false;    ///< the analysis uses the curves against time of all runs
   /// Duration of a run, s, from the requested duration (s) and the step (s), or the tolerance of an adaptive method.
   /// Empty: the requested duration.
   std::function<double(double t_end, double dt)> duration{};

@@ -2,8 +2,11 @@
 #include "experiments/study/plan/options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <system_error>
 
 #include "experiments/study/record/run_options.hpp"
+#include "experiments/study/record/shown_runs.hpp"
 #include "experiments/study/text/command_line.hpp"
 #include "experiments/study/text/input_error.hpp"
 
@@ -14,6 +17,25 @@ std::vector<std::string> axis_names() {
   for (const RunOption& option : run_options()) all.push_back(option.name);
   return all;
 }
+
+namespace {
+
+/// The number that --curves gives; absent: all.
+std::optional<std::size_t> curves_of(const std::string& text, const Experiment& experiment) {
+  if (text.empty() && !experiment.curves_are_results) return most_shown_runs;
+  if (text.empty() || text == "all") return std::nullopt;
+  const auto fault = [&](const std::string& what) {
+    return InputError("--curves " + text + ": " + what + "; give all, none or a number of runs");
+  };
+  std::size_t number = 0;
+  const bool none = text == "none";
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (!none && (read.ec != std::errc() || read.ptr != text.data() + text.size())) throw fault("is no whole number");
+  if (experiment.curves_are_results) throw fault(experiment.name + " derives its answer from the curves of all runs");
+  return number;
+}
+
+}  // namespace
 
 ParsedOptions parse_options(const Experiment& experiment, int argc, const char* const* argv,
                             const std::function<void(CLI::App&)>& more) {
@@ -68,6 +90,12 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
          "where no exact solution is known, measure errors against a motion in extended precision that proves its "
          "digits by halving its step")
       ->group("Results");
+  std::string curves;
+  app.add_option("--curves", curves,
+                 "curves of drift against time are kept for at most so many runs, of evenly chosen motions (default: " +
+                     (experiment.curves_are_results ? "all" : std::to_string(most_shown_runs)) + ")")
+      ->type_name("all|none|N")
+      ->group("Results");
   add_no_figures(app, options.figures)->group("Results");
   app.add_option("--jobs", options.jobs, "runs at a time (default: one for each core)")
       ->type_name("N")
@@ -96,6 +124,7 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   options.trajectory = trajectory == "csv"    ? TrajectoryFormat::csv
                        : trajectory == "hdf5" ? TrajectoryFormat::hdf5
                                               : TrajectoryFormat::none;
+  options.curves = curves_of(curves, experiment);
   options.command = command_text(experiment.name, argc, argv);
   options.axes = experiment.defaults;
   if (!study_file && !given.contains("scenario")) options.vary = experiment.vary;

@@ -2,6 +2,7 @@
 // Command line and study file shared by all experiments.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -39,6 +40,7 @@ struct Options {
   int jobs = 0;                           ///< number of concurrent runs; 0: one for each core
   std::optional<std::int64_t> max_steps;  ///< largest number of steps of adaptive methods; absent: that of Schedule
   TrajectoryFormat trajectory = TrajectoryFormat::none;
+  std::optional<std::size_t> curves;  ///< largest number of runs whose curves against time are kept; absent: all
   bool figures = true;
   bool dry_run = false;
   bool reference = false;

@@ -17,8 +17,9 @@ struct PlannedRun {
   std::string motion;  ///< hash of the same text without --reference: equal for runs of the same motion
   RunConfig config;
   std::shared_ptr<const Scenario> scenario;
-  std::string refusal;  ///< reason for which the run cannot be carried out; empty if it can
-  double cost = 0;      ///< estimated work, in evaluations of the right-hand side
+  std::string refusal;       ///< reason for which the run cannot be carried out; empty if it can
+  double cost = 0;           ///< estimated work, in evaluations of the right-hand side
+  bool keeps_curves = true;  ///< its curves against time are kept (--curves)
 };
 
 struct Plan {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <regex>
 #include <set>
 #include <string>
@@ -320,9 +321,11 @@ std::string what_was_run(const StudyView& study, const Grouping& grouping) {
 }
 
 std::string all_runs(const StudyView& study) {
-  auto table = run_table(study, Extent::all, most_runs_shown);
-  table.caption = "In the order of runs.csv";
   const auto n = study.runs.size();
+  std::vector<std::size_t> first(std::min(n, most_runs_shown));
+  std::iota(first.begin(), first.end(), std::size_t{0});
+  auto table = run_table(study, Extent::all, first);
+  table.caption = "In the order of runs.csv";
   std::string out =
       "<section id=\"runs\">\n<h2>All runs</h2>\n<p>All digits and all options: <a href=\"runs.csv\">runs.csv</a>; for "
       "a text: "

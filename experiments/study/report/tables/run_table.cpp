@@ -102,7 +102,7 @@ bool varies(const Field& field, const std::vector<RunRecord>& runs) {
 
 }  // namespace
 
-Table run_table(const StudyView& study, Extent extent, std::size_t most_rows) {
+Table run_table(const StudyView& study, Extent extent, std::span<const std::size_t> shown) {
   auto fields = configuration(study);
   for (auto& field : results(study)) fields.push_back(std::move(field));
   std::erase_if(fields, [&](const auto& field) {
@@ -111,7 +111,7 @@ Table run_table(const StudyView& study, Extent extent, std::size_t most_rows) {
 
   Table table;
   for (const auto& field : fields) table.columns.push_back(field.column);
-  for (std::size_t i = 0; i < std::min(most_rows, study.runs.size()); ++i) {
+  for (const std::size_t i : shown) {
     auto& row = table.rows.emplace_back();
     for (const auto& field : fields) row.push_back(field.text(study.runs[i]));
   }

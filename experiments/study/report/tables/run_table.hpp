@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "experiments/study/plot/table.hpp"
 #include "experiments/study/record/study_view.hpp"
@@ -14,8 +15,8 @@ enum class Extent {
   all       ///< all columns
 };
 
-/// The first `most_rows` runs, in the order of runs.csv. Options with the same value in all runs, and numbers that no
+/// A row for each of the runs with the indices `shown`. Options with the same value in all runs, and numbers that no
 /// run has, have no column.
-Table run_table(const StudyView& study, Extent extent, std::size_t most_rows);
+Table run_table(const StudyView& study, Extent extent, std::span<const std::size_t> shown);
 
 }  // namespace polhode::study::report::tables

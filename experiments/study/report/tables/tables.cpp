@@ -4,8 +4,11 @@
 
 #include <fmt/format.h>
 
-#include <limits>
+#include <cstddef>
+#include <string>
+#include <vector>
 
+#include "experiments/study/record/shown_runs.hpp"
 #include "experiments/study/report/tables/run_table.hpp"
 #include "experiments/study/report/tables/tex_values.hpp"
 #include "experiments/study/text/notation.hpp"
@@ -19,18 +22,29 @@ std::string title_of(const StudyView& study) {
   return one_line(fmt::format("{}: {}", study.experiment, study.question));
 }
 
+/// Indices of the runs with a row in the tables.
+std::vector<std::size_t> rows_of(const StudyView& study) {
+  std::vector<const RunConfig*> runs;
+  for (const RunRecord& run : study.runs) runs.push_back(&run.config);
+  return shown_runs(runs, most_shown_runs);
+}
+
 void write_tables_of_runs(const StudyView& study, const std::filesystem::path& folder) {
-  const auto table = run_table(study, Extent::summary, std::numeric_limits<std::size_t>::max());
+  const auto rows = rows_of(study);
+  const auto table = run_table(study, Extent::summary, rows);
+  const std::string part = rows.size() == study.runs.size() ? ""
+                                                            : fmt::format("{} of {} runs, of evenly chosen motions; ",
+                                                                          rows.size(), study.runs.size());
   write_text(folder / "summary.tex",
              fmt::format("% {}\n% The preamble needs \\usepackage[T1]{{fontenc}}\\usepackage{{booktabs,longtable}}. "
-                         "A dash: not defined for that run.\n% runs.csv has all digits and all options.\n{}",
-                         title_of(study), latex(table)));
+                         "A dash: not defined for that run.\n% {}runs.csv has all digits and all options.\n{}",
+                         title_of(study), part, latex(table)));
   write_text(
       folder / "summary.md",
       fmt::format(
-          "# {}\n\n{}\n\nAn empty cell is not defined for that run; runs.csv has all digits and all options.\n\n{}",
-          markdown(study.experiment), markdown(study.question), markdown(table)));
-  write_text(folder / "values.tex", tex_values(study));
+          "# {}\n\n{}\n\nAn empty cell is not defined for that run; {}runs.csv has all digits and all options.\n\n{}",
+          markdown(study.experiment), markdown(study.question), part, markdown(table)));
+  write_text(folder / "values.tex", tex_values(study, rows));
 }
 
 }  // namespace

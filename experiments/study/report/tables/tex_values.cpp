@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <map>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <type_traits>
 #include <variant>
@@ -145,11 +146,14 @@ void define_run(std::string& out, const std::string& run, const RunResult& r,
 }
 
 /// Adds commands for the slopes of each curve, named like its runs but without the step.
-void define_slopes(std::string& out, const StudyView& study) {
+void define_slopes(std::string& out, const StudyView& study, std::span<const std::size_t> shown) {
+  std::set<const RunRecord*> named;
+  for (const std::size_t i : shown) named.insert(&study.runs[i]);
   const auto grouping = group(study);
   std::map<std::string, int> uses;
   std::string lines;
   for (const auto& curve : grouping.curves) {
+    if (!named.contains(curve.runs.front())) continue;
     auto config = curve.runs.front()->config;
     config.dt = config.tolerance = std::nullopt;
     const auto name = name_of(config, usual_t_end(study, config.scenario)) + (curve.adaptive ? "Tolerance" : "");
@@ -165,34 +169,39 @@ void define_slopes(std::string& out, const StudyView& study) {
 
 }  // namespace
 
-std::vector<std::string> tex_names(const StudyView& study) {
+std::vector<std::string> tex_names(const StudyView& study, std::span<const std::size_t> shown) {
   std::vector<std::string> names;
   std::map<std::string, int> uses;
-  for (const auto& run : study.runs) {
-    names.push_back(name_of(run.config, usual_t_end(study, run.config.scenario)));
+  for (const std::size_t i : shown) {
+    const RunConfig& config = study.runs[i].config;
+    names.push_back(name_of(config, usual_t_end(study, config.scenario)));
     ++uses[names.back()];
   }
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (uses[names[i]] > 1) names[i] += letters_of(study.runs[i].id);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (uses[names[k]] > 1) names[k] += letters_of(study.runs[shown[k]].id);
   }
   return names;
 }
 
-std::string tex_values(const StudyView& study) {
-  const auto names = tex_names(study);
-  const auto done = std::find_if(study.runs.begin(), study.runs.end(), [](const auto& run) { return completed(run); });
-  const auto example = done == study.runs.end()
-                           ? "polhodeRuns"
-                           : names[static_cast<std::size_t>(done - study.runs.begin())] + "EnergyDriftMax";
+std::string tex_values(const StudyView& study, std::span<const std::size_t> shown) {
+  const auto names = tex_names(study, shown);
+  const auto done =
+      std::find_if(shown.begin(), shown.end(), [&](const std::size_t i) { return completed(study.runs[i]); });
+  const auto example =
+      done == shown.end() ? "polhodeRuns" : names[static_cast<std::size_t>(done - shown.begin())] + "EnergyDriftMax";
   std::string out = fmt::format(explanation, example);
+  if (shown.size() < study.runs.size()) {
+    out += fmt::format("% {} of {} runs, of evenly chosen motions; runs.csv has all of them.\n", shown.size(),
+                       study.runs.size());
+  }
   define_count(out, "polhodeRuns", static_cast<std::int64_t>(study.runs.size()));
   const auto metrics = in_table_order(study.metrics);
-  for (std::size_t i = 0; i < study.runs.size(); ++i) {
-    out += fmt::format("\n% {}{}\n", one_line(study.runs[i].id),
-                       completed(study.runs[i]) ? "" : ", " + one_line(study.runs[i].result.status));
-    define_run(out, names[i], study.runs[i].result, metrics);
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    const RunRecord& run = study.runs[shown[k]];
+    out += fmt::format("\n% {}{}\n", one_line(run.id), completed(run) ? "" : ", " + one_line(run.result.status));
+    define_run(out, names[k], run.result, metrics);
   }
-  define_slopes(out, study);
+  define_slopes(out, study, shown);
   return out;
 }
 

@@ -2,6 +2,8 @@
 // Numbers of a study as LaTeX commands, whose names do not change when runs are added to the study.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,10 +15,10 @@ namespace polhode::study::inline report::inline tables {
 /// "polhodeTumblingBoxRkFourDtOneEMinusThree". In this order: scenario, method, varied keys with their values, options
 /// that are not the default, step or tolerance. Digits are spelt ("RkFour"). A number is rounded to four digits,
 /// written with an exponent and spelt (0.001 = 1e-3: "OneEMinusThree"). If runs would share a name, the digits of their
-/// id are appended, with 0 … f as a … p.
-std::vector<std::string> tex_names(const StudyView& study);
+/// id are appended, with 0 … f as a … p. One name for each of the runs with the indices `shown`.
+std::vector<std::string> tex_names(const StudyView& study, std::span<const std::size_t> shown);
 
-/// Text of the file of \newcommand lines. A comment at its beginning explains the names.
-std::string tex_values(const StudyView& study);
+/// Text of the file of \newcommand lines for these runs. A comment at its beginning explains the names.
+std::string tex_values(const StudyView& study, std::span<const std::size_t> shown);
 
 }  // namespace polhode::study::report::tables

@@ -16,6 +16,7 @@
 #include "experiments/study/curves/curves.hpp"
 #include "experiments/study/plan/axis_values.hpp"
 #include "experiments/study/plan/plan.hpp"
+#include "experiments/study/record/shown_runs.hpp"
 #include "experiments/study/report/tables/run_table.hpp"
 #include "experiments/study/report/tables/tex_values.hpp"
 #include "experiments/study/store/store.hpp"
@@ -130,9 +131,10 @@ TEST(RunOptions, OneEntryIsFoundInTheStoreTheTablesTheFiguresAndTheReport) {
   EXPECT_THAT(contents(folder / "manifest.json"), HasSubstr("\"tidy-up\": \"never,daily\""));
 
   const StudyView view = view_of(planned({"--tidy-up", "never,daily"}));
-  EXPECT_THAT(html(run_table(view, Extent::all, 10)), HasSubstr("tidies up"));
+  const auto all = evenly_spread(view.runs.size(), view.runs.size());
+  EXPECT_THAT(html(run_table(view, Extent::all, all)), HasSubstr("tidies up"));
   EXPECT_EQ(group(view).variants, (std::vector<std::string>{"tidy daily", "tidy never"}));
-  EXPECT_THAT(tex_names(view)[0], HasSubstr("TidyDaily"));
+  EXPECT_THAT(tex_names(view, all)[0], HasSubstr("TidyDaily"));
 }
 
 TEST(RunOptions, ValuesAreReadPrintedAndSetTheSameWay) {

@@ -11,6 +11,7 @@
 #include <set>
 #include <string>
 
+#include "experiments/study/record/shown_runs.hpp"
 #include "experiments/study/report/tables/tex_values.hpp"
 #include "tests/experiments/study/report/made_up_study.hpp"
 #include "tests/experiments/study/report/result_files.hpp"
@@ -20,12 +21,12 @@ namespace {
 
 TEST(ReportTables, NameRunsInLettersAndNoTwoAlike) {
   auto study = power_laws("unused");
-  const auto names = tex_names(study);
+  const auto names = tex_names(study, evenly_spread(study.runs.size(), study.runs.size()));
   EXPECT_EQ(names[3 * 7 + 6], "polhodeTumblingBoxRkFourDtOneEMinusThree");
   EXPECT_EQ(names[4 * 7], "polhodeTumblingBoxCvodeAdamsToleranceOneEMinusFour");
   study.runs.push_back(study.runs.front());
   study.runs.back().id = "00000000000000ff";
-  const auto more = tex_names(study);
+  const auto more = tex_names(study, evenly_spread(study.runs.size(), study.runs.size()));
   EXPECT_EQ(std::set<std::string>(more.begin(), more.end()).size(), study.runs.size());
   for (const auto& name : more)
     EXPECT_TRUE(std::all_of(name.begin(), name.end(), [](char c) { return std::isalpha(c); })) << name;

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Choice of the runs of a large study that are shown one by one: as curves against time and as rows of tables.
+// Statements and runs.csv always cover all runs.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "experiments/study/record/run_record.hpp"
+
+namespace polhode::study::inline record {
+
+/// Number of runs up to which a study shows all of them.
+inline constexpr std::size_t most_shown_runs = 1000;
+
+/// Indices of at most `most` runs, ascending; all if there are not more. Whole motions (a scenario with values of its
+/// varied keys) are chosen, evenly spread in the order of the runs, so that methods and steps can be compared on each.
+/// Only where a single motion has more runs than that are runs of a motion left out.
+std::vector<std::size_t> shown_runs(std::span<const RunConfig* const> runs, std::size_t most);
+
+/// So many indices of 0 … n−1, ascending, evenly spread, the ends among them; all if n is not larger.
+std::vector<std::size_t> evenly_spread(std::size_t n, std::size_t wanted);
+
+}  // namespace polhode::study::record
