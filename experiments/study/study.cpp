@@ -93,8 +93,8 @@ void choose_curves(const Options& options, Plan& plan) {
 }
 
 void drop_curves(RunResult& result) {
-  result.series = {};
-  result.attitude_errors = {};
+  result.series = std::vector<SeriesPoint>();  // unlike = {}, this frees the memory
+  result.attitude_errors = std::vector<AttitudeError>();
 }
 
 /// True if the result has all that is kept of it. A run that took no step has no curves.

@@ -60,7 +60,9 @@ void ThinnedSeries::merge() {
 }
 
 std::vector<SeriesPoint> ThinnedSeries::finish(double energy_scale, double linear_scale, double angular_scale) {
-  std::vector<SeriesPoint> points = points_;
+  std::vector<SeriesPoint> points;
+  points.reserve(points_.size() + 1);  // no more: many runs are kept
+  points = points_;
   if (in_open_ > 0) points.push_back(open_);
   const auto over = [](double drift, double scale) { return scale > 0 ? drift / scale : 0.0; };
   for (SeriesPoint& p : points) {
