@@ -87,7 +87,8 @@ using Eight [[gnu::vector_size(8 * sizeof(double))]] = double;
 
 double total(const Eight& s) { return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7])); }
 
-/// Sum of a_i b_i, in eight sums, none of which waits for another.
+}  // namespace
+
 double dot(const double* a, const double* b, Index n) {
   Eight sums = {}, left, right;
   Index i = 0;
@@ -100,8 +101,6 @@ double dot(const double* a, const double* b, Index n) {
   for (; i < n; ++i) sum += a[i] * b[i];
   return sum;
 }
-
-}  // namespace
 
 Fit fit(const Spectrum& c, const Regressors& x, const Spectrum& v, double sum_of_log_v) {
   Fit f;

@@ -50,23 +50,34 @@ Matrix oscillation(double omega, Index n) {
 }  // namespace
 
 Vector fitted_oscillation(const Vector& series, const Matrix& trend, Index k) {
-  const Index n = series.size();
+  const Index n = series.size(), trends = trend.cols();
   const double unit = std::numbers::pi / static_cast<double>(n), near = static_cast<double>(k);
   const Vector rest = series - trend * (trend.transpose() * series);
-  const auto fit_at = [&](double place, Vector& oscillating) {
-    const Matrix x = oscillation(place * unit, n);
-    const Matrix free = x - trend.lazyProduct(trend.transpose().lazyProduct(x).eval());
-    const Eigen::Matrix2d normal = free.transpose().lazyProduct(free);
-    const Eigen::Vector2d amplitudes = normal.ldlt().solve(free.transpose().lazyProduct(rest));
-    oscillating = x * amplitudes;
-    return (rest - free * amplitudes).squaredNorm();
+  Matrix x;
+  Eigen::Vector2d amplitudes;
+  // Least squares of the rest on the part F of x = [cos, sin] that is orthogonal to the trend: FᵀF = xᵀx − (Tᵀx)ᵀ(Tᵀx)
+  // and Fᵀ rest = xᵀ rest. Returns the decrease of the sum of squares.
+  const auto fit_at = [&](double place) {
+    x = oscillation(place * unit, n);
+    const double *cosine = x.col(0).data(), *sine = x.col(1).data();
+    Eigen::Matrix2d normal;
+    normal << dot(cosine, cosine, n), dot(cosine, sine, n), 0, dot(sine, sine, n);
+    for (Index i = 0; i < trends; ++i) {
+      const double c = dot(trend.col(i).data(), cosine, n), s = dot(trend.col(i).data(), sine, n);
+      normal(0, 0) -= c * c;
+      normal(0, 1) -= c * s;
+      normal(1, 1) -= s * s;
+    }
+    normal(1, 0) = normal(0, 1);
+    const Eigen::Vector2d right(dot(cosine, rest.data(), n), dot(sine, rest.data(), n));
+    amplitudes = normal.ldlt().solve(right);
+    return amplitudes.dot(right);
   };
-  Vector oscillating;
-  const auto squares = [&](double place) { return fit_at(place, oscillating); };
+  const auto minus_decrease = [&](double place) { return -fit_at(place); };
   constexpr int bits = 16;
   constexpr double reach = 1.2;
-  fit_at(boost::math::tools::brent_find_minima(squares, near - reach, near + reach, bits).first, oscillating);
-  return oscillating;
+  fit_at(boost::math::tools::brent_find_minima(minus_decrease, near - reach, near + reach, bits).first);
+  return x * amplitudes;
 }
 
 }  // namespace polhode::study::statistics::spectral
