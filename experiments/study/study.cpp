@@ -226,7 +226,8 @@ std::set<std::string> ids_of(const Experiment& experiment, const Options& option
                              const std::filesystem::path& folder) {
   std::map<std::string, RunResult> results;
   try {
-    if (experiment.refine && !Store::ids_in(folder).empty()) results = Store(folder).load().runs;
+    if (experiment.refine && !Store::ids_in(folder).empty())
+      results = Store(folder, metric_table(), Access::write).load().runs;
   } catch (const std::runtime_error&) {  // ResultFolder reports the error
   }
   std::set<std::string> ids;

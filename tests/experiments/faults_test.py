@@ -15,6 +15,7 @@ import sqlite3
 import subprocess
 import tempfile
 import unittest
+from random import Random
 
 from programs import BIN, PATIENCE, read, temporary_folder
 
@@ -63,6 +64,15 @@ class FaultsTest(unittest.TestCase):
         self.assertEqual(done.stdout, "")
         for text in say:
             self.assertIn(str(text), done.stderr)
+
+    def mounted(self, *arguments):
+        """A small file system, taken away after the test."""
+        place = pathlib.Path(tempfile.mkdtemp(dir=self.folder))
+        done = subprocess.run(["mount", *map(str, arguments), str(place)], capture_output=True, text=True)
+        if done.returncode != 0:
+            self.skipTest(f"no file system can be mounted here: {done.stderr.strip()}")
+        self.addCleanup(subprocess.run, ["umount", str(place)], capture_output=True)
+        return place
 
     def write(self, name, text):
         (self.folder / name).write_text(text, encoding="utf-8")
@@ -164,15 +174,24 @@ class DamagedStores(FaultsTest):
             store.executescript(sql)
 
     def test_a_damaged_row_is_carried_out_again(self):
-        one = "WHERE id = (SELECT min(id) FROM runs)"
-        damages = [(f"runs.{column}", f"UPDATE runs SET {column} = {value} {one}") for column, value in (
-            ("invariant_drifts_max_rel", "'p_phi'"), ("invariant_drifts_max_rel", "'p_phi=1e-3'"),
-            ("invariant_drifts_max_rel", "'p_phi=luck '"), ("invariant_drifts_max_rel", "'p_phi=1e-3 p_psi '"),
-            ("invariant_drifts_max_rel", "NULL"), ("status", "'perhaps'"), ("status", "x'00'"), ("steps", "'many'"),
-            ("steps", "-1"), ("t_reached_s", "NULL"), ("energy_drift_max_rel", "'small'"), ("energy_initial_J", "9e999"),
-            ("series", "x'00'"), ("series", "7"), ("series", "zeroblob(41)"), ("drift_exponent", "'steep'"),
-            ("energy_scale_J", "x'ff'"), ("attitude_errors", "x'0102'"), ("left_place_s", "'far'"),
-            ("position_reference_m", "'far'"), ("drift_class", "NULL"))]
+        one = "WHERE number = (SELECT min(number) FROM runs)"
+        damages = [(column, "UPDATE {0} SET {1} = {2} {3}".format(*column.split("."), value, one)) for column, value in (
+            ("runs.invariant_drifts_max_rel", "'p_phi'"), ("runs.invariant_drifts_max_rel", "'p_phi=1e-3'"),
+            ("runs.invariant_drifts_max_rel", "'p_phi=luck '"),
+            ("runs.invariant_drifts_max_rel", "'p_phi=1e-3 p_psi '"), ("runs.invariant_drifts_max_rel", "NULL"),
+            ("runs.status", "'perhaps'"), ("runs.status", "x'00'"), ("runs.steps", "'many'"), ("runs.steps", "-1"),
+            ("runs.t_reached_s", "NULL"), ("runs.energy_drift_max_rel", "'small'"),
+            ("runs.energy_initial_J", "9e999"), ("curves.series", "x'00'"), ("curves.series", "7"),
+            ("curves.series", "zeroblob(41)"), ("runs.drift_exponent", "'steep'"), ("runs.energy_scale_J", "x'ff'"),
+            ("curves.attitude_errors", "x'0102'"), ("runs.left_place_s", "'far'"),
+            ("runs.position_reference_m", "'far'"), ("runs.drift_class", "NULL"), ("runs.drift_class", "'steep'"),
+            ("runs.t_reached_s", "9e999"), ("curves.series", "NULL"), ("timings.wall_s", "'long'"))]
+        damages += [("runs.checksum", f"UPDATE runs SET {change} {one}") for change in (
+            "checksum = checksum + 1", "steps = steps + 1", "message = 'all is well'", "energy_initial_J = 368.5",
+            "energy_drift_max_rel = 2 * energy_drift_max_rel", "energy_scale_J = NULL", "has_curves = 0")]
+        damages += [("curves.checksum", f"UPDATE curves SET attitude_errors = x'' {one}"),
+                    ("timings.checksum", f"UPDATE timings SET wall_s = 2 * wall_s {one}"),
+                    ("curves.", f"DELETE FROM curves {one}"), ("timings.wall_s", f"DELETE FROM timings {one}")]
         for what, sql in damages:
             with self.subTest(sql):
                 self.damage(sql)
@@ -197,6 +216,9 @@ class DamagedStores(FaultsTest):
                                 ("fewer columns", "ALTER TABLE runs DROP COLUMN drift_exponent", None),
                                 ("another table", "DROP TABLE runs; CREATE TABLE runs (id TEXT)", None),
                                 ("ids that are none", "UPDATE runs SET id = x'00ff' WHERE id = (SELECT min(id) FROM runs)", None),
+                                ("an older version", "PRAGMA user_version = 0; PRAGMA application_id = 0", None),
+                                ("a newer version", "PRAGMA user_version = 99", None),
+                                ("a database of another program", "PRAGMA application_id = 1", None),
                                 ("cut off", "SELECT 1", cut), ("a page of it overwritten", "SELECT 1", overwrite)):
             with self.subTest(what):
                 self.damage(sql)
@@ -206,6 +228,52 @@ class DamagedStores(FaultsTest):
                 self.call(*SMALL, "--force")
                 self.assertEqual((self.out / "runs.csv").read_bytes(), self.runs)
                 self.call(*SMALL)
+
+
+    def test_an_id_that_is_none_is_damage_and_no_other_study(self):
+        self.damage("UPDATE runs SET id = id + 1 WHERE id = (SELECT min(id) FROM runs)")
+        done = self.call(*SMALL)
+        self.assertIn("1 of 2 runs are damaged", done.said)
+        self.assertEqual((self.out / "runs.csv").read_bytes(), self.runs)
+
+    def test_random_damage_gives_the_same_table_or_one_line(self):
+        random = Random(8)
+        path = self.out / "results.sqlite"
+        columns = []
+        with contextlib.closing(sqlite3.connect(self.whole / "results.sqlite")) as store:
+            for table in ("runs", "curves", "timings"):
+                columns += [(table, row[1]) for row in store.execute(f"PRAGMA table_info({table})")]
+        values = ["NULL", "'text'", "7", "0.5", "-1", "9e999", "x'00'", "zeroblob(80)", "{0} + 1", "{0} || 'x'", "substr({0}, 1, 40)"]
+        ends = {0: 0, 2: 0, 3: 0}
+        for trial in range(60):
+            table, column = random.choice(columns)
+            _, other = random.choice([c for c in columns if c[0] == table])
+            changes = [f"UPDATE {table} SET \"{column}\" = {random.choice(values).format(column)}", f"DELETE FROM {table}",
+                       f"UPDATE {table} SET \"{column}\" = \"{other}\", \"{other}\" = \"{column}\"",
+                       f"ALTER TABLE {table} RENAME COLUMN \"{column}\" TO renamed"]
+            sql = random.choices(changes, (6, 1, 2, 1))[0] if trial % 2 else "SELECT 1"
+            if sql.startswith(("UPDATE", "DELETE")) and random.random() < 0.5:
+                sql += f" WHERE number = (SELECT min(number) FROM {table})"
+            with self.subTest(trial=trial, sql=sql):
+                try:
+                    self.damage(sql)
+                except sqlite3.Error:
+                    continue  # SQLite does not let it happen
+                if trial % 2 == 0:
+                    data = bytearray(path.read_bytes())
+                    for _ in range(random.choice((1, 1, 3, 30))):
+                        data[random.randrange(len(data) if random.random() < 0.8 else 200)] = random.randrange(256)
+                    path.write_bytes(data[:random.randrange(len(data))] if random.random() < 0.1 else data)
+                done = subprocess.run([str(BIN / "energy_drift"), *SMALL, "--out", str(self.out)], cwd=self.folder,
+                                      capture_output=True, text=True, timeout=PATIENCE, stdin=subprocess.DEVNULL)
+                self.assertIn(done.returncode, ends, done.stderr)
+                ends[done.returncode] += 1
+                if done.returncode == 0:
+                    self.assertEqual((self.out / "runs.csv").read_bytes(), self.runs)
+                else:
+                    self.assertRegex(done.stderr, r"\A(.*runs are there already\n)?energy_drift: .*results\.sqlite: .+\n\Z")
+        self.assertGreater(ends[0], 10)
+        self.assertGreater(ends[2] + ends[3], 10)
 
 
 class WrongPlaces(FaultsTest):
@@ -282,17 +350,19 @@ class Folders(FaultsTest):
         self.call(*self.STUDY, **user)
 
 
+    def test_a_folder_that_cannot_be_written_is_refused(self):
+        place = self.mounted("-t", "tmpfs", "none")
+        self.call(*self.STUDY, out=place / "out")
+        before = {path: path.is_dir() or path.read_bytes() for path in place.rglob("*")}
+        subprocess.run(["mount", "-o", "remount,ro", str(place)], check=True, capture_output=True)
+        for force in ([], ["--force"]):
+            self.refused(*self.STUDY, *force, out=place / "out", say=[place / "out", "cannot write", "Read-only file system"])
+        self.refused(*self.STUDY, out=place / "new", say=[place / "new", "Read-only file system"])
+        self.assertEqual({path: path.is_dir() or path.read_bytes() for path in place.rglob("*")}, before)
+
+
 class FullDisks(FaultsTest):
     HDF5 = ["--integrator", "rk4", "--dt", "1e-3", "--trajectory", "hdf5", "--no-figures"]
-
-    def mounted(self, *arguments):
-        """A small file system, taken away after the test."""
-        place = pathlib.Path(tempfile.mkdtemp(dir=self.folder))
-        done = subprocess.run(["mount", *map(str, arguments), str(place)], capture_output=True, text=True)
-        if done.returncode != 0:
-            self.skipTest(f"no file system can be mounted here: {done.stderr.strip()}")
-        self.addCleanup(subprocess.run, ["umount", str(place)], capture_output=True)
-        return place
 
     def test_a_trajectory_in_hdf5_on_a_full_disk(self):
         for size in (140, 200, 260, 400):

@@ -2,7 +2,6 @@
 #include "experiments/study/plan/plan.hpp"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,20 +10,17 @@
 
 #include "experiments/study/plan/axis_values.hpp"
 #include "experiments/study/record/run_options.hpp"
+#include "experiments/study/record/versions.hpp"
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/text/input_error.hpp"
+#include "experiments/study/text/text_hash.hpp"
 #include "experiments/study/text/value_lists.hpp"
 #include "integrators/catalogue.hpp"
 
 namespace polhode::study::inline plan {
 namespace {
 
-/// Version of the results: increased by every change of the code that changes a digit of a result, so that runs stored
-/// by an older version are carried out again.
-constexpr int results_version = 5;
 constexpr std::size_t most_runs = 10'000'000;
-
-std::string hash(std::string_view text) { return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size())); }
 
 /// An option with its values in this study; no values if the study does not give it.
 struct PlannedAxis {
@@ -108,8 +104,8 @@ PlannedRun planned(const RunConfig& config, const std::shared_ptr<const Scenario
   std::erase_if(said.varied, [](const Override& o) { return o.value.empty(); });
   RunConfig motion = said;  // a reference does not change the motion
   motion.reference = false;
-  return {.id = hash(text + identity_of(said)),
-          .motion = hash(text + identity_of(motion)),
+  return {.id = text_hash(text + identity_of(said)),
+          .motion = text_hash(text + identity_of(motion)),
           .config = config,
           .scenario = scenario,
           .refusal = refusal(config, *scenario),
@@ -290,7 +286,7 @@ Plan make_plan(const Experiment& experiment, const Options& options) {
   }
   std::string all;
   for (const PlannedRun& run : plan.runs) all += run.id;
-  plan.identity = hash(all);
+  plan.identity = text_hash(all);
   return plan;
 }
 

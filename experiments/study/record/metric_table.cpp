@@ -35,6 +35,7 @@ std::vector<Metric> all_metrics() {
       // Outcome of the run; judge has its own columns for it.
       {.column = "status",
        .member = &R::status,
+       .words = {"ok", "diverged", "failed"},
        .meaning = "ok, diverged, failed or refused",
        .label = "status",
        .in_summary = true,
@@ -117,6 +118,8 @@ std::vector<Metric> all_metrics() {
        .judge_label = "drift rate"},
       {.column = "drift_class",
        .member = &R::drift_class,
+       .words = {"", "round-off", "jumps", "saturated", "bounded", "random walk", "sublinear", "linear", "quadratic",
+                 "faster", "undecided"},
        .meaning = "by that exponent: bounded, random walk or sublinear, linear, quadratic, faster; round-off,\n"
                   "saturated, jumps (at impacts alone), undecided, with",
        .list_rank = 4,

@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -35,6 +36,8 @@ struct Metric {
   Member member{};
   Runs runs = Runs::all;
   bool may_be_infinite = false;  ///< infinite values are kept; requires a member
+  /// All texts that a finished run can have as its value, for a member that is a text; empty: any text.
+  std::vector<std::string_view> words{};
 
   /// Text of its line in `--list metrics`. A line break in it begins a further line. Empty if the line of another
   /// metric describes this one too.

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/store/result_folder.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
+#include <iterator>
+#include <stdexcept>
 #include <vector>
 
 #include "experiments/study/record/analysis.hpp"
@@ -39,7 +35,8 @@ std::vector<std::filesystem::path> misplaced(const std::filesystem::path& path) 
   };
   for (const char* name : folders) look(path / name, true);
   for (const char* name : files) look(path / name, false);
-  for (const char* suffix : {"", "-wal", "-shm"}) look(path / (std::string(Store::file_name) + suffix), false);
+  for (const char* suffix : {"", "-wal", "-shm", "-journal"})
+    look(path / (std::string(Store::file_name) + suffix), false);
   std::error_code error;
   for (const auto& run : std::filesystem::directory_iterator(path / "trajectories", error)) {
     look(run.path(), true);
@@ -58,6 +55,19 @@ bool holds_only(const std::filesystem::path& path, const std::set<std::string>& 
   }
 }
 
+/// True if the store has an intact run with an id that is not among `ids`. Damage can change an id too.
+bool holds_foreign_runs(const std::filesystem::path& path, const std::set<std::string>& ids) {
+  const std::set<std::string> stored = Store::ids_in(path);
+  std::vector<std::string> others;
+  std::set_difference(stored.begin(), stored.end(), ids.begin(), ids.end(), std::back_inserter(others));
+  if (others.empty()) return false;
+  const Store store(path, metric_table(), Access::write);
+  return std::any_of(others.begin(), others.end(), [&](const std::string& id) {
+    const auto run = store.find(id, Curves::without);
+    return run && run->damage.empty();
+  });
+}
+
 void refuse_other_study(const std::filesystem::path& path, const std::set<std::string>& ids) {
   const std::string remedy = "; name another folder with --out, or overwrite it with --force";
   for (const auto& at : misplaced(path)) {
@@ -66,15 +76,13 @@ void refuse_other_study(const std::filesystem::path& path, const std::set<std::s
                                                         : "file where the study needs a folder") +
                      "; move it away, or overwrite it with --force");
   }
-  std::set<std::string> stored;
+  bool foreign = false;
   try {
-    stored = Store::ids_in(path);
+    foreign = holds_foreign_runs(path, ids);
   } catch (const std::runtime_error& error) {
     throw InputError("--out: " + std::string(error.what()) + remedy);
   }
-  if (!std::includes(ids.begin(), ids.end(), stored.begin(), stored.end())) {
-    throw InputError("--out: " + path.string() + " holds the results of a different study" + remedy);
-  }
+  if (foreign) throw InputError("--out: " + path.string() + " holds the results of a different study" + remedy);
   if (!std::filesystem::exists(path / Store::file_name)) {
     for (const auto& product : products(path)) {
       if (std::filesystem::exists(product))
@@ -99,48 +107,22 @@ ResultFolder::ResultFolder(const std::filesystem::path& path, const std::set<std
   std::filesystem::create_directories(path, error);
   if (error) throw InputError("--out: cannot create " + path.string() + ": " + error.message());
   // The folder is locked before it is read: of two programs started at once only one continues.
-  lock_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ < 0) {
-    fail("cannot read " + path.string() + ": " + std::strerror(errno) +
-         "; make it readable (chmod u+r), or name another folder");
+  try {
+    lock_.emplace(path);
+  } catch (const std::runtime_error& locked) {
+    throw InputError("--out: " + std::string(locked.what()));
   }
-  if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
-    if (errno == EWOULDBLOCK) {
-      fail("another program is writing into " + path.string() + "; wait for it, or name another folder");
-    }
-    fail("cannot lock " + path.string() + ": " + std::strerror(errno) + "; name a folder on another file system");
-  }
-  // Permission bits do not show whether root can write, so a file is created.
-  const std::filesystem::path probe = path / ".writable";
-  const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-  if (file < 0) fail("cannot write into " + path.string() + ": " + std::strerror(errno));
-  close(file);
-  std::filesystem::remove(probe, error);
   if (!force) {
-    try {
-      refuse_other_study(path, ids);
-    } catch (...) {
-      close(lock_);
-      throw;
-    }
+    refuse_other_study(path, ids);
     return;
   }
   for (const auto& at : misplaced(path)) std::filesystem::remove_all(at, error);
   if (holds_only(path, ids)) return;
   for (const auto& product : products(path))
     std::filesystem::remove_all(product, error);  // all results of the other study
-  for (const char* suffix : {"", "-wal", "-shm"}) {
+  for (const char* suffix : {"", "-wal", "-shm", "-journal"}) {
     std::filesystem::remove(path / (std::string(Store::file_name) + suffix), error);
   }
-}
-
-void ResultFolder::fail(const std::string& why) {
-  close(lock_);
-  throw InputError("--out: " + why);
-}
-
-ResultFolder::~ResultFolder() {
-  if (lock_ >= 0) close(lock_);
 }
 
 }  // namespace polhode::study::store

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
+
+#include "experiments/study/store/folder_lock.hpp"
 
 namespace polhode::study::inline store {
 
@@ -14,13 +17,9 @@ class ResultFolder {
   /// there, unless `force` is set, which removes the results of a different study. Throws InputError if the folder
   /// cannot be used, and leaves existing results unchanged.
   ResultFolder(const std::filesystem::path& path, const std::set<std::string>& ids, bool force);
-  ~ResultFolder();
-  ResultFolder(const ResultFolder&) = delete;
-  ResultFolder& operator=(const ResultFolder&) = delete;
 
  private:
-  [[noreturn]] void fail(const std::string& why);
-  int lock_ = -1;
+  std::optional<FolderLock> lock_;
 };
 
 }  // namespace polhode::study::store

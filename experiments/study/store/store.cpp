@@ -1,320 +1,259 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/store/store.hpp"
 
-#include <fcntl.h>
+#include <fmt/format.h>
 #include <sqlite3.h>
-#include <sys/mman.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cmath>
 #include <cstring>
 #include <stdexcept>
-#include <type_traits>
-#include <variant>
+#include <utility>
 
-#include "experiments/study/text/value_lists.hpp"
+#include "experiments/study/record/versions.hpp"
+#include "experiments/study/store/result_tables.hpp"
 
 namespace polhode::study::inline store {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& path, sqlite3* db) {
-  if (!db) throw std::runtime_error(path.string() + ": out of memory");
-  std::string why = sqlite3_errmsg(db);
-  if (const int reason = sqlite3_system_errno(db)) why += std::string(": ") + std::strerror(reason);
-  throw std::runtime_error(path.string() + ": " + why);
+/// PRAGMA application_id of every store: "plhd" as four bytes.
+constexpr std::int64_t application_id = 0x706c6864;
+
+std::int64_t key_of(const std::string& id) { return static_cast<std::int64_t>(number_of_id(id)); }
+std::string id_of_key(std::int64_t key) { return id_of_number(static_cast<std::uint64_t>(key)); }
+
+bool is_empty(const Database& db) { return db.number("SELECT count(*) FROM sqlite_master") == 0; }
+
+/// Throws std::runtime_error if the database is no store, or a store of another version.
+void check_version(const Database& db) {
+  if (is_empty(db)) {
+    throw std::runtime_error(db.path().string() + ": is empty, because its study was stopped before the first run");
+  }
+  const std::int64_t application = db.number("PRAGMA application_id"), version = db.number("PRAGMA user_version");
+  const bool unmarked = application == 0 && version == 0 &&  // as stores were before they had a version
+                        db.number("SELECT count(*) FROM sqlite_master WHERE name = 'runs'") == 1;
+  if (application != application_id && !unmarked) {
+    throw std::runtime_error(fmt::format("{}: is a database, but no store of polhode (application_id {}, not {})",
+                                         db.path().string(), application, application_id));
+  }
+  if (version != store_version) {
+    throw std::runtime_error(fmt::format(
+        "{}: the store has schema version {}, and this program reads version {}; use the version of polhode "
+        "that made it",
+        db.path().string(), version, store_version));
+  }
 }
 
-/// Thrown for a row with a value that no study writes; what() is the name of the column.
-class Damage : public std::runtime_error {
+class Transaction {
  public:
-  using std::runtime_error::runtime_error;
-};
-
-/// A prepared statement with typed binding and reading; each call binds the next parameter or reads the next column.
-/// Reading throws Damage if the column has another type, or a number that is not finite.
-class Statement {
- public:
-  Statement(const std::filesystem::path& path, sqlite3* db, const std::string& sql) : path_(path), db_(db) {
-    if (sqlite3_prepare_v2(db, sql.c_str(), -1, &statement_, nullptr) != SQLITE_OK) fail(path_, db_);
+  explicit Transaction(const Database& db) : db_(db) { db_.execute("BEGIN IMMEDIATE"); }
+  ~Transaction() {
+    if (!committed_) sqlite3_exec(db_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
   }
-  ~Statement() { sqlite3_finalize(statement_); }
-  Statement(const Statement&) = delete;
-  Statement& operator=(const Statement&) = delete;
-
-  void bind(const std::string& text) {
-    sqlite3_bind_text(statement_, ++at_, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
-  }
-  void bind(std::int64_t n) { sqlite3_bind_int64(statement_, ++at_, n); }
-  void bind(double x) { sqlite3_bind_double(statement_, ++at_, x); }
-  void bind(const std::optional<double>& x) {
-    if (x) bind(*x);
-    else sqlite3_bind_null(statement_, ++at_);
-  }
-  /// Binds the text "name=value " of each entry; names are identifiers, values have all digits.
-  void bind(const std::map<std::string, double>& values) {
-    std::string all;
-    for (const auto& [name, value] : values) all += name + "=" + exact(value) + " ";
-    bind(all);
-  }
-  template <class Point>
-  void bind(const std::vector<Point>& series) {
-    static_assert(std::is_trivially_copyable_v<Point>);
-    sqlite3_bind_blob(statement_, ++at_, series.data(), static_cast<int>(series.size() * sizeof(Point)),
-                      SQLITE_TRANSIENT);
-  }
-
-  /// Advances to the next row. Returns false if there is none.
-  bool step() {
-    column_ = -1;
-    const int code = sqlite3_step(statement_);
-    if (code != SQLITE_ROW && code != SQLITE_DONE) fail(path_, db_);
-    return code == SQLITE_ROW;
-  }
-  void reset() {
-    sqlite3_reset(statement_);
-    at_ = 0;
-  }
-
-  std::string text() {
-    if (next() != SQLITE_TEXT) damaged();
-    const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column_));
-    return {bytes, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column_))};
-  }
-  std::int64_t count() {
-    if (next() != SQLITE_INTEGER) damaged();
-    const std::int64_t n = sqlite3_column_int64(statement_, column_);
-    if (n < 0) damaged();
-    return n;
-  }
-  double real() {
-    const auto x = optional_real();
-    if (!x) damaged();
-    return *x;
-  }
-  std::optional<double> optional_real() {
-    const auto x = any_real();
-    if (x && !std::isfinite(*x)) damaged();
-    return x;
-  }
-  /// The next column: a number, which may be infinite, or nothing for NULL.
-  std::optional<double> any_real() {
-    const int type = next();
-    if (type == SQLITE_NULL) return std::nullopt;
-    if (type != SQLITE_FLOAT) damaged();
-    return sqlite3_column_double(statement_, column_);
-  }
-  template <class Point>
-  std::vector<Point> series() {
-    const int type = next();
-    if (type == SQLITE_NULL) return {};  // an empty series is stored as NULL
-    const void* bytes = sqlite3_column_blob(statement_, column_);
-    const auto n = static_cast<std::size_t>(sqlite3_column_bytes(statement_, column_));
-    if (type != SQLITE_BLOB || n % sizeof(Point) != 0) damaged();
-    std::vector<double> numbers(n / sizeof(double));
-    if (n > 0) std::memcpy(numbers.data(), bytes, n);
-    if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); })) damaged();
-    std::vector<Point> points(n / sizeof(Point));
-    if (n > 0) std::memcpy(points.data(), bytes, n);
-    return points;
-  }
-  std::map<std::string, double> named_numbers() {
-    std::map<std::string, double> values;
-    const std::string all = text();
-    for (std::size_t at = 0; at < all.size();) {
-      const auto equals = all.find('=', at), end = all.find(' ', at);
-      if (equals == std::string::npos || end == std::string::npos || equals > end) damaged();
-      double x = 0;
-      const auto read = std::from_chars(all.data() + equals + 1, all.data() + end, x);
-      if (read.ec != std::errc() || read.ptr != all.data() + end || !std::isfinite(x)) damaged();
-      values[all.substr(at, equals - at)] = x;
-      at = end + 1;
-    }
-    return values;
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  void commit() {
+    db_.execute("COMMIT");
+    committed_ = true;
   }
 
  private:
-  int next() { return sqlite3_column_type(statement_, ++column_); }
-
-  [[noreturn]] void damaged() const { throw Damage(sqlite3_column_name(statement_, column_)); }
-
-  const std::filesystem::path& path_;
-  sqlite3* db_;
-  sqlite3_stmt* statement_ = nullptr;
-  int at_ = 0, column_ = -1;
+  const Database& db_;
+  bool committed_ = false;
 };
-
-std::string sql_type(const Metric& metric) {
-  const auto of_member = []<class M>(M) {
-    if (std::is_same_v<M, std::int64_t RunResult::*>) return "INTEGER";
-    const bool text =
-        std::is_same_v<M, std::string RunResult::*> || std::is_same_v<M, std::map<std::string, double> RunResult::*>;
-    return text ? "TEXT" : "REAL";
-  };
-  return std::visit(of_member, metric.member);
-}
-
-/// Column definitions of the table `runs`, in the order of pack() and unpack().
-std::string columns_of(std::span<const Metric> metrics) {
-  std::string text = "id TEXT PRIMARY KEY";
-  for (const Metric& metric : metrics) text += ", " + metric.column + " " + sql_type(metric);
-  return text + ", t_reached_s REAL, wall_s REAL, series BLOB, attitude_errors BLOB";
-}
-
-/// Binds the columns of a row. Throws std::logic_error if the result has a number of a metric that is not in `metrics`.
-void pack(Statement& row, const RunRecord& record, std::span<const Metric> metrics) {
-  const RunResult& r = record.result;
-  for (const auto& measured : r.further) {
-    const std::string& column = measured.first;
-    if (std::none_of(metrics.begin(), metrics.end(), [&](const Metric& m) { return m.column == column; })) {
-      throw std::logic_error("the metric " + column + " is measured, but is not in the table of metrics");
-    }
-  }
-  row.bind(record.id);
-  for (const Metric& metric : metrics) with_value(metric, r, [&](const auto& value) { row.bind(value); });
-  row.bind(r.t_reached);
-  row.bind(r.seconds);
-  row.bind(r.series);
-  row.bind(r.attitude_errors);
-}
-
-/// Reads the columns of a row after the id. Throws Damage.
-void unpack(Statement& row, RunResult& r, std::span<const Metric> metrics) {
-  for (const Metric& metric : metrics) {
-    with_value(metric, r, [&]<class Value>(Value& value) {
-      if constexpr (std::is_same_v<Value, std::optional<double>>) {
-        value = metric.may_be_infinite ? row.any_real() : row.optional_real();
-      } else if constexpr (std::is_same_v<Value, std::int64_t>) {
-        value = row.count();
-      } else if constexpr (std::is_same_v<Value, std::string>) {
-        value = row.text();
-      } else {
-        value = row.named_numbers();
-      }
-    });
-  }
-  if (r.status != "ok" && r.status != "diverged" && r.status != "failed") throw Damage("status");
-  r.t_reached = row.real();
-  r.seconds = row.real();
-  r.series = row.series<SeriesPoint>();
-  r.attitude_errors = row.series<AttitudeError>();
-}
-
-/// Longest time to wait while another program locks the store, ms.
-constexpr int patience_ms = 5000;
-
-/// Replacement of mmap for SQLite: allocates the mapped part of the file first. SQLite writes only one byte of each
-/// page of its shared-memory file before it maps the file. If a block of the file system is smaller than a page, the
-/// other blocks are holes, and access to a hole on a full disk kills the program (SIGBUS).
-void* map_filled(void* at, std::size_t length, int protection, int flags, int file, off_t offset) {
-  if ((protection & PROT_WRITE) && fallocate(file, 0, offset, static_cast<off_t>(length)) != 0 &&
-      (errno == ENOSPC || errno == EDQUOT)) {
-    return MAP_FAILED;
-  }
-  return mmap(at, length, protection, flags, file, offset);
-}
-
-sqlite3* open_database(const std::filesystem::path& path, int flags) {
-  [[maybe_unused]] static const int filled = [] {
-    sqlite3_vfs* vfs = sqlite3_vfs_find(nullptr);
-    return vfs->xSetSystemCall(vfs, "mmap", reinterpret_cast<sqlite3_syscall_ptr>(map_filled));
-  }();
-  sqlite3* db = nullptr;
-  const int code = sqlite3_open_v2(path.c_str(), &db, flags, nullptr);
-  if (code == SQLITE_OK) {
-    sqlite3_busy_timeout(db, patience_ms);
-    return db;
-  }
-  const std::unique_ptr<sqlite3, decltype(&sqlite3_close)> failed(db, sqlite3_close);
-  fail(path, db);
-}
-
-/// Throws std::runtime_error if the database is damaged, or has a table `runs` with other columns.
-void check(const std::filesystem::path& path, sqlite3* db, std::span<const Metric> metrics) {
-  Statement whole(path, db, "PRAGMA integrity_check(1)");
-  if (!whole.step() || whole.text() != "ok") throw std::runtime_error(path.string() + ": the database is damaged");
-  Statement made(path, db, "SELECT sql FROM sqlite_master WHERE name = 'runs'");
-  if (made.step() && made.text() != "CREATE TABLE runs (" + columns_of(metrics) + ")") {
-    throw std::runtime_error(path.string() + ": its table runs is not that of this version of polhode");
-  }
-}
 
 }  // namespace
 
-void Store::Close::operator()(sqlite3* db) const { sqlite3_close(db); }
+struct Store::Tables {
+  explicit Tables(std::span<const Metric> all) : metrics(all), runs(runs_table(all)) {}
 
-Store::Store(const std::filesystem::path& folder, std::span<const Metric> metrics)
-    : path_(folder / file_name), metrics_(metrics) {
-  db_.reset(open_database(path_, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE));
-  // A commit survives a crash of the process without waiting for the disk; SQLite syncs to disk at checkpoints only.
-  execute("PRAGMA journal_mode=WAL");
-  execute("PRAGMA synchronous=NORMAL");
-  execute("CREATE TABLE IF NOT EXISTS runs (" + columns_of(metrics_) + ")");
+  std::span<const Metric> metrics;
+  ResultTable runs, curves = curves_table(), timings = timings_table();
+
+  void create(const Database& db) const {
+    Transaction transaction(db);
+    if (is_empty(db)) {
+      for (const ResultTable* table : {&runs, &curves, &timings}) db.execute(table->definition());
+      db.execute(fmt::format("PRAGMA application_id={}", application_id));
+      db.execute(fmt::format("PRAGMA user_version={}", store_version));
+    }
+    transaction.commit();
+  }
+  void check(const Database& db) const {
+    check_version(db);
+    for (const ResultTable* table : {&runs, &curves, &timings}) table->check(db);
+  }
+};
+
+class Store::Writer {
+ public:
+  Writer(const Database& db, const Tables& tables)
+      : metrics_(tables.metrics),
+        runs_(db, tables.runs),
+        curves_(db, tables.curves),
+        timings_(db, tables.timings),
+        number_(db, "SELECT number FROM runs WHERE id = ?"),
+        drop_curves_(db, "DELETE FROM curves WHERE number = ?"),
+        last_(db,
+              "SELECT max(ifnull((SELECT max(number) FROM runs), 0), ifnull((SELECT max(number) FROM curves), 0), "
+              "ifnull((SELECT max(number) FROM timings), 0))") {}
+
+  /// To be called once in a transaction, before write().
+  void begin() {
+    last_.step();
+    next_ = last_.integer(0) + 1;
+    last_.reset();
+  }
+
+  void write(const RunRecord& record) {
+    for (const auto& measured : record.result.further) {
+      const std::string& column = measured.first;
+      if (std::none_of(metrics_.begin(), metrics_.end(), [&](const Metric& m) { return m.column == column; })) {
+        throw std::logic_error("the metric " + column + " is measured, but is not in the table of metrics");
+      }
+    }
+    const std::int64_t id = key_of(record.id);
+    number_.bind(1, id);
+    const bool known = number_.step();
+    const std::int64_t number = known ? number_.integer(0) : next_++;
+    number_.reset();
+    runs_.write(number, id, record);
+    timings_.write(number, id, record);
+    if (!record.result.series.empty() || !record.result.attitude_errors.empty()) {
+      curves_.write(number, id, record);
+    } else if (known) {
+      const Value parameter = number;
+      drop_curves_.run({&parameter, 1});
+    }
+  }
+
+ private:
+  struct Rows {
+    Rows(const Database& db, const ResultTable& table) : row(table), insertion(db, table.insertion()) {}
+    void write(std::int64_t number, std::int64_t id, const RunRecord& record) {
+      insertion.run(row.values(number, id, record));
+    }
+
+    RowWriter row;
+    Statement insertion;
+  };
+
+  std::span<const Metric> metrics_;
+  Rows runs_, curves_, timings_;
+  Statement number_, drop_curves_, last_;
+  std::int64_t next_ = 1;
+};
+
+/// A SELECT over the runs with what belongs to them.
+class Store::Reader {
+ public:
+  Reader(const Database& db, const Tables& tables, Curves curves, const std::string& condition)
+      : runs_(tables.runs, 1), timings_(tables.timings, 1 + runs_.size()) {
+    std::string columns = "runs.id, " + RowReader::selection(tables.runs) + ", " + RowReader::selection(tables.timings);
+    std::string joined = "runs LEFT JOIN timings ON timings.number = runs.number";
+    if (curves == Curves::with) {
+      curves_.emplace(tables.curves, 1 + runs_.size() + timings_.size());
+      columns += ", " + RowReader::selection(tables.curves);
+      joined += " LEFT JOIN curves ON curves.number = runs.number";
+    }
+    select_.emplace(db, "SELECT " + columns + " FROM " + joined + condition);
+  }
+
+  Statement& statement() { return *select_; }
+
+  /// The run of the present row.
+  StoredRun read() {
+    StoredRun run;
+    const std::int64_t id = select_->integer(0);
+    run.id = id_of_key(id);
+    run.damage = runs_.read(*select_, id, run.result);
+    if (run.damage.empty()) run.damage = timings_.read(*select_, id, run.result);
+    if (run.damage.empty() && curves_ && is_integer(runs_.value(has_curves), 1))
+      run.damage = curves_->read(*select_, id, run.result);
+    return run;
+  }
+
+ private:
+  RowReader runs_, timings_;
+  std::optional<RowReader> curves_;
+  std::optional<Statement> select_;
+};
+
+Store::Store(const std::filesystem::path& folder, std::span<const Metric> metrics, Access access,
+             std::optional<Journal> journal)
+    : db_(folder / file_name, access, journal ? *journal : journal_of(folder)),
+      tables_(std::make_unique<const Tables>(metrics)) {
+  if (access == Access::create && is_empty(db_)) tables_->create(db_);
+  tables_->check(db_);
 }
 
 Store::~Store() = default;
 
-void Store::execute(const std::string& sql) const {
-  if (sqlite3_exec(db_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail(path_, db_.get());
+void Store::for_each(Curves curves, const std::function<void(StoredRun&&)>& use) const {
+  Reader reader(db_, *tables_, curves, " ORDER BY runs.number");
+  while (reader.statement().step()) use(reader.read());
+}
+
+std::optional<StoredRun> Store::find(const std::string& id, Curves curves) const {
+  auto& reader = curves == Curves::with ? finder_of_curves_ : finder_;
+  if (!reader) reader = std::make_unique<Reader>(db_, *tables_, curves, " WHERE runs.id = ?");
+  Statement& select = reader->statement();
+  select.reset();
+  select.bind(1, key_of(id));
+  std::optional<StoredRun> run;
+  if (select.step()) run = reader->read();
+  select.reset();
+  return run;
+}
+
+std::vector<std::uint64_t> Store::ids() const {
+  std::vector<std::uint64_t> ids;
+  Statement rows(db_, "SELECT id FROM runs");
+  while (rows.step()) ids.push_back(static_cast<std::uint64_t>(rows.integer(0)));
+  std::sort(ids.begin(), ids.end());
+  return ids;
 }
 
 Store::Loaded Store::load() const {
   Loaded loaded;
-  Statement rows(path_, db_.get(), "SELECT * FROM runs");
-  while (rows.step()) {
-    const std::string id = rows.text();
-    RunResult result;
-    try {
-      unpack(rows, result, metrics_);
-      loaded.runs[id] = std::move(result);
-    } catch (const Damage& damage) {
-      loaded.damaged.emplace(id, std::string("runs.") + damage.what());
-    }
-  }
+  for_each(Curves::with, [&](StoredRun&& run) {
+    if (run.damage.empty()) loaded.runs.emplace(run.id, std::move(run.result));
+    else loaded.damaged.emplace(run.id, run.damage);
+  });
   return loaded;
 }
 
 void Store::forget(const std::string& id) {
-  Statement row(path_, db_.get(), "DELETE FROM runs WHERE id = ?");
-  row.bind(id);
-  row.step();
+  const Value key = key_of(id);
+  Transaction transaction(db_);
+  for (const char* table : {"curves", "timings", "runs"}) {
+    Statement(db_, fmt::format("DELETE FROM {} WHERE number IN (SELECT number FROM runs WHERE id = ?)", table))
+        .run({&key, 1});
+  }
+  transaction.commit();
 }
 
 void Store::keep(std::span<const RunRecord> records) {
-  const std::string columns = columns_of(metrics_);
-  std::string parameters = "?";
-  for (auto more = std::count(columns.begin(), columns.end(), ','); more > 0; --more) parameters += ",?";
-  execute("BEGIN IMMEDIATE");
-  try {
-    Statement insert(path_, db_.get(), "INSERT OR REPLACE INTO runs VALUES (" + parameters + ")");
-    for (const RunRecord& record : records) {
-      pack(insert, record, metrics_);
-      insert.step();
-      insert.reset();
-    }
-    execute("COMMIT");
-  } catch (...) {
-    sqlite3_exec(db_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
-    throw;
-  }
+  Transaction transaction(db_);
+  if (!writer_) writer_ = std::make_unique<Writer>(db_, *tables_);
+  writer_->begin();
+  for (const RunRecord& record : records) writer_->write(record);
+  transaction.commit();
 }
 
 std::set<std::string> Store::ids_in(const std::filesystem::path& folder, std::span<const Metric> metrics) {
   std::set<std::string> ids;
   const std::filesystem::path path = folder / file_name;
   if (!std::filesystem::exists(path)) return ids;
-  const std::unique_ptr<sqlite3, Close> db(open_database(path, SQLITE_OPEN_READWRITE));
-  try {
-    check(path, db.get(), metrics);
-    // A program that was killed just after its start leaves a store without the table.
-    Statement table(path, db.get(), "SELECT name FROM sqlite_master WHERE name = 'runs'");
-    if (!table.step()) return ids;
-    Statement rows(path, db.get(), "SELECT id FROM runs");
-    while (rows.step()) ids.insert(rows.text());
-  } catch (const Damage& damage) {
-    throw std::runtime_error(path.string() + ": a row without its " + damage.what());
-  }
+  const Database db(path, Access::write, journal_of(folder));
+  Statement whole(db, "PRAGMA integrity_check(1)");
+  const Value said = whole.step() ? whole.value(0) : Value();
+  const auto* text = std::get_if<std::string_view>(&said);
+  if (!text || *text != "ok") throw std::runtime_error(path.string() + ": the database is damaged");
+  if (is_empty(db)) return ids;  // a program was killed just after it had made the file
+  Tables(metrics).check(db);
+  Statement rows(db, "SELECT id FROM runs");
+  while (rows.step()) ids.insert(id_of_key(rows.integer(0)));
   return ids;
 }
 
@@ -323,5 +262,16 @@ std::size_t Store::longest_folder() {
   return static_cast<std::size_t>(sqlite3_vfs_find(nullptr)->mxPathname) - std::strlen("/-journal") -
          std::strlen(file_name);
 }
+
+std::uint64_t number_of_id(const std::string& id) {
+  std::uint64_t number = 0;
+  const auto read = std::from_chars(id.data(), id.data() + id.size(), number, 16);
+  if (id.size() != 16 || read.ec != std::errc() || read.ptr != id.data() + id.size()) {
+    throw std::logic_error("\"" + id + "\" is not the id of a run");
+  }
+  return number;
+}
+
+std::string id_of_number(std::uint64_t number) { return fmt::format("{:016x}", number); }
 
 }  // namespace polhode::study::store

@@ -1,41 +1,67 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Store of a study's results: the database results.sqlite in WAL mode, so that a killed study keeps every committed
-// run. Its table `runs` has one row for each run and one column for each metric.
+// Store of a study's results: the database results.sqlite, in which a killed study keeps every committed run. Each row
+// has a checksum, which is checked when the row is read. Tables and columns: result_tables.hpp.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "experiments/study/record/metric_table.hpp"
 #include "experiments/study/record/run_record.hpp"
-
-struct sqlite3;
+#include "experiments/study/store/database.hpp"
+#include "experiments/study/store/file_system.hpp"
 
 namespace polhode::study::inline store {
 
-/// Every function throws std::runtime_error with the file and SQLite's reason (disk full, locked, damaged).
+/// A run as it stands in the store.
+struct StoredRun {
+  std::string id;
+  RunResult result;    ///< unspecified if the run is damaged
+  std::string damage;  ///< first invalid column: "runs.status", "curves.series", "runs.checksum"; empty: none
+};
+
+/// Whether curves against time are read too: RunResult::series and attitude_errors.
+enum class Curves { without, with };
+
+/// Every function throws std::runtime_error with the file and the reason (disk full, locked, damaged, of another
+/// version) in one line.
 class Store {
  public:
-  /// Opens the store in the folder, or creates it. `metrics` must outlive the store.
-  explicit Store(const std::filesystem::path& folder, std::span<const Metric> metrics = metric_table());
+  /// Opens the store in the folder. `metrics` must outlive the store. `journal`: absent for the one that suits the file
+  /// system; a store that was in another mode changes to it.
+  explicit Store(const std::filesystem::path& folder, std::span<const Metric> metrics = metric_table(),
+                 Access access = Access::create, std::optional<Journal> journal = std::nullopt);
   ~Store();
   Store(const Store&) = delete;
   Store& operator=(const Store&) = delete;
 
+  /// Calls use(run) for each run, in the order in which they were first stored. One row at a time is in memory.
+  void for_each(Curves curves, const std::function<void(StoredRun&&)>& use) const;
+  /// The run with this id; absent if there is none.
+  std::optional<StoredRun> find(const std::string& id, Curves curves) const;
+  std::vector<std::uint64_t> ids() const;  ///< of all runs, damaged ones too, in ascending order
+
   struct Loaded {
     std::map<std::string, RunResult> runs;       ///< valid results by run id
-    std::map<std::string, std::string> damaged;  ///< invalid rows: run id, and name of the invalid column
+    std::map<std::string, std::string> damaged;  ///< damaged runs: run id, and name of the invalid column
   };
-  Loaded load() const;
-  void keep(std::span<const RunRecord> records);  ///< stores the runs in one transaction; replaces rows of the same id
-  void forget(const std::string& id);             ///< deletes the row of a run
+  Loaded load() const;  ///< all runs, with curves
 
-  /// The run ids in the store of a folder, empty if there is no store. Read-only. Also throws if the table has other
-  /// columns, such as those of another version, or if any part of the database is damaged.
+  /// Stores the runs in one transaction; replaces rows of the same id. A run without series and attitude errors is
+  /// stored without curves. Throws std::logic_error for a value that could not be read back.
+  void keep(std::span<const RunRecord> records);
+  void forget(const std::string& id);  ///< deletes the rows of a run
+
+  /// The run ids in the store of a folder, empty if there is no store. Also throws if any part of the database is
+  /// damaged in its structure.
   static std::set<std::string> ids_in(const std::filesystem::path& folder,
                                       std::span<const Metric> metrics = metric_table());
 
@@ -45,14 +71,18 @@ class Store {
   static constexpr const char* file_name = "results.sqlite";
 
  private:
-  void execute(const std::string& sql) const;
+  struct Tables;
+  class Writer;
+  class Reader;
 
-  std::filesystem::path path_;
-  std::span<const Metric> metrics_;
-  struct Close {
-    void operator()(sqlite3*) const;
-  };
-  std::unique_ptr<sqlite3, Close> db_;
+  Database db_;
+  std::unique_ptr<const Tables> tables_;
+  std::unique_ptr<Writer> writer_;                             ///< made at the first keep()
+  mutable std::unique_ptr<Reader> finder_, finder_of_curves_;  ///< made at the first find()
 };
+
+/// The id as an integer, and back: 16 hexadecimal digits. Throws std::logic_error for a text that is no id.
+std::uint64_t number_of_id(const std::string& id);
+std::string id_of_number(std::uint64_t number);
 
 }  // namespace polhode::study::store

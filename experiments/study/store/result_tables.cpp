@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/store/result_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <type_traits>
+#include <variant>
+
+#include "experiments/study/record/versions.hpp"
+#include "experiments/study/text/value_lists.hpp"
+
+namespace polhode::study::inline store {
+namespace {
+
+using NamedNumbers = std::map<std::string, double>;
+
+/// "name=value " of each entry; names are identifiers, values have all digits.
+std::string text_of_numbers(const NamedNumbers& numbers) {
+  std::string text;
+  for (const auto& [name, number] : numbers) text += name + "=" + exact(number) + " ";
+  return text;
+}
+
+std::optional<NamedNumbers> numbers_of_text(std::string_view text) {
+  NamedNumbers numbers;
+  while (!text.empty()) {
+    const auto equals = text.find('='), end = text.find(' ');
+    if (equals == 0 || end == std::string_view::npos || equals >= end) return std::nullopt;
+    double x = 0;
+    const auto read = std::from_chars(text.data() + equals + 1, text.data() + end, x);
+    if (read.ec != std::errc() || read.ptr != text.data() + end || !std::isfinite(x)) return std::nullopt;
+    if (!numbers.emplace(text.substr(0, equals), x).second) return std::nullopt;
+    text.remove_prefix(end + 1);
+  }
+  return numbers;
+}
+
+bool put_number(const Value& stored, std::optional<double>& number, bool may_be_infinite) {
+  number.reset();
+  if (std::holds_alternative<std::monostate>(stored)) return true;
+  const double* x = std::get_if<double>(&stored);
+  if (!x || std::isnan(*x) || (std::isinf(*x) && !may_be_infinite)) return false;
+  number = *x;
+  return true;
+}
+
+bool is_word_of(const Metric& metric, std::string_view word) {
+  return metric.words.empty() || std::find(metric.words.begin(), metric.words.end(), word) != metric.words.end();
+}
+
+bool put_value(const Metric& metric, const Value& stored, RunResult& result) {
+  bool sound = false;
+  with_value(metric, result, [&]<class T>(T& value) {
+    if constexpr (std::is_same_v<T, std::optional<double>>) {
+      sound = put_number(stored, value, metric.may_be_infinite);
+    } else if constexpr (std::is_same_v<T, std::int64_t>) {
+      const auto* n = std::get_if<std::int64_t>(&stored);
+      sound = n && *n >= 0;
+      if (sound) value = *n;
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      const auto* text = std::get_if<std::string_view>(&stored);
+      sound = text && is_word_of(metric, *text);
+      if (sound) value = *text;
+    } else {
+      const auto* text = std::get_if<std::string_view>(&stored);
+      const auto numbers = text ? numbers_of_text(*text) : std::nullopt;
+      sound = numbers.has_value();
+      if (sound) value = *numbers;
+    }
+  });
+  return sound;
+}
+
+Value value_of(const Metric& metric, const RunResult& result, std::string& text) {
+  Value stored;
+  with_value(metric, result, [&]<class T>(const T& value) {
+    if constexpr (std::is_same_v<T, std::optional<double>>) {
+      stored = value ? as_kept(*value) : Value();
+    } else if constexpr (std::is_same_v<T, std::int64_t>) {
+      stored = value;
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      stored = std::string_view(value);
+    } else {
+      text = text_of_numbers(value);
+      stored = std::string_view(text);
+    }
+  });
+  return stored;
+}
+
+std::string_view type_of(const Metric& metric) {
+  const auto of_member = []<class M>(M) -> std::string_view {
+    if (std::is_same_v<M, std::int64_t RunResult::*>) return "INTEGER";
+    const bool text = std::is_same_v<M, std::string RunResult::*> || std::is_same_v<M, NamedNumbers RunResult::*>;
+    return text ? "TEXT" : "REAL";
+  };
+  return std::visit(of_member, metric.member);
+}
+
+/// A number of a run that is always there.
+ResultColumn number_column(std::string name, double RunResult::*member) {
+  return {.name = std::move(name),
+          .type = "REAL",
+          .value = [member](const RunRecord& record, std::string&) { return as_kept(record.result.*member); },
+          .put =
+              [member](const Value& stored, RunResult& result) {
+                const double* x = std::get_if<double>(&stored);
+                if (!x || !std::isfinite(*x)) return false;
+                result.*member = *x;
+                return true;
+              }};
+}
+
+/// A curve against time: points of finite numbers, the first of which is a time that never decreases.
+template <class Point>
+ResultColumn curve_column(std::string name, std::vector<Point> RunResult::*member) {
+  static_assert(std::is_trivially_copyable_v<Point> && sizeof(Point) % sizeof(double) == 0);
+  return {.name = std::move(name),
+          .type = "BLOB",
+          .value = [member](const RunRecord& record, std::string&) -> Value {
+            return std::as_bytes(std::span(record.result.*member));
+          },
+          .put =
+              [member](const Value& stored, RunResult& result) {
+                const auto* bytes = std::get_if<Blob>(&stored);
+                if (!bytes || bytes->size() % sizeof(Point) != 0) return false;
+                std::vector<Point> points(bytes->size() / sizeof(Point));
+                std::vector<double> numbers(bytes->size() / sizeof(double));
+                if (!points.empty()) {
+                  std::memcpy(points.data(), bytes->data(), bytes->size());
+                  std::memcpy(numbers.data(), bytes->data(), bytes->size());
+                }
+                const auto finite = [](double x) { return std::isfinite(x); };
+                const auto earlier = [](const Point& a, const Point& b) { return a.t < b.t; };
+                if (!std::all_of(numbers.begin(), numbers.end(), finite)) return false;
+                if (!std::is_sorted(points.begin(), points.end(), earlier)) return false;
+                result.*member = std::move(points);
+                return true;
+              }};
+}
+
+bool is_curve(const RunResult& result) { return !result.series.empty() || !result.attitude_errors.empty(); }
+
+ResultColumn has_curves_column() {
+  return {.name = std::string(has_curves),
+          .type = "INTEGER",
+          .value = [](const RunRecord& record, std::string&) -> Value {
+            return static_cast<std::int64_t>(is_curve(record.result));
+          },
+          .put = [](const Value& stored, RunResult&) { return is_integer(stored, 0) || is_integer(stored, 1); }};
+}
+
+ResultTable sorted(ResultTable table) {
+  std::sort(table.columns.begin(), table.columns.end(),
+            [](const ResultColumn& a, const ResultColumn& b) { return a.name < b.name; });
+  return table;
+}
+
+}  // namespace
+
+ResultTable runs_table(std::span<const Metric> metrics) {
+  ResultTable table{.name = "runs", .columns = {}, .has_id = true};
+  for (const Metric& metric : metrics) {
+    table.columns.push_back(
+        {.name = metric.column,
+         .type = type_of(metric),
+         .value = [&metric](const RunRecord& record,
+                            std::string& text) { return value_of(metric, record.result, text); },
+         .put = [&metric](const Value& stored, RunResult& result) { return put_value(metric, stored, result); }});
+  }
+  table.columns.push_back(number_column("t_reached_s", &RunResult::t_reached));
+  table.columns.push_back(has_curves_column());
+  return sorted(std::move(table));
+}
+
+ResultTable curves_table() {
+  return sorted(
+      {"curves",
+       {curve_column("series", &RunResult::series), curve_column("attitude_errors", &RunResult::attitude_errors)}});
+}
+
+ResultTable timings_table() { return {"timings", {number_column("wall_s", &RunResult::seconds)}}; }
+
+std::string ResultTable::definition() const {
+  std::string text = "CREATE TABLE " + name + " (number INTEGER PRIMARY KEY";
+  if (has_id) text += ", id INTEGER UNIQUE NOT NULL";
+  for (const ResultColumn& column : columns) text += fmt::format(", {} {}", quoted_name(column.name), column.type);
+  return text + ", checksum INTEGER)";
+}
+
+std::string ResultTable::insertion() const {
+  std::string names = has_id ? "number, id" : "number", parameters = has_id ? "?,?" : "?";
+  for (const ResultColumn& column : columns) {
+    names += ", " + quoted_name(column.name);
+    parameters += ",?";
+  }
+  return fmt::format("INSERT OR REPLACE INTO {} ({}, checksum) VALUES ({},?)", name, names, parameters);
+}
+
+void ResultTable::check(const Database& db) const {
+  std::map<std::string, std::string> expected = {{"number", "INTEGER"}, {"checksum", "INTEGER"}};
+  if (has_id) expected.emplace("id", "INTEGER");
+  for (const ResultColumn& column : columns) expected.emplace(column.name, column.type);
+  const auto refuse = [&](const std::string& what) {
+    throw std::runtime_error(
+        fmt::format("{}: its table {} {}, so it is not that of this version of polhode (schema version {})",
+                    db.path().string(), name, what, store_version));
+  };
+  Statement found(db, fmt::format("SELECT name, type, pk FROM pragma_table_info('{}')", name));
+  while (found.step()) {
+    const Value read_name = found.value(0), read_type = found.value(1), key = found.value(2);
+    const auto *column = std::get_if<std::string_view>(&read_name), *type = std::get_if<std::string_view>(&read_type);
+    if (!column || !type) refuse("has a column without a name or a type");
+    const std::string text(*column);
+    const auto known = expected.find(text);
+    if (known == expected.end()) refuse("has the further column " + text);
+    if (known->second != *type) refuse(fmt::format("has {} as {}, not as {}", text, *type, known->second));
+    if (is_integer(key, 0) == (text == "number")) refuse("has another primary key than number");
+    expected.erase(known);
+  }
+  if (expected.contains("number")) refuse("is missing, or has no column number");
+  if (!expected.empty()) refuse("lacks the column " + expected.begin()->first);
+}
+
+RowWriter::RowWriter(const ResultTable& table)
+    : table_(&table), texts_(table.columns.size()), values_(table.columns.size() + (table.has_id ? 3 : 2)) {}
+
+std::span<const Value> RowWriter::values(std::int64_t number, std::int64_t id, const RunRecord& record) {
+  RunResult unused;
+  const std::span<Value> columns = std::span(values_).last(texts_.size() + 1).first(texts_.size());
+  values_[0] = number;
+  if (table_->has_id) values_[1] = id;
+  for (std::size_t k = 0; k < texts_.size(); ++k) {
+    const ResultColumn& column = table_->columns[k];
+    columns[k] = column.value(record, texts_[k]);
+    if (!column.put(columns[k], unused)) {
+      throw std::logic_error("run " + record.id + " has a value of " + table_->name + "." + column.name +
+                             " that cannot be stored");
+    }
+  }
+  values_.back() = checksum_of(id, columns);
+  return values_;
+}
+
+RowReader::RowReader(const ResultTable& table, int first)
+    : table_(&table), first_(first), values_(table.columns.size()) {}
+
+std::string RowReader::selection(const ResultTable& table) {
+  std::string text;
+  for (const ResultColumn& column : table.columns) text += table.name + "." + quoted_name(column.name) + ", ";
+  return text + table.name + ".checksum";
+}
+
+std::string RowReader::read(const Statement& row, std::int64_t id, RunResult& result) {
+  std::string damaged;
+  for (std::size_t k = 0; k < values_.size(); ++k) {
+    const ResultColumn& column = table_->columns[k];
+    values_[k] = row.value(first_ + static_cast<int>(k));
+    if (!column.put(values_[k], result) && damaged.empty()) damaged = table_->name + "." + column.name;
+  }
+  if (!damaged.empty()) return damaged;
+  const Value checksum = row.value(first_ + size() - 1);
+  return is_integer(checksum, checksum_of(id, values_)) ? "" : table_->name + ".checksum";
+}
+
+const Value& RowReader::value(std::string_view column) const {
+  for (std::size_t k = 0; k < values_.size(); ++k) {
+    if (table_->columns[k].name == column) return values_[k];
+  }
+  throw std::logic_error("the table " + table_->name + " has no column " + std::string(column));
+}
+
+}  // namespace polhode::study::store

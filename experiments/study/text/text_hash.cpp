@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/text/text_hash.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+namespace polhode::study::inline text {
+
+std::string text_hash(std::string_view text) { return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size())); }
+
+}  // namespace polhode::study::text

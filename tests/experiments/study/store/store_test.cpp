@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The store: every value comes back, a row at a time, by id or all together, with curves or without.
+#include "experiments/study/store/store.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "tests/experiments/study/store/stored_runs.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace polhode::study::store_tests {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+void change(const std::filesystem::path& folder, const std::string& sql) {
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open((folder / Store::file_name).c_str(), &db), SQLITE_OK);
+  char* why = nullptr;
+  EXPECT_EQ(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, &why), SQLITE_OK) << sql << ": " << (why ? why : "");
+  sqlite3_free(why);
+  sqlite3_close(db);
+}
+
+std::string refusal(const std::filesystem::path& folder) {
+  try {
+    const Store store(folder);
+    return "";
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+}
+
+TEST(Store, EveryValueComesBackInEveryWayOfReading) {
+  const TemporaryFolder folder;
+  const auto runs = made_up_runs(20);
+  Store(folder.path()).keep(runs);
+  const Store store(folder.path());
+  const auto loaded = store.load();
+  EXPECT_TRUE(loaded.damaged.empty());
+  ASSERT_EQ(loaded.runs.size(), runs.size());
+  std::vector<std::uint64_t> ids;
+  for (const RunRecord& run : runs) {
+    EXPECT_EQ(text_of_result(loaded.runs.at(run.id)), text_of_result(run.result));
+    const auto found = store.find(run.id, Curves::with);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->damage, "");
+    EXPECT_EQ(text_of_result(found->result), text_of_result(run.result));
+    RunResult bare = run.result;
+    bare.series.clear();
+    bare.attitude_errors.clear();
+    EXPECT_EQ(text_of_result(store.find(run.id, Curves::without)->result), text_of_result(bare));
+    ids.push_back(number_of_id(run.id));
+  }
+  std::sort(ids.begin(), ids.end());
+  EXPECT_EQ(store.ids(), ids);
+  EXPECT_FALSE(store.find("0123456789abcdef", Curves::with));
+  std::size_t count = 0;
+  store.for_each(Curves::without, [&](StoredRun&& run) {
+    EXPECT_EQ(run.damage, "");
+    EXPECT_TRUE(run.result.series.empty());
+    ++count;
+  });
+  EXPECT_EQ(count, runs.size());
+}
+
+TEST(Store, ARunKeptAgainIsReplacedAndARunForgottenIsGone) {
+  const TemporaryFolder folder;
+  auto runs = made_up_runs(3);
+  Store store(folder.path());
+  store.keep(runs);
+  runs[0].result.steps = 5;
+  runs[0].result.series.clear();  // without curves from now on
+  runs[0].result.attitude_errors.clear();
+  store.keep({&runs[0], 1});
+  EXPECT_EQ(text_of_result(store.find(runs[0].id, Curves::with)->result), text_of_result(runs[0].result));
+  store.forget(runs[1].id);
+  EXPECT_FALSE(store.find(runs[1].id, Curves::with));
+  EXPECT_EQ(store.ids().size(), 2u);
+}
+
+TEST(Store, AValueThatCouldNotBeReadBackIsNotKept) {
+  const TemporaryFolder folder;
+  Store store(folder.path());
+  for (const auto spoil :
+       {+[](RunRecord& r) { r.result.status = "perhaps"; }, +[](RunRecord& r) { r.result.drift_class = "steep"; },
+        +[](RunRecord& r) { r.result.energy_initial = std::numeric_limits<double>::infinity(); },
+        +[](RunRecord& r) {
+          r.result.series = {{1, 0, 0, 0, 0}, {0, 0, 0, 0, 0}};
+        },
+        +[](RunRecord& r) { r.id = "7"; }}) {
+    RunRecord run = made_up_run(0);
+    spoil(run);
+    EXPECT_THROW(store.keep({&run, 1}), std::logic_error);
+  }
+  EXPECT_TRUE(store.ids().empty());
+}
+
+TEST(Store, ColumnsAreFoundByName) {
+  const TemporaryFolder folder;
+  const auto runs = made_up_runs(3);
+  Store(folder.path()).keep(runs);
+  change(folder.path(),
+         "ALTER TABLE runs RENAME COLUMN status TO old; ALTER TABLE runs ADD COLUMN status TEXT;"
+         "UPDATE runs SET status = old; ALTER TABLE runs DROP COLUMN old");
+  const auto loaded = Store(folder.path()).load();
+  EXPECT_TRUE(loaded.damaged.empty());
+  for (const RunRecord& run : runs) EXPECT_EQ(text_of_result(loaded.runs.at(run.id)), text_of_result(run.result));
+}
+
+TEST(Store, AStoreOfAnotherVersionIsRefusedInOneLine) {
+  const TemporaryFolder folder;
+  const auto fresh = [&] {
+    std::filesystem::remove(folder.path() / Store::file_name);
+    Store(folder.path()).keep(made_up_runs(2));
+  };
+  const std::string file = (folder.path() / Store::file_name).string();
+  for (const auto& [sql, said] : std::vector<std::pair<std::string, std::string>>{
+           {"PRAGMA user_version=77", "schema version 77, and this program reads version 1"},
+           {"PRAGMA user_version=0; PRAGMA application_id=0", "schema version 0, and this program reads version 1"},
+           {"PRAGMA application_id=5", "no store of polhode"},
+           {"ALTER TABLE runs ADD COLUMN colour TEXT", "has the further column colour"},
+           {"ALTER TABLE runs DROP COLUMN drift_exponent", "lacks the column drift_exponent"},
+           {"ALTER TABLE runs RENAME COLUMN steps TO strides", "strides"},
+           {"ALTER TABLE timings DROP COLUMN wall_s; ALTER TABLE timings ADD COLUMN wall_s TEXT", "has wall_s as TEXT"},
+           {"DROP TABLE curves", "curves is missing"},
+           {"DROP TABLE runs; CREATE TABLE runs (id TEXT)", "has id as TEXT"}}) {
+    fresh();
+    change(folder.path(), sql);
+    const std::string why = refusal(folder.path());
+    EXPECT_THAT(why, AllOf(HasSubstr(file), HasSubstr(said))) << sql;
+    EXPECT_EQ(why.find('\n'), std::string::npos);
+    EXPECT_THROW(Store::ids_in(folder.path()), std::runtime_error) << sql;
+  }
+}
+
+TEST(Store, ARunOfASummaryTakesLessThan1200BytesWithoutCurves) {
+  const TemporaryFolder folder;
+  std::vector<RunRecord> runs = made_up_runs(5000);
+  for (RunRecord& run : runs) {
+    run.result.series.clear();
+    run.result.attitude_errors.clear();
+  }
+  Store(folder.path()).keep(runs);
+  EXPECT_LT(std::filesystem::file_size(folder.path() / Store::file_name), 1200 * runs.size());
+}
+
+TEST(Store, AnIdIsANumberOf16HexadecimalDigits) {
+  for (const char* id : {"0000000000000000", "0123456789abcdef", "ffffffffffffffff", "8000000000000000"})
+    EXPECT_EQ(id_of_number(number_of_id(id)), id);
+  for (const char* id : {"", "1", "0123456789abcdeg", "0123456789abcdef0", "-123456789abcdef"})
+    EXPECT_THROW(number_of_id(id), std::logic_error) << id;
+}
+
+}  // namespace
+}  // namespace polhode::study::store_tests
