@@ -4,11 +4,13 @@
 POLHODE_BIN_DIR is the folder of energy_drift and simulate. Every test works in its own temporary folder.
 """
 import collections
+import contextlib
 import csv
 import json
 import math
 import os
 import pathlib
+import platform
 import re
 import shutil
 import signal
@@ -284,7 +286,7 @@ class Resuming(StudyTest):
         before = files_in(out)
         self.study(*SMALL, out=out)
         after = files_in(out)
-        for name in ("runs.csv", "timings.csv", "report.html"):
+        for name in ("runs.csv", "timings.csv", "manifest.json", "report.html"):
             self.assertEqual(after[name], before[name], name)
 
     def test_a_widened_study_reuses_what_is_there(self):
@@ -643,12 +645,15 @@ class ResultFolders(StudyTest):
         for force in ([], ["--force"]):
             done = self.call("energy_drift", *long, *force, status=2)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
-            self.assertIn("another program", done.stderr)
+            self.assertRegex(done.stderr, rf"another program is writing into {re.escape(str(out))} \(process {first.pid} on host "
+                             r"\S+, since \d{4}-\d\d-\d\d \d\d:\d\d:\d\d UTC: \S*energy_drift --integrator rk4 .*\); wait for it")
         self.assertIsNone(first.poll(), "the first program must not be disturbed")
+        self.assertTrue((out / "results.lock").exists())
         first.send_signal(signal.SIGINT)
         _, text = first.communicate(timeout=PATIENCE)
         self.assertEqual(first.returncode, 75, text)
         self.assertIn("0 of 1 runs", text)
+        self.assertFalse((out / "results.lock").exists())
 
 
 class Results(StudyTest):
@@ -680,10 +685,33 @@ class Results(StudyTest):
         self.assertRegex(manifest["polhode"]["version"], r"^\d+\.\d+")
         self.assertRegex(manifest["compiler"], r"\d")
         self.assertIn("-std=c++20", manifest["flags"])
+        self.assertEqual(manifest["polhode"]["dirty"], manifest["polhode"]["commit"].endswith("-dirty"))
         self.assertTrue(manifest["processor"])
-        self.assertEqual((manifest["runs"], manifest["seed"]), (2, 7))
+        self.assertGreaterEqual(manifest["cores"], 1)
+        self.assertIn(platform.machine(), manifest["operating_system"])
+        self.assertEqual(set(manifest["libraries"]), {"Eigen", "SUNDIALS", "Boost", "HDF5", "SQLite", "toml++", "CLI11",
+                                                      "nlohmann-json", "fmt", "TBB", "Qhull", "xxHash"})
+        for library, version in manifest["libraries"].items():
+            self.assertRegex(version, r"^\d+(\.\d+)+", library)
+        with contextlib.closing(sqlite3.connect(out / "results.sqlite")) as store:
+            self.assertEqual(store.execute("PRAGMA user_version").fetchone()[0], manifest["store_version"])
+        self.assertGreaterEqual(manifest["results_version"], 4)
+        self.assertEqual(manifest["runs"], 2)
+        self.assertEqual(manifest["options"], {"seed": 7, "max_steps": None, "reference": False, "trajectory": "none"})
+        self.assertNotIn("study_file", manifest)
         self.assertEqual(manifest["axes"]["integrator"], "rk4")
         self.assertIn("energy_drift --integrator rk4", manifest["command"])
+
+    def test_the_manifest_names_the_study_file(self):
+        file = self.work / "study.toml"
+        file.write_text('integrator = ["rk4"]\ndt = [1e-2]\n')
+        first, second = (json.loads((self.study("--study", file, "--no-figures") / "manifest.json").read_text()) for _ in range(2))
+        self.assertEqual(first["study_file"]["path"], str(file))
+        self.assertRegex(first["study_file"]["xxh3_64"], r"^[0-9a-f]{16}$")
+        self.assertEqual(first["study_file"], second["study_file"])
+        file.write_text('integrator = ["rk4"]\ndt = [1e-2] # s\n')
+        changed = json.loads((self.study("--study", file, "--no-figures") / "manifest.json").read_text())
+        self.assertNotEqual(changed["study_file"]["xxh3_64"], first["study_file"]["xxh3_64"])
 
     def test_the_files_of_a_study(self):
         out = self.study(*SMALL)

@@ -33,7 +33,9 @@ struct Options {
     const auto found = places.find(axis);
     return found == places.end() ? "--" + axis : found->second;
   }
-  bool plain = false;  ///< no axis is given: all are defaults of the experiment
+  bool plain = false;           ///< no axis is given: all are defaults of the experiment
+  std::string study_file;       ///< path of the study file as given; empty: none
+  std::string study_file_hash;  ///< text_hash() of its text
   std::uint64_t seed = 1;
   std::string out;  ///< empty: results/<experiment>-<scenarios>-<hash>
   bool force = false;

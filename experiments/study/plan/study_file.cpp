@@ -6,6 +6,7 @@
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/suggestion.hpp"
 #include "experiments/study/text/text_file.hpp"
+#include "experiments/study/text/text_hash.hpp"
 #include "experiments/study/text/toml_value.hpp"
 #include "experiments/study/text/value_lists.hpp"
 
@@ -52,10 +53,13 @@ void read_vary(const std::string& path, const TomlValue& table, Options& options
   }
 }
 
-TomlValue read_tree(const std::string& path) {
+TomlValue read_tree(const std::string& path, Options& options) {
   TomlValue file;
   try {
-    file = parse_toml(read_text(path));
+    const std::string text = read_text(path);
+    options.study_file = path;
+    options.study_file_hash = text_hash(text);
+    file = parse_toml(text);
   } catch (const TomlSyntaxError& error) {
     throw InputError(place(path, error.place) + error.message);
   } catch (const InputError& error) {
@@ -71,7 +75,7 @@ TomlValue read_tree(const std::string& path) {
 }  // namespace
 
 void read_study_file(const std::string& path, Options& options) {
-  const TomlValue file = read_tree(path);
+  const TomlValue file = read_tree(path, options);
   const std::vector<std::string> names = axis_names();
   for (const auto& [key, key_place, value] : file.entries) {
     const std::string where = place(path, value.place) + key + ": ";

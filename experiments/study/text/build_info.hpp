@@ -2,9 +2,14 @@
 // Version, compiler and libraries of this program, for the manifest of a study.
 #pragma once
 
+#include <array>
 #include <string_view>
 
 namespace polhode::study::inline text {
+
+struct Library {
+  std::string_view name, version;
+};
 
 struct BuildInfo {
   std::string_view version;
@@ -12,9 +17,10 @@ struct BuildInfo {
   std::string_view compiler;
   std::string_view flags;
   std::string_view build_type;
-  std::string_view eigen;
-  std::string_view sundials;
-  std::string_view boost;
+  std::array<Library, 12> libraries;  // as found when the build was configured
+
+  /// True if the checkout had changes that the commit does not have.
+  bool dirty() const { return commit.ends_with("-dirty"); }
 };
 
 const BuildInfo& build_info();

@@ -2,19 +2,21 @@
 #include "experiments/study/report/tables/results.hpp"
 
 #include <fmt/format.h>
+#include <sys/utsname.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
 #include "experiments/study/record/metric_table.hpp"
 #include "experiments/study/record/run_options.hpp"
+#include "experiments/study/record/versions.hpp"
 #include "experiments/study/text/build_info.hpp"
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/text_file.hpp"
@@ -77,6 +79,55 @@ std::string processor() {
   return "unknown";
 }
 
+/// "Debian GNU/Linux 12 (bookworm), Linux 6.1.0 x86_64"
+std::string operating_system() {
+  std::string distribution = "unknown";
+  std::ifstream file("/etc/os-release");
+  for (std::string line; std::getline(file, line);) {
+    constexpr std::string_view key = "PRETTY_NAME=";
+    if (line.starts_with(key)) distribution = line.substr(key.size());
+  }
+  std::erase(distribution, '"');
+  utsname system = {};
+  if (uname(&system) != 0) return distribution;
+  return fmt::format("{}, {} {} {}", distribution, system.sysname, system.release, system.machine);
+}
+
+/// The build and the machine.
+nlohmann::ordered_json provenance() {
+  using Json = nlohmann::ordered_json;
+  const BuildInfo& build = build_info();
+  Json libraries = Json::object();
+  for (const Library& library : build.libraries) libraries[std::string(library.name)] = library.version;
+  return {{"polhode", {{"version", build.version}, {"commit", build.commit}, {"dirty", build.dirty()}}},
+          {"results_version", results_version},
+          {"store_version", store_version},
+          {"compiler", build.compiler},
+          {"flags", build.flags},
+          {"build_type", build.build_type},
+          {"libraries", libraries},
+          {"processor", processor()},
+          {"cores", std::thread::hardware_concurrency()},
+          {"operating_system", operating_system()}};
+}
+
+std::string_view name_of(TrajectoryFormat format) {
+  switch (format) {
+    case TrajectoryFormat::csv: return "csv";
+    case TrajectoryFormat::hdf5: return "hdf5";
+    default: return "none";
+  }
+}
+
+/// The options of the study besides its axes that are part of its results.
+nlohmann::ordered_json options_of(const Options& options) {
+  using Json = nlohmann::ordered_json;
+  return {{"seed", options.seed},
+          {"max_steps", options.max_steps ? Json(*options.max_steps) : Json()},
+          {"reference", options.reference},
+          {"trajectory", name_of(options.trajectory)}};
+}
+
 }  // namespace
 
 void write_runs_csv(const StudyView& study) {
@@ -111,7 +162,6 @@ void write_timings_csv(const StudyView& study) {
 
 void write_manifest(const StudyView& study, const Options& options, const Plan& plan) {
   using Json = nlohmann::ordered_json;
-  const BuildInfo& build = build_info();
   Json axes = Json::object();
   for (const std::string& name : axis_names()) {
     if (const auto found = options.axes.find(name); found != options.axes.end()) axes[name] = found->second;
@@ -120,25 +170,19 @@ void write_manifest(const StudyView& study, const Options& options, const Plan& 
   for (const auto& [key, values] : options.vary) vary[key] = values;
   Json scenarios = Json::object();
   for (const Scenario& s : study.scenarios) scenarios[s.name] = {{"title", s.title}, {"resolved", s.canonical}};
-  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
   Json manifest = {{"experiment", study.experiment},
                    {"command", study.command},
                    {"study", plan.identity},
                    {"runs", study.runs.size()},
-                   {"seed", options.seed},
+                   {"options", options_of(options)},
                    {"axes", axes},
                    {"vary", vary},
-                   {"scenarios", scenarios},
-                   {"written_at_unix_s", now.time_since_epoch().count()},
-                   {"polhode", {{"version", build.version}, {"commit", build.commit}}},
-                   {"compiler", build.compiler},
-                   {"flags", build.flags},
-                   {"build_type", build.build_type},
-                   {"libraries", {{"Eigen", build.eigen}, {"SUNDIALS", build.sundials}, {"Boost", build.boost}}},
-                   {"processor", processor()},
-                   {"cores", std::thread::hardware_concurrency()}};
+                   {"scenarios", scenarios}};
+  if (!options.study_file.empty())
+    manifest["study_file"] = {{"path", options.study_file}, {"xxh3_64", options.study_file_hash}};
   if (!plan.further_axes.empty()) manifest["further_axes"] = plan.further_axes;
   if (has_references(study)) manifest["references"] = references_of(study);
+  manifest.update(provenance());
   write_text(study.folder / "manifest.json", manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
