@@ -646,7 +646,7 @@ class ResultFolders(StudyTest):
             done = self.call("energy_drift", *long, *force, status=2)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
             self.assertRegex(done.stderr, rf"another program is writing into {re.escape(str(out))} \(process {first.pid} on host "
-                             r"\S+, since \d{4}-\d\d-\d\d \d\d:\d\d:\d\d UTC: \S*energy_drift --integrator rk4 .*\); wait for it")
+                             r"\S+, since \d{4}-\d\d-\d\d \d\d:\d\d:\d\d UTC: \S*energy_drift --scenario .*\); wait for it")
         self.assertIsNone(first.poll(), "the first program must not be disturbed")
         self.assertTrue((out / "results.lock").exists())
         first.send_signal(signal.SIGINT)
