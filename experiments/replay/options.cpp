@@ -25,8 +25,8 @@ ReplayOptions parse_replay_options(int argc, const char* const* argv) {
   std::string out, results, runs, three = "/usr/share/javascript/three";
   double megabytes = 3;
   const auto own = [&](CLI::App& app) {
-    for (const char* name :
-         {"--out", "--force", "--trajectory", "--reference", "--no-figures", "--jobs", "--seed", "--dry-run"}) {
+    for (const char* name : {"--out", "--force", "--trajectory", "--reference", "--curves", "--no-figures", "--jobs",
+                             "--seed", "--dry-run"}) {
       app.remove_option(app.get_option(name));
     }
     app.add_option("--results", results,

@@ -22,7 +22,7 @@ namespace {
 
 /// The number that --curves gives; absent: all.
 std::optional<std::size_t> curves_of(const std::string& text, const Experiment& experiment) {
-  if (text.empty() && !experiment.curves_are_results) return most_shown_runs;
+  if (text.empty() && !experiment.curves_are_results) return most_curves;
   if (text.empty() || text == "all") return std::nullopt;
   const auto fault = [&](const std::string& what) {
     return InputError("--curves " + text + ": " + what + "; give all, none or a number of runs");
@@ -93,7 +93,7 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   std::string curves;
   app.add_option("--curves", curves,
                  "curves of drift against time are kept for at most so many runs, of evenly chosen motions (default: " +
-                     (experiment.curves_are_results ? "all" : std::to_string(most_shown_runs)) + ")")
+                     (experiment.curves_are_results ? "all" : std::to_string(most_curves)) + ")")
       ->type_name("all|none|N")
       ->group("Results");
   add_no_figures(app, options.figures)->group("Results");

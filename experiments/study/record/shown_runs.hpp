@@ -11,8 +11,10 @@
 
 namespace polhode::study::inline record {
 
-/// Number of runs up to which a study shows all of them.
-inline constexpr std::size_t most_shown_runs = 1000;
+/// Number of runs whose curves against time a study keeps, unless it is told another.
+inline constexpr std::size_t most_curves = 2000;
+/// A study with more runs has rows of `rows_of_large_tables` runs in its tables, all others of all runs.
+inline constexpr std::size_t most_table_rows = 10'000, rows_of_large_tables = 1000;
 
 /// Indices of at most `most` runs, ascending; all if there are not more. Whole motions (a scenario with values of its
 /// varied keys) are chosen, evenly spread in the order of the runs, so that methods and steps can be compared on each.

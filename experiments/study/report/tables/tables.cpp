@@ -26,7 +26,7 @@ std::string title_of(const StudyView& study) {
 std::vector<std::size_t> rows_of(const StudyView& study) {
   std::vector<const RunConfig*> runs;
   for (const RunRecord& run : study.runs) runs.push_back(&run.config);
-  return shown_runs(runs, most_shown_runs);
+  return shown_runs(runs, runs.size() <= most_table_rows ? most_table_rows : rows_of_large_tables);
 }
 
 void write_tables_of_runs(const StudyView& study, const std::filesystem::path& folder) {
