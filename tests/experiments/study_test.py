@@ -923,6 +923,14 @@ class Simulate(StudyTest):
         self.assertGreater((out / "trajectory.h5").stat().st_size, 101 * (19 + 9) * 8)
         self.assertFalse((out / "trajectory.csv").exists())
 
+    def test_hdf5_is_the_same_bytes_in_another_second(self):
+        """Its file format has dates, of whole seconds."""
+        options = ["--dt", "1e-2", "--t-end", "1", "--trajectory", "hdf5"]
+        one = self.simulate(*options)
+        made = (one / "trajectory.h5").stat().st_mtime
+        time.sleep(max(0.0, made + 1.1 - time.time()))
+        self.assertEqual((one / "trajectory.h5").read_bytes(), (self.simulate(*options) / "trajectory.h5").read_bytes())
+
     def test_a_study_s_trajectories_are_those_of_simulate(self):
         out = self.study("--integrator", "rk4", "--dt", "1e-2,2e-2", "--trajectory", "csv", "--no-figures")
         alone = self.simulate("--dt", "2e-2")

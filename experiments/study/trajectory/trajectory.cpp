@@ -85,8 +85,11 @@ class Hdf5File {
     // HDF5 would otherwise write again at exit, and crash on a full disk.
     [[maybe_unused]] static const herr_t at_exit = H5dont_atexit();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // our own message is one line
+    const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
+    H5Pset_obj_track_times(creation, false);  // no dates: the same run gives the same bytes
     errno = 0;
-    id = H5Fcreate(unfinished(path).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    id = H5Fcreate(unfinished(path).c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT);
+    H5Pclose(creation);
     if (id < 0) fail();
   }
   Hdf5File(const Hdf5File&) = delete;
@@ -114,6 +117,7 @@ class Hdf5Table {
     const hid_t space = H5Screate_simple(2, start, most);
     const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
     H5Pset_chunk(properties, 2, chunk);
+    H5Pset_obj_track_times(properties, false);
     set_ = H5Dcreate2(file.id, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT);
     H5Pclose(properties);
     H5Sclose(space);
