@@ -70,16 +70,8 @@ std::string plan_text(const Experiment& experiment, const Plan& plan, const std:
 }
 
 TrajectoryRequest trajectory_of(const Experiment& experiment, const Options& options,
-                                const std::filesystem::path& folder, const PlannedRun& run) {
-  return {options.trajectory, experiment.one_run ? folder : folder / "trajectories" / run.id};
-}
-
-bool has_trajectory(const TrajectoryRequest& request) {
-  switch (request.format) {
-    case TrajectoryFormat::csv: return std::filesystem::exists(request.folder / "trajectory.csv");
-    case TrajectoryFormat::hdf5: return std::filesystem::exists(request.folder / "trajectory.h5");
-    default: return true;
-  }
+                                const std::filesystem::path& folder, const std::string& id) {
+  return {options.trajectory, experiment.one_run ? folder : folder / "trajectories" / id};
 }
 
 /// Chooses the runs whose curves against time are kept.
@@ -142,9 +134,10 @@ bool carry_out_missing(const Experiment& experiment, const Options& options, con
                        Interruption& interruption, bool say_what_is_there) {
   std::vector<const PlannedRun*> missing;
   for (const PlannedRun& run : plan.runs) {
+    const TrajectoryRequest wanted = trajectory_of(experiment, options, folder, run.id);
     const auto found = results.find(run.id);
-    const bool done = found != results.end() && is_complete(found->second, run) &&
-                      has_trajectory(trajectory_of(experiment, options, folder, run));
+    const bool done =
+        found != results.end() && is_complete(found->second, run) && has_trajectory(wanted.format, wanted.folder);
     if (run.refusal.empty() && !done) missing.push_back(&run);
   }
   if (missing.empty()) return true;
@@ -154,7 +147,12 @@ bool carry_out_missing(const Experiment& experiment, const Options& options, con
   }
   References references;
   for (const PlannedRun* run : missing) references.expect(run->config, *run->scenario);
-  const auto trajectory = [&](const PlannedRun& run) { return trajectory_of(experiment, options, folder, run); };
+  const auto trajectory = [&](const PlannedRun& run) { return trajectory_of(experiment, options, folder, run.id); };
+  const auto finish = [&](const std::vector<RunRecord>& runs) {
+    std::vector<std::filesystem::path> folders;
+    for (const RunRecord& run : runs) folders.push_back(trajectory_of(experiment, options, folder, run.id).folder);
+    finish_trajectories(options.trajectory, folders);
+  };
   const auto carry_out_batch = [&](const Batch& batch, std::atomic<double>& share) -> std::vector<RunResult> {
     if (batch.size() == 1) {
       const PlannedRun& run = *batch.front();
@@ -172,7 +170,8 @@ bool carry_out_missing(const Experiment& experiment, const Options& options, con
     return done;
   };
   const auto key = [&](const PlannedRun& run) { return ensemble_key(run.config, *run.scenario, trajectory(run)); };
-  run_all(experiment.name, batches_of(missing, key), work, options.jobs, store, interruption.no_more(), results);
+  run_all(experiment.name, batches_of(missing, key), work, finish, options.jobs, store, interruption.no_more(),
+          results);
   if (!interruption.no_more()) return true;
   const auto here =
       std::count_if(plan.runs.begin(), plan.runs.end(), [&](const auto& r) { return results.contains(r.id); });

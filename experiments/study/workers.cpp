@@ -46,9 +46,14 @@ struct Desk {
 /// The thread that commits finished runs to the store and reports the progress.
 class Keeper {
  public:
-  Keeper(const std::string& name, const std::vector<Batch>& batches, std::size_t workers, Store& store,
-         std::atomic<bool>& no_more, std::map<std::string, RunResult>& results)
-      : store_(store), no_more_(no_more), results_(results), desks_(workers), progress_(name, runs_in(batches)) {
+  Keeper(const std::string& name, const std::vector<Batch>& batches, std::size_t workers, const Finish& finish_runs,
+         Store& store, std::atomic<bool>& no_more, std::map<std::string, RunResult>& results)
+      : finish_runs_(finish_runs),
+        store_(store),
+        no_more_(no_more),
+        results_(results),
+        desks_(workers),
+        progress_(name, runs_in(batches)) {
     for (const Batch& batch : batches) time_left_.add(kind_of(batch), cost_of(batch));
     thread_ = std::thread([this] { loop(); });
   }
@@ -117,6 +122,7 @@ class Keeper {
   void keep(std::vector<RunRecord>& records) {
     if (records.empty() || failure_) return;
     try {
+      finish_runs_(records);
       store_.keep(records);
       done_ += records.size();
       for (RunRecord& r : records) results_[r.id] = std::move(r.result);
@@ -126,6 +132,7 @@ class Keeper {
     }
   }
 
+  const Finish& finish_runs_;
   Store& store_;
   std::atomic<bool>& no_more_;
   std::map<std::string, RunResult>& results_;
@@ -143,14 +150,14 @@ class Keeper {
 
 }  // namespace
 
-void run_all(const std::string& name, std::vector<Batch> batches, const Work& work, int jobs, Store& store,
-             std::atomic<bool>& no_more, std::map<std::string, RunResult>& results) {
+void run_all(const std::string& name, std::vector<Batch> batches, const Work& work, const Finish& finish, int jobs,
+             Store& store, std::atomic<bool>& no_more, std::map<std::string, RunResult>& results) {
   // Longest batches first, so that all cores finish at about the same time.
   std::stable_sort(batches.begin(), batches.end(),
                    [](const Batch& a, const Batch& b) { return a.front()->cost > b.front()->cost; });
   const int cores = std::max(1, jobs > 0 ? jobs : static_cast<int>(std::thread::hardware_concurrency()));
   const int count = std::min(cores, static_cast<int>(std::min<std::size_t>(batches.size(), 4096)));
-  Keeper keeper(name, batches, static_cast<std::size_t>(std::max(count, 1)), store, no_more, results);
+  Keeper keeper(name, batches, static_cast<std::size_t>(std::max(count, 1)), finish, store, no_more, results);
   std::atomic<std::size_t> next{0};
   std::mutex failure_mutex;
   std::exception_ptr failure;

@@ -20,10 +20,13 @@ using Batch = std::vector<const PlannedRun*>;
 /// 1, into `share`.
 using Work = std::function<std::vector<RunResult>(const Batch&, std::atomic<double>& share)>;
 
-/// Calls work(batch) for each batch, `jobs` at a time (0: one for each core), and puts the results into the store and
-/// into `results`. No batch begins once no_more is set, which an exception does as well; finished runs are kept.
-/// Rethrows exceptions of `work` and of the store.
-void run_all(const std::string& name, std::vector<Batch> batches, const Work& work, int jobs, Store& store,
-             std::atomic<bool>& no_more, std::map<std::string, RunResult>& results);
+/// Does what must be done before the results of runs are put into the store.
+using Finish = std::function<void(const std::vector<RunRecord>&)>;
+
+/// Calls work(batch) for each batch, `jobs` at a time (0: one for each core), then finish(runs) for several runs at a
+/// time, and puts the results into the store and into `results`. No batch begins once no_more is set, which an
+/// exception does as well; finished runs are kept. Rethrows exceptions of `work`, `finish` and the store.
+void run_all(const std::string& name, std::vector<Batch> batches, const Work& work, const Finish& finish, int jobs,
+             Store& store, std::atomic<bool>& no_more, std::map<std::string, RunResult>& results);
 
 }  // namespace polhode::study

@@ -363,14 +363,23 @@ class Folders(FaultsTest):
 
 class FullDisks(FaultsTest):
     HDF5 = ["--integrator", "rk4", "--dt", "1e-3", "--trajectory", "hdf5", "--no-figures"]
+    CSV = [*HDF5[:5], "csv", "--no-figures"]
 
-    def test_a_trajectory_in_hdf5_on_a_full_disk(self):
-        for size in (140, 200, 260, 400):
-            with self.subTest(f"{size} kB"):
-                place = self.mounted("-t", "tmpfs", "-o", f"size={size}k", "none")
-                done = self.call(*self.HDF5, status=3, out=place / "out")
-                self.assertRegex(done.said, r"cannot write \S+trajectory\.h5: No space left on device; finished runs are kept")
-                self.assertFalse(list(place.rglob("trajectory.h5")), "what is not whole has not its name")
+    def test_a_trajectory_on_a_full_disk_that_then_has_room(self):
+        for study, name in ((self.HDF5, "trajectory.h5"), (self.CSV, "(trajectory|energy|events).csv")):
+            whole = self.folder / f"whole_{study[5]}"
+            self.call(*study, out=whole)
+            files = {p.relative_to(whole): p.read_bytes() for p in whole.glob("trajectories/*/*")}
+            for size in (140, 200, 260, 400, 1000):
+                with self.subTest(f"{size} kB, {study[5]}"):
+                    place = self.mounted("-t", "tmpfs", "-o", f"size={size}k", "none")
+                    done = self.call(*study, status=3, out=place / "out")
+                    self.assertRegex(done.said, rf"cannot write \S+{name}: No space left on device; finished runs are kept")
+                    self.assertFalse(list(place.rglob("trajectory.h5")) + list(place.rglob("trajectory.csv")),
+                                     "what is not whole has not its name")
+                    subprocess.run(["mount", "-o", "remount,size=20m", str(place)], check=True, capture_output=True)
+                    self.call(*study, out=place / "out")
+                    self.assertEqual({p.relative_to(place / "out"): p.read_bytes() for p in place.glob("out/trajectories/*/*")}, files)
 
     def test_a_trajectory_in_hdf5_that_may_not_grow(self):
         """The same without a file system of its own: the limit of files."""

@@ -1,34 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the motion of a run while it runs: trajectory.csv, energy.csv and events.csv, or trajectory.h5.
+// Writes the motion of a run while it runs: trajectory.csv, energy.csv and events.csv, or trajectory.h5 (README.md).
 #pragma once
 
+#include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
-#include <stdexcept>
 
 #include "core/run/simulate.hpp"
+#include "experiments/study/trajectory/trajectory_files.hpp"
 
 namespace polhode::study::inline trajectory {
 
-enum class TrajectoryFormat { none, csv, hdf5 };
-
-/// A trajectory cannot be written. This is not a failure of the run; its results are not kept. what() names the file
-/// and the reason.
-class TrajectoryError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// An observer that writes each sample. Rows are flushed regularly, so that a killed
-/// run leaves its rows so far. Memory does not grow with the run.
+/// An observer that writes each sample. Memory does not grow with the run.
 class TrajectoryWriter : public Observer {
  public:
-  /// Finishes the files. Throws TrajectoryError if they cannot be written; a full disk is reported here at the latest.
+  /// Closes the files; finish_trajectories() then gives them their names. Throws TrajectoryError if they cannot be
+  /// written; a full disk is reported here at the latest.
   virtual void close() = 0;
+};
+
+/// When a block of rows ends, at an instant. What it holds, in all tables, is then in the hands of the operating
+/// system: a kill of the program cannot take it away.
+struct BlockEnd {
+  std::size_t rows = 1000;              ///< of the trajectory, at most, unless one instant has more
+  std::chrono::milliseconds age{1000};  ///< or the first instant after this time
 };
 
 /// Creates `folder` and the files in it; null for TrajectoryFormat::none. Throws TrajectoryError.
 std::unique_ptr<TrajectoryWriter> open_trajectory(TrajectoryFormat format, const std::filesystem::path& folder,
-                                                  const System<double>& system);
+                                                  const System<double>& system, BlockEnd block = {});
 
 }  // namespace polhode::study::trajectory

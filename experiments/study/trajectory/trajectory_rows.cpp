@@ -54,4 +54,31 @@ std::vector<double> energy_row(const Sample& sample, const ContactLosses& contac
           sample.ledger(contact.total()) - energy_start};
 }
 
+std::vector<std::string> event_columns(bool kind) {
+  std::vector<std::string> names = {"t_s"};
+  if (kind) names.emplace_back("kind");
+  for (const char* n : {"body_a", "body_b", "px_m", "py_m", "pz_m", "nx", "ny", "nz", "impulse_N_s", "energy_lost_J"}) {
+    names.emplace_back(n);
+  }
+  return names;
+}
+
+std::vector<double> event_row(const Impact& i) {
+  return {i.t,
+          static_cast<double>(i.a),
+          static_cast<double>(i.b),
+          i.point[0],
+          i.point[1],
+          i.point[2],
+          i.normal[0],
+          i.normal[1],
+          i.normal[2],
+          i.impulse.norm(),
+          i.energy_lost};
+}
+
+std::vector<double> event_row(const Transition& t) {
+  return event_row(Impact{.t = t.t, .a = t.a, .b = t.b, .point = t.point, .normal = t.normal});
+}
+
 }  // namespace polhode::study::trajectory

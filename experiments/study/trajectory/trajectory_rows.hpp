@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The columns of a trajectory, common to all formats.
+// The columns and rows of a trajectory, common to all formats.
 #pragma once
 
 #include <string>
@@ -21,5 +21,11 @@ std::vector<double> trajectory_row(const System<double>& system, const State<dou
 std::vector<std::string> energy_columns();
 /// One row of the energy ledger; energy_start is its value at the start.
 std::vector<double> energy_row(const Sample& sample, const ContactLosses& contact, double energy_start);
+
+/// `kind`: with the column of words, which only a table of text has.
+std::vector<std::string> event_columns(bool kind);
+/// One row, without the kind. That of a transition has no impulse and no loss of energy.
+std::vector<double> event_row(const Impact& impact);
+std::vector<double> event_row(const Transition& transition);
 
 }  // namespace polhode::study::trajectory

@@ -144,7 +144,10 @@ void LiveSession::go_through_segment() {
     if (rows) observers.add(*rows);
     observers.add(segment_);
     finish_segment(run.go(state, observers, stop_, [this] { return playback_.next_size(); }));
-    if (rows) rows->close();
+    if (rows) {
+      rows->close();
+      recorder_.finish_trajectory(segment_number_);
+    }
   } catch (const std::exception& error) {
     recorder_.trajectory_broke_off(error.what());  // in any case the trajectory is incomplete
     finish_segment({.status = RunStatus::failed, .message = error.what()});

@@ -54,8 +54,15 @@ bool SessionRecorder::pass_time(double seconds) {
 std::unique_ptr<study::TrajectoryWriter> SessionRecorder::trajectory(std::int64_t segment,
                                                                      const System<double>& system) {
   if (trajectory_.empty()) return nullptr;
-  const auto folder = trajectory_ / fmt::format("segment_{}", segment);
-  return study::open_trajectory(study::TrajectoryFormat::csv, folder, system);
+  return study::open_trajectory(study::TrajectoryFormat::csv, segment_folder(segment), system);
+}
+
+void SessionRecorder::finish_trajectory(std::int64_t segment) const {
+  study::finish_trajectories(study::TrajectoryFormat::csv, {segment_folder(segment)});
+}
+
+std::filesystem::path SessionRecorder::segment_folder(std::int64_t segment) const {
+  return trajectory_ / fmt::format("segment_{}", segment);
 }
 
 void SessionRecorder::trajectory_broke_off(const std::string& message) {

@@ -34,6 +34,8 @@ class SessionRecorder {
   /// An observer that writes the trajectory of a segment; null if no trajectory is to be written. Throws
   /// study::TrajectoryError.
   std::unique_ptr<study::TrajectoryWriter> trajectory(std::int64_t segment, const System<double>& system);
+  /// Gives the closed files of a segment's trajectory their names. Throws study::TrajectoryError.
+  void finish_trajectory(std::int64_t segment) const;
   /// Reports that a segment, and thus its trajectory, broke off with this message.
   void trajectory_broke_off(const std::string& message);
 
@@ -43,6 +45,7 @@ class SessionRecorder {
  private:
   template <class F>
   void write(const F& f);
+  std::filesystem::path segment_folder(std::int64_t segment) const;
 
   const std::filesystem::path trajectory_;
   std::unique_ptr<SessionWriter> writer_;
