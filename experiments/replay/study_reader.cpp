@@ -16,6 +16,7 @@
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/text_file.hpp"
 #include "experiments/study/text/value_lists.hpp"
+#include "experiments/study/trajectory/kept_trajectory.hpp"
 #include "experiments/study/trajectory/trajectory_reader.hpp"
 
 namespace polhode::study::replay {
@@ -94,6 +95,16 @@ std::vector<KeptRun> read_runs(const Path& folder) {
   return runs;
 }
 
+/// Throws InputError if the folder of a run holds a trajectory that is not whole, and no trajectory.csv.
+void refuse_unfinished(const Path& motion) {
+  if (exists(motion / "trajectory.csv")) return;
+  for (const auto format : {TrajectoryFormat::csv, TrajectoryFormat::hdf5}) {
+    const auto kept = kept_trajectory(motion, format);
+    if (!kept || kept->condition == KeptTrajectory::Condition::whole) continue;
+    throw InputError(fmt::format("{}: is {}; {}", kept->tables.front().file.string(), in_words(*kept), remedy(*kept)));
+  }
+}
+
 std::vector<KeptRun> chosen(std::vector<KeptRun> runs, const Path& folder, const std::vector<std::string>& ids,
                             std::size_t most) {
   for (const std::string& id : ids) {
@@ -104,6 +115,7 @@ std::vector<KeptRun> chosen(std::vector<KeptRun> runs, const Path& folder, const
   }
   if (!ids.empty())
     std::erase_if(runs, [&](const KeptRun& r) { return std::find(ids.begin(), ids.end(), r.id) == ids.end(); });
+  for (const KeptRun& r : runs) refuse_unfinished(r.motion);
   const bool only_hdf5 =
       std::any_of(runs.begin(), runs.end(), [](const KeptRun& r) { return exists(r.motion / "trajectory.h5"); });
   std::erase_if(runs, [](const KeptRun& r) { return !exists(r.motion / "trajectory.csv"); });

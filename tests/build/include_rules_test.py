@@ -68,6 +68,7 @@ MAY_INCLUDE = {
     "experiments/study": "core/* integrators collision experiments/study/*",
     "experiments/scene": "core/problem collision collision/shapes experiments/study/scenario",
 
+    "experiments/archive": "experiments/study/*",
     "experiments/broad_phase": "core/* integrators collision/* experiments/study/*",
     "experiments/certificate": "core/* integrators collision/* experiments/study/*",
     "experiments/convergence": "core/* integrators collision/* experiments/study/*",

@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <optional>
 
@@ -14,6 +15,7 @@
 #include "experiments/study/text/legible.hpp"
 #include "experiments/study/text/suggestion.hpp"
 #include "experiments/study/text/text_file.hpp"
+#include "experiments/study/trajectory/kept_trajectory.hpp"
 
 namespace polhode::study::inline trajectory {
 namespace {
@@ -267,6 +269,18 @@ class Parser {
   Trajectory result_;
 };
 
+/// Throws InputError if the file is HDF5, whatever its name is.
+void refuse_hdf5(const std::string& path) {
+  std::string start(8, '\0');
+  std::ifstream(path, std::ios::binary).read(start.data(), static_cast<std::streamsize>(start.size()));
+  if (start != "\x89HDF\r\n\x1a\n") return;
+  const KeptTrajectory kept = kept_hdf5_file(path);
+  if (kept.condition == KeptTrajectory::Condition::whole) {
+    throw InputError(path + ": is a trajectory in HDF5, which is not read here; make it again with --trajectory csv");
+  }
+  throw InputError(fmt::format("{}: is a trajectory in HDF5, {}; {}", path, in_words(kept), remedy(kept)));
+}
+
 }  // namespace
 
 Trajectory parse_trajectory(std::string_view text, const std::string& origin, const Problem& problem) {
@@ -274,6 +288,7 @@ Trajectory parse_trajectory(std::string_view text, const std::string& origin, co
 }
 
 Trajectory read_trajectory(const std::string& path, const Problem& problem) {
+  refuse_hdf5(path);
   return parse_trajectory(read_text(path, 2048 * mebibyte), path, problem);
 }
 

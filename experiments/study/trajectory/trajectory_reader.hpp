@@ -29,7 +29,8 @@ struct Trajectory {
 /// line, column and a remedy.
 Trajectory parse_trajectory(std::string_view text, const std::string& origin, const Problem& problem);
 
-/// Reads a file. Throws InputError, also if it cannot be read.
+/// Reads a file. Throws InputError, also if it cannot be read. Of one in HDF5, which is not read, the error says
+/// whether it is whole, and how far it goes.
 Trajectory read_trajectory(const std::string& path, const Problem& problem);
 
 }  // namespace polhode::study::trajectory
