@@ -76,6 +76,30 @@ TEST_F(KeptTrajectories, TheBytesDoNotDependOnWhenBlocksEnd) {
   }
 }
 
+TEST_F(KeptTrajectories, OfARunUnderWayHoldEachBlockThatEnded) {
+  const Scenario scenario = ScenarioSource::open("two_cubes").resolve();
+  const auto system = make_system<double>(scenario.problem, {});
+  const BlockEnd blocks[] = {{every, std::chrono::hours(1)}, {never, std::chrono::milliseconds(0)}, at_the_end};
+  for (const auto format : {TrajectoryFormat::csv, TrajectoryFormat::hdf5}) {
+    for (const BlockEnd& block : blocks) {
+      const auto writer = open_trajectory(format, folder_, *system, block);
+      State<double> state = system->start();
+      for (std::uint64_t k = 0; k < 5; ++k) {
+        state.t = 0.1 * double(k);
+        const Sample sample{state.t, system->measure(state.y), 0, 0};
+        k == 0 ? writer->on_start(state, sample) : writer->on_state(state, sample);
+        const fs::path other = holder_.path() / "copy";  // HDF5 does not open a file twice in one process
+        fs::remove_all(other);
+        fs::copy(folder_, other);
+        const KeptTrajectory found = kept_trajectory(other, format).value();
+        EXPECT_EQ(found.condition, Condition::unfinished);
+        EXPECT_EQ(found.instants, block.rows == never && block.age.count() > 0 ? 0 : k + 1);
+        EXPECT_TRUE(found.instants == 0 || found.t_last == state.t);
+      }
+    }
+  }
+}
+
 TEST_F(KeptTrajectories, AreWholeWhenTheirRunEnded) {
   for (const auto format : {TrajectoryFormat::csv, TrajectoryFormat::hdf5}) {
     EXPECT_FALSE(kept_trajectory(folder_, format));
