@@ -15,8 +15,8 @@
 #include "experiments/study/plan/listing.hpp"
 #include "experiments/study/plan/options.hpp"
 #include "experiments/study/plan/plan.hpp"
+#include "experiments/study/plan_text.hpp"
 #include "experiments/study/progress.hpp"
-#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/record/shown_runs.hpp"
 #include "experiments/study/report/figures/study_figures.hpp"
 #include "experiments/study/report/page/report.hpp"
@@ -27,7 +27,6 @@
 #include "experiments/study/store/result_folder.hpp"
 #include "experiments/study/store/store.hpp"
 #include "experiments/study/text/input_error.hpp"
-#include "experiments/study/text/notation.hpp"
 #include "experiments/study/text/program.hpp"
 #include "experiments/study/text/value_lists.hpp"
 #include "experiments/study/workers.hpp"
@@ -40,33 +39,6 @@ std::filesystem::path folder_of(const Experiment& experiment, const Options& opt
   const std::string what =
       plan.scenarios.size() == 1 ? plan.scenarios[0].name : std::to_string(plan.scenarios.size()) + "_scenarios";
   return std::filesystem::path("results") / (experiment.name + "-" + what + "-" + plan.identity.substr(0, 8));
-}
-
-std::string plan_text(const Experiment& experiment, const Plan& plan, const std::filesystem::path& folder) {
-  double cost = 0;
-  std::vector<Unfinished> refused;
-  for (const PlannedRun& run : plan.runs) {
-    cost += run.cost;
-    if (!run.refusal.empty()) refused.push_back({"will be refused", run.refusal});
-  }
-  std::string text = fmt::format("{}: {} runs, about {:.2g} right-hand sides, into {}\n", experiment.name,
-                                 plan.runs.size(), cost, folder.string());
-  text += reasons(refused);
-  const auto names = config_columns(plan.varied_keys, plan.named);
-  std::vector<std::vector<std::string>> cells;
-  if (experiment.refine) text += "further runs follow from the results of these\n";
-  for (const PlannedRun& run : plan.runs) cells.push_back(config_cells(run.config, plan.named));
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    std::vector<std::string> values;
-    for (const auto& c : cells) {
-      if (!c[k].empty() && std::find(values.begin(), values.end(), c[k]) == values.end()) values.push_back(c[k]);
-    }
-    if (values.empty()) continue;
-    std::string line;
-    for (const std::string& v : values) line += (line.empty() ? "" : ", ") + rounded(v);
-    text += fmt::format("  {:<15} {}\n", names[k], line);
-  }
-  return text;
 }
 
 TrajectoryRequest trajectory_of(const Experiment& experiment, const Options& options,
@@ -282,7 +254,7 @@ int run_study(const Experiment& experiment, const Options& options) {
   choose_curves(options, plan);
   const std::filesystem::path folder = folder_of(experiment, options, plan);
   if (options.dry_run) {
-    fmt::print("{}", plan_text(experiment, plan, folder));
+    fmt::print("{}", plan_text(experiment, plan, folder, Store::ids_in(folder)));
     return 0;
   }
   const std::set<std::string> ids = ids_of(experiment, options, plan, folder);

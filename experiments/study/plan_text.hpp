@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What --dry-run prints.
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "experiments/study/plan/experiment.hpp"
+#include "experiments/study/plan/plan.hpp"
+
+namespace polhode::study {
+
+/// The plan in words: the number of runs, how many of them are in the folder already (`done`: ids), how many will be
+/// refused and why, and the values of each axis.
+std::string plan_text(const Experiment& experiment, const Plan& plan, const std::filesystem::path& folder,
+                      const std::set<std::string>& done);
+
+}  // namespace polhode::study
