@@ -92,7 +92,7 @@ int judge(const JudgeOptions& options) {
   write_runs_csv(view);
   write_timings_csv(view);
   Options written;
-  written.axes = {{"scenario", options.scenario}};
+  written.studies.emplace_back().axes = {{"scenario", options.scenario}};
   write_manifest(view, written, plan);
   write_tables(view);
   if (options.figures) {

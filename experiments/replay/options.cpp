@@ -63,10 +63,14 @@ ReplayOptions parse_replay_options(int argc, const char* const* argv) {
   }
   if (!results.empty()) {
     const std::string preset = replay_experiment().defaults.at("scenario");
-    if (options.study.axes.at("scenario") != preset) options.scenario = options.study.axes.at("scenario");
-    auto other = options.study.axes;
-    other["scenario"] = preset;
-    if (other != replay_experiment().defaults || !options.study.vary.empty()) {
+    const StudyAxes& said = options.study.studies.front();
+    auto axes = said.axes;
+    if (const auto found = axes.find("scenario"); found != axes.end() && found->second != preset)
+      options.scenario = found->second;
+    axes["scenario"] = preset;
+    const bool more =
+        options.study.studies.size() > 1 || !said.vary.empty() || !said.tables.empty() || !said.where.empty();
+    if (axes != replay_experiment().defaults || more) {
       throw InputError("--results plays what was run already; of the axes it takes --scenario alone");
     }
   }

@@ -33,6 +33,25 @@ class Values {
   std::vector<std::string> shown_;
 };
 
+/// The cells of each study, if they are more than the runs.
+std::string studies_text(const Plan& plan) {
+  std::string text;
+  std::size_t cells = 0, left_out = 0;
+  for (const StudyCount& study : plan.studies) {
+    cells += study.cells;
+    left_out += study.left_out;
+    if (study.name.empty() && study.left_out == 0) continue;
+    text += fmt::format("{}{}", study.name.empty() ? "" : study.name + ": ", count(study.cells, "cell"));
+    if (study.left_out > 0) text += fmt::format(", of which where leaves out {}", study.left_out);
+    text += '\n';
+  }
+  const std::size_t twice = cells - left_out - plan.runs.size();
+  if (twice > 0)
+    text += fmt::format("{} the same run as another, which is carried out once\n",
+                        twice == 1 ? "1 cell is" : fmt::format("{} cells are", twice));
+  return text;
+}
+
 }  // namespace
 
 std::string plan_text(const Experiment& experiment, const Plan& plan, const std::filesystem::path& folder,
@@ -51,11 +70,16 @@ std::string plan_text(const Experiment& experiment, const Plan& plan, const std:
   }
   std::string text = fmt::format("{}: {}, about {:.2g} right-hand sides, into {}\n", experiment.name,
                                  count(plan.runs.size(), "run"), cost, folder.string());
+  text += studies_text(plan);
   if (there > 0) text += fmt::format("{} of {} are there already\n", there, count(plan.runs.size(), "run"));
   text += reasons(refused);
   if (experiment.refine) text += "further runs follow from the results of these\n";
   for (std::size_t k = 0; k < names.size(); ++k) {
     if (const std::string line = values[k].text(); !line.empty()) text += fmt::format("  {:<15} {}\n", names[k], line);
+  }
+  for (const StudyCount& study : plan.studies) {
+    for (const std::string& table : study.tables)
+      text += fmt::format("  {}{}\n", study.name.empty() ? "" : study.name + ": ", table);
   }
   return text;
 }

@@ -12,7 +12,7 @@
 namespace polhode::study {
 
 /// The plan in words: the number of runs, how many of them are in the folder already (`done`: ids), how many will be
-/// refused and why, and the values of each axis.
+/// refused and why, how many cells the conditions leave out, the values of each axis, and the first points of tables.
 std::string plan_text(const Experiment& experiment, const Plan& plan, const std::filesystem::path& folder,
                       const std::set<std::string>& done);
 

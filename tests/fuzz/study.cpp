@@ -32,8 +32,7 @@ constexpr std::array<std::string_view, 20> study_words = {"scenario = ",
 void read_study(std::string_view bytes) {
   const MemoryFile file(bytes);
   try {
-    study::Options options;
-    study::read_study_file(file.path(), options);
+    study::read_study_file(file.path(), 1);
   } catch (const study::InputError&) {
   }
 }

@@ -3,22 +3,60 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <map>
 #include <system_error>
+#include <utility>
 
+#include "experiments/study/plan/assignments.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/record/shown_runs.hpp"
 #include "experiments/study/text/command_line.hpp"
 #include "experiments/study/text/input_error.hpp"
+#include "experiments/study/text/value_lists.hpp"
 
 namespace polhode::study::inline plan {
+namespace {
 
-std::vector<std::string> axis_names() {
-  std::vector<std::string> all;
-  for (const RunOption& option : run_options()) all.push_back(option.name);
-  return all;
+/// The words of the command line that hold keys and values.
+struct Words {
+  std::vector<std::string> grid, zip, random, cells, where;
+};
+
+/// "KEY=VALUES" as a pair.
+std::pair<std::string, std::string> key_and_values(const std::string& option, const std::string& item) {
+  const auto equals = item.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw InputError(option + " " + item + ": it takes KEY=VALUES, for example body.0.inertia.1=0.5:3:20");
+  }
+  return {item.substr(0, equals), item.substr(equals + 1)};
 }
 
-namespace {
+PointTable zip_of_words(const std::string& text) {
+  PointTable table{.kind = PointTable::Kind::zip, .label = "--zip", .columns = {}};
+  for (const auto& [key, values] : assignments(text, table.label)) {
+    const std::string label = table.label + " " + key;
+    table.columns.push_back({axis_key(key, label), values, label});
+  }
+  return table;
+}
+
+PointTable random_of_words(const std::string& text, std::uint64_t seed) {
+  PointTable table{.kind = PointTable::Kind::random, .label = "--random", .columns = {}, .seed = seed};
+  for (const auto& [key, value] : assignments(text, table.label)) {
+    const std::string label = table.label + " " + key;
+    if (key == "n" || key == "seed") {
+      const auto x = to_number(value);
+      if (!x) throw InputError(label + ": '" + value + "' is not a number");
+      if (key == "n") table.n = number_of_points(*x, label);
+      else table.seed = seed_from(*x, label);
+    } else {
+      table.columns.push_back({axis_key(key, label), value, label});
+    }
+  }
+  if (table.n == 0) throw InputError("--random: the number of points is missing; give it, as in n=1000");
+  if (table.columns.empty()) throw InputError("--random: no key is drawn; name one, as in dt=log_uniform(1e-4,1e-1)");
+  return table;
+}
 
 /// The number that --curves gives; absent: all.
 std::optional<std::size_t> curves_of(const std::string& text, const Experiment& experiment) {
@@ -35,7 +73,47 @@ std::optional<std::size_t> curves_of(const std::string& text, const Experiment& 
   return number;
 }
 
+/// What the command line says about each study.
+StudyAxes said_by(const Words& words, const std::map<std::string, std::string>& given,
+                  const std::vector<std::string>& vary, std::uint64_t seed) {
+  StudyAxes study;
+  for (const auto& [name, text] : given) study.add_axis(name, text, "--" + name);
+  for (const std::string& item : vary) {
+    const auto [key, values] = key_and_values("--vary", item);
+    study.add_axis(key, values, "--vary " + key, true);
+  }
+  for (const std::string& item : words.grid) {
+    const auto [key, values] = key_and_values("--grid", item);
+    study.add_axis(axis_key(key, "--grid " + key), values, "--grid " + key);
+  }
+  for (const std::string& text : words.zip) study.add_table(zip_of_words(text));
+  for (const std::string& text : words.random) study.add_table(random_of_words(text, seed));
+  for (const std::string& path : words.cells) study.add_table(table_of_cells(path, "--cells"));
+  for (const std::string& text : words.where) study.where.push_back({text, "--where"});
+  return study;
+}
+
+/// Values of the command line replace those of the study; its conditions hold besides those of the study.
+void override_by(const StudyAxes& said, StudyAxes& study) {
+  for (const auto& [key, text] : said.axes) study.remove(key);
+  for (const auto& [key, text] : said.vary) study.remove(key);
+  for (const PointTable& table : said.tables) {
+    for (const PointColumn& column : table.columns) study.remove(column.key);
+  }
+  study.axes.insert(said.axes.begin(), said.axes.end());
+  study.vary.insert(study.vary.end(), said.vary.begin(), said.vary.end());
+  study.places.insert(said.places.begin(), said.places.end());
+  study.tables.insert(study.tables.end(), said.tables.begin(), said.tables.end());
+  study.where.insert(study.where.end(), said.where.begin(), said.where.end());
+}
+
 }  // namespace
+
+std::vector<std::string> axis_names() {
+  std::vector<std::string> all;
+  for (const RunOption& option : run_options()) all.push_back(option.name);
+  return all;
+}
 
 ParsedOptions parse_options(const Experiment& experiment, int argc, const char* const* argv,
                             const std::function<void(CLI::App&)>& more) {
@@ -44,7 +122,7 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   const std::string explained = experiment.meaning.empty() ? "" : "\n\n" + experiment.meaning;
   CLI::App app{experiment.question + explained +
                    "\n\nAxes take a list (a,b,c) or a range (1e-4:1e-1:10, or 1e-4:1e-1:10:log); the "
-                   "study is their product. SI units throughout.",
+                   "study is the product of all axes and tables of points. SI units throughout.",
                experiment.name};
   app.get_formatter()->column_width(40);
   std::map<std::string, std::string> given;
@@ -69,9 +147,23 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
       ->type_name("KEY=VALUES")
       ->allow_extra_args(false)
       ->group("Axes");
+  Words words;
+  const auto add_words = [&](const char* name, std::vector<std::string>& into, const char* type, const char* help) {
+    app.add_option(name, into, help)->type_name(type)->allow_extra_args(false)->group("Axes");
+  };
+  add_words("--grid", words.grid, "KEY=VALUES", "an axis by its name in study files: dt=1e-3,1e-2 or body.0.mass=1,2");
+  add_words("--zip", words.zip, "KEY=VALUES…",
+            "values side by side, as many for each key: 'dt=1e-3,1e-2 t-end=10,100'");
+  add_words("--random", words.random, "n=N KEY=D…",
+            "points drawn at random: 'n=1000 seed=7 body.0.inertia.0=uniform(0.5,3)'; further distributions: "
+            "log_uniform(from,to), normal(mean,deviation), integer(from,to), choice(a,b), sphere(radius)");
+  add_words("--cells", words.cells, "FILE",
+            "points in a CSV table, whose columns are named after axes or scenario keys");
+  add_words("--where", words.where, "CONDITION",
+            "leave out all other cells: 'dt < 0.1 * body.0.inertia.1 and not (integrator == \"rk4\")'");
   std::optional<std::string> study_file;
-  app.add_option("--study", study_file, "read axes from a TOML file; the command line overrides it")
-      ->type_name("FILE")
+  app.add_option("--study", study_file, "read studies from a TOML file, or one of them; the command line overrides it")
+      ->type_name("FILE[:NAME]")
       ->group("Axes");
   app.add_option("--out", options.out, "folder of the results (default: results/<experiment>-<scenario>-<hash>)")
       ->type_name("FOLDER")
@@ -85,8 +177,9 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
       ->type_name("none|csv|hdf5")
       ->check(CLI::IsMember({"none", "csv", "hdf5"}).description(""))
       ->group("Results");
+  bool reference = false;
   app.add_flag(
-         "--reference", options.reference,
+         "--reference", reference,
          "where no exact solution is known, measure errors against a motion in extended precision that proves its "
          "digits by halving its step")
       ->group("Results");
@@ -107,7 +200,7 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
       ->type_name("N")
       ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 52).description(""))
       ->group("Running");
-  app.add_option("--seed", options.seed, "seed of random studies (default: 1)")->type_name("N")->group("Running");
+  app.add_option("--seed", options.seed, "seed of random points (default: 1)")->type_name("N")->group("Running");
   app.add_flag("--dry-run", options.dry_run, "print the plan and write nothing")->group("Running");
   std::string list;
   CLI::Option* list_option =
@@ -126,27 +219,27 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
                                               : TrajectoryFormat::none;
   options.curves = curves_of(curves, experiment);
   options.command = command_text(experiment.name, argc, argv);
-  options.axes = experiment.defaults;
-  if (!study_file && !given.contains("scenario")) options.vary = experiment.vary;
-  options.plain = given.empty() && vary.empty() && !study_file;
-  if (study_file) read_study_file(*study_file, options);
-  for (const std::string& axis : axis_names()) {
-    if (given.contains(axis) || options.places.contains(axis)) options.said.insert(axis);
-  }
-  for (const auto& [name, text] : given) {
-    options.axes[name] = text;
-    options.places.erase(name);
-  }
-  for (const std::string& item : vary) {
-    const auto equals = item.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw InputError("--vary " + item + ": it takes KEY=VALUES, for example body.0.inertia.1=0.5:3:20");
+  const StudyAxes said = said_by(words, given, vary, options.seed);
+  options.plain = !study_file && said.said.empty() && said.vary.empty() && said.tables.empty();
+  StudyFile file;
+  if (study_file) file = read_study_file(*study_file, options.seed);
+  else file.studies.emplace_back();
+  options.study_file = file.path;
+  options.study_file_hash = file.hash;
+  options.shared = std::move(file.shared);
+  options.shared.insert(said.said.begin(), said.said.end());
+  for (StudyAxes& study : file.studies) {
+    override_by(said, study);
+    study.reference = study.reference || reference;
+    for (const auto& [name, text] : experiment.defaults) {
+      if (!study.table_with(name)) study.axes.try_emplace(name, text);
     }
-    const std::string key = item.substr(0, equals);
-    std::erase_if(options.vary, [&](const auto& v) { return v.first == key; });
-    options.places.erase("vary." + key);
-    options.vary.emplace_back(key, item.substr(equals + 1));
+    if (study_file || said.has("scenario")) continue;
+    for (const auto& [key, text] : experiment.vary) {
+      if (!study.has(key)) study.vary.emplace_back(key, text);
+    }
   }
+  options.studies = std::move(file.studies);
   return parsed;
 }
 

@@ -9,10 +9,15 @@
 #include <stdexcept>
 
 #include "experiments/study/plan/axis_values.hpp"
+#include "experiments/study/plan/bound_conditions.hpp"
+#include "experiments/study/plan/cells.hpp"
+#include "experiments/study/plan/most_runs.hpp"
+#include "experiments/study/plan/where.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/record/versions.hpp"
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/text/input_error.hpp"
+#include "experiments/study/text/notation.hpp"
 #include "experiments/study/text/text_hash.hpp"
 #include "experiments/study/text/value_lists.hpp"
 #include "integrators/catalogue.hpp"
@@ -20,75 +25,32 @@
 namespace polhode::study::inline plan {
 namespace {
 
-constexpr std::size_t most_runs = 10'000'000;
-
-/// An option with its values in this study; no values if the study does not give it.
-struct PlannedAxis {
-  const RunOption* option;
-  std::vector<OptionValue> values;
-};
-
-/// The methods of the study. "all" leaves out methods that the experiment does not allow; naming one is an error.
-std::vector<OptionValue> fitting_methods(const Experiment& experiment, const Options& options,
-                                         std::vector<OptionValue> chosen) {
-  const auto fits = [&](const OptionValue& name) {
-    return !experiment.fixed_steps_only || !find_integrator(std::get<std::string>(name))->declaration.adaptive;
-  };
-  if (options.axes.at("integrator") == "all") std::erase_if(chosen, [&](const OptionValue& n) { return !fits(n); });
-  for (const OptionValue& name : chosen) {
-    if (fits(name)) continue;
-    throw InputError(fmt::format("{}: {} chooses its own steps, and {} is about steps; name methods that take --dt",
-                                 options.label("integrator"), text_of(name), experiment.name));
+/// The study with the methods that the experiment allows. "all" leaves out the others; naming one is an error.
+StudyAxes with_fitting_methods(const Experiment& experiment, StudyAxes study) {
+  const auto said = study.axes.find("integrator");
+  if (!experiment.fixed_steps_only || said == study.axes.end() || study.table_with("integrator")) return study;
+  const bool all = said->second == "all";
+  std::string fitting;
+  for (const OptionValue& name : axis_values(run_option("integrator"), said->second, study.label("integrator"))) {
+    if (all && find_integrator(text_of(name))->declaration.adaptive) continue;
+    fitting += (fitting.empty() ? "" : ",") + text_of(name);
   }
-  return chosen;
+  said->second = fitting;
+  return study;
 }
 
 /// Rejects several durations, and samples, if the experiment derives the duration of a run from its step.
-void check_durations(const Experiment& experiment, const Options& options, const PlannedAxis& axis) {
+void check_durations(const Experiment& experiment, const StudyAxes& study) {
   if (!experiment.duration) return;
-  if (axis.option->name == "t-end" && axis.values.size() > 1) {
+  const auto one = study.axes.find("t-end");
+  if (study.table_with("t-end") || (one != study.axes.end() && count_values(one->second) > 1)) {
     throw InputError(fmt::format("{}: {} takes one, since its runs last as long as their steps have it",
-                                 options.label("t-end"), experiment.name));
+                                 study.label("t-end"), experiment.name));
   }
-  if (axis.option->name == "samples" && !axis.values.empty()) {
+  if (study.axes.contains("samples") || study.table_with("samples")) {
     throw InputError(
-        fmt::format("{}: {} looks at every step; leave the option out", options.label("samples"), experiment.name));
+        fmt::format("{}: {} looks at every step; leave the option out", study.label("samples"), experiment.name));
   }
-}
-
-/// All axes except the scenario, in the order of the table of run options.
-std::vector<PlannedAxis> read_axes(const Experiment& experiment, const Options& options) {
-  std::vector<PlannedAxis> axes;
-  for (const RunOption& option : run_options()) {
-    if (option.role == RunOption::Role::scenario) continue;
-    PlannedAxis axis{&option, axis_values(option, options)};
-    if (option.role == RunOption::Role::method)
-      axis.values = fitting_methods(experiment, options, std::move(axis.values));
-    check_durations(experiment, options, axis);
-    axes.push_back(std::move(axis));
-  }
-  return axes;
-}
-
-/// The product of the varied keys.
-std::vector<std::vector<Override>> variants(const Options& options) {
-  auto vary = options.vary;
-  std::sort(vary.begin(), vary.end());
-  std::vector<std::vector<Override>> all = {{}};
-  for (const auto& [key, text] : vary) {
-    std::vector<std::vector<Override>> longer;
-    for (const auto& prefix : all) {
-      const auto found = options.places.find("vary." + key);
-      const std::string place = found == options.places.end() ? "" : found->second;
-      for (const std::string& value : toml_values(text, Override{key, "", place}.label())) {
-        longer.push_back(prefix);
-        longer.back().push_back({key, value, place});
-      }
-    }
-    all = std::move(longer);
-    if (all.size() > most_runs) throw InputError("--vary: more than 10 million runs");
-  }
-  return all;
 }
 
 double cost_of(const RunConfig& config) {
@@ -123,97 +85,203 @@ void sort_by_configuration(std::vector<PlannedRun>& runs) {
   runs = std::move(sorted);
 }
 
+/// Plans the cells of one product of axes and tables.
 class Planner {
  public:
-  Planner(const Experiment& experiment, const Options& options, bool reference)
+  Planner(const Experiment& experiment, const StudyAxes& study, const Options& options, bool reference)
       : experiment_(experiment),
-        axes_(read_axes(experiment, options)),
-        variants_(variants(options)),
-        dt_label_(options.label("dt")),
+        study_(with_fitting_methods(experiment, study)),
         max_steps_(options.max_steps),
         reference_(reference) {
-    for (const auto& [key, text] : options.vary) plan_.varied_keys.push_back(key);
-    std::sort(plan_.varied_keys.begin(), plan_.varied_keys.end());
-    for (const PlannedAxis& axis : axes_) {
-      if (axis.option->on_demand && !axis.values.empty()) plan_.named.insert(axis.option->name);
+    check_durations(experiment, study_);
+    for (const RunOption& option : run_options()) {
+      if (option.needed) needed_.push_back(&option);
+      if (study_.has(option.name)) without_effect_.push_back(&option);
     }
-    std::set<std::string> seen;
-    for (const std::string& name : split_list(options.axes.at("scenario"), ',', options.label("scenario"))) {
-      const ScenarioSource source = ScenarioSource::open(name, options.label("scenario"));
-      if (!seen.insert(source.name()).second)
-        throw InputError(options.label("scenario") + ": '" + source.name() + "' is named twice");
-      add_scenario(source);
-    }
+    for (const Condition& condition : study_.where) conditions_.emplace_back(condition.text, condition.label);
+    counted_ = cells(true).count();
   }
 
-  Plan finish() {
+  /// The number of cells, not less than the true one: values that are given twice count twice.
+  double most_cells() const { return counted_; }
+
+  /// Makes the runs. Adds to `effective` the names of all options that affect one.
+  Plan runs(std::set<std::string>& effective) {
+    const Cells all = cells(false);
+    StudyCount count{study_.name, static_cast<std::size_t>(all.count()), 0, all.tables()};
+    for (const std::string& key : varied_keys()) plan_.varied_keys.push_back(key);
+    for (const RunOption& option : run_options()) {
+      if (option.on_demand && study_.has(option.name)) plan_.named.insert(option.name);
+    }
+    for (std::size_t k = 0; k < count.cells; ++k) {
+      if (!add_cell(all.at(k), effective)) ++count.left_out;
+    }
+    if (count.left_out == count.cells) {
+      throw InputError(fmt::format("{}: it leaves out all {}; widen it, or the axes", conditions_.front().label(),
+                                   study::count(count.cells, "cell")));
+    }
+    plan_.studies.push_back(std::move(count));
     std::sort(plan_.invariants.begin(), plan_.invariants.end());
     plan_.invariants.erase(std::unique(plan_.invariants.begin(), plan_.invariants.end()), plan_.invariants.end());
     return std::move(plan_);
   }
 
  private:
-  void add_scenario(const ScenarioSource& source) {
-    plan_.scenarios.push_back(source.resolve());
-    for (const std::string& invariant : plan_.scenarios.back().invariants) plan_.invariants.push_back(invariant);
-    for (const auto& variant : variants_) {
-      const auto scenario = std::make_shared<const Scenario>(source.resolve(variant));
-      RunConfig config;
-      config.scenario = source.name();
-      config.varied = variant;
-      config.reference = reference_;
-      if (!scenario->colliders.empty()) config.contact.emplace();
-      add_product(std::move(config), scenario, 0);
+  struct Opened {
+    ScenarioSource source;
+    std::shared_ptr<const Scenario> scenario;  ///< without overrides
+    BoundConditions conditions;
+  };
+
+  std::set<std::string> varied_keys() const {
+    std::set<std::string> keys;
+    for (const auto& [key, text] : study_.vary) keys.insert(key);
+    for (const PointTable& table : study_.tables) {
+      for (const PointColumn& column : table.columns) {
+        if (!is_option(column.key)) keys.insert(column.key);
+      }
     }
+    return keys;
   }
 
-  /// Adds the product of the axes from the k-th on; the options of earlier axes are set in config.
-  void add_product(RunConfig config, const std::shared_ptr<const Scenario>& scenario, std::size_t k) {
-    if (k == axes_.size()) return add_run(std::move(config), scenario);
-    const auto& [option, values] = axes_[k];
-    if (!option->applies_to(config)) return add_product(std::move(config), scenario, k + 1);
-    if (values.empty()) {
-      if (option->needed) throw InputError(config.integrator + " needs --" + option->name);
-      if (option->preset) option->set(config, option->preset(*scenario));
-      return add_product(std::move(config), scenario, k + 1);
-    }
-    for (const OptionValue& value : values) {
-      RunConfig next = config;
-      option->set(next, value);
-      add_product(std::move(next), scenario, k + 1);
-    }
+  Cells cells(bool counted) {
+    std::vector<Dimension> all = dimensions(study_, counted);
+    if (opened_.empty()) open_scenarios(all);
+    return Cells(std::move(all), [this](const std::string& name) {
+      const Opened& opened = opened_.at(name);
+      return Cells::Start{start_of(opened.source, *opened.scenario), opened.scenario.get()};
+    });
   }
 
-  void add_run(RunConfig config, const std::shared_ptr<const Scenario>& scenario) {
+  /// Opens all scenarios of the study, in their order.
+  void open_scenarios(const std::vector<Dimension>& all) {
+    const std::string label = study_.label("scenario");
+    std::set<std::string> names;
+    for (const Dimension& dimension : all) {
+      for (std::size_t k = 0; k < dimension.keys.size(); ++k) {
+        const RunOption* option = dimension.keys[k].option;
+        if (!option || option->role != RunOption::Role::scenario) continue;
+        for (std::size_t point = 0; point < dimension.size; ++point) {
+          const std::string name = text_of(dimension.value(point, k));
+          if (opened_.contains(name)) continue;
+          ScenarioSource source = ScenarioSource::open(name, label);
+          if (!names.insert(source.name()).second) throw InputError(label + ": '" + source.name() + "' is named twice");
+          open(name, std::move(source));
+        }
+      }
+    }
+    for (const Where& condition : conditions_) BoundConditions::check_keys(condition, sources());
+  }
+
+  void open(const std::string& name, ScenarioSource source) {
+    auto scenario = std::make_shared<const Scenario>(source.resolve());
+    plan_.scenarios.push_back(*scenario);
+    plan_.scenario_names.push_back(name);
+    for (const std::string& invariant : scenario->invariants) plan_.invariants.push_back(invariant);
+    const std::set<std::string> varied = varied_keys();
+    BoundConditions bound(conditions_, source, {varied.begin(), varied.end()});
+    opened_.emplace(name, Opened{std::move(source), std::move(scenario), std::move(bound)});
+  }
+
+  std::vector<const ScenarioSource*> sources() const {
+    std::vector<const ScenarioSource*> all;
+    for (const auto& [name, opened] : opened_) all.push_back(&opened.source);
+    return all;
+  }
+
+  RunConfig start_of(const ScenarioSource& source, const Scenario& scenario) const {
+    RunConfig config;
+    config.scenario = source.name();
+    config.reference = reference_;
+    if (!scenario.colliders.empty()) config.contact.emplace();
+    return config;
+  }
+
+  /// The configuration of the cell. Options that the study does not give have the defaults of the scenario.
+  RunConfig configured(const Cell& cell, const ScenarioSource& source, const Scenario& scenario) const {
+    RunConfig config = start_of(source, scenario);
+    config.varied = cell.varied;
+    for (const RunOption& option : run_options()) {
+      if (option.role == RunOption::Role::scenario || !option.applies_to(config)) continue;
+      const auto given =
+          std::find_if(cell.options.begin(), cell.options.end(), [&](const auto& o) { return o.first == &option; });
+      if (given != cell.options.end()) option.set(config, given->second);
+      else if (option.preset) option.set(config, option.preset(scenario));
+    }
+    return config;
+  }
+
+  /// The scenario with the varied keys of the cell. Neighbouring cells mostly have the same.
+  const std::shared_ptr<const Scenario>& variant(const Cell& cell, const ScenarioSource& source) {
+    if (!variant_ || variant_of_ != &source || variant_keys_ != cell.varied) {
+      variant_ = std::make_shared<const Scenario>(source.resolve(cell.varied));
+      variant_of_ = &source;
+      variant_keys_ = cell.varied;
+    }
+    return variant_;
+  }
+
+  /// Adds the run of the cell. False: the conditions leave it out.
+  bool add_cell(const Cell& cell, std::set<std::string>& effective) {
+    const Opened& opened = opened_.at(cell.scenario);
+    if (!conditions_.empty()) {
+      const RunConfig config = configured(cell, opened.source, *opened.scenario);
+      if (!opened.conditions.hold(cell, config)) return false;
+    }
+    const auto& scenario = variant(cell, opened.source);
+    RunConfig config = configured(cell, opened.source, *scenario);
+    const bool adaptive = find_integrator(config.integrator)->declaration.adaptive;
+    if (experiment_.fixed_steps_only && adaptive) {
+      throw InputError(fmt::format("{}: {} chooses its own steps, and {} is about steps; name methods that take --dt",
+                                   study_.label("integrator"), config.integrator, experiment_.name));
+    }
+    for (const RunOption* option : needed_) {
+      if (!option->applies_to(config) || option->value(config) != OptionValue{}) continue;
+      if (!study_.table_with(option->name)) throw InputError(config.integrator + " needs --" + option->name);
+      throw InputError(
+          fmt::format("{}: {} needs it, and a row leaves it empty; fill it in, or leave the cell out with "
+                      "where: given({})",
+                      study_.label(option->name), config.integrator, option->name));
+    }
+    std::erase_if(without_effect_, [&](const RunOption* option) {
+      if (!option->applies_to(config)) return false;
+      effective.insert(option->name);
+      return true;
+    });
     if (config.tolerance) config.max_steps = max_steps_;
     if (experiment_.duration)
       config.t_end = experiment_.duration(config.t_end, config.tolerance ? *config.tolerance : *config.dt);
-    add_planned(config, scenario);
-  }
-
-  void add_planned(const RunConfig& config, const std::shared_ptr<const Scenario>& scenario) {
     try {
       plan_.runs.push_back(planned(config, scenario));
     } catch (const std::invalid_argument& error) {
-      throw InputError(dt_label_ + ": " + std::string(error.what()));
+      throw InputError(study_.label("dt") + ": " + std::string(error.what()));
     }
-    if (plan_.runs.size() > most_runs) throw InputError("more than 10 million runs; make the axes shorter");
+    return true;
   }
 
   const Experiment& experiment_;
-  std::vector<PlannedAxis> axes_;
-  std::vector<std::vector<Override>> variants_;
-  std::string dt_label_;
+  StudyAxes study_;
   std::optional<std::int64_t> max_steps_;
   bool reference_;
+  std::vector<const RunOption*> needed_;
+  std::vector<const RunOption*> without_effect_;  // options of the study that have affected no run yet
+  std::vector<Where> conditions_;
+  std::map<std::string, Opened> opened_;  // by the name that the study says
+  double counted_ = 0;
+  std::shared_ptr<const Scenario> variant_;  // the last one
+  const ScenarioSource* variant_of_ = nullptr;
+  std::vector<Override> variant_keys_;
   Plan plan_;
 };
 
 /// Adds the runs of another product of axes of the same experiment to the plan.
 void add_plan(Plan& plan, Plan&& other) {
   for (Scenario& s : other.scenarios) {
-    const auto same = [&](const Scenario& known) { return known.name == s.name; };
-    if (std::none_of(plan.scenarios.begin(), plan.scenarios.end(), same)) plan.scenarios.push_back(std::move(s));
+    const auto known = std::find_if(plan.scenarios.begin(), plan.scenarios.end(),
+                                    [&](const Scenario& other_one) { return other_one.name == s.name; });
+    if (known == plan.scenarios.end()) plan.scenarios.push_back(std::move(s));
+    else if (known->canonical != s.canonical)
+      throw InputError("two files are both named " + s.name + ".toml; rename one of them");
   }
   const auto unite = [](std::vector<std::string>& all, const std::vector<std::string>& more) {
     std::set<std::string> united(all.begin(), all.end());
@@ -221,8 +289,13 @@ void add_plan(Plan& plan, Plan&& other) {
     all.assign(united.begin(), united.end());
   };
   unite(plan.varied_keys, other.varied_keys);
+  for (std::string& name : other.scenario_names) {
+    auto& names = plan.scenario_names;
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
+  }
   unite(plan.invariants, other.invariants);
   plan.named.merge(other.named);
+  plan.studies.insert(plan.studies.end(), other.studies.begin(), other.studies.end());
   std::move(other.runs.begin(), other.runs.end(), std::back_inserter(plan.runs));
 }
 
@@ -237,39 +310,66 @@ void fill_varied(RunConfig& config, const std::vector<std::string>& keys) {
   config.varied = std::move(varied);
 }
 
-/// The options of a further product of axes.
-Options further(const Experiment& experiment, const Options& options, const FurtherAxes& more) {
-  Options other = options;
+/// The study with the defaults of a further product of axes.
+StudyAxes further(const Experiment& experiment, const StudyAxes& study, const FurtherAxes& more) {
+  StudyAxes other = study;
   for (const auto& [axis, text] : more.defaults) {
-    const auto before = experiment.defaults.find(axis), now = options.axes.find(axis);
+    const auto before = experiment.defaults.find(axis), now = study.axes.find(axis);
     const bool given =
-        now != options.axes.end() && (before == experiment.defaults.end() || now->second != before->second);
-    if (!given) other.axes[axis] = text;
+        now != study.axes.end() && (before == experiment.defaults.end() || now->second != before->second);
+    if (!given && !study.table_with(axis)) other.axes[axis] = text;
   }
   if (!more.vary.empty()) other.vary = more.vary;
   return other;
 }
 
-/// Throws InputError if an axis is given that has no effect on any run.
-void refuse_axes_without_effect(const Options& options, const std::vector<PlannedRun>& runs) {
+/// Throws InputError if one of the options affects no run.
+void refuse_without_effect(const StudyAxes& study, const std::set<std::string>& said,
+                           const std::set<std::string>& effective) {
   for (const RunOption& option : run_options()) {
-    const auto matters = [&](const PlannedRun& run) { return option.applies_to(run.config); };
-    if (!options.said.contains(option.name) || std::any_of(runs.begin(), runs.end(), matters)) continue;
-    throw InputError(fmt::format("{}: it has no effect, because {}; leave it out, {}", options.label(option.name),
+    if (!said.contains(option.name) || effective.contains(option.name)) continue;
+    throw InputError(fmt::format("{}: it has no effect, because {}; leave it out, {}", study.label(option.name),
                                  option.no_effect, option.remedy));
   }
+}
+
+/// All products of axes of a study.
+std::vector<Planner> planners_of(const Experiment& experiment, const Options& options, const StudyAxes& study,
+                                 Plan& plan) {
+  std::vector<Planner> planners;
+  planners.emplace_back(experiment, study, options, study.reference || experiment.reference);
+  for (const FurtherAxes& more : experiment.more) {
+    if (more.by_default_only && !options.plain) continue;
+    const StudyAxes other = further(experiment, study, more);
+    plan.further_axes.push_back(other.axes);
+    planners.emplace_back(experiment, other, options, study.reference || more.reference);
+  }
+  return planners;
 }
 
 }  // namespace
 
 Plan make_plan(const Experiment& experiment, const Options& options) {
-  Plan plan = Planner(experiment, options, options.reference || experiment.reference).finish();
-  for (const FurtherAxes& more : experiment.more) {
-    if (more.by_default_only && !options.plain) continue;
-    const Options other = further(experiment, options, more);
-    plan.further_axes.push_back(other.axes);
-    add_plan(plan, Planner(experiment, other, options.reference || more.reference).finish());
+  Plan plan;
+  double cells = 0;
+  std::vector<std::vector<Planner>> planners;
+  for (const StudyAxes& study : options.studies) {
+    planners.push_back(planners_of(experiment, options, study, plan));
+    for (const Planner& planner : planners.back()) cells += planner.most_cells();
   }
+  if (cells > static_cast<double>(most_runs)) {
+    throw InputError(fmt::format("{} runs are more than the 10 million that a study may have; make the axes shorter",
+                                 cells < 1e15 ? fmt::format("{:.0f}", cells) : fmt::format("{:.2g}", cells)));
+  }
+  std::set<std::string> effective;
+  for (std::size_t i = 0; i < planners.size(); ++i) {
+    const StudyAxes& study = options.studies[i];
+    std::set<std::string> own;
+    for (Planner& planner : planners[i]) add_plan(plan, planner.runs(own));
+    refuse_without_effect(study, study.said, own);
+    effective.merge(own);
+  }
+  refuse_without_effect(options.studies.front(), options.shared, effective);
   std::set<std::string> motions;  // runs of the same motion that come from several products are kept once
   std::erase_if(plan.runs, [&](const PlannedRun& run) { return !motions.insert(run.motion).second; });
   for (PlannedRun& run : plan.runs) fill_varied(run.config, plan.varied_keys);
@@ -277,7 +377,6 @@ Plan make_plan(const Experiment& experiment, const Options& options) {
     throw InputError(fmt::format("{} makes one run, and this is {}; give each axis one value, or use energy_drift",
                                  experiment.name, plan.runs.size()));
   }
-  refuse_axes_without_effect(options, plan.runs);
   const auto sense = [](const PlannedRun& r) { return r.refusal.empty(); };
   sort_by_configuration(plan.runs);
   if (std::none_of(plan.runs.begin(), plan.runs.end(), sense)) {

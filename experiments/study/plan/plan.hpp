@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plan of a study: all runs of the product of its axes, with their identities, made before anything is run or written.
+// Plan of a study: all runs of its cells, with their identities, made before anything is run or written.
 #pragma once
 
 #include <map>
@@ -22,12 +22,22 @@ struct PlannedRun {
   bool keeps_curves = true;  ///< its curves against time are kept (--curves)
 };
 
+/// How one study became runs.
+struct StudyCount {
+  std::string name;                 ///< empty: the only one
+  std::size_t cells = 0;            ///< of the product of its axes and tables
+  std::size_t left_out = 0;         ///< cells that its conditions leave out
+  std::vector<std::string> tables;  ///< its tables of points in words: "zip of dt, t-end: 2 points: (0.001, 10), …"
+};
+
 struct Plan {
-  std::vector<Scenario> scenarios;       ///< each scenario of the study once, without overrides
-  std::vector<std::string> varied_keys;  ///< scenario keys that are axes, sorted
-  NamedOptions named{};                  ///< options on demand that the study gives
-  std::vector<std::string> invariants;   ///< further declared invariants of all scenarios, sorted
-  std::vector<PlannedRun> runs;          ///< sorted by configuration, without duplicates
+  std::vector<Scenario> scenarios;          ///< each scenario of the study once, without overrides
+  std::vector<std::string> scenario_names;  ///< as the study names them: "peters_hsu", "tops/heavy.toml"
+  std::vector<std::string> varied_keys;     ///< scenario keys that are axes, sorted
+  NamedOptions named{};                     ///< options on demand that the study gives
+  std::vector<std::string> invariants;      ///< further declared invariants of all scenarios, sorted
+  std::vector<PlannedRun> runs;             ///< sorted by configuration, without duplicates
+  std::vector<StudyCount> studies;
   /// Axes of each further product of the experiment (Experiment::more), in the syntax of the command line.
   std::vector<std::map<std::string, std::string>> further_axes;
   std::string identity;  ///< hash of the ids of all runs

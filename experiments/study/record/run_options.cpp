@@ -132,7 +132,8 @@ std::vector<RunOption> options_of_motion() {
                        .role = Role::method,
                        .takes_all = true,
                        .column = "integrator",
-                       .header = "method"};
+                       .header = "method",
+                       .decides = true};
   integrator.known = [] {
     std::vector<std::string> known;
     for (const IntegratorEntry& entry : integrator_catalogue()) known.push_back(entry.declaration.name);
@@ -149,7 +150,8 @@ std::vector<RunOption> options_of_formulation() {
                .values = "quaternion|matrix",
                .help = "chart of the orientation (default: quaternion)",
                .column = "orientation",
-               .header = "orientation"},
+               .header = "orientation",
+               .decides = true},
               [](auto& c) -> auto& { return c.formulation.orientation; },
               names_of({Orientation::quaternion, Orientation::matrix})),
           choice(
@@ -372,6 +374,7 @@ std::vector<RunOption> options_of_contact() {
                                   .column = "response",
                                   .header = "response",
                                   .term = "response to contact",
+                                  .decides = true,
                                   .preset = always("sequential_impulses")},
                                  &ContactConfig::response, response_catalogue),
           // This option has no effect on a compliant response, which is a force.

@@ -57,6 +57,7 @@ struct RunOption {
   std::function<void(RunConfig&, const OptionValue&)> set{};
   /// True if the option affects the run, decided by the options before it in the table; empty: affects every run.
   std::function<bool(const RunConfig&)> applies{};
+  bool decides = false;  ///< options after it apply or not by its value (`applies` of no option looks at others)
   std::string no_effect{}, remedy{};  ///< reason for which no run of a study is affected; remedy other than omitting it
   bool needed = false;                ///< mandatory for a run to which it applies
   /// Default in a run of the scenario, if the option applies; empty: the default of RunConfig.

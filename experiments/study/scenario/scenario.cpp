@@ -137,6 +137,16 @@ ScenarioSource::~ScenarioSource() = default;
 
 const std::string& ScenarioSource::name() const { return parsed_->name; }
 
+FoundKey ScenarioSource::find(const Override& key) const {
+  TomlValue tree = parsed_->root;
+  try {
+    const std::string path = apply_override(tree, {key.key, "0", key.place}, 0);
+    return {path, value_at(parsed_->root, path)};
+  } catch (const Fault& fault) {
+    parsed_->tell(fault, {&key, 1}, {});
+  }
+}
+
 Scenario ScenarioSource::resolve(std::span<const Override> overrides) const { return parsed_->resolve(overrides); }
 
 }  // namespace polhode::study::scenario

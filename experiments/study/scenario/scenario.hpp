@@ -13,6 +13,7 @@
 #include "collision/contact/collider.hpp"
 #include "collision/response.hpp"
 #include "core/problem/problem.hpp"
+#include "experiments/study/text/toml_value.hpp"
 
 namespace polhode::study::inline scenario {
 
@@ -44,6 +45,12 @@ struct Scenario {
   std::string canonical;
 };
 
+/// A key of a scenario.
+struct FoundKey {
+  std::string path;                ///< with bodies by number: "body.0.mass" for body.box.mass
+  std::optional<TomlValue> value;  ///< as the file gives it, else its default; absent: it has neither
+};
+
 /// A parsed scenario, from which variants are made.
 class ScenarioSource {
  public:
@@ -57,6 +64,9 @@ class ScenarioSource {
   ~ScenarioSource();
 
   const std::string& name() const;
+
+  /// The key of an override, whose value is not read. Throws InputError if the scenario cannot have the key.
+  FoundKey find(const Override& key) const;
 
   /// The scenario with these keys set. All checks are made here, on the result. Throws InputError, which names file,
   /// line, column and key, or "--vary KEY" if an override is at fault.

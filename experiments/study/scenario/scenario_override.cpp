@@ -37,6 +37,27 @@ std::vector<std::string> parts_of(const std::string& key) {
   return parts;
 }
 
+/// The number that a part says, if it is one below `count`.
+std::optional<std::size_t> index_in(const std::string& part, std::size_t count) {
+  std::size_t i = 0;
+  const char* end = part.data() + part.size();
+  const auto [stop, error] = std::from_chars(part.data(), end, i);
+  if (error != std::errc() || stop != end || i >= count) return std::nullopt;
+  return i;
+}
+
+std::vector<ScenarioKey> force_keys(const TomlValue& force) {
+  std::vector<ScenarioKey> keys = {{"kind", std::nullopt}, {"bodies", std::nullopt}};
+  const TomlValue* kind = force.find("kind");
+  if (const ForceEntry* entry = kind ? find_force(kind->text) : nullptr) {
+    for (const Parameter& p : entry->kind.parameters) {
+      const bool required = p.need == Parameter::Need::required;
+      keys.push_back({p.key, required ? std::nullopt : std::optional(to_toml(p.value))});
+    }
+  }
+  return keys;
+}
+
 /// The walk of one override down the tree.
 class Walk {
  public:
@@ -69,15 +90,6 @@ class Walk {
     }
   }
 
-  /// The number that a part says, if it is one below `count`.
-  static std::optional<std::size_t> index_in(const std::string& part, std::size_t count) {
-    std::size_t i = 0;
-    const char* end = part.data() + part.size();
-    const auto [stop, error] = std::from_chars(part.data(), end, i);
-    if (error != std::errc() || stop != end || i >= count) return std::nullopt;
-    return i;
-  }
-
   void into_element(const std::string& list) {
     TomlValue* elements = root_.find(list);
     const std::size_t count = elements && elements->type == Type::list ? elements->items.size() : 0;
@@ -102,18 +114,6 @@ class Walk {
       text += (i == 0 ? ": " : ", ") + std::to_string(i) + (name ? " (" + name->text + ")" : "");
     }
     return text;
-  }
-
-  static std::vector<ScenarioKey> force_keys(const TomlValue& force) {
-    std::vector<ScenarioKey> keys = {{"kind", std::nullopt}, {"bodies", std::nullopt}};
-    const TomlValue* kind = force.find("kind");
-    if (const ForceEntry* entry = kind ? find_force(kind->text) : nullptr) {
-      for (const Parameter& p : entry->kind.parameters) {
-        const bool required = p.need == Parameter::Need::required;
-        keys.push_back({p.key, required ? std::nullopt : std::optional(to_toml(p.value))});
-      }
-    }
-    return keys;
   }
 
   /// parts_[depth] is a key of this table, and those after it lead into its value.
@@ -176,6 +176,28 @@ class Walk {
 
 std::string apply_override(TomlValue& root, const Override& override, int index) {
   return Walk(root, override, index).run();
+}
+
+std::optional<TomlValue> value_at(const TomlValue& root, const std::string& path) {
+  const std::vector<std::string> parts = parts_of(path);
+  const TomlValue* at = &root;
+  std::vector<ScenarioKey> keys = root_keys();
+  std::optional<TomlValue> preset;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const TomlValue* next = nullptr;
+    if (at->type == Type::table) {
+      next = at->find(parts[i]);
+      const ScenarioKey* key = next ? nullptr : find_key(keys, parts[i]);
+      if (key && key->otherwise) next = &preset.emplace(*key->otherwise);
+    } else if (const auto index = at->type == Type::list ? index_in(parts[i], at->items.size()) : std::nullopt) {
+      next = &at->items[*index];
+    }
+    if (!next) return std::nullopt;
+    at = next;
+    const bool element = i == 1 && (parts[0] == "body" || parts[0] == "force");
+    keys = !element ? std::vector<ScenarioKey>{} : parts[0] == "body" ? body_keys() : force_keys(*at);
+  }
+  return *at;
 }
 
 }  // namespace polhode::study::scenario

@@ -2,6 +2,7 @@
 // Sets one key of a scenario's tree: "body.0.inertia.1", "body.box.mass", "force.0.stiffness", "gravity.2".
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "experiments/study/scenario/scenario.hpp"
@@ -13,5 +14,9 @@ namespace polhode::study::inline scenario {
 /// The reader of the result checks the value. Returns the path with bodies by number. Throws a Fault that belongs to
 /// the override.
 std::string apply_override(TomlValue& root, const Override& override, int index);
+
+/// The value of a key in the tree of a scenario, or its default; absent if it has neither. `path` as apply_override()
+/// returns it.
+std::optional<TomlValue> value_at(const TomlValue& root, const std::string& path);
 
 }  // namespace polhode::study::scenario

@@ -159,6 +159,10 @@ std::string CsvReader::name_and(std::size_t column) const {
   return names_[column] + (cells_[column].empty() ? " is empty" : " is " + shown(cells_[column]));
 }
 
+std::string CsvReader::place(std::size_t column) const {
+  return fmt::format("{}:{}:{}", path_, line_number_, places_[column]);
+}
+
 void CsvReader::fail(std::size_t column, const std::string& what) const { fail_at(places_[column], what); }
 
 void CsvReader::fail_at(std::size_t character, const std::string& what) const {

@@ -33,6 +33,9 @@ class CsvReader {
 
   std::size_t line() const { return line_number_; }  ///< line of the present row, from 1
 
+  /// Place of a cell of the present row, or of a name while no row is read: "boxes.csv:3:8".
+  std::string place(std::size_t column) const;
+
   const std::string& text(std::size_t column) const { return cells_[column]; }
   std::int64_t integer(std::size_t column) const;
   double number(std::size_t column) const;  ///< may be infinite ("inf"), never NaN

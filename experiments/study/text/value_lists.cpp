@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/text/value_lists.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <optional>
 
 #include "experiments/study/text/input_error.hpp"
 
 namespace polhode::study::inline text {
 namespace {
+
+constexpr double longest_range = 1e6;  // values
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
@@ -26,18 +28,12 @@ std::vector<std::string> cut(std::string_view text, char separator) {
   }
 }
 
-std::optional<double> to_number(std::string_view text) {
-  double x = 0;
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(x)) return std::nullopt;
-  return x;
-}
-
 double number(const std::string& text, const std::string& option) {
   if (const auto x = to_number(text)) return *x;
   throw InputError(option + ": '" + text + "' is not a finite number; it takes numbers as 0.1,0.2 or 1e-4:1e-1:10:log");
 }
+
+bool is_list_of_toml(std::string_view text) { return text.find_first_of("[;") != std::string_view::npos; }
 
 std::vector<double> range(const std::string& item, const std::string& option) {
   const auto parts = cut(item, ':');
@@ -46,7 +42,7 @@ std::vector<double> range(const std::string& item, const std::string& option) {
     throw InputError(option + ": '" + item + "' is not a range; it is first:last:count or first:last:count:log");
   }
   const double first = number(parts[0], option), last = number(parts[1], option), count = number(parts[2], option);
-  if (count != std::floor(count) || count < 2 || count > 1e6) {
+  if (count != std::floor(count) || count < 2 || count > longest_range) {
     throw InputError(option + ": the count of the range '" + item + "' must be a whole number from 2 to 1000000");
   }
   if (logarithmic && !(first > 0 && last > 0)) {
@@ -86,9 +82,7 @@ std::vector<double> numbers(std::string_view text, const std::string& option) {
 }
 
 std::vector<std::string> toml_values(std::string_view text, const std::string& option) {
-  if (text.find('[') != std::string_view::npos || text.find(';') != std::string_view::npos) {
-    return split_list(text, ';', option);
-  }
+  if (is_list_of_toml(text)) return split_list(text, ';', option);
   std::vector<std::string> values;
   for (const std::string& item : split_list(text, ',', option)) {
     if (item.find(':') != std::string::npos) {
@@ -102,6 +96,30 @@ std::vector<std::string> toml_values(std::string_view text, const std::string& o
     }
   }
   return values;
+}
+
+std::size_t count_values(std::string_view text) {
+  const auto items = [&](char separator) {
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), separator)) + 1;
+  };
+  if (is_list_of_toml(text)) return items(';');
+  std::size_t values = items(',');
+  while (!text.empty()) {
+    const std::string_view item = text.substr(0, text.find(','));
+    text.remove_prefix(std::min(item.size() + 1, text.size()));
+    const auto parts = item.find(':') == std::string_view::npos ? std::vector<std::string>{} : cut(item, ':');
+    const auto n = parts.size() > 2 ? to_number(parts[2]) : std::nullopt;
+    if (n && *n >= 2 && *n <= longest_range) values += static_cast<std::size_t>(*n) - 1;
+  }
+  return values;
+}
+
+std::optional<double> to_number(std::string_view text) {
+  double x = 0;
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(x)) return std::nullopt;
+  return x;
 }
 
 std::string exact(double x) {

@@ -2,6 +2,8 @@
 // The values of an axis as written on the command line: lists a,b,c and ranges first:last:count[:log].
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +18,13 @@ std::vector<double> numbers(std::string_view text, const std::string& option);
 
 /// TOML values for --vary: [1,2,3];[4,5,6], or numbers as above, or texts.
 std::vector<std::string> toml_values(std::string_view text, const std::string& option);
+
+/// The number of values that numbers() or toml_values() makes of the text, counted without making them. For a text that
+/// they refuse it is any number.
+std::size_t count_values(std::string_view text);
+
+/// A finite number, if the whole text is one.
+std::optional<double> to_number(std::string_view text);
 
 /// The shortest text that reads back as the same double.
 std::string exact(double x);

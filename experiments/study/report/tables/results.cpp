@@ -124,7 +124,8 @@ nlohmann::ordered_json options_of(const Options& options) {
   using Json = nlohmann::ordered_json;
   return {{"seed", options.seed},
           {"max_steps", options.max_steps ? Json(*options.max_steps) : Json()},
-          {"reference", options.reference},
+          {"reference", std::any_of(options.studies.begin(), options.studies.end(),
+                                    [](const StudyAxes& study) { return study.reference; })},
           {"trajectory", name_of(options.trajectory)}};
 }
 
@@ -160,24 +161,43 @@ void write_timings_csv(const StudyView& study) {
   file.finish();
 }
 
+namespace {
+
+/// What a study varies, in the words of the command line.
+nlohmann::ordered_json in_words(const StudyAxes& study) {
+  using Json = nlohmann::ordered_json;
+  Json said = Json::object();
+  if (!study.name.empty()) said["name"] = study.name;
+  said["axes"] = Json::object();
+  for (const std::string& name : axis_names()) {
+    if (const auto found = study.axes.find(name); found != study.axes.end()) said["axes"][name] = found->second;
+  }
+  said["vary"] = Json::object();
+  for (const auto& [key, values] : study.vary) said["vary"][key] = values;
+  if (study.reference) said["reference"] = true;
+  for (const PointTable& table : study.tables) said[word(table.kind)].push_back(words(table));
+  for (const Condition& condition : study.where) said["where"].push_back(condition.text);
+  return said;
+}
+
+}  // namespace
+
 void write_manifest(const StudyView& study, const Options& options, const Plan& plan) {
   using Json = nlohmann::ordered_json;
-  Json axes = Json::object();
-  for (const std::string& name : axis_names()) {
-    if (const auto found = options.axes.find(name); found != options.axes.end()) axes[name] = found->second;
-  }
-  Json vary = Json::object();
-  for (const auto& [key, values] : options.vary) vary[key] = values;
+  Json studies = Json::array();
+  for (const StudyAxes& axes : options.studies) studies.push_back(in_words(axes));
+  // The first study stands for a study that is the product of its axes, which most are; its scenarios are all of them.
+  Json axes = studies.front()["axes"];
+  if (studies.size() > 1 || !axes.contains("scenario"))
+    axes["scenario"] = fmt::format("{}", fmt::join(plan.scenario_names, ","));
   Json scenarios = Json::object();
   for (const Scenario& s : study.scenarios) scenarios[s.name] = {{"title", s.title}, {"resolved", s.canonical}};
-  Json manifest = {{"experiment", study.experiment},
-                   {"command", study.command},
-                   {"study", plan.identity},
-                   {"runs", study.runs.size()},
-                   {"options", options_of(options)},
-                   {"axes", axes},
-                   {"vary", vary},
-                   {"scenarios", scenarios}};
+  Json manifest = {{"experiment", study.experiment},  {"command", study.command},       {"study", plan.identity},
+                   {"runs", study.runs.size()},       {"options", options_of(options)}, {"axes", axes},
+                   {"vary", studies.front()["vary"]}, {"scenarios", scenarios}};
+  // One study that is the product of its axes has said all there is to say.
+  const StudyAxes& first = options.studies.front();
+  if (studies.size() > 1 || !first.tables.empty() || !first.where.empty()) manifest["studies"] = studies;
   if (!options.study_file.empty())
     manifest["study_file"] = {{"path", options.study_file}, {"xxh3_64", options.study_file_hash}};
   if (!plan.further_axes.empty()) manifest["further_axes"] = plan.further_axes;

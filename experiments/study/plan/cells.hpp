@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The cells of a study: the product of its dimensions, in which a key that does not affect a run has one value. A cell
+// is made from its number alone; no list of cells is held.
+//
+// Whether an option affects a run depends on the scenario and on the options that decide (RunOption::decides). For each
+// combination of these there is a block of cells, which is a plain product.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/study/plan/dimension.hpp"
+#include "experiments/study/scenario/scenario.hpp"
+
+namespace polhode::study::inline plan {
+
+struct Cell {
+  std::string scenario;                                           ///< as the study names it
+  std::vector<std::pair<const RunOption*, OptionValue>> options;  ///< those that the study gives and that apply
+  std::vector<Override> varied;                                   ///< sorted by key
+};
+
+class Cells {
+ public:
+  /// `start` gives the configuration of a run of a scenario before any option is set, and the scenario without
+  /// overrides.
+  struct Start {
+    RunConfig config;
+    const Scenario* scenario;
+  };
+  Cells(std::vector<Dimension> dimensions, const std::function<Start(const std::string& scenario)>& start);
+
+  /// The number of cells; as a double, since it may be larger than any integer.
+  double count() const { return count_; }
+
+  /// The tables of points in words.
+  std::vector<std::string> tables() const;
+
+  /// Cell k, below count(). Throws InputError for a value that the option cannot have.
+  Cell at(std::size_t k) const;
+
+ private:
+  using Points = std::vector<std::uint32_t>;
+  struct Block {
+    std::vector<std::vector<bool>> applies;  ///< by dimension and key
+    std::vector<Points> points;              ///< by dimension; empty: all points
+    std::vector<std::size_t> sizes;          ///< by dimension
+    double first = 0;                        ///< number of its first cell
+    std::string scenario;
+  };
+
+  std::vector<Dimension> dimensions_;
+  std::vector<Block> blocks_;
+  double count_ = 0;
+};
+
+}  // namespace polhode::study::plan
