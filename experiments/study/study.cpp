@@ -28,6 +28,7 @@
 #include "experiments/study/store/store.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/program.hpp"
+#include "experiments/study/text/read_file.hpp"
 #include "experiments/study/text/value_lists.hpp"
 #include "experiments/study/workers.hpp"
 
@@ -261,6 +262,7 @@ int run_study(const Experiment& experiment, const Options& options) {
   const ResultFolder held(folder, ids, options.force);
   Interruption interruption;
   Store store(folder);
+  store.keep_scenarios(plan.scenarios);
   auto results = stored(experiment, options, folder, store);
   bool first = true;
   do {
@@ -272,6 +274,7 @@ int run_study(const Experiment& experiment, const Options& options) {
   StudyView view = view_of(experiment, options, plan, folder, results, take);
   if (experiment.analysis) view.analysis = experiment.analysis(view);
   write_everything(view, options, plan);
+  store.keep_study(view.experiment, view.command, read_file(folder / "manifest.json").value_or(""));
   fmt::print("{}\n{}\n", summary_table(view), (folder / "report.html").string());
   // A refused run is no error if the report shows the analysis alone: the refusal is part of its answer.
   const bool answers_refusals = view.analysis && view.analysis->alone;

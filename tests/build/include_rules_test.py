@@ -43,7 +43,7 @@ MAY_INCLUDE = {
     "experiments/study/trajectory": "core/* experiments/study/text",
     "experiments/study/record": "core/run core/system integrators collision collision/contact experiments/study/text"
                                 " experiments/study/scenario experiments/study/plot",
-    "experiments/study/store": "experiments/study/text experiments/study/record",
+    "experiments/study/store": "experiments/study/text experiments/study/scenario experiments/study/record",
     "experiments/study/setup": "core/* integrators collision collision/contact experiments/study/text"
                                " experiments/study/scenario experiments/study/record",
     "experiments/study/metrics": "core/* collision/contact experiments/study/text experiments/study/statistics"

@@ -695,12 +695,35 @@ class Results(StudyTest):
             self.assertRegex(version, r"^\d+(\.\d+)+", library)
         with contextlib.closing(sqlite3.connect(out / "results.sqlite")) as store:
             self.assertEqual(store.execute("PRAGMA user_version").fetchone()[0], manifest["store_version"])
+            studies = store.execute("SELECT experiment, command, manifest FROM studies").fetchall()
+            self.assertEqual(studies, [("energy_drift", manifest["command"], (out / "manifest.json").read_text())])
+            self.assertEqual(store.execute("SELECT name, canonical FROM scenarios").fetchall(),
+                             [(name, scenario["resolved"]) for name, scenario in manifest["scenarios"].items()])
         self.assertGreaterEqual(manifest["results_version"], 4)
         self.assertEqual(manifest["runs"], 2)
         self.assertEqual(manifest["options"], {"seed": 7, "max_steps": None, "reference": False, "trajectory": "none"})
         self.assertNotIn("study_file", manifest)
         self.assertEqual(manifest["axes"]["integrator"], "rk4")
         self.assertIn("energy_drift --integrator rk4", manifest["command"])
+
+    def test_the_store_has_the_configuration_of_each_run(self):
+        out = self.study("--scenario", "lagrange_top,peters_hsu", "--integrator", "rk4,odeint_dopri5", "--dt", "1e-2", "--tolerance",
+                         "1e-6", "--orientation", "quaternion,matrix", "--vary", "body.0.mass=1,2", "--no-figures")
+        rows = {row["run"]: row for row in read_table(out / "runs.csv").rows}
+        with contextlib.closing(sqlite3.connect(out / "results.sqlite")) as store:
+            store.row_factory = sqlite3.Row
+            found = store.execute("SELECT * FROM runs JOIN configurations ON key = configuration").fetchall()
+            count = store.execute("SELECT count(*) FROM configurations").fetchone()[0]
+        self.assertEqual((len(found), count), (16, 8))
+        for run in found:
+            row = rows[f"{run['id'] % 2**64:016x}"]
+            self.assertEqual(run["varied"], f"body.0.mass={row['body.0.mass']}")
+            for column in RUNS_START[1:]:
+                value = run[column] if column in run.keys() else None
+                if isinstance(value, float):
+                    self.assertEqual(value, float(row[column]), column)
+                else:
+                    self.assertEqual(value or "", row[column], column)
 
     def test_the_manifest_names_the_study_file(self):
         file = self.work / "study.toml"

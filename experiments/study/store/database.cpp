@@ -93,7 +93,7 @@ void Database::set_journal(Journal journal) {
   }
   // With this lock SQLite reads a file in WAL mode, as it was left on another file system, without shared memory.
   if (journal == Journal::rollback) execute("PRAGMA locking_mode=EXCLUSIVE");
-  if (!set("truncate")) {
+  if (!set("delete")) {
     throw std::runtime_error(path_.string() +
                              ": cannot leave the mode of write-ahead logging: " + sqlite3_errmsg(handle()));
   }
@@ -182,6 +182,10 @@ Value Statement::value(int column) const {
     default: return std::monostate();
   }
 }
+
+int Statement::columns() const { return sqlite3_column_count(statement_.get()); }
+
+std::string Statement::name(int column) const { return sqlite3_column_name(statement_.get(), column); }
 
 std::int64_t Statement::integer(int column) const {
   const Value found = value(column);

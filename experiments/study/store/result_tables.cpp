@@ -14,6 +14,7 @@
 #include <variant>
 
 #include "experiments/study/record/versions.hpp"
+#include "experiments/study/store/configurations.hpp"
 #include "experiments/study/text/value_lists.hpp"
 
 namespace polhode::study::inline store {
@@ -157,6 +158,24 @@ ResultColumn has_curves_column() {
           .put = [](const Value& stored, RunResult&) { return is_integer(stored, 0) || is_integer(stored, 1); }};
 }
 
+ResultColumn configuration_key_column() {
+  return {
+      .name = std::string(configuration_column),
+      .type = "INTEGER",
+      .value = [](const RunRecord& record, std::string&) -> Value { return key_of(configuration_of(record.config)); },
+      .put = [](const Value& stored, RunResult&) { return std::holds_alternative<std::int64_t>(stored); }};
+}
+
+ResultColumn varied_column() {
+  return {.name = "varied",
+          .type = "TEXT",
+          .value = [](const RunRecord& record, std::string& text) -> Value {
+            text = varied_text(record.config);
+            return std::string_view(text);
+          },
+          .put = [](const Value& stored, RunResult&) { return std::holds_alternative<std::string_view>(stored); }};
+}
+
 ResultTable sorted(ResultTable table) {
   std::sort(table.columns.begin(), table.columns.end(),
             [](const ResultColumn& a, const ResultColumn& b) { return a.name < b.name; });
@@ -177,6 +196,8 @@ ResultTable runs_table(std::span<const Metric> metrics) {
   }
   table.columns.push_back(number_column("t_reached_s", &RunResult::t_reached));
   table.columns.push_back(has_curves_column());
+  table.columns.push_back(configuration_key_column());
+  table.columns.push_back(varied_column());
   return sorted(std::move(table));
 }
 
@@ -247,6 +268,13 @@ std::span<const Value> RowWriter::values(std::int64_t number, std::int64_t id, c
   }
   values_.back() = checksum_of(id, columns);
   return values_;
+}
+
+std::int64_t RowWriter::integer(std::string_view column) const {
+  for (std::size_t k = 0; k < table_->columns.size(); ++k) {
+    if (table_->columns[k].name == column) return std::get<std::int64_t>(values_[k + (table_->has_id ? 2 : 1)]);
+  }
+  throw std::logic_error("the table " + table_->name + " has no column " + std::string(column));
 }
 
 RowReader::RowReader(const ResultTable& table, int first)

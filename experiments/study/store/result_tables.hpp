@@ -43,6 +43,8 @@ struct ResultTable {
   void check(const Database& db) const;
 };
 
+/// Name of the column of `runs` that holds the key of the run's configuration (configurations.hpp).
+constexpr std::string_view configuration_column = "configuration";
 /// Name of the column of `runs` that is 1 for a run with a row in `curves`, and 0 for others.
 constexpr std::string_view has_curves = "has_curves";
 
@@ -57,6 +59,7 @@ class RowWriter {
   /// The values, valid until the next call and as long as the record. Throws std::logic_error if a value is none that
   /// may be read back.
   std::span<const Value> values(std::int64_t number, std::int64_t id, const RunRecord& record);
+  std::int64_t integer(std::string_view column) const;  ///< value of a column in the row that was made last
 
  private:
   const ResultTable* table_;

@@ -74,6 +74,9 @@ struct Store::Tables {
     Transaction transaction(db);
     if (is_empty(db)) {
       for (const ResultTable* table : {&runs, &curves, &timings}) db.execute(table->definition());
+      db.execute(ConfigurationWriter::definition);
+      db.execute("CREATE TABLE scenarios (name TEXT PRIMARY KEY, canonical TEXT, checksum INTEGER)");
+      db.execute("CREATE TABLE studies (key INTEGER PRIMARY KEY, experiment TEXT, command TEXT, manifest TEXT)");
       db.execute(fmt::format("PRAGMA application_id={}", application_id));
       db.execute(fmt::format("PRAGMA user_version={}", store_version));
     }
@@ -92,6 +95,7 @@ class Store::Writer {
         runs_(db, tables.runs),
         curves_(db, tables.curves),
         timings_(db, tables.timings),
+        configurations_(db),
         number_(db, "SELECT number FROM runs WHERE id = ?"),
         drop_curves_(db, "DELETE FROM curves WHERE number = ?"),
         last_(db,
@@ -119,6 +123,7 @@ class Store::Writer {
     number_.reset();
     runs_.write(number, id, record);
     timings_.write(number, id, record);
+    configurations_.keep(runs_.row.integer(configuration_column), record.config);
     if (!record.result.series.empty() || !record.result.attitude_errors.empty()) {
       curves_.write(number, id, record);
     } else if (known) {
@@ -140,6 +145,7 @@ class Store::Writer {
 
   std::span<const Metric> metrics_;
   Rows runs_, curves_, timings_;
+  ConfigurationWriter configurations_;
   Statement number_, drop_curves_, last_;
   std::int64_t next_ = 1;
 };
@@ -237,7 +243,33 @@ void Store::keep(std::span<const RunRecord> records) {
   Transaction transaction(db_);
   if (!writer_) writer_ = std::make_unique<Writer>(db_, *tables_);
   writer_->begin();
-  for (const RunRecord& record : records) writer_->write(record);
+  try {
+    for (const RunRecord& record : records) writer_->write(record);
+    transaction.commit();
+  } catch (...) {
+    writer_.reset();  // it takes configurations and columns for stored that are rolled back
+    throw;
+  }
+}
+
+std::map<std::int64_t, Configuration> Store::configurations() const { return read_configurations(db_); }
+
+void Store::keep_scenarios(std::span<const Scenario> scenarios) {
+  Transaction transaction(db_);
+  Statement insertion(db_, "INSERT OR REPLACE INTO scenarios (name, canonical, checksum) VALUES (?,?,?)");
+  for (const Scenario& scenario : scenarios) {
+    Value row[] = {std::string_view(scenario.name), std::string_view(scenario.canonical), {}};
+    row[2] = checksum_of(0, std::span(row).first(2));
+    insertion.run(row);
+  }
+  transaction.commit();
+}
+
+void Store::keep_study(const std::string& experiment, const std::string& command, const std::string& manifest) {
+  const Value texts[] = {std::string_view(experiment), std::string_view(command), std::string_view(manifest)};
+  const Value row[] = {checksum_of(0, texts), texts[0], texts[1], texts[2]};
+  Transaction transaction(db_);
+  Statement(db_, "INSERT OR REPLACE INTO studies (key, experiment, command, manifest) VALUES (?,?,?,?)").run(row);
   transaction.commit();
 }
 

@@ -16,6 +16,8 @@
 
 #include "experiments/study/record/metric_table.hpp"
 #include "experiments/study/record/run_record.hpp"
+#include "experiments/study/scenario/scenario.hpp"
+#include "experiments/study/store/configurations.hpp"
 #include "experiments/study/store/database.hpp"
 #include "experiments/study/store/file_system.hpp"
 
@@ -59,6 +61,14 @@ class Store {
   /// stored without curves. Throws std::logic_error for a value that could not be read back.
   void keep(std::span<const RunRecord> records);
   void forget(const std::string& id);  ///< deletes the rows of a run
+
+  /// The configurations of the runs, by key (`runs.configuration`). Damaged ones are left out.
+  std::map<std::int64_t, Configuration> configurations() const;
+
+  /// Stores the canonical text of each scenario by name, and replaces what is there.
+  void keep_scenarios(std::span<const Scenario> scenarios);
+  /// Stores what made results: name of the experiment, command line, manifest.json. The same study stands there once.
+  void keep_study(const std::string& experiment, const std::string& command, const std::string& manifest);
 
   /// The run ids in the store of a folder, empty if there is no store. Also throws if any part of the database is
   /// damaged in its structure.

@@ -153,6 +153,39 @@ TEST(Store, ARunOfASummaryTakesLessThan1200BytesWithoutCurves) {
   EXPECT_LT(std::filesystem::file_size(folder.path() / Store::file_name), 1200 * runs.size());
 }
 
+TEST(Store, ConfigurationsStandOnceAndRunsReferToThem) {
+  const TemporaryFolder folder;
+  std::vector<RunRecord> runs = made_up_runs(6);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    RunConfig& config = runs[k].config;
+    config.scenario = "lagrange_top";
+    config.integrator = "rk4";
+    config.dt = k < 3 ? 0.25 : 0.5;
+    if (k == 5) config.max_steps = 7;
+    config.varied = {{.key = "body.0.mass", .value = std::to_string(k)}, {.key = "gravity", .value = ""}};
+  }
+  {
+    Store store(folder.path());
+    store.keep({runs.data(), 2});
+    store.keep(runs);
+  }
+  const Store store(folder.path(), metric_table(), Access::read);
+  const auto configurations = store.configurations();
+  ASSERT_EQ(configurations.size(), 3u);
+  for (const RunRecord& run : runs) {
+    const Configuration& found = configurations.at(key_of(configuration_of(run.config)));
+    EXPECT_EQ(found, configuration_of(run.config));
+    EXPECT_EQ(found.at("dt_s"), OptionValue(*run.config.dt));
+    EXPECT_EQ(found.at("integrator"), OptionValue(std::string("rk4")));
+    EXPECT_EQ(found.contains("max_steps"), run.config.max_steps.has_value());
+    EXPECT_FALSE(found.contains("tolerance"));
+  }
+  EXPECT_EQ(varied_text(runs[4].config), "body.0.mass=4");
+  EXPECT_EQ(store.load().runs.size(), runs.size());
+  change(folder.path(), "UPDATE configurations SET dt_s = 0.125 WHERE dt_s = 0.25");
+  EXPECT_EQ(Store(folder.path()).configurations().size(), 2u) << "a damaged one is left out";
+}
+
 TEST(Store, AnIdIsANumberOf16HexadecimalDigits) {
   for (const char* id : {"0000000000000000", "0123456789abcdef", "ffffffffffffffff", "8000000000000000"})
     EXPECT_EQ(id_of_number(number_of_id(id)), id);
