@@ -105,6 +105,10 @@ Hdf5Handle open_hdf5(const std::filesystem::path& path, bool swmr) {
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  // While a writer is at work, HDF5 reads again what does not fit its checksum, and waits twice as long each time: 1 ms
+  // in all. Of its own it waits for ages where a file is damaged.
+  constexpr unsigned attempts = 20;
+  H5Pset_metadata_read_attempts(access, swmr ? attempts : 1);
   return {H5Fopen(path.c_str(), H5F_ACC_RDONLY | (swmr ? H5F_ACC_SWMR_READ : 0U), access), H5Fclose};
 }
 
