@@ -187,16 +187,18 @@ class Commands(unittest.TestCase):
             found = [f"{readme}: {shlex.join(words)}: {fault}" for (readme, words), fault in zip(named, faults) if fault]
         self.assertEqual(found, [])
 
-    def test_scenarios_in_readmes_are_read(self):
-        if not (BIN / "simulate").exists():
-            self.skipTest("skipped, because there is no simulate")
+    def test_scenarios_and_studies_in_readmes_are_read(self):
+        if not (BIN / "simulate").exists() or not (BIN / "energy_drift").exists():
+            self.skipTest("skipped, because there is no simulate or no energy_drift")
         texts = [block for readme in READMES for block in blocks(text_of(readme), "toml")]
         self.assertGreaterEqual(len(texts), 2)
         for text in texts:
             (self.folder / "block.toml").write_text(text, encoding="utf-8")
+            study = re.search(r"^\[(study|defaults)\b", text, re.MULTILINE)
+            command = (["energy_drift", "--study", "block.toml"] if study else
+                       ["simulate", "--scenario", "block.toml", "--integrator", "rk4", "--dt", "0.1"])
             with self.subTest(text):
-                self.assertEqual(wrong_command(["./run", "simulate", "--scenario", "block.toml", "--integrator", "rk4", "--dt", "0.1"],
-                                               self.folder), "")
+                self.assertEqual(wrong_command(["./run", *command], self.folder), "")
 
     def test_an_unknown_option_is_found(self):
         for experiment in ("energy_drift", "judge"):

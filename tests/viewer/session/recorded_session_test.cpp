@@ -9,6 +9,7 @@
 #include "core/math/quaternion.hpp"
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/text/input_error.hpp"
+#include "experiments/study/trajectory/trajectory_files.hpp"
 #include "experiments/viewer/window/frame_clock.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/viewer/session/session_run.hpp"
@@ -23,6 +24,7 @@ struct Made {
   std::string scenario;
   Made(const std::string& name, const Configuration& c) : configuration(c), scenario(name) {
     study::carry_out(c.run, scenario_of(name), {study::TrajectoryFormat::csv, folder.path()}, nullptr);
+    study::finish_trajectories(study::TrajectoryFormat::csv, {folder.path()});
   }
   std::unique_ptr<Session> session(Between between = Between::interpolated) const {
     return recorded_session((folder.path() / "trajectory.csv").string(), scenario, {}, between);

@@ -9,6 +9,7 @@
 #include "core/math/portable_random.hpp"
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/text/input_error.hpp"
+#include "experiments/study/trajectory/trajectory_files.hpp"
 #include "experiments/viewer/session/pace.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/viewer/session/session_run.hpp"
@@ -68,6 +69,7 @@ TEST_P(SameBytes, AsWithoutAWindow) {
   const study::RunResult run =
       study::carry_out(configuration.run, scenario, {study::TrajectoryFormat::csv, folder.path() / "run"}, nullptr);
   ASSERT_EQ(run.status, "ok") << run.message;
+  study::finish_trajectories(study::TrajectoryFormat::csv, {folder.path() / "run"});
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     PortableRandom random(seed);
     SessionSetup setup;
