@@ -12,6 +12,7 @@
 
 #include "experiments/study/interruption.hpp"
 #include "experiments/study/metrics/references.hpp"
+#include "experiments/study/plan/deal.hpp"
 #include "experiments/study/plan/listing.hpp"
 #include "experiments/study/plan/options.hpp"
 #include "experiments/study/plan/plan.hpp"
@@ -25,6 +26,7 @@
 #include "experiments/study/report/tables/tables.hpp"
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/store/result_folder.hpp"
+#include "experiments/study/store/shard_folders.hpp"
 #include "experiments/study/store/store.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/program.hpp"
@@ -101,20 +103,39 @@ RunResult carry_out_alone(const Experiment& experiment, const PlannedRun& run, c
   return result;
 }
 
-/// Carries out the runs that the store does not contain yet. Returns false if interrupted.
+/// Result of a run of the plan; null if there is none, or if a part of it is missing.
+const RunResult* result_of(const std::map<std::string, RunResult>& results, const PlannedRun& run,
+                           const TrajectoryRequest& wanted) {
+  const auto found = results.find(run.id);
+  const bool whole =
+      found != results.end() && is_complete(found->second, run) && has_trajectory(wanted.format, wanted.folder);
+  return whole ? &found->second : nullptr;
+}
+
+/// Number of runs of the plan without a result.
+std::size_t missing_runs(const Experiment& experiment, const Options& options, const Plan& plan,
+                         const std::filesystem::path& folder, const std::map<std::string, RunResult>& results) {
+  return static_cast<std::size_t>(std::count_if(plan.runs.begin(), plan.runs.end(), [&](const PlannedRun& run) {
+    return run.refusal.empty() && !result_of(results, run, trajectory_of(experiment, options, folder, run.id));
+  }));
+}
+
+/// Carries out the runs that the store does not contain yet; of a shard its own. Returns false if interrupted.
 bool carry_out_missing(const Experiment& experiment, const Options& options, const Plan& plan,
                        const std::filesystem::path& folder, Store& store, std::map<std::string, RunResult>& results,
                        Interruption& interruption, bool say_what_is_there) {
   std::vector<const PlannedRun*> missing;
-  for (const PlannedRun& run : plan.runs) {
-    const TrajectoryRequest wanted = trajectory_of(experiment, options, folder, run.id);
-    const auto found = results.find(run.id);
-    const bool done =
-        found != results.end() && is_complete(found->second, run) && has_trajectory(wanted.format, wanted.folder);
-    if (run.refusal.empty() && !done) missing.push_back(&run);
+  const std::vector<std::size_t> shards = options.shard ? deal(plan, options.shard->count) : std::vector<std::size_t>();
+  std::size_t elsewhere = 0;  // missing runs of other shards
+  for (std::size_t i = 0; i < plan.runs.size(); ++i) {
+    const PlannedRun& run = plan.runs[i];
+    const bool done = result_of(results, run, trajectory_of(experiment, options, folder, run.id)) != nullptr;
+    if (!run.refusal.empty() || done) continue;
+    if (options.shard && shards[i] != options.shard->number) ++elsewhere;
+    else missing.push_back(&run);
   }
   if (missing.empty()) return true;
-  const std::size_t kept = plan.runs.size() - missing.size();
+  const std::size_t kept = plan.runs.size() - missing.size() - elsewhere;
   if (!results.empty() && say_what_is_there) {
     fmt::print(stderr, "{}: {} of {} runs are there already\n", experiment.name, kept, plan.runs.size());
   }
@@ -143,8 +164,10 @@ bool carry_out_missing(const Experiment& experiment, const Options& options, con
     return done;
   };
   const auto key = [&](const PlannedRun& run) { return ensemble_key(run.config, *run.scenario, trajectory(run)); };
-  run_all(experiment.name, batches_of(missing, key), work, finish, options.jobs, store, interruption.no_more(),
-          results);
+  const std::string name = options.shard
+                               ? fmt::format("{} {}/{}", experiment.name, options.shard->number, options.shard->count)
+                               : experiment.name;
+  run_all(name, batches_of(missing, key), work, finish, options.jobs, store, interruption.no_more(), results);
   if (!interruption.no_more()) return true;
   const auto here =
       std::count_if(plan.runs.begin(), plan.runs.end(), [&](const auto& r) { return results.contains(r.id); });
@@ -197,10 +220,14 @@ bool widened(const Experiment& experiment, const Options& options, Plan& plan, c
 std::set<std::string> ids_of(const Experiment& experiment, const Options& options, Plan plan,
                              const std::filesystem::path& folder) {
   std::map<std::string, RunResult> results;
-  try {
-    if (experiment.refine && !Store::ids_in(folder).empty())
-      results = Store(folder, metric_table(), Access::write).load().runs;
-  } catch (const std::runtime_error&) {  // ResultFolder reports the error
+  std::vector<std::filesystem::path> stores = shard_folders(folder);
+  stores.push_back(folder);
+  for (const auto& place : stores) {
+    try {
+      if (experiment.refine && !Store::ids_in(place).empty())
+        results.merge(Store(place, metric_table(), Access::write).load().runs);
+    } catch (const std::runtime_error&) {  // ResultFolder reports the error
+    }
   }
   std::set<std::string> ids;
   for (std::size_t known = 0;;) {
@@ -250,6 +277,72 @@ std::string missed_text(const std::vector<const RunRecord*>& missed, std::size_t
   return text;
 }
 
+/// Results in the other stores of the study: in those of shards and, for a shard, in that of the study. A store that
+/// cannot be read, since its shard is under way on a network file system, is named and left out.
+std::map<std::string, RunResult> results_elsewhere(const Experiment& experiment, const std::filesystem::path& folder,
+                                                   const std::filesystem::path& own) {
+  std::vector<std::filesystem::path> stores = shard_folders(folder);
+  if (std::filesystem::exists(folder / Store::file_name)) stores.push_back(folder);
+  std::erase(stores, own);
+  std::map<std::string, RunResult> results;
+  for (const auto& place : stores) {
+    try {
+      const Store store(place, metric_table(), Access::read);
+      store.for_each(Curves::with, [&](StoredRun&& run) {
+        if (run.damage.empty()) results.emplace(run.id, std::move(run.result));
+      });
+    } catch (const std::runtime_error& error) {
+      fmt::print(stderr, "{}: left out: {}\n", experiment.name, error.what());
+    }
+  }
+  return results;
+}
+
+/// Moves results of the plan's runs from other stores into this one.
+void join(const Plan& plan, std::map<std::string, RunResult>& elsewhere, Store& store,
+          std::map<std::string, RunResult>& results) {
+  constexpr std::size_t at_a_time = 1000;
+  std::vector<RunRecord> records;
+  const auto keep = [&] {
+    store.keep(records);
+    for (RunRecord& record : records) results[record.id] = std::move(record.result);
+    records.clear();
+  };
+  for (const PlannedRun& run : plan.runs) {
+    const auto found = elsewhere.find(run.id);
+    const auto here = results.find(run.id);
+    if (found == elsewhere.end() || (here != results.end() && is_complete(here->second, run))) continue;
+    records.push_back({run.id, run.config, std::move(found->second)});
+    elsewhere.erase(found);
+    if (records.size() == at_a_time) keep();
+  }
+  keep();
+}
+
+/// Carries out a shard, in a folder of its own.
+int run_shard(const Experiment& experiment, const Options& options, Plan plan, const std::filesystem::path& folder) {
+  const std::filesystem::path own = shard_folder(folder, options.shard->number, options.shard->count);
+  const std::set<std::string> ids = ids_of(experiment, options, plan, folder);
+  if (!options.force) refuse_other_study(folder, ids);
+  const ResultFolder held(own, ids, options.force);
+  Interruption interruption;
+  Store store(own);
+  store.keep_scenarios(plan.scenarios);
+  auto results = stored(experiment, options, own, store);
+  results.merge(results_elsewhere(experiment, folder, own));
+  bool first = true;
+  std::size_t missing = 0;
+  do {
+    if (!carry_out_missing(experiment, options, plan, folder, store, results, interruption, first)) return interrupted;
+    first = false;
+    missing = missing_runs(experiment, options, plan, folder, results);
+  } while (missing == 0 && widened(experiment, options, plan, folder, results));
+  fmt::print("{}: shard {}/{} is done: {} of {} runs of the study are there; --merge joins all shards\n",
+             experiment.name, options.shard->number, options.shard->count, plan.runs.size() - missing,
+             plan.runs.size());
+  return 0;
+}
+
 int run_study(const Experiment& experiment, const Options& options) {
   Plan plan = make_plan(experiment, options);
   choose_curves(options, plan);
@@ -258,15 +351,28 @@ int run_study(const Experiment& experiment, const Options& options) {
     fmt::print("{}", plan_text(experiment, plan, folder, Store::ids_in(folder)));
     return 0;
   }
+  if (options.shard) return run_shard(experiment, options, std::move(plan), folder);
   const std::set<std::string> ids = ids_of(experiment, options, plan, folder);
   const ResultFolder held(folder, ids, options.force);
   Interruption interruption;
   Store store(folder);
   store.keep_scenarios(plan.scenarios);
   auto results = stored(experiment, options, folder, store);
+  auto elsewhere = results_elsewhere(experiment, folder, folder);
   bool first = true;
   do {
-    if (!carry_out_missing(experiment, options, plan, folder, store, results, interruption, first)) return interrupted;
+    join(plan, elsewhere, store, results);
+    if (options.merge) {
+      if (const std::size_t missing = missing_runs(experiment, options, plan, folder, results)) {
+        fmt::print(stderr,
+                   "{}: {} of {} runs are missing in {} and its shards; the same command without --merge, or with "
+                   "--shard, carries them out\n",
+                   experiment.name, missing, plan.runs.size(), folder.string());
+        return interrupted;
+      }
+    } else if (!carry_out_missing(experiment, options, plan, folder, store, results, interruption, first)) {
+      return interrupted;
+    }
     first = false;
   } while (widened(experiment, options, plan, folder, results));
   interruption.study_is_stored();

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <map>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -16,6 +17,18 @@
 
 namespace polhode::study::inline plan {
 namespace {
+
+/// The command line without --shard and --merge, which do not change results: a study that was carried out in parts has
+/// the files of one that was not.
+std::string command_of(const Experiment& experiment, int argc, const char* const* argv) {
+  std::vector<const char*> words;
+  for (int i = 0; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    if (word == "--shard") ++i;
+    else if (word != "--merge" && !word.starts_with("--shard=")) words.push_back(argv[i]);
+  }
+  return command_text(experiment.name, static_cast<int>(words.size()), words.data());
+}
 
 /// The words of the command line that hold keys and values.
 struct Words {
@@ -201,6 +214,13 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
       ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 52).description(""))
       ->group("Running");
   app.add_option("--seed", options.seed, "seed of random points (default: 1)")->type_name("N")->group("Running");
+  std::optional<std::string> shard;
+  app.add_option("--shard", shard,
+                 "carry out the K-th of N parts of the study, in a store of its own; --merge joins them afterwards")
+      ->type_name("K/N")
+      ->group("Running");
+  app.add_flag("--merge", options.merge, "join the results of shards, say what is missing, and carry out no run")
+      ->group("Running");
   app.add_flag("--dry-run", options.dry_run, "print the plan and write nothing")->group("Running");
   std::string list;
   CLI::Option* list_option =
@@ -218,7 +238,9 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
                        : trajectory == "hdf5" ? TrajectoryFormat::hdf5
                                               : TrajectoryFormat::none;
   options.curves = curves_of(curves, experiment);
-  options.command = command_text(experiment.name, argc, argv);
+  if (shard) options.shard = read_shard(*shard, "--shard");
+  if (shard && options.merge) throw InputError("--shard and --merge: a shard carries out runs, --merge does not");
+  options.command = command_of(experiment, argc, argv);
   const StudyAxes said = said_by(words, given, vary, options.seed);
   options.plain = !study_file && said.said.empty() && said.vary.empty() && said.tables.empty();
   StudyFile file;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "experiments/study/plan/experiment.hpp"
+#include "experiments/study/plan/shard.hpp"
 #include "experiments/study/plan/study_axes.hpp"
 #include "experiments/study/trajectory/trajectory.hpp"
 
@@ -35,6 +36,8 @@ struct Options {
   std::optional<std::size_t> curves;  ///< largest number of runs whose curves against time are kept; absent: all
   bool figures = true;
   bool dry_run = false;
+  std::optional<Shard> shard;       ///< the part of the study that is carried out; absent: all of it
+  bool merge = false;               ///< join the results of shards; carry out no run
   std::optional<std::string> list;  ///< catalogue to list, "" for all
   std::string command;              ///< the command line, quoted for a shell
 };

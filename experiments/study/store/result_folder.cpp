@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/study/record/analysis.hpp"
+#include "experiments/study/store/shard_folders.hpp"
 #include "experiments/study/store/store.hpp"
 #include "experiments/study/text/input_error.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 /// Names of the files and folders that a study writes beside its store.
 constexpr const char* files[] = {"runs.csv",   "timings.csv", "manifest.json", "report.html", "trajectory.csv",
                                  "energy.csv", "events.csv",  "trajectory.h5", "replay.html"};
-constexpr const char* folders[] = {"figures", "tables", timings_folder, "trajectories"};
+constexpr const char* folders[] = {"figures", "tables", timings_folder, "trajectories", folder_of_shards};
 
 std::vector<std::filesystem::path> products(const std::filesystem::path& path) {
   std::vector<std::filesystem::path> all;
@@ -46,9 +47,17 @@ std::vector<std::filesystem::path> misplaced(const std::filesystem::path& path) 
   return all;
 }
 
+/// The folder and those of its shards.
+std::vector<std::filesystem::path> with_shards(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> all = shard_folders(path);
+  all.insert(all.begin(), path);
+  return all;
+}
+
 bool holds_only(const std::filesystem::path& path, const std::set<std::string>& ids) {
   try {
-    const std::set<std::string> stored = Store::ids_in(path);
+    std::set<std::string> stored;
+    for (const auto& folder : with_shards(path)) stored.merge(Store::ids_in(folder));
     return std::includes(ids.begin(), ids.end(), stored.begin(), stored.end()) && !stored.empty();
   } catch (const std::runtime_error&) {
     return false;  // damaged
@@ -68,6 +77,8 @@ bool holds_foreign_runs(const std::filesystem::path& path, const std::set<std::s
   });
 }
 
+}  // namespace
+
 void refuse_other_study(const std::filesystem::path& path, const std::set<std::string>& ids) {
   const std::string remedy = "; name another folder with --out, or overwrite it with --force";
   for (const auto& at : misplaced(path)) {
@@ -78,20 +89,18 @@ void refuse_other_study(const std::filesystem::path& path, const std::set<std::s
   }
   bool foreign = false;
   try {
-    foreign = holds_foreign_runs(path, ids);
+    for (const auto& folder : with_shards(path)) foreign = foreign || holds_foreign_runs(folder, ids);
   } catch (const std::runtime_error& error) {
     throw InputError("--out: " + std::string(error.what()) + remedy);
   }
   if (foreign) throw InputError("--out: " + path.string() + " holds the results of a different study" + remedy);
-  if (!std::filesystem::exists(path / Store::file_name)) {
+  if (!std::filesystem::exists(path / Store::file_name) && shard_folders(path).empty()) {
     for (const auto& product : products(path)) {
       if (std::filesystem::exists(product))
         throw InputError("--out: " + product.string() + " is there already" + remedy);
     }
   }
 }
-
-}  // namespace
 
 ResultFolder::ResultFolder(const std::filesystem::path& path, const std::set<std::string>& ids, bool force) {
   std::error_code error;

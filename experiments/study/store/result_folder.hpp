@@ -11,6 +11,9 @@
 
 namespace polhode::study::inline store {
 
+/// Throws InputError if the folder, or one of its shards, has results that are not those of the runs `ids`.
+void refuse_other_study(const std::filesystem::path& path, const std::set<std::string>& ids);
+
 class ResultFolder {
  public:
   /// Checks, creates and locks the folder. `ids`: the runs of the study; they must include all runs already stored

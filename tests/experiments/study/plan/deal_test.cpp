@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/study/plan/shards.hpp"
+#include "experiments/study/plan/deal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/study/plan/shard.hpp"
 #include "experiments/study/text/input_error.hpp"
 
 namespace polhode::study {
