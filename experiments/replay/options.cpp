@@ -26,7 +26,7 @@ ReplayOptions parse_replay_options(int argc, const char* const* argv) {
   double megabytes = 3;
   const auto own = [&](CLI::App& app) {
     for (const char* name : {"--out", "--force", "--trajectory", "--reference", "--curves", "--no-figures", "--jobs",
-                             "--seed", "--shard", "--merge", "--dry-run"}) {
+                             "--seed", "--shard", "--merge", "--slurm", "--submit", "--dry-run"}) {
       app.remove_option(app.get_option(name));
     }
     app.add_option("--results", results,

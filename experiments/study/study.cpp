@@ -25,6 +25,7 @@
 #include "experiments/study/report/tables/summary.hpp"
 #include "experiments/study/report/tables/tables.hpp"
 #include "experiments/study/run/run.hpp"
+#include "experiments/study/slurm.hpp"
 #include "experiments/study/store/result_folder.hpp"
 #include "experiments/study/store/shard_folders.hpp"
 #include "experiments/study/store/store.hpp"
@@ -287,6 +288,7 @@ std::map<std::string, RunResult> results_elsewhere(const Experiment& experiment,
   std::map<std::string, RunResult> results;
   for (const auto& place : stores) {
     try {
+      if (Store::ids_in(place).empty()) continue;  // a shard that has just begun
       const Store store(place, metric_table(), Access::read);
       store.for_each(Curves::with, [&](StoredRun&& run) {
         if (run.damage.empty()) results.emplace(run.id, std::move(run.result));
@@ -343,6 +345,18 @@ int run_shard(const Experiment& experiment, const Options& options, Plan plan, c
   return 0;
 }
 
+/// Writes the job scripts of the study, and submits them if asked to.
+int prepare_jobs(const Experiment& experiment, const Options& options, const Plan& plan,
+                 const std::filesystem::path& folder) {
+  const SlurmJobs jobs = read_slurm_jobs(*options.slurm, plan.runs.size());
+  if (!options.force) refuse_other_study(folder, ids_of(experiment, options, plan, folder));
+  write_job_scripts(jobs, experiment.name, options.words, folder);
+  fmt::print("{}: {} runs in {} shards; submit with {}, or carry out with {}\n", experiment.name, plan.runs.size(),
+             jobs.shards, (folder / "slurm/submit.sh").string(), (folder / "slurm/parallel.sh").string());
+  if (options.submit) fmt::print("{}", submit_jobs(folder));
+  return 0;
+}
+
 int run_study(const Experiment& experiment, const Options& options) {
   Plan plan = make_plan(experiment, options);
   choose_curves(options, plan);
@@ -351,6 +365,7 @@ int run_study(const Experiment& experiment, const Options& options) {
     fmt::print("{}", plan_text(experiment, plan, folder, Store::ids_in(folder)));
     return 0;
   }
+  if (options.slurm) return prepare_jobs(experiment, options, plan, folder);
   if (options.shard) return run_shard(experiment, options, std::move(plan), folder);
   const std::set<std::string> ids = ids_of(experiment, options, plan, folder);
   const ResultFolder held(folder, ids, options.force);

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <map>
+#include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -18,16 +19,25 @@
 namespace polhode::study::inline plan {
 namespace {
 
-/// The command line without --shard and --merge, which do not change results: a study that was carried out in parts has
+/// The words of the command line without these options, some of which take a value.
+std::vector<std::string> words_without(const std::set<std::string_view>& with_value,
+                                       const std::set<std::string_view>& flags, int argc, const char* const* argv) {
+  std::vector<std::string> words;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    if (with_value.contains(word)) ++i;
+    else if (!flags.contains(word) && !with_value.contains(word.substr(0, word.find('=')))) words.emplace_back(word);
+  }
+  return words;
+}
+
+/// The command line without the options of jobs, which do not change results: a study that was carried out in parts has
 /// the files of one that was not.
 std::string command_of(const Experiment& experiment, int argc, const char* const* argv) {
-  std::vector<const char*> words;
-  for (int i = 0; i < argc; ++i) {
-    const std::string_view word = argv[i];
-    if (word == "--shard") ++i;
-    else if (word != "--merge" && !word.starts_with("--shard=")) words.push_back(argv[i]);
-  }
-  return command_text(experiment.name, static_cast<int>(words.size()), words.data());
+  std::string command = "./run " + experiment.name;
+  for (const std::string& word : words_without({"--shard", "--slurm"}, {"--merge", "--submit"}, argc, argv))
+    command += " " + shell_word(word);
+  return command;
 }
 
 /// The words of the command line that hold keys and values.
@@ -221,6 +231,12 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
       ->group("Running");
   app.add_flag("--merge", options.merge, "join the results of shards, say what is missing, and carry out no run")
       ->group("Running");
+  app.add_option("--slurm", options.slurm,
+                 "write job scripts for Slurm and GNU parallel: 'shards=64 cpus=1 time=2:00:00 mem=2G account=A "
+                 "partition=P warning=60 rounds=3 option=--qos=long'")
+      ->type_name("KEY=VALUE…")
+      ->group("Running");
+  app.add_flag("--submit", options.submit, "submit the scripts of --slurm")->group("Running");
   app.add_flag("--dry-run", options.dry_run, "print the plan and write nothing")->group("Running");
   std::string list;
   CLI::Option* list_option =
@@ -238,6 +254,8 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
                        : trajectory == "hdf5" ? TrajectoryFormat::hdf5
                                               : TrajectoryFormat::none;
   options.curves = curves_of(curves, experiment);
+  options.words = words_without({"--shard", "--slurm"}, {"--merge", "--submit", "--force"}, argc, argv);
+  if (options.submit && !options.slurm) throw InputError("--submit: there is nothing to submit; give --slurm too");
   if (shard) options.shard = read_shard(*shard, "--shard");
   if (shard && options.merge) throw InputError("--shard and --merge: a shard carries out runs, --merge does not");
   options.command = command_of(experiment, argc, argv);

@@ -36,10 +36,13 @@ struct Options {
   std::optional<std::size_t> curves;  ///< largest number of runs whose curves against time are kept; absent: all
   bool figures = true;
   bool dry_run = false;
-  std::optional<Shard> shard;       ///< the part of the study that is carried out; absent: all of it
-  bool merge = false;               ///< join the results of shards; carry out no run
-  std::optional<std::string> list;  ///< catalogue to list, "" for all
-  std::string command;              ///< the command line, quoted for a shell
+  std::optional<Shard> shard;        ///< the part of the study that is carried out; absent: all of it
+  std::optional<std::string> slurm;  ///< what --slurm says of the jobs; absent: no job scripts
+  bool submit = false;               ///< submit the job scripts
+  std::vector<std::string> words;    ///< options of the command line that the jobs repeat
+  bool merge = false;                ///< join the results of shards; carry out no run
+  std::optional<std::string> list;   ///< catalogue to list, "" for all
+  std::string command;               ///< the command line, quoted for a shell
 };
 
 /// The options, or an exit status if the program must end at once (--help).

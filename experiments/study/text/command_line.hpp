@@ -19,6 +19,9 @@ CLI::Option* add_no_figures(CLI::App& app, bool& figures);
 /// InputError (one line) for anything that is no option.
 std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const* argv);
 
+/// The word as a shell reads it back: unchanged if no character in it has a meaning to the shell.
+std::string shell_word(const std::string& word);
+
 /// The command line, "./run PROGRAM …", quoted for a shell.
 std::string command_text(const std::string& program, int argc, const char* const* argv);
 

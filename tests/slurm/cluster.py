@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A Slurm of two nodes on this host, for tests: it is started and stopped here, and nothing of it is left."""
+import os
+import pathlib
+import shutil
+import signal
+import socket
+import subprocess
+import time
+
+PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scontrol", "scancel")
+PATIENCE = 60  # s
+
+CONFIGURATION = """\
+ClusterName=test
+SlurmctldHost={host}
+SlurmUser=root
+SlurmdUser=root
+AuthType=auth/munge
+AuthInfo=socket={folder}/munge/socket
+CredType=cred/munge
+StateSaveLocation={folder}/state
+SlurmdSpoolDir={folder}/spool/%n
+SlurmctldPidFile={folder}/slurmctld.pid
+SlurmdPidFile={folder}/slurmd.%n.pid
+SlurmctldLogFile={folder}/slurmctld.log
+SlurmdLogFile={folder}/slurmd.%n.log
+SlurmctldPort={port}
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+SwitchType=switch/none
+JobAcctGatherType=jobacct_gather/none
+AccountingStorageType=accounting_storage/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_CPU
+ReturnToService=2
+MaxArraySize=101
+KillWait=5
+MinJobAge=300
+NodeName=n[1-2] NodeHostname={host} NodeAddr=127.0.0.1 Port=[{first}-{last}] CPUs=1 State=UNKNOWN
+PartitionName=main Nodes=n[1-2] Default=YES MaxTime=INFINITE State=UP
+"""
+
+
+def why_not():
+    """The reason for which no Slurm can be started here; empty if one can."""
+    missing = [name for name in PROGRAMS if not shutil.which(name, path=os.environ["PATH"] + ":/usr/sbin:/sbin")]
+    if missing:
+        return "not installed: " + ", ".join(missing)
+    if os.geteuid() != 0:
+        return "it needs root"
+    if not os.path.isdir("/sys/devices/system/node") and not os.path.isdir("/sys/devices"):
+        return "there is no /sys"
+    if not [name for _, name in socket.if_nameindex() if name != "lo"]:
+        return "there is no network interface besides loopback"
+    return ""
+
+
+class Cluster:
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        self.daemons = {}
+        for name in ("munge", "state", "spool"):
+            (self.folder / name).mkdir(parents=True)
+        (self.folder / "munge").chmod(0o755)
+        key = self.folder / "munge/key"
+        key.write_bytes(os.urandom(1024))
+        key.chmod(0o400)
+        first = 16800 + os.getpid() % 2000
+        self.configuration = self.folder / "slurm.conf"
+        self.configuration.write_text(CONFIGURATION.format(host=socket.gethostname().split(".")[0], folder=self.folder,
+                                                           port=first + 2, first=first, last=first + 1), encoding="utf-8")
+        self.environment = {**os.environ, "SLURM_CONF": str(self.configuration), "PATH": os.environ["PATH"] + ":/usr/sbin:/sbin"}
+        self.start("munged", "munged", "--foreground", "--force", f"--key-file={key}", f"--socket={self.folder}/munge/socket",
+                   f"--pid-file={self.folder}/munge/pid", f"--log-file={self.folder}/munge/log",
+                   f"--seed-file={self.folder}/munge/seed")
+        self.wait(lambda: (self.folder / "munge/socket").exists(), "munged")
+        self.start("slurmctld", "slurmctld", "-D", "-i")
+        for node in ("n1", "n2"):
+            self.start_node(node)
+        self.wait(lambda: self.call("sinfo", "-h", "-o", "%D %t").stdout.split() == ["2", "idle"], "idle nodes")
+
+    def start(self, name, *command):
+        with open(self.folder / f"{name}.out", "ab") as log:
+            self.daemons[name] = subprocess.Popen(command, env=self.environment, stdin=subprocess.DEVNULL, stdout=log, stderr=log)
+
+    def start_node(self, node):
+        self.start(node, "slurmd", "-D", "-N", node)
+
+    def kill_node(self, node):
+        """Kills a node's daemon, and not what it has started."""
+        self.daemons[node].kill()
+        self.daemons[node].wait()
+
+    def wait(self, ready, what, patience=PATIENCE):
+        end = time.monotonic() + patience
+        while not ready():
+            if time.monotonic() > end:
+                logs = "".join(f"{path.name}: {path.read_text(errors='replace')[-800:]}\n" for path in self.folder.glob("*.log"))
+                raise AssertionError(f"waited in vain for {what}\n{logs}")
+            time.sleep(0.1)
+
+    def call(self, *command, **settings):
+        return subprocess.run(command, env=self.environment, capture_output=True, text=True, timeout=PATIENCE, **settings)
+
+    def jobs(self):
+        return self.call("squeue", "-h", "-o", "%i %t").stdout.split("\n")[:-1]
+
+    def wait_for_jobs(self, patience=PATIENCE):
+        self.wait(lambda: not self.jobs(), "the end of all jobs", patience)
+
+    def stop(self):
+        self.call("scancel", "--signal=KILL", "--full", "--user=root")
+        self.call("scancel", "--user=root")
+        for name in reversed(list(self.daemons)):
+            daemon = self.daemons[name]
+            if daemon.poll() is None:
+                daemon.send_signal(signal.SIGTERM)
+                try:
+                    daemon.wait(10)
+                except subprocess.TimeoutExpired:
+                    daemon.kill()
+                    daemon.wait()

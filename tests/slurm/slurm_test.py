@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Studies by job scripts, on a real Slurm and by GNU parallel: the files are those of one process, whatever strikes."""
+import pathlib
+import shutil
+import subprocess
+import sys
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "experiments"))
+
+from cluster import Cluster, why_not  # noqa: E402
+from programs import BIN, PATIENCE, call, temporary_folder  # noqa: E402
+from shards_test import files  # noqa: E402
+
+STUDY = ["--integrator", "rk4,explicit_midpoint", "--dt", "1e-4", "--vary", "body.0.angular_velocity.1=1:5:20",
+         "--no-figures", "--out", "out"]  # 40 runs
+LONG = ["--scenario", "free_symmetric_top", "--integrator", "rk4", "--dt", "2e-6", "--t-end", "10", "--vary",
+        "body.0.angular_velocity.1=1:5:8", "--no-figures", "--out", "out"]  # 8 runs, about a second each
+
+
+class Jobs(unittest.TestCase):
+    def setUp(self):
+        self.folder = temporary_folder(self.addCleanup)
+        for place in ("whole", "jobs"):
+            (self.folder / place).mkdir()
+
+    def whole(self, study):
+        call("energy_drift", *study, folder=self.folder / "whole")
+        return files(self.folder / "whole/out")
+
+    def write(self, study, jobs, *further):
+        return call("energy_drift", *study, "--slurm", jobs, *further, folder=self.folder / "jobs")
+
+    def log(self):
+        return "".join(path.read_text(errors="replace")[-500:] for path in sorted((self.folder / "jobs/out/slurm").glob("*.log")))
+
+    def assert_same(self, whole):
+        found = files(self.folder / "jobs/out")
+        made = {name: text for name, text in found.items() if not name.startswith("slurm/")}
+        self.assertEqual(sorted(made), sorted(whole), self.log())
+        self.assertEqual([name for name in made if made[name] != whole[name]], [], self.log())
+
+
+class Scripts(Jobs):
+    def test_gnu_parallel_carries_out_the_study(self):
+        if not shutil.which("parallel"):
+            self.skipTest("skipped, because GNU parallel is not installed")
+        self.write(STUDY, "shards=3")
+        done = subprocess.run([self.folder / "jobs/out/slurm/parallel.sh"], cwd=self.folder, capture_output=True, text=True,
+                              timeout=PATIENCE, stdin=subprocess.DEVNULL)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_same(self.whole(STUDY))
+
+    def test_options_pass_through(self):
+        self.write(STUDY, "shards=4 cpus=2 time=2:00:00 mem=2G account=tops partition=long warning=90 rounds=5 option=--qos=low")
+        script = (self.folder / "jobs/out/slurm/array.sh").read_text()
+        for line in ("--time=2:00:00", "--mem=2G", "--account=tops", "--partition=long", "--array=1-4", "--cpus-per-task=2",
+                     "--signal=B:USR1@90", "--qos=low"):
+            self.assertIn(f"\n#SBATCH {line}\n", script)
+        self.assertIn("\nexec /", script)
+        self.assertIn("--jobs 2\n", script)
+
+    def test_what_makes_no_sense_is_refused(self):
+        for jobs, reason in [("shard=4", "--slurm shard: no such key; did you mean 'shards'?"),
+                             ("shards=x", "--slurm shards: 'x' is no positive whole number"),
+                             ("shards=1000000", "MaxArraySize")]:
+            done = call("energy_drift", *STUDY, "--slurm", jobs, folder=self.folder / "jobs", status=2)
+            self.assertIn(reason, done.stderr)
+        done = call("energy_drift", *STUDY, "--submit", folder=self.folder / "jobs", status=2)
+        self.assertIn("--submit: there is nothing to submit", done.stderr)
+        self.assertFalse((self.folder / "jobs/out").exists())
+
+
+@unittest.skipIf(why_not(), f"skipped, because no Slurm can be started here: {why_not()}")
+class Slurm(Jobs):
+    def setUp(self):
+        super().setUp()
+        self.cluster = Cluster(self.folder / "cluster")
+        self.addCleanup(self.cluster.stop)
+
+    def submit(self, study, jobs):
+        done = subprocess.run([str(BIN / "energy_drift"), *study, "--slurm", jobs, "--submit"], cwd=self.folder / "jobs",
+                              env=self.cluster.environment, capture_output=True, text=True, timeout=PATIENCE, stdin=subprocess.DEVNULL)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"submitted: array \d+, merge \d+")
+
+    def running_task(self):
+        """Waits for a task of the array that runs. Returns its process."""
+        def found():
+            return subprocess.run(["pgrep", "-f", f"{BIN}/energy_drift.*--shard"], capture_output=True, text=True).stdout.split()
+        self.cluster.wait(found, "a running task")
+        return int(found()[0])
+
+    def test_an_array_and_its_merge(self):
+        self.submit(STUDY, "shards=4")
+        self.cluster.wait_for_jobs()
+        self.assert_same(self.whole(STUDY))
+
+    def test_a_task_that_is_killed(self):
+        self.submit(LONG, "shards=4")
+        time.sleep(0.5)
+        subprocess.run(["kill", "-9", str(self.running_task())], check=False)
+        self.cluster.wait_for_jobs(2 * PATIENCE)
+        self.assert_same(self.whole(LONG))
+
+    def test_a_warning_before_the_time_limit(self):
+        self.submit(LONG, "shards=2")
+        time.sleep(0.5)
+        subprocess.run(["kill", "-USR1", str(self.running_task())], check=False)
+        self.cluster.wait_for_jobs(2 * PATIENCE)
+        self.assert_same(self.whole(LONG))
+
+    def test_the_limit_of_arrays_is_that_of_the_site(self):
+        done = subprocess.run([str(BIN / "energy_drift"), *STUDY, "--slurm", "shards=101"], cwd=self.folder / "jobs",
+                              env=self.cluster.environment, capture_output=True, text=True, timeout=PATIENCE, stdin=subprocess.DEVNULL)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("101 are more than the 100 that the site's MaxArraySize allows", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
