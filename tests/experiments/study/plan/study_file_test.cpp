@@ -8,6 +8,7 @@
 #include <fstream>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/math/portable_random.hpp"
@@ -220,6 +221,7 @@ seed = 3
 body.0.inertia.1 = { distribution = "normal", mean = 1, deviation = 0.1 }
 samples = "integer(1, 10)"
 )toml";
+  constexpr std::string_view bytes = "\n\"'[]{}().,=:;-#ae09 \xff";
   PortableRandom random(1);
   int read = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -228,7 +230,7 @@ samples = "integer(1, 10)"
       const auto at = std::size_t(random.below(int(text.size()) - 8));
       if (random.chance(0.3)) text.erase(at, std::size_t(random.below(8)));
       else if (random.chance(0.3)) text.insert(at, text.substr(std::size_t(random.below(int(text.size()) - 8)), 8));
-      else text[at] = "\n\"'[]{}().,=:;-#ae09 \xff"[random.below(25)];
+      else text[at] = bytes[std::size_t(random.below(int(bytes.size())))];
     }
     try {
       for (const StudyAxes& study : read_study_file(file("damaged.toml", text), 1).studies) {
