@@ -6,6 +6,7 @@
 #include <linux/magic.h>
 
 #include <cstdint>
+#include <initializer_list>
 #include <string_view>
 #include <utility>
 
@@ -28,7 +29,8 @@ TEST(FileSystem, NetworkFileSystemsAreKnownByTheirNumber) {
 }
 
 TEST(FileSystem, LocalFileSystemsAreNone) {
-  for (const std::uint32_t type : {EXT4_SUPER_MAGIC, TMPFS_MAGIC, OVERLAYFS_SUPER_MAGIC, XFS_SUPER_MAGIC, 0}) {
+  for (const std::uint32_t type :
+       std::initializer_list<std::uint32_t>{EXT4_SUPER_MAGIC, TMPFS_MAGIC, OVERLAYFS_SUPER_MAGIC, XFS_SUPER_MAGIC, 0}) {
     EXPECT_EQ(network_file_system(type), "") << std::hex << type;
   }
   EXPECT_EQ(network_file_system(BTRFS_SUPER_MAGIC), "");
