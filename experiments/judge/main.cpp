@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <set>
 
 #include "experiments/judge/judgement.hpp"
 #include "experiments/judge/options.hpp"
 #include "experiments/study/plan/plan.hpp"
+#include "experiments/study/record/run_id.hpp"
 #include "experiments/study/report/figures/study_figures.hpp"
 #include "experiments/study/report/page/report.hpp"
 #include "experiments/study/report/tables/results.hpp"
@@ -69,7 +71,7 @@ int judge(const JudgeOptions& options) {
   const auto judged = judged_of(options, scenario);
   // 2. Each trajectory as a run of a study.
   Plan plan;
-  std::set<std::string> ids;
+  std::set<std::uint64_t> ids;
   for (const Judged& one : judged) {
     const TrajectoryScore& s = one.score;
     view.runs.push_back(s.record);
@@ -78,7 +80,7 @@ int judge(const JudgeOptions& options) {
     for (const ErrorPoint& p : s.errors) text += exact(p.t) + csv_cell(p.attitude) + csv_cell(p.position);
     for (const SeriesPoint& p : s.record.result.series) text += exact(p.t) + exact(p.energy_drift_rel);
     view.runs.back().id = identity_of(text);
-    ids.insert(view.runs.back().id);
+    ids.insert(number_of_id(view.runs.back().id));
     plan.identity += view.runs.back().id;
   }
   plan.identity = identity_of(plan.identity);
@@ -86,7 +88,8 @@ int judge(const JudgeOptions& options) {
   view.folder = options.out.empty()
                     ? std::filesystem::path("results") / ("judge-" + scenario.name + "-" + plan.identity.substr(0, 8))
                     : std::filesystem::path(options.out);
-  const ResultFolder held(view.folder, ids, options.force);
+  const ResultFolder held(
+      view.folder, [&](std::uint64_t id) { return ids.contains(id); }, options.force);
   Store(view.folder).keep(view.runs);
   view.analysis = judgement(view, judged);
   write_runs_csv(view);

@@ -43,13 +43,13 @@ PageWords words_of(const Scenario& scenario) {
 Motion carried_out(const ReplayOptions& options) {
   const Plan plan = make_plan(replay_experiment(), options.study);
   if (plan.scenarios.size() > 1) throw InputError("--scenario: a page shows one scenario; name one");
-  if (plan.runs.size() > most_runs) {
-    throw InputError(fmt::format("a page shows at most {} runs, and these are {}; make the axes shorter", most_runs,
-                                 plan.runs.size()));
+  if (plan.size() > most_runs) {
+    throw InputError(
+        fmt::format("a page shows at most {} runs, and these are {}; make the axes shorter", most_runs, plan.size()));
   }
   Motion motion{words_of(plan.scenarios.front()), {}};
   motion.words.paragraphs.push_back("Carried out for this page by: " + options.study.command);
-  for (const PlannedRun& run : plan.runs) {
+  for (const PlannedRun& run : plan.runs()) {
     if (!run.refusal.empty()) {
       fmt::print(stderr, "replay: left out: {}\n", run.refusal);
       motion.words.paragraphs.push_back("Left out: " + run.refusal + ".");

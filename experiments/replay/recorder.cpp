@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "experiments/study/metrics/references.hpp"
 #include "experiments/study/run/run.hpp"
@@ -107,7 +108,7 @@ Recording record(const PlannedRun& run, std::size_t most) {
   Recording recording;
   recording.scene = scene_of(*run.scenario);
   References truth;
-  for (int asked = 0; asked < 2; ++asked) truth.expect(run.config, *run.scenario);
+  truth.expect(std::vector(2, number_of(*run.scenario)));
   const MotionScales scales = truth.of(run.config, *run.scenario, nullptr).scales;
   TrajectoryRequest request;
   request.open = [&](const System<double>& system) {

@@ -45,7 +45,7 @@ std::string studies_text(const Plan& plan) {
     if (study.left_out > 0) text += fmt::format(", of which where leaves out {}", study.left_out);
     text += '\n';
   }
-  const std::size_t twice = cells - left_out - plan.runs.size();
+  const std::size_t twice = cells - left_out - plan.size();
   if (twice > 0)
     text += fmt::format("{} the same run as another, which is carried out once\n",
                         twice == 1 ? "1 cell is" : fmt::format("{} cells are", twice));
@@ -55,23 +55,25 @@ std::string studies_text(const Plan& plan) {
 }  // namespace
 
 std::string plan_text(const Experiment& experiment, const Plan& plan, const std::filesystem::path& folder,
-                      const std::set<std::string>& done) {
+                      const std::vector<std::uint64_t>& done) {
   double cost = 0;
   std::size_t there = 0;
   std::vector<Unfinished> refused;
   const auto names = config_columns(plan.varied_keys, plan.named);
   std::vector<Values> values(names.size());
-  for (const PlannedRun& run : plan.runs) {
-    cost += run.cost;
-    if (done.contains(run.id)) ++there;
+  Variants variants;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    const PlannedRun run = plan.run(i, &variants);
+    cost += plan.rows[i].cost;
+    if (std::binary_search(done.begin(), done.end(), plan.rows[i].id)) ++there;
     if (!run.refusal.empty()) refused.push_back({"will be refused", run.refusal});
     const auto cells = config_cells(run.config, plan.named);
     for (std::size_t k = 0; k < names.size(); ++k) values[k].add(cells[k]);
   }
   std::string text = fmt::format("{}: {}, about {:.2g} right-hand sides, into {}\n", experiment.name,
-                                 count(plan.runs.size(), "run"), cost, folder.string());
+                                 count(plan.size(), "run"), cost, folder.string());
   text += studies_text(plan);
-  if (there > 0) text += fmt::format("{} of {} are there already\n", there, count(plan.runs.size(), "run"));
+  if (there > 0) text += fmt::format("{} of {} are there already\n", there, count(plan.size(), "run"));
   text += reasons(refused);
   if (experiment.refine) text += "further runs follow from the results of these\n";
   for (std::size_t k = 0; k < names.size(); ++k) {

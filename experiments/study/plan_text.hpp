@@ -2,18 +2,20 @@
 // What --dry-run prints.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <set>
 #include <string>
+#include <vector>
 
 #include "experiments/study/plan/experiment.hpp"
 #include "experiments/study/plan/plan.hpp"
 
 namespace polhode::study {
 
-/// The plan in words: the number of runs, how many of them are in the folder already (`done`: ids), how many will be
-/// refused and why, how many cells the conditions leave out, the values of each axis, and the first points of tables.
+/// The plan in words: the number of runs, how many of them are in the folder already (`done`: ids in ascending order),
+/// how many will be refused and why, how many cells the conditions leave out, the values of each axis, and the first
+/// points of tables.
 std::string plan_text(const Experiment& experiment, const Plan& plan, const std::filesystem::path& folder,
-                      const std::set<std::string>& done);
+                      const std::vector<std::uint64_t>& done);
 
 }  // namespace polhode::study

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/workers.hpp"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -10,10 +9,14 @@
 #include <condition_variable>
 #include <exception>
 #include <iterator>
+#include <map>
 #include <mutex>
 #include <thread>
 
+#include "core/math/lanes.hpp"
 #include "experiments/study/progress.hpp"
+#include "experiments/study/record/run_id.hpp"
+#include "experiments/study/run_queue.hpp"
 #include "experiments/study/time_left.hpp"
 
 namespace polhode::study {
@@ -24,21 +27,11 @@ constexpr std::chrono::milliseconds between_commits{80};
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-double cost_of(const Batch& batch) {
-  double cost = 0;
-  for (const PlannedRun* run : batch) cost += run->cost;
-  return cost;
-}
-
-/// Batches of one kind take times in proportion to their cost.
-std::string kind_of(const Batch& batch) {
-  const RunConfig& config = batch.front()->config;
-  return fmt::format("{} {} {} {}", config.integrator, config.scenario, name(config.precision), batch.size() > 1);
-}
-
 /// The batch that a worker carries out.
 struct Desk {
-  const Batch* batch = nullptr;
+  bool busy = false;
+  std::string kind;
+  double cost = 0;
   Clock::time_point started{};
   std::atomic<double> share{0};
 };
@@ -46,23 +39,24 @@ struct Desk {
 /// The thread that commits finished runs to the store and reports the progress.
 class Keeper {
  public:
-  Keeper(const std::string& name, const std::vector<Batch>& batches, std::size_t workers, const Finish& finish_runs,
-         Store& store, std::atomic<bool>& no_more, std::map<std::string, RunResult>& results)
-      : finish_runs_(finish_runs),
-        store_(store),
-        no_more_(no_more),
-        results_(results),
-        desks_(workers),
-        progress_(name, runs_in(batches)) {
-    for (const Batch& batch : batches) time_left_.add(kind_of(batch), cost_of(batch));
+  Keeper(const std::string& name, const Plan& plan, const std::vector<std::uint32_t>& runs, std::size_t workers,
+         const Work& work, Store& store, std::atomic<bool>& no_more)
+      : plan_(plan), work_(work), store_(store), no_more_(no_more), desks_(workers), progress_(name, runs.size()) {
+    std::vector<double> costs(plan.kinds.size());
+    for (const std::uint32_t i : runs) costs[plan.rows[i].kind] += plan.rows[i].cost;
+    for (std::size_t kind = 0; kind < costs.size(); ++kind) {
+      if (costs[kind] > 0) time_left_.add(plan.kinds[kind], costs[kind]);
+    }
     thread_ = std::thread([this] { loop(); });
   }
 
   /// Says that a worker begins a batch. Returns the share of it that is done.
-  std::atomic<double>& begin(std::size_t worker, const Batch& batch) {
+  std::atomic<double>& begin(std::size_t worker, const std::string& kind, double cost) {
     const std::lock_guard lock(mutex_);
     Desk& desk = desks_[worker];
-    desk.batch = &batch;
+    desk.busy = true;
+    desk.kind = kind;
+    desk.cost = cost;
     desk.started = Clock::now();
     desk.share = 0;
     return desk.share;
@@ -71,13 +65,13 @@ class Keeper {
   void add(std::size_t worker, std::vector<RunRecord> records) {
     const std::lock_guard lock(mutex_);
     Desk& desk = desks_[worker];
-    time_left_.done(kind_of(*desk.batch), cost_of(*desk.batch), seconds_since(desk.started));
-    desk.batch = nullptr;
+    time_left_.done(desk.kind, desk.cost, seconds_since(desk.started));
+    desk.busy = false;
     std::move(records.begin(), records.end(), std::back_inserter(pending_));
   }
 
-  /// Waits for the last commit; rethrows an exception of the thread.
-  void finish() {
+  /// Waits for the last commit. Returns the numbers of the runs that were stored. Rethrows an exception of the thread.
+  std::vector<std::uint32_t> finish() {
     {
       const std::lock_guard lock(mutex_);
       finished_ = true;
@@ -86,15 +80,10 @@ class Keeper {
     thread_.join();
     progress_.finish();
     if (failure_) std::rethrow_exception(failure_);
+    return std::move(stored_);
   }
 
  private:
-  static std::size_t runs_in(const std::vector<Batch>& batches) {
-    std::size_t runs = 0;
-    for (const Batch& batch : batches) runs += batch.size();
-    return runs;
-  }
-
   void loop() {
     for (bool last = false; !last;) {
       std::vector<RunRecord> records;
@@ -113,65 +102,123 @@ class Keeper {
     const std::lock_guard lock(mutex_);
     std::vector<TimeLeft::UnderWay> under_way;
     for (const Desk& desk : desks_) {
-      if (!desk.batch) continue;
-      under_way.push_back({kind_of(*desk.batch), cost_of(*desk.batch), desk.share, seconds_since(desk.started)});
+      if (desk.busy) under_way.push_back({desk.kind, desk.cost, desk.share, seconds_since(desk.started)});
     }
-    progress_.report(done_, time_left_.share(under_way), time_left_.seconds(under_way, desks_.size()));
+    progress_.report(stored_.size(), time_left_.share(under_way), time_left_.seconds(under_way, desks_.size()));
   }
 
-  void keep(std::vector<RunRecord>& records) {
+  void keep(const std::vector<RunRecord>& records) {
     if (records.empty() || failure_) return;
     try {
-      finish_runs_(records);
+      work_.finish(records);
       store_.keep(records);
-      done_ += records.size();
-      for (RunRecord& r : records) results_[r.id] = std::move(r.result);
+      for (const RunRecord& record : records) {
+        if (const auto number = plan_.find(number_of_id(record.id)))
+          stored_.push_back(static_cast<std::uint32_t>(*number));
+      }
     } catch (...) {
       failure_ = std::current_exception();
       no_more_ = true;
     }
   }
 
-  const Finish& finish_runs_;
+  const Plan& plan_;
+  const Work& work_;
   Store& store_;
   std::atomic<bool>& no_more_;
-  std::map<std::string, RunResult>& results_;
   std::mutex mutex_;
   std::condition_variable wake_;
   std::vector<Desk> desks_;
   TimeLeft time_left_;
   Progress progress_;
   std::vector<RunRecord> pending_;
-  std::size_t done_ = 0;
+  std::vector<std::uint32_t> stored_;
   bool finished_ = false;
   std::exception_ptr failure_;
   std::thread thread_;
 };
 
+/// Sorts the runs into batches of at most lane_count runs of equal key, in their order. Runs with an empty key are
+/// batches of one.
+std::vector<std::vector<std::size_t>> batches_of(const std::vector<PlannedRun>& runs, const Work& work) {
+  std::vector<std::vector<std::size_t>> batches;
+  std::map<std::string, std::size_t> open;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const std::string key = work.key(runs[i]);
+    const auto found = open.find(key);
+    if (key.empty() || found == open.end() || batches[found->second].size() == std::size_t(lane_count)) {
+      open[key] = batches.size();
+      batches.push_back({i});
+    } else {
+      batches[found->second].push_back(i);
+    }
+  }
+  return batches;
+}
+
+/// One of the threads that carry out runs.
+class Worker {
+ public:
+  Worker(const Plan& plan, const Work& work, Keeper& keeper, std::atomic<bool>& no_more, std::size_t number)
+      : plan_(plan), work_(work), keeper_(keeper), no_more_(no_more), number_(number) {}
+
+  /// Carries out these runs, until no more may begin.
+  void carry_out(const std::vector<std::uint32_t>& numbers) {
+    std::vector<PlannedRun> runs;
+    Variants variants;
+    for (const std::uint32_t i : numbers) runs.push_back(plan_.run(i, &variants));
+    for (const std::vector<std::size_t>& members : batches_of(runs, work_)) {
+      if (no_more_) return;
+      std::vector<PlannedRun> batch;
+      double cost = 0;
+      for (const std::size_t k : members) {
+        batch.push_back(std::move(runs[k]));
+        cost += plan_.rows[numbers[k]].cost;
+      }
+      const PlanRow& first = plan_.rows[numbers[members.front()]];
+      std::vector<RunResult> results = work_.carry_out(batch, keeper_.begin(number_, plan_.kinds[first.kind], cost));
+      std::vector<RunRecord> finished;
+      for (std::size_t k = 0; k < results.size(); ++k) {
+        if (results[k].status == "interrupted") continue;
+        if (!plan_.rows[numbers[members[k]]].keeps_curves) drop_curves(results[k]);
+        finished.push_back({batch[k].id, std::move(batch[k].config), std::move(results[k])});
+      }
+      keeper_.add(number_, std::move(finished));
+    }
+  }
+
+ private:
+  const Plan& plan_;
+  const Work& work_;
+  Keeper& keeper_;
+  std::atomic<bool>& no_more_;
+  std::size_t number_;
+};
+
 }  // namespace
 
-void run_all(const std::string& name, std::vector<Batch> batches, const Work& work, const Finish& finish, int jobs,
-             Store& store, std::atomic<bool>& no_more, std::map<std::string, RunResult>& results) {
-  // Longest batches first, so that all cores finish at about the same time.
-  std::stable_sort(batches.begin(), batches.end(),
-                   [](const Batch& a, const Batch& b) { return a.front()->cost > b.front()->cost; });
+std::vector<std::uint32_t> run_all(const std::string& name, const Plan& plan, std::vector<std::uint32_t> runs,
+                                   const Work& work, int jobs, Store& store, std::atomic<bool>& no_more) {
+  if (runs.empty()) return {};
   const int cores = std::max(1, jobs > 0 ? jobs : static_cast<int>(std::thread::hardware_concurrency()));
-  const int count = std::min(cores, static_cast<int>(std::min<std::size_t>(batches.size(), 4096)));
-  Keeper keeper(name, batches, static_cast<std::size_t>(std::max(count, 1)), finish, store, no_more, results);
-  std::atomic<std::size_t> next{0};
+  const int count = std::min(cores, static_cast<int>(std::min<std::size_t>(runs.size(), 4096)));
+  // One run of each kind tells whether others can be carried out together with it.
+  std::vector<std::size_t> together(plan.kinds.size());
+  for (const std::uint32_t i : runs) {
+    std::size_t& most = together[plan.rows[i].kind];
+    if (most == 0) most = work.key(plan.run(i)).empty() ? 1 : std::size_t(lane_count);
+  }
+  Keeper keeper(name, plan, runs, static_cast<std::size_t>(count), work, store, no_more);
+  RunQueue queue(plan, std::move(runs), static_cast<std::size_t>(count), std::move(together));
   std::mutex failure_mutex;
   std::exception_ptr failure;
-  const auto worker = [&](int number) {
-    const auto place = static_cast<std::size_t>(number);
-    for (std::size_t i = next++; i < batches.size() && !no_more; i = next++) {
+  const auto work_on = [&](int number) {
+    Worker worker(plan, work, keeper, no_more, static_cast<std::size_t>(number));
+    while (!no_more) {
+      const std::vector<std::uint32_t> taken = queue.take();
+      if (taken.empty()) return;
       try {
-        std::vector<RunResult> done = work(batches[i], keeper.begin(place, batches[i]));
-        std::vector<RunRecord> finished;
-        for (std::size_t k = 0; k < done.size(); ++k) {
-          const PlannedRun& run = *batches[i][k];
-          if (done[k].status != "interrupted") finished.push_back({run.id, run.config, std::move(done[k])});
-        }
-        keeper.add(place, std::move(finished));
+        worker.carry_out(taken);
       } catch (...) {
         const std::lock_guard lock(failure_mutex);
         if (!failure) failure = std::current_exception();
@@ -180,13 +227,14 @@ void run_all(const std::string& name, std::vector<Batch> batches, const Work& wo
     }
   };
   if (count <= 1) {
-    worker(0);
+    work_on(0);
   } else {
     tbb::task_arena arena(count);
-    arena.execute([&] { tbb::parallel_for(0, count, worker, tbb::simple_partitioner()); });
+    arena.execute([&] { tbb::parallel_for(0, count, work_on, tbb::simple_partitioner()); });
   }
-  keeper.finish();
+  std::vector<std::uint32_t> stored = keeper.finish();
   if (failure) std::rethrow_exception(failure);
+  return stored;
 }
 
 }  // namespace polhode::study

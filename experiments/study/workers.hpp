@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Carries out runs on several cores and stores finished runs at least ten times a second.
+// Carries out runs of a plan on several cores and stores finished runs at least ten times a second. A run is made when
+// a worker begins it, and forgotten when it is stored.
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
-#include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,19 +16,22 @@
 namespace polhode::study {
 
 /// Runs that are carried out together by one call in one thread.
-using Batch = std::vector<const PlannedRun*>;
+using Batch = std::span<const PlannedRun>;
 
-/// Carries out a batch; returns one result for each of its runs. It may store the share of its work that is done, 0 to
-/// 1, into `share`.
-using Work = std::function<std::vector<RunResult>(const Batch&, std::atomic<double>& share)>;
+struct Work {
+  /// Runs with the same non-empty key may be in one batch, of at most lane_count runs.
+  std::function<std::string(const PlannedRun&)> key;
+  /// Carries out a batch; returns one result for each of its runs. It may store the share of its work that is done, 0
+  /// to 1, into `share`.
+  std::function<std::vector<RunResult>(Batch, std::atomic<double>& share)> carry_out;
+  /// Does what must be done before the results of runs are put into the store.
+  std::function<void(const std::vector<RunRecord>&)> finish;
+};
 
-/// Does what must be done before the results of runs are put into the store.
-using Finish = std::function<void(const std::vector<RunRecord>&)>;
-
-/// Calls work(batch) for each batch, `jobs` at a time (0: one for each core), then finish(runs) for several runs at a
-/// time, and puts the results into the store and into `results`. No batch begins once no_more is set, which an
-/// exception does as well; finished runs are kept. Rethrows exceptions of `work`, `finish` and the store.
-void run_all(const std::string& name, std::vector<Batch> batches, const Work& work, const Finish& finish, int jobs,
-             Store& store, std::atomic<bool>& no_more, std::map<std::string, RunResult>& results);
+/// Carries out these runs of the plan, the longest first, `jobs` at a time (0: one for each core), and puts the results
+/// into the store. No batch begins once no_more is set, which an exception does as well; finished runs are kept.
+/// Returns the numbers of the runs that were stored. Rethrows exceptions of `work` and of the store.
+std::vector<std::uint32_t> run_all(const std::string& name, const Plan& plan, std::vector<std::uint32_t> runs,
+                                   const Work& work, int jobs, Store& store, std::atomic<bool>& no_more);
 
 }  // namespace polhode::study

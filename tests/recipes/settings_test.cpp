@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -18,6 +20,7 @@
 #include "experiments/study/plan/listing.hpp"
 #include "experiments/study/plan/plan.hpp"
 #include "experiments/study/record/metric_table.hpp"
+#include "experiments/study/record/run_id.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/store/store.hpp"
@@ -101,20 +104,20 @@ TEST(MethodSettings, AreInTheHelpTheListAndStudyFiles) {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "study.toml").string();
   std::ofstream(file) << "node = [0.5, 1]\nsubstep_count = [1, 2, 4]\nweighting = \"last\"\n";
-  EXPECT_EQ(planned({"--study", file.c_str()}).runs.size(), 6u);
+  EXPECT_EQ(planned({"--study", file.c_str()}).size(), 6u);
 }
 
 TEST(MethodSettings, MakeRunsOfTheirMethodAndLeaveOthersAlone) {
   const Plan plain = planned({"--integrator", "rk4,two_stage"});
   const Plan varied = planned({"--integrator", "rk4,two_stage", "--node", "0.5,1", "--substep-count", "2"});
-  EXPECT_EQ(plain.runs.size(), 2u);
-  ASSERT_EQ(varied.runs.size(), 3u);
-  EXPECT_EQ(varied.runs[0].id, plain.runs[0].id) << "rk4 has no node";
-  EXPECT_EQ(varied.runs[0].config.settings, SettingValues{});
-  EXPECT_EQ(varied.runs[1].config.settings, (SettingValues{{"node", 0.5}, {"substep_count", 2}}));
-  EXPECT_EQ(varied.runs[2].config.settings, (SettingValues{{"node", 1.0}, {"substep_count", 2}}));
-  EXPECT_EQ(std::set({plain.runs[1].id, varied.runs[1].id, varied.runs[2].id}).size(), 3u);
-  const auto columns = config_columns({}, varied.named), cells = config_cells(varied.runs[1].config, varied.named);
+  EXPECT_EQ(plain.size(), 2u);
+  ASSERT_EQ(varied.size(), 3u);
+  EXPECT_EQ(varied.run(0).id, plain.run(0).id) << "rk4 has no node";
+  EXPECT_EQ(varied.run(0).config.settings, SettingValues{});
+  EXPECT_EQ(varied.run(1).config.settings, (SettingValues{{"node", 0.5}, {"substep_count", 2}}));
+  EXPECT_EQ(varied.run(2).config.settings, (SettingValues{{"node", 1.0}, {"substep_count", 2}}));
+  EXPECT_EQ(std::set({plain.run(1).id, varied.run(1).id, varied.run(2).id}).size(), 3u);
+  const auto columns = config_columns({}, varied.named), cells = config_cells(varied.run(1).config, varied.named);
   ASSERT_GE(columns.size(), 2u);
   EXPECT_EQ(std::vector(columns.end() - 2, columns.end()), (std::vector<std::string>{"node", "substep_count"}));
   EXPECT_EQ(std::vector(cells.end() - 2, cells.end()), (std::vector<std::string>{"0.5", "2"}));
@@ -132,12 +135,13 @@ TEST(MethodSettings, AreInTheStoreInTheTableOfRunsAndInTheReport) {
   CsvReader table((folder / "runs.csv").string());
   const std::size_t id = table.column("run"), method = table.column("integrator"), node = table.column("node"),
                     energy = table.column("energy_drift_max_rel");
-  std::set<std::string> ids;
+  std::vector<std::uint64_t> ids;
   std::map<std::string, double> drifts;
   while (table.next()) {
-    ids.insert(table.text(id));
+    ids.push_back(number_of_id(table.text(id)));
     drifts[table.text(method) + table.text(node)] = std::stod(table.text(energy));
   }
+  std::sort(ids.begin(), ids.end());
   EXPECT_EQ(Store::ids_in(folder), ids);
   ASSERT_EQ(drifts.size(), 4u);
   // The value reaches the method, which then is one of the textbook's.
@@ -180,7 +184,7 @@ TEST(MethodSettings, UnknownKeysAndValuesOutOfRangeAreRefused) {
   EXPECT_EQ(why("two_stage", {{"substep_count", 9}}), "two_stage has the substep counts 1 to 8, not 9");
   EXPECT_EQ(why("two_stage", {{"weighting", "first"}}), "two_stage has the weightings both, last, not first");
   EXPECT_THAT(refused({"--node", "1.5"}), HasSubstr("two_stage has the nodes 0.25 to 1, not 1.5"));
-  EXPECT_EQ(planned({"--node", "0.5,1.5"}).runs[1].refusal, "two_stage has the nodes 0.25 to 1, not 1.5");
+  EXPECT_EQ(planned({"--node", "0.5,1.5"}).run(1).refusal, "two_stage has the nodes 0.25 to 1, not 1.5");
   EXPECT_THAT(refused({"--substep-count", "1.5"}), HasSubstr("--substep-count: 1.5 is not a substep count"));
   EXPECT_THAT(refused({"--weighting", "first"}), HasSubstr("--weighting: no 'first'"));
   EXPECT_THAT(refused({"--integrator", "rk4", "--node", "0.5"}),

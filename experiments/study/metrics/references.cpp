@@ -1,32 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/metrics/references.hpp"
 
+#include <algorithm>
+
 #include "core/exact/exact_motion.hpp"
 
 namespace polhode::study::inline metrics {
 
-References::Key References::key(const RunConfig& config, const Scenario& scenario) {
-  return {scenario.canonical, config.t_end};
+namespace {
+
+constexpr std::size_t most_kept = 20'000;
+
+}  // namespace
+
+void References::expect(std::vector<std::uint64_t> scenarios) {
+  std::sort(scenarios.begin(), scenarios.end());
+  const std::lock_guard lock(mutex_);
+  for (auto at = scenarios.begin(); at != scenarios.end();) {
+    const auto end = std::upper_bound(at, scenarios.end(), *at);
+    if (end - at > 1) shared_[*at].expected += static_cast<std::size_t>(end - at);
+    at = end;
+  }
 }
 
-void References::expect(const RunConfig& config, const Scenario& scenario) {
+std::shared_ptr<References::Motion> References::motion_of(std::uint64_t scenario, double t_end) {
   const std::lock_guard lock(mutex_);
-  auto& entry = entries_[key(config, scenario)];
-  if (!entry) entry = std::make_shared<Entry>();
-  ++entry->expected;
+  const auto found = shared_.find(scenario);
+  if (found == shared_.end()) return std::make_shared<Motion>();
+  Shared& shared = found->second;
+  std::shared_ptr<Motion> motion;
+  if (const auto known = shared.motions.find(t_end); known != shared.motions.end()) motion = known->second;
+  if (!motion) {
+    motion = std::make_shared<Motion>();
+    if (kept_ < most_kept) {
+      shared.motions[t_end] = motion;
+      ++kept_;
+    }
+  }
+  if (--shared.expected == 0) {
+    kept_ -= shared.motions.size();
+    shared_.erase(found);
+  }
+  return motion;
 }
 
 TrueMotion References::of(const RunConfig& config, const Scenario& scenario, const std::atomic<bool>* stop) {
-  const Key which = key(config, scenario);
-  std::shared_ptr<Entry> entry;
-  {
-    const std::lock_guard lock(mutex_);
-    auto& found = entries_[which];
-    if (!found) found = std::make_shared<Entry>();
-    entry = found;
-    if (entry->expected <= 1) entries_.erase(which);
-    else --entry->expected;
-  }
+  const std::shared_ptr<Motion> entry = motion_of(number_of(scenario), config.t_end);
   const std::lock_guard lock(entry->making);
   if (!entry->scales) {
     MotionScales scales = motion_scales(scenario, config.t_end, stop);

@@ -5,12 +5,13 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <string>
-#include <utility>
+#include <unordered_map>
+#include <vector>
 
 #include "core/exact/reference_motion.hpp"
 #include "experiments/study/metrics/motion_scales.hpp"
@@ -30,25 +31,29 @@ class References {
   References(const References&) = delete;
   References& operator=(const References&) = delete;
 
-  /// Announces a run, so that the motion it shares is kept until of() was called for it. Cheap.
-  void expect(const RunConfig& config, const Scenario& scenario);
+  /// Announces runs by number_of() their scenarios. The motions of a scenario that
+  /// is announced more than once are kept until of() was called as often, but at most 20 000 motions at a time.
+  void expect(std::vector<std::uint64_t> scenarios);
 
   /// The true motion of the run. Thread-safe: calls wait while another thread computes it. Incomplete if `stop` is set
   /// meanwhile.
   TrueMotion of(const RunConfig& config, const Scenario& scenario, const std::atomic<bool>* stop);
 
  private:
-  using Key = std::pair<std::string, double>;  ///< canonical text, t_end
-  struct Entry {
-    std::size_t expected = 0;
+  struct Motion {
     std::mutex making;
     std::optional<MotionScales> scales;
     std::shared_ptr<const ReferenceMotion> reference;
   };
-  static Key key(const RunConfig& config, const Scenario& scenario);
+  struct Shared {
+    std::size_t expected = 0;
+    std::map<double, std::shared_ptr<Motion>> motions;  ///< by duration, s
+  };
+  std::shared_ptr<Motion> motion_of(std::uint64_t scenario, double t_end);
 
   std::mutex mutex_;
-  std::map<Key, std::shared_ptr<Entry>> entries_;
+  std::unordered_map<std::uint64_t, Shared> shared_;  ///< by scenario
+  std::size_t kept_ = 0;                              ///< number of motions
 };
 
 }  // namespace polhode::study::metrics

@@ -9,22 +9,22 @@
 
 namespace polhode::study::inline plan {
 std::vector<std::size_t> deal(const Plan& plan, std::size_t count) {
-  std::vector<std::size_t> order(plan.runs.size());
+  std::vector<std::size_t> order(plan.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const PlannedRun &one = plan.runs[a], &other = plan.runs[b];
+    const PlanRow &one = plan.rows[a], &other = plan.rows[b];
     return one.cost != other.cost ? one.cost > other.cost : one.id < other.id;
   });
   using Load = std::pair<double, std::size_t>;  // cost, number of the shard
   std::priority_queue<Load, std::vector<Load>, std::greater<>> loads;
   for (std::size_t number = 1; number <= count; ++number) loads.emplace(0.0, number);
-  std::vector<std::size_t> numbers(plan.runs.size());
+  std::vector<std::size_t> numbers(plan.size());
   for (const std::size_t i : order) {
-    if (!plan.runs[i].refusal.empty()) continue;
+    if (plan.rows[i].refused) continue;
     auto [cost, number] = loads.top();
     loads.pop();
     numbers[i] = number;
-    loads.emplace(cost + plan.runs[i].cost, number);
+    loads.emplace(cost + plan.rows[i].cost, number);
   }
   return numbers;
 }

@@ -5,53 +5,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
-#include "experiments/study/plan/axis_values.hpp"
-#include "experiments/study/plan/bound_conditions.hpp"
-#include "experiments/study/plan/cells.hpp"
 #include "experiments/study/plan/most_runs.hpp"
-#include "experiments/study/plan/where.hpp"
+#include "experiments/study/plan/product.hpp"
+#include "experiments/study/plan/run_order.hpp"
+#include "experiments/study/record/run_id.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/record/versions.hpp"
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/text/input_error.hpp"
-#include "experiments/study/text/notation.hpp"
 #include "experiments/study/text/text_hash.hpp"
-#include "experiments/study/text/value_lists.hpp"
 #include "integrators/catalogue.hpp"
 
 namespace polhode::study::inline plan {
 namespace {
-
-/// The study with the methods that the experiment allows. "all" leaves out the others; naming one is an error.
-StudyAxes with_fitting_methods(const Experiment& experiment, StudyAxes study) {
-  const auto said = study.axes.find("integrator");
-  if (!experiment.fixed_steps_only || said == study.axes.end() || study.table_with("integrator")) return study;
-  const bool all = said->second == "all";
-  std::string fitting;
-  for (const OptionValue& name : axis_values(run_option("integrator"), said->second, study.label("integrator"))) {
-    if (all && find_integrator(text_of(name))->declaration.adaptive) continue;
-    fitting += (fitting.empty() ? "" : ",") + text_of(name);
-  }
-  said->second = fitting;
-  return study;
-}
-
-/// Rejects several durations, and samples, if the experiment derives the duration of a run from its step.
-void check_durations(const Experiment& experiment, const StudyAxes& study) {
-  if (!experiment.duration) return;
-  const auto one = study.axes.find("t-end");
-  if (study.table_with("t-end") || (one != study.axes.end() && count_values(one->second) > 1)) {
-    throw InputError(fmt::format("{}: {} takes one, since its runs last as long as their steps have it",
-                                 study.label("t-end"), experiment.name));
-  }
-  if (study.axes.contains("samples") || study.table_with("samples")) {
-    throw InputError(
-        fmt::format("{}: {} looks at every step; leave the option out", study.label("samples"), experiment.name));
-  }
-}
 
 double cost_of(const RunConfig& config) {
   if (!config.dt) return 200 * config.t_end * (1 - std::log10(*config.tolerance));
@@ -59,244 +30,28 @@ double cost_of(const RunConfig& config) {
   return config.t_end / *config.dt * (stages + 1);
 }
 
-/// The run with its identity. Throws std::invalid_argument for an impossible step.
-PlannedRun planned(const RunConfig& config, const std::shared_ptr<const Scenario>& scenario) {
-  const std::string text = fmt::format("{}\n{}\n", results_version, scenario->canonical);
-  RunConfig said = config;  // keys that this run does not change are not part of its identity
-  std::erase_if(said.varied, [](const Override& o) { return o.value.empty(); });
-  RunConfig motion = said;  // a reference does not change the motion
-  motion.reference = false;
-  return {.id = text_hash(text + identity_of(said)),
-          .motion = text_hash(text + identity_of(motion)),
-          .config = config,
-          .scenario = scenario,
-          .refusal = refusal(config, *scenario),
-          .cost = cost_of(config)};
-}
-
-void sort_by_configuration(std::vector<PlannedRun>& runs) {
-  std::vector<std::pair<std::vector<OptionValue>, std::size_t>> keys;
-  for (std::size_t i = 0; i < runs.size(); ++i) keys.emplace_back(sort_key(runs[i].config), i);
-  std::sort(keys.begin(), keys.end(), [&](const auto& a, const auto& b) {
-    return a.first != b.first ? a.first < b.first : runs[a.second].id < runs[b.second].id;
-  });
-  std::vector<PlannedRun> sorted;
-  for (const auto& [key, i] : keys) sorted.push_back(std::move(runs[i]));
-  runs = std::move(sorted);
-}
-
-/// Plans the cells of one product of axes and tables.
-class Planner {
- public:
-  Planner(const Experiment& experiment, const StudyAxes& study, const Options& options, bool reference)
-      : experiment_(experiment),
-        study_(with_fitting_methods(experiment, study)),
-        max_steps_(options.max_steps),
-        reference_(reference) {
-    check_durations(experiment, study_);
-    for (const RunOption& option : run_options()) {
-      if (option.needed) needed_.push_back(&option);
-      if (study_.has(option.name)) without_effect_.push_back(&option);
-    }
-    for (const Condition& condition : study_.where) conditions_.emplace_back(condition.text, condition.label);
-    counted_ = cells(true).count();
-  }
-
-  /// The number of cells, not less than the true one: values that are given twice count twice.
-  double most_cells() const { return counted_; }
-
-  /// Makes the runs. Adds to `effective` the names of all options that affect one.
-  Plan runs(std::set<std::string>& effective) {
-    const Cells all = cells(false);
-    StudyCount count{study_.name, static_cast<std::size_t>(all.count()), 0, all.tables()};
-    for (const std::string& key : varied_keys()) plan_.varied_keys.push_back(key);
-    for (const RunOption& option : run_options()) {
-      if (option.on_demand && study_.has(option.name)) plan_.named.insert(option.name);
-    }
-    for (std::size_t k = 0; k < count.cells; ++k) {
-      if (!add_cell(all.at(k), effective)) ++count.left_out;
-    }
-    if (count.left_out == count.cells) {
-      throw InputError(fmt::format("{}: it leaves out all {}; widen it, or the axes", conditions_.front().label(),
-                                   study::count(count.cells, "cell")));
-    }
-    plan_.studies.push_back(std::move(count));
-    std::sort(plan_.invariants.begin(), plan_.invariants.end());
-    plan_.invariants.erase(std::unique(plan_.invariants.begin(), plan_.invariants.end()), plan_.invariants.end());
-    return std::move(plan_);
-  }
-
- private:
-  struct Opened {
-    ScenarioSource source;
-    std::shared_ptr<const Scenario> scenario;  ///< without overrides
-    BoundConditions conditions;
-  };
-
-  std::set<std::string> varied_keys() const {
-    std::set<std::string> keys;
-    for (const auto& [key, text] : study_.vary) keys.insert(key);
-    for (const PointTable& table : study_.tables) {
-      for (const PointColumn& column : table.columns) {
-        if (!is_option(column.key)) keys.insert(column.key);
-      }
-    }
-    return keys;
-  }
-
-  Cells cells(bool counted) {
-    std::vector<Dimension> all = dimensions(study_, counted);
-    if (opened_.empty()) open_scenarios(all);
-    return Cells(std::move(all), [this](const std::string& name) {
-      const Opened& opened = opened_.at(name);
-      return Cells::Start{start_of(opened.source, *opened.scenario), opened.scenario.get()};
-    });
-  }
-
-  /// Opens all scenarios of the study, in their order.
-  void open_scenarios(const std::vector<Dimension>& all) {
-    const std::string label = study_.label("scenario");
-    std::set<std::string> names;
-    for (const Dimension& dimension : all) {
-      for (std::size_t k = 0; k < dimension.keys.size(); ++k) {
-        const RunOption* option = dimension.keys[k].option;
-        if (!option || option->role != RunOption::Role::scenario) continue;
-        for (std::size_t point = 0; point < dimension.size; ++point) {
-          const std::string name = text_of(dimension.value(point, k));
-          if (opened_.contains(name)) continue;
-          ScenarioSource source = ScenarioSource::open(name, label);
-          if (!names.insert(source.name()).second) throw InputError(label + ": '" + source.name() + "' is named twice");
-          open(name, std::move(source));
-        }
-      }
-    }
-    for (const Where& condition : conditions_) BoundConditions::check_keys(condition, sources());
-  }
-
-  void open(const std::string& name, ScenarioSource source) {
-    auto scenario = std::make_shared<const Scenario>(source.resolve());
-    plan_.scenarios.push_back(*scenario);
-    plan_.scenario_names.push_back(name);
-    for (const std::string& invariant : scenario->invariants) plan_.invariants.push_back(invariant);
-    const std::set<std::string> varied = varied_keys();
-    BoundConditions bound(conditions_, source, {varied.begin(), varied.end()});
-    opened_.emplace(name, Opened{std::move(source), std::move(scenario), std::move(bound)});
-  }
-
-  std::vector<const ScenarioSource*> sources() const {
-    std::vector<const ScenarioSource*> all;
-    for (const auto& [name, opened] : opened_) all.push_back(&opened.source);
-    return all;
-  }
-
-  RunConfig start_of(const ScenarioSource& source, const Scenario& scenario) const {
-    RunConfig config;
-    config.scenario = source.name();
-    config.reference = reference_;
-    if (!scenario.colliders.empty()) config.contact.emplace();
-    return config;
-  }
-
-  /// The configuration of the cell. Options that the study does not give have the defaults of the scenario.
-  RunConfig configured(const Cell& cell, const ScenarioSource& source, const Scenario& scenario) const {
-    RunConfig config = start_of(source, scenario);
-    config.varied = cell.varied;
-    for (const RunOption& option : run_options()) {
-      if (option.role == RunOption::Role::scenario || !option.applies_to(config)) continue;
-      const auto given =
-          std::find_if(cell.options.begin(), cell.options.end(), [&](const auto& o) { return o.first == &option; });
-      if (given != cell.options.end()) option.set(config, given->second);
-      else if (option.preset) option.set(config, option.preset(scenario));
-    }
-    return config;
-  }
-
-  /// The scenario with the varied keys of the cell. Neighbouring cells mostly have the same.
-  const std::shared_ptr<const Scenario>& variant(const Cell& cell, const ScenarioSource& source) {
-    if (!variant_ || variant_of_ != &source || variant_keys_ != cell.varied) {
-      variant_ = std::make_shared<const Scenario>(source.resolve(cell.varied));
-      variant_of_ = &source;
-      variant_keys_ = cell.varied;
-    }
-    return variant_;
-  }
-
-  /// Adds the run of the cell. False: the conditions leave it out.
-  bool add_cell(const Cell& cell, std::set<std::string>& effective) {
-    const Opened& opened = opened_.at(cell.scenario);
-    if (!conditions_.empty()) {
-      const RunConfig config = configured(cell, opened.source, *opened.scenario);
-      if (!opened.conditions.hold(cell, config)) return false;
-    }
-    const auto& scenario = variant(cell, opened.source);
-    RunConfig config = configured(cell, opened.source, *scenario);
-    const bool adaptive = find_integrator(config.integrator)->declaration.adaptive;
-    if (experiment_.fixed_steps_only && adaptive) {
-      throw InputError(fmt::format("{}: {} chooses its own steps, and {} is about steps; name methods that take --dt",
-                                   study_.label("integrator"), config.integrator, experiment_.name));
-    }
-    for (const RunOption* option : needed_) {
-      if (!option->applies_to(config) || option->value(config) != OptionValue{}) continue;
-      if (!study_.table_with(option->name)) throw InputError(config.integrator + " needs --" + option->name);
-      throw InputError(
-          fmt::format("{}: {} needs it, and a row leaves it empty; fill it in, or leave the cell out with "
-                      "where: given({})",
-                      study_.label(option->name), config.integrator, option->name));
-    }
-    std::erase_if(without_effect_, [&](const RunOption* option) {
-      if (!option->applies_to(config)) return false;
-      effective.insert(option->name);
-      return true;
-    });
-    if (config.tolerance) config.max_steps = max_steps_;
-    if (experiment_.duration)
-      config.t_end = experiment_.duration(config.t_end, config.tolerance ? *config.tolerance : *config.dt);
-    try {
-      plan_.runs.push_back(planned(config, scenario));
-    } catch (const std::invalid_argument& error) {
-      throw InputError(study_.label("dt") + ": " + std::string(error.what()));
-    }
-    return true;
-  }
-
-  const Experiment& experiment_;
-  StudyAxes study_;
-  std::optional<std::int64_t> max_steps_;
-  bool reference_;
-  std::vector<const RunOption*> needed_;
-  std::vector<const RunOption*> without_effect_;  // options of the study that have affected no run yet
-  std::vector<Where> conditions_;
-  std::map<std::string, Opened> opened_;  // by the name that the study says
-  double counted_ = 0;
-  std::shared_ptr<const Scenario> variant_;  // the last one
-  const ScenarioSource* variant_of_ = nullptr;
-  std::vector<Override> variant_keys_;
-  Plan plan_;
+/// The identity of a run.
+struct Identity {
+  std::uint64_t id = 0;
+  std::uint64_t scenario = 0;  ///< as PlanRow::scenario
+  std::uint64_t motion = 0;    ///< as the id, without --reference, which does not change the motion
 };
 
-/// Adds the runs of another product of axes of the same experiment to the plan.
-void add_plan(Plan& plan, Plan&& other) {
-  for (Scenario& s : other.scenarios) {
-    const auto known = std::find_if(plan.scenarios.begin(), plan.scenarios.end(),
-                                    [&](const Scenario& other_one) { return other_one.name == s.name; });
-    if (known == plan.scenarios.end()) plan.scenarios.push_back(std::move(s));
-    else if (known->canonical != s.canonical)
-      throw InputError("two files are both named " + s.name + ".toml; rename one of them");
-  }
-  const auto unite = [](std::vector<std::string>& all, const std::vector<std::string>& more) {
-    std::set<std::string> united(all.begin(), all.end());
-    united.insert(more.begin(), more.end());
-    all.assign(united.begin(), united.end());
-  };
-  unite(plan.varied_keys, other.varied_keys);
-  for (std::string& name : other.scenario_names) {
-    auto& names = plan.scenario_names;
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
-  }
-  unite(plan.invariants, other.invariants);
-  plan.named.merge(other.named);
-  plan.studies.insert(plan.studies.end(), other.studies.begin(), other.studies.end());
-  std::move(other.runs.begin(), other.runs.end(), std::back_inserter(plan.runs));
+Identity identity_of_run(const RunConfig& config, const Scenario& scenario) {
+  const std::string text = fmt::format("{}\n{}\n", results_version, scenario.canonical);
+  RunConfig said = config;  // keys that this run does not change are not part of its identity
+  std::erase_if(said.varied, [](const Override& o) { return o.value.empty(); });
+  Identity identity;
+  identity.id = text_number(text + identity_of(said));
+  identity.scenario = number_of(scenario);
+  said.reference = false;
+  identity.motion = config.reference ? text_number(text + identity_of(said)) : identity.id;
+  return identity;
+}
+
+/// Runs of one kind take times in proportion to their cost.
+std::string kind_of(const RunConfig& config) {
+  return fmt::format("{} {} {}", config.integrator, config.scenario, name(config.precision));
 }
 
 /// Adds an empty value for each key that the product of the run does not vary, and sorts the values by `keys`.
@@ -308,6 +63,92 @@ void fill_varied(RunConfig& config, const std::vector<std::string>& keys) {
     varied.push_back(own == config.varied.end() ? Override{key, ""} : *own);
   }
   config.varied = std::move(varied);
+}
+
+/// Number of the kind among `kinds`, to which it is added.
+std::uint16_t number_of_kind(const std::string& kind, std::vector<std::string>& kinds) {
+  const auto known = std::find(kinds.begin(), kinds.end(), kind);
+  const auto number = static_cast<std::uint16_t>(known - kinds.begin());
+  if (known == kinds.end()) kinds.push_back(kind);
+  return number;
+}
+
+/// The row of a run, without its place. Throws std::invalid_argument for an impossible step.
+PlanRow row_of(const RunConfig& config, const Scenario& scenario, const Identity& identity,
+               std::vector<std::string>& kinds) {
+  PlanRow row{.id = identity.id, .scenario = identity.scenario, .cost = cost_of(config)};
+  row.kind = number_of_kind(kind_of(config), kinds);
+  row.refused = !refusal(config, scenario).empty();
+  return row;
+}
+
+/// The rows of a plan in the making.
+class Rows {
+ public:
+  /// Throws std::invalid_argument for an impossible step.
+  void add(std::uint16_t product, std::uint64_t cell, const RunConfig& config, const Scenario& scenario) {
+    const Identity identity = identity_of_run(config, scenario);
+    PlanRow row = row_of(config, scenario, identity, kinds_);
+    row.product = product;
+    row.cell = cell;
+    order_.add(sort_key(config));
+    motions_.push_back(identity.motion);
+    rows_.push_back(row);
+  }
+
+  /// The rows by configuration. Of several runs of the same motion the first one is kept.
+  std::vector<PlanRow> sorted() const {
+    std::vector<std::uint32_t> numbers(rows_.size());
+    std::iota(numbers.begin(), numbers.end(), 0U);
+    std::stable_sort(numbers.begin(), numbers.end(), [&](auto a, auto b) { return motions_[a] < motions_[b]; });
+    std::vector<bool> again(rows_.size());
+    for (std::size_t i = 1; i < numbers.size(); ++i)
+      again[numbers[i]] = motions_[numbers[i]] == motions_[numbers[i - 1]];
+    std::vector<PlanRow> sorted;
+    for (const std::uint32_t i : order_.sorted([&](auto a, auto b) { return rows_[a].id < rows_[b].id; })) {
+      if (!again[i]) sorted.push_back(rows_[i]);
+    }
+    return sorted;
+  }
+
+  const std::vector<std::string>& kinds() const { return kinds_; }
+
+ private:
+  std::vector<PlanRow> rows_;
+  std::vector<std::uint64_t> motions_;
+  RunOrder order_;
+  std::vector<std::string> kinds_;
+};
+
+/// Adds what a product of axes has to the plan, besides its runs.
+void add_product(Plan& plan, const Product& product) {
+  for (const auto& opened : product.opened()) {
+    const Scenario& s = *opened->scenario;
+    const auto known = std::find_if(plan.scenarios.begin(), plan.scenarios.end(),
+                                    [&](const Scenario& other) { return other.name == s.name; });
+    if (known == plan.scenarios.end()) plan.scenarios.push_back(s);
+    else if (known->canonical != s.canonical)
+      throw InputError("two files are both named " + s.name + ".toml; rename one of them");
+    auto& names = plan.scenario_names;
+    if (std::find(names.begin(), names.end(), opened->name) == names.end()) names.push_back(opened->name);
+    plan.invariants.insert(plan.invariants.end(), s.invariants.begin(), s.invariants.end());
+  }
+  for (const std::string& key : product.varied_keys()) plan.varied_keys.push_back(key);
+  for (const RunOption& option : run_options()) {
+    if (option.on_demand && product.study().has(option.name)) plan.named.insert(option.name);
+  }
+}
+
+void sort_without_duplicates(std::vector<std::string>& all) {
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+}
+
+std::vector<std::uint32_t> numbers_by_id(const std::vector<PlanRow>& rows) {
+  std::vector<std::uint32_t> numbers(rows.size());
+  std::iota(numbers.begin(), numbers.end(), 0U);
+  std::sort(numbers.begin(), numbers.end(), [&](auto a, auto b) { return rows[a].id < rows[b].id; });
+  return numbers;
 }
 
 /// The study with the defaults of a further product of axes.
@@ -334,75 +175,143 @@ void refuse_without_effect(const StudyAxes& study, const std::set<std::string>& 
 }
 
 /// All products of axes of a study.
-std::vector<Planner> planners_of(const Experiment& experiment, const Options& options, const StudyAxes& study,
-                                 Plan& plan) {
-  std::vector<Planner> planners;
-  planners.emplace_back(experiment, study, options, study.reference || experiment.reference);
+std::vector<std::shared_ptr<Product>> products_of(const Experiment& experiment, const Options& options,
+                                                  const StudyAxes& study, Plan& plan) {
+  std::vector<std::shared_ptr<Product>> products;
+  products.push_back(std::make_shared<Product>(experiment, study, options, study.reference || experiment.reference));
   for (const FurtherAxes& more : experiment.more) {
     if (more.by_default_only && !options.plain) continue;
     const StudyAxes other = further(experiment, study, more);
     plan.further_axes.push_back(other.axes);
-    planners.emplace_back(experiment, other, options, study.reference || more.reference);
+    products.push_back(std::make_shared<Product>(experiment, other, options, study.reference || more.reference));
   }
-  return planners;
+  return products;
+}
+
+void refuse_too_many(double cells) {
+  if (cells <= static_cast<double>(most_runs)) return;
+  throw InputError(fmt::format("{} runs are more than the 10 million that a study may have; make the axes shorter",
+                               cells < 1e15 ? fmt::format("{:.0f}", cells) : fmt::format("{:.2g}", cells)));
 }
 
 }  // namespace
 
+PlannedRun Plan::run(std::size_t i, Variants* known) const {
+  const PlanRow& row = rows[i];
+  PlannedRun run{.id = id_of_number(row.id), .config = {}, .scenario = {}, .refusal = {}};
+  if (row.product == products_.size()) {
+    run.config = further_[row.cell].config;
+    run.scenario = further_[row.cell].scenario;
+  } else {
+    Product::Run made = products_[row.product]->run(row.cell, known ? known->find(row.scenario) : nullptr);
+    run.config = std::move(made.config);
+    run.scenario = std::move(made.scenario);
+    fill_varied(run.config, varied_keys);
+  }
+  if (known) known->add(row.scenario, run.scenario);
+  if (row.refused) run.refusal = refusal(run.config, *run.scenario);
+  return run;
+}
+
+std::vector<PlannedRun> Plan::runs() const {
+  Variants known(size());
+  std::vector<PlannedRun> all;
+  for (std::size_t i = 0; i < size(); ++i) all.push_back(run(i, &known));
+  return all;
+}
+
+std::optional<std::size_t> Plan::find(std::uint64_t id) const {
+  const auto found = std::lower_bound(by_id_.begin(), by_id_.end(), id,
+                                      [&](std::uint32_t i, std::uint64_t wanted) { return rows[i].id < wanted; });
+  if (found == by_id_.end() || rows[*found].id != id) return std::nullopt;
+  return *found;
+}
+
 Plan make_plan(const Experiment& experiment, const Options& options) {
   Plan plan;
   double cells = 0;
-  std::vector<std::vector<Planner>> planners;
+  std::vector<std::vector<std::shared_ptr<Product>>> products;
   for (const StudyAxes& study : options.studies) {
-    planners.push_back(planners_of(experiment, options, study, plan));
-    for (const Planner& planner : planners.back()) cells += planner.most_cells();
+    products.push_back(products_of(experiment, options, study, plan));
+    for (const auto& product : products.back()) cells += product->most_cells();
   }
-  if (cells > static_cast<double>(most_runs)) {
-    throw InputError(fmt::format("{} runs are more than the 10 million that a study may have; make the axes shorter",
-                                 cells < 1e15 ? fmt::format("{:.0f}", cells) : fmt::format("{:.2g}", cells)));
+  refuse_too_many(cells);
+  for (const auto& of_study : products) {
+    for (const auto& product : of_study) add_product(plan, *product);
   }
+  sort_without_duplicates(plan.varied_keys);
+  sort_without_duplicates(plan.invariants);
   std::set<std::string> effective;
-  for (std::size_t i = 0; i < planners.size(); ++i) {
+  Rows rows;
+  for (std::size_t i = 0; i < products.size(); ++i) {
     const StudyAxes& study = options.studies[i];
     std::set<std::string> own;
-    for (Planner& planner : planners[i]) add_plan(plan, planner.runs(own));
+    for (const auto& product : products[i]) {
+      const auto number = static_cast<std::uint16_t>(plan.products_.size());
+      Product::Count count = product->for_each([&](std::uint64_t cell, Product::Run&& run) {
+        fill_varied(run.config, plan.varied_keys);
+        rows.add(number, cell, run.config, *run.scenario);
+      });
+      plan.studies.push_back({study.name, count.cells, count.left_out, std::move(count.tables)});
+      own.merge(count.effective);
+      plan.products_.push_back(product);
+    }
     refuse_without_effect(study, study.said, own);
     effective.merge(own);
   }
   refuse_without_effect(options.studies.front(), options.shared, effective);
-  std::set<std::string> motions;  // runs of the same motion that come from several products are kept once
-  std::erase_if(plan.runs, [&](const PlannedRun& run) { return !motions.insert(run.motion).second; });
-  for (PlannedRun& run : plan.runs) fill_varied(run.config, plan.varied_keys);
-  if (experiment.one_run && plan.runs.size() != 1) {
+  plan.rows = rows.sorted();
+  plan.kinds = rows.kinds();
+  plan.by_id_ = numbers_by_id(plan.rows);
+  if (experiment.one_run && plan.size() != 1) {
     throw InputError(fmt::format("{} makes one run, and this is {}; give each axis one value, or use energy_drift",
-                                 experiment.name, plan.runs.size()));
+                                 experiment.name, plan.size()));
   }
-  const auto sense = [](const PlannedRun& r) { return r.refusal.empty(); };
-  sort_by_configuration(plan.runs);
-  if (std::none_of(plan.runs.begin(), plan.runs.end(), sense)) {
-    throw InputError(plan.runs.front().config.integrator + " on " + plan.runs.front().config.scenario + ": " +
-                     plan.runs.front().refusal);
+  if (std::all_of(plan.rows.begin(), plan.rows.end(), [](const PlanRow& row) { return row.refused; })) {
+    const PlannedRun first = plan.run(0);
+    throw InputError(first.config.integrator + " on " + first.config.scenario + ": " + first.refusal);
   }
   std::string all;
-  for (const PlannedRun& run : plan.runs) all += run.id;
+  for (const PlanRow& row : plan.rows) all += id_of_number(row.id);
   plan.identity = text_hash(all);
   return plan;
 }
 
 std::size_t widen(Plan& plan, const std::vector<RunConfig>& configs) {
-  std::set<std::string> ids;
-  for (const PlannedRun& run : plan.runs) ids.insert(run.id);
-  std::vector<PlannedRun> added;
-  for (const RunConfig& config : configs) {
-    const auto like = std::find_if(plan.runs.begin(), plan.runs.end(), [&](const PlannedRun& run) {
-      return run.config.scenario == config.scenario && run.config.varied == config.varied;
-    });
-    if (like == plan.runs.end()) throw std::logic_error("a further run of a scenario that the study does not have");
-    PlannedRun run = planned(config, like->scenario);
-    if (ids.insert(run.id).second) added.push_back(std::move(run));
+  const auto setting = [](const RunConfig& config) { return std::pair(config.scenario, config.varied); };
+  const auto before = [](const auto& a, const auto& b) {
+    if (a.first != b.first) return a.first < b.first;
+    return std::lexicographical_compare(
+        a.second.begin(), a.second.end(), b.second.begin(), b.second.end(),
+        [](const Override& x, const Override& y) { return x.key != y.key ? x.key < y.key : x.value < y.value; });
+  };
+  using Setting = std::pair<std::string, std::vector<Override>>;
+  std::map<Setting, std::shared_ptr<const Scenario>, decltype(before)> scenarios(before);
+  Variants variants(plan.size());
+  RunOrder order;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    const PlannedRun run = plan.run(i, &variants);
+    scenarios.emplace(setting(run.config), run.scenario);
+    order.add(sort_key(run.config));
   }
-  for (PlannedRun& run : added) plan.runs.push_back(std::move(run));
-  if (!added.empty()) sort_by_configuration(plan.runs);
+  std::set<std::uint64_t> added;
+  for (const RunConfig& config : configs) {
+    const auto like = scenarios.find(setting(config));
+    if (like == scenarios.end()) throw std::logic_error("a further run of a scenario that the study does not have");
+    PlanRow row = row_of(config, *like->second, identity_of_run(config, *like->second), plan.kinds);
+    if (plan.contains(row.id) || !added.insert(row.id).second) continue;
+    row.product = static_cast<std::uint16_t>(plan.products_.size());
+    row.cell = plan.further_.size();
+    plan.further_.push_back({config, like->second});
+    plan.rows.push_back(row);
+    order.add(sort_key(config));
+  }
+  if (added.empty()) return 0;
+  std::vector<PlanRow> sorted;
+  for (const std::uint32_t i : order.sorted([&](auto a, auto b) { return plan.rows[a].id < plan.rows[b].id; }))
+    sorted.push_back(plan.rows[i]);
+  plan.rows = std::move(sorted);
+  plan.by_id_ = numbers_by_id(plan.rows);
   return added.size();
 }
 

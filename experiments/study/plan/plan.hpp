@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plan of a study: all runs of its cells, with their identities, made before anything is run or written.
+// Plan of a study: all runs of its cells, with their identities, made before anything is run or written. Of each run
+// one row of some 40 bytes is held; the run is made from its cell when it is asked for.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "experiments/study/plan/options.hpp"
@@ -12,14 +16,25 @@
 
 namespace polhode::study::inline plan {
 
+class Product;
+
 struct PlannedRun {
-  std::string id;      ///< as RunRecord::id
-  std::string motion;  ///< hash of the same text without --reference: equal for runs of the same motion
+  std::string id;  ///< as RunRecord::id
   RunConfig config;
   std::shared_ptr<const Scenario> scenario;
-  std::string refusal;       ///< reason for which the run cannot be carried out; empty if it can
-  double cost = 0;           ///< estimated work, in evaluations of the right-hand side
-  bool keeps_curves = true;  ///< its curves against time are kept (--curves)
+  std::string refusal;  ///< reason for which the run cannot be carried out; empty if it can
+};
+
+/// What is held of each run of a plan.
+struct PlanRow {
+  std::uint64_t id = 0;        ///< as number_of_id()
+  std::uint64_t scenario = 0;  ///< number_of() its scenario, with the varied keys set
+  std::uint64_t cell = 0;      ///< number of its cell in its product, or of its run among the further ones
+  double cost = 0;             ///< estimated work, in evaluations of the right-hand side
+  std::uint16_t product = 0;   ///< index of its product; that after the last one: the further runs
+  std::uint16_t kind = 0;      ///< index in Plan::kinds
+  bool refused = false;        ///< it cannot be carried out
+  bool keeps_curves = true;    ///< its curves against time are kept (--curves)
 };
 
 /// How one study became runs.
@@ -30,17 +45,60 @@ struct StudyCount {
   std::vector<std::string> tables;  ///< its tables of points in words: "zip of dt, t-end: 2 points: (0.001, 10), …"
 };
 
-struct Plan {
+/// Scenarios with their varied keys set, by PlanRow::scenario, so that runs can share them.
+class Variants {
+ public:
+  /// `most`: the largest number that is held.
+  explicit Variants(std::size_t most = 256) : most_(most) {}
+
+  std::shared_ptr<const Scenario> find(std::uint64_t scenario) const {
+    const auto found = held_.find(scenario);
+    return found == held_.end() ? nullptr : found->second;
+  }
+  void add(std::uint64_t scenario, const std::shared_ptr<const Scenario>& variant) {
+    if (held_.size() == most_) held_.clear();
+    held_.emplace(scenario, variant);
+  }
+
+ private:
+  std::size_t most_;
+  std::unordered_map<std::uint64_t, std::shared_ptr<const Scenario>> held_;
+};
+
+class Plan {
+ public:
   std::vector<Scenario> scenarios;          ///< each scenario of the study once, without overrides
   std::vector<std::string> scenario_names;  ///< as the study names them: "peters_hsu", "tops/heavy.toml"
   std::vector<std::string> varied_keys;     ///< scenario keys that are axes, sorted
   NamedOptions named{};                     ///< options on demand that the study gives
   std::vector<std::string> invariants;      ///< further declared invariants of all scenarios, sorted
-  std::vector<PlannedRun> runs;             ///< sorted by configuration, without duplicates
+  std::vector<PlanRow> rows;                ///< the runs, sorted by configuration, without duplicates
+  std::vector<std::string> kinds;           ///< runs of a kind take times in proportion to their cost
   std::vector<StudyCount> studies;
   /// Axes of each further product of the experiment (Experiment::more), in the syntax of the command line.
   std::vector<std::map<std::string, std::string>> further_axes;
   std::string identity;  ///< hash of the ids of all runs
+
+  std::size_t size() const { return rows.size(); }
+  /// Run i, below size(). Takes its scenario from `known`, and puts it there, unless `known` is null. Thread-safe for
+  /// different `known`.
+  PlannedRun run(std::size_t i, Variants* known = nullptr) const;
+  /// All runs, for a plan of a few.
+  std::vector<PlannedRun> runs() const;
+  /// Number of the run with this id.
+  std::optional<std::size_t> find(std::uint64_t id) const;
+  bool contains(std::uint64_t id) const { return find(id).has_value(); }
+
+ private:
+  friend Plan make_plan(const Experiment& experiment, const Options& options);
+  friend std::size_t widen(Plan& plan, const std::vector<RunConfig>& configs);
+  struct Further {
+    RunConfig config;
+    std::shared_ptr<const Scenario> scenario;
+  };
+  std::vector<std::shared_ptr<const Product>> products_;
+  std::vector<Further> further_;
+  std::vector<std::uint32_t> by_id_;  // numbers of the rows, sorted by id
 };
 
 /// Makes the plan. Throws InputError for invalid input, and if no run of the plan can be carried out.

@@ -147,6 +147,12 @@ struct RunResult {
   std::vector<AttitudeError> attitude_errors;  ///< empty without an exact solution of the attitude
 };
 
+/// Removes the curves against time and frees their memory.
+inline void drop_curves(RunResult& result) {
+  result.series = std::vector<SeriesPoint>();
+  result.attitude_errors = std::vector<AttitudeError>();
+}
+
 struct RunRecord {
   std::string id;  ///< 16 hexadecimal digits: hash of the resolved scenario, the options and the results version
   RunConfig config;

@@ -2,20 +2,10 @@
 #include "experiments/study/record/shown_runs.hpp"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
-#include <string>
+#include <unordered_map>
 
 namespace polhode::study::inline record {
-namespace {
-
-std::string motion_of(const RunConfig& config) {
-  std::string text = config.scenario;
-  for (const Override& varied : config.varied) text += '\n' + varied.value;
-  return text;
-}
-
-}  // namespace
 
 std::vector<std::size_t> evenly_spread(std::size_t n, std::size_t wanted) {
   std::vector<std::size_t> chosen(std::min(n, wanted));
@@ -27,14 +17,15 @@ std::vector<std::size_t> evenly_spread(std::size_t n, std::size_t wanted) {
   return chosen;
 }
 
-std::vector<std::size_t> shown_runs(std::span<const RunConfig* const> runs, std::size_t most) {
+std::vector<std::size_t> shown_runs(std::span<const std::uint64_t> runs, std::size_t most) {
   if (runs.size() <= most) return evenly_spread(runs.size(), most);
   if (most == 0) return {};
-  std::map<std::string, std::size_t> numbers;  // of the motions, in the order of their first runs
-  std::vector<std::size_t> motions;            // of the runs
-  for (const RunConfig* run : runs) motions.push_back(numbers.emplace(motion_of(*run), numbers.size()).first->second);
+  std::unordered_map<std::uint64_t, std::uint32_t> numbers;  // of the motions, in the order of their first runs
+  std::vector<std::uint32_t> motions;                        // of the runs
+  for (const std::uint64_t run : runs)
+    motions.push_back(numbers.try_emplace(run, static_cast<std::uint32_t>(numbers.size())).first->second);
   std::vector<std::size_t> runs_of(numbers.size());
-  for (const std::size_t motion : motions) ++runs_of[motion];
+  for (const std::uint32_t motion : motions) ++runs_of[motion];
 
   const std::size_t largest = *std::max_element(runs_of.begin(), runs_of.end());
   std::vector<bool> chosen(numbers.size());

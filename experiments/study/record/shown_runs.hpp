@@ -4,10 +4,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
-
-#include "experiments/study/record/run_record.hpp"
 
 namespace polhode::study::inline record {
 
@@ -16,10 +15,11 @@ inline constexpr std::size_t most_curves = 2000;
 /// A study with more runs has rows of `rows_of_large_tables` runs in its tables, all others of all runs.
 inline constexpr std::size_t most_table_rows = 10'000, rows_of_large_tables = 1000;
 
-/// Indices of at most `most` runs, ascending; all if there are not more. Whole motions (a scenario with values of its
-/// varied keys) are chosen, evenly spread in the order of the runs, so that methods and steps can be compared on each.
-/// Only where a single motion has more runs than that are runs of a motion left out.
-std::vector<std::size_t> shown_runs(std::span<const RunConfig* const> runs, std::size_t most);
+/// Indices of at most `most` runs, ascending; all if there are not more. `motions`: for each run a number that is the
+/// same for runs of the same motion (a scenario with values of its varied keys). Whole motions are chosen, evenly
+/// spread in the order of the runs, so that methods and steps can be compared on each. Only where a single motion has
+/// more runs than that are runs of a motion left out.
+std::vector<std::size_t> shown_runs(std::span<const std::uint64_t> motions, std::size_t most);
 
 /// So many indices of 0 … n−1, ascending, evenly spread, the ends among them; all if n is not larger.
 std::vector<std::size_t> evenly_spread(std::size_t n, std::size_t wanted);

@@ -10,6 +10,7 @@
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/suggestion.hpp"
 #include "experiments/study/text/text_file.hpp"
+#include "experiments/study/text/text_hash.hpp"
 #include "experiments/study/text/toml_cursor.hpp"
 
 namespace polhode::study::inline scenario {
@@ -110,6 +111,8 @@ Scenario ScenarioSource::Parsed::resolve(std::span<const Override> overrides) co
 }
 
 // The interface.
+
+std::uint64_t number_of(const Scenario& scenario) { return text_number(scenario.name + '\n' + scenario.canonical); }
 
 ScenarioSource ScenarioSource::open(const std::string& name_or_path, const std::string& label) {
   if (is_path(name_or_path)) {

@@ -3,6 +3,7 @@
 // experiments/scenarios/README.md.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -44,6 +45,9 @@ struct Scenario {
   /// back exactly. t_end is not included, since it is an option of the run. Part of the identity of a run.
   std::string canonical;
 };
+
+/// Hash of the scenario's name and of its canonical text.
+std::uint64_t number_of(const Scenario& scenario);
 
 /// A key of a scenario.
 struct FoundKey {

@@ -2,11 +2,11 @@
 #include "experiments/study/store/result_folder.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <stdexcept>
 #include <vector>
 
 #include "experiments/study/record/analysis.hpp"
+#include "experiments/study/record/run_id.hpp"
 #include "experiments/study/store/shard_folders.hpp"
 #include "experiments/study/store/store.hpp"
 #include "experiments/study/text/input_error.hpp"
@@ -54,32 +54,35 @@ std::vector<std::filesystem::path> with_shards(const std::filesystem::path& path
   return all;
 }
 
-bool holds_only(const std::filesystem::path& path, const std::set<std::string>& ids) {
+bool holds_only(const std::filesystem::path& path, const BelongsToStudy& belongs) {
   try {
-    std::set<std::string> stored;
-    for (const auto& folder : with_shards(path)) stored.merge(Store::ids_in(folder));
-    return std::includes(ids.begin(), ids.end(), stored.begin(), stored.end()) && !stored.empty();
+    std::size_t stored = 0;
+    for (const auto& folder : with_shards(path)) {
+      const auto ids = Store::ids_in(folder);
+      if (!std::all_of(ids.begin(), ids.end(), belongs)) return false;
+      stored += ids.size();
+    }
+    return stored > 0;
   } catch (const std::runtime_error&) {
     return false;  // damaged
   }
 }
 
-/// True if the store has an intact run with an id that is not among `ids`. Damage can change an id too.
-bool holds_foreign_runs(const std::filesystem::path& path, const std::set<std::string>& ids) {
-  const std::set<std::string> stored = Store::ids_in(path);
-  std::vector<std::string> others;
-  std::set_difference(stored.begin(), stored.end(), ids.begin(), ids.end(), std::back_inserter(others));
+/// True if the store has an intact run that does not belong to the study. Damage can change an id too.
+bool holds_foreign_runs(const std::filesystem::path& path, const BelongsToStudy& belongs) {
+  std::vector<std::uint64_t> others = Store::ids_in(path);
+  std::erase_if(others, belongs);
   if (others.empty()) return false;
   const Store store(path, metric_table(), Access::write);
-  return std::any_of(others.begin(), others.end(), [&](const std::string& id) {
-    const auto run = store.find(id, Curves::without);
+  return std::any_of(others.begin(), others.end(), [&](std::uint64_t id) {
+    const auto run = store.find(id_of_number(id), Curves::without);
     return run && run->damage.empty();
   });
 }
 
 }  // namespace
 
-void refuse_other_study(const std::filesystem::path& path, const std::set<std::string>& ids) {
+void refuse_other_study(const std::filesystem::path& path, const BelongsToStudy& belongs) {
   const std::string remedy = "; name another folder with --out, or overwrite it with --force";
   for (const auto& at : misplaced(path)) {
     throw InputError("--out: " + at.string() + " is a " +
@@ -89,7 +92,7 @@ void refuse_other_study(const std::filesystem::path& path, const std::set<std::s
   }
   bool foreign = false;
   try {
-    for (const auto& folder : with_shards(path)) foreign = foreign || holds_foreign_runs(folder, ids);
+    for (const auto& folder : with_shards(path)) foreign = foreign || holds_foreign_runs(folder, belongs);
   } catch (const std::runtime_error& error) {
     throw InputError("--out: " + std::string(error.what()) + remedy);
   }
@@ -102,7 +105,7 @@ void refuse_other_study(const std::filesystem::path& path, const std::set<std::s
   }
 }
 
-ResultFolder::ResultFolder(const std::filesystem::path& path, const std::set<std::string>& ids, bool force) {
+ResultFolder::ResultFolder(const std::filesystem::path& path, const BelongsToStudy& belongs, bool force) {
   std::error_code error;
   if (std::filesystem::exists(path, error) && !std::filesystem::is_directory(path, error)) {
     throw InputError("--out: " + path.string() + " is not a folder; name another one");
@@ -122,11 +125,11 @@ ResultFolder::ResultFolder(const std::filesystem::path& path, const std::set<std
     throw InputError("--out: " + std::string(locked.what()));
   }
   if (!force) {
-    refuse_other_study(path, ids);
+    refuse_other_study(path, belongs);
     return;
   }
   for (const auto& at : misplaced(path)) std::filesystem::remove_all(at, error);
-  if (holds_only(path, ids)) return;
+  if (holds_only(path, belongs)) return;
   for (const auto& product : products(path))
     std::filesystem::remove_all(product, error);  // all results of the other study
   for (const char* suffix : {"", "-wal", "-shm", "-journal"}) {

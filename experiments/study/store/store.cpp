@@ -5,11 +5,11 @@
 #include <sqlite3.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
 
+#include "experiments/study/record/run_id.hpp"
 #include "experiments/study/record/versions.hpp"
 #include "experiments/study/store/result_tables.hpp"
 
@@ -42,6 +42,14 @@ void check_version(const Database& db) {
         "that made it",
         db.path().string(), version, store_version));
   }
+}
+
+std::vector<std::uint64_t> all_ids(const Database& db) {
+  std::vector<std::uint64_t> ids;
+  Statement rows(db, "SELECT id FROM runs");
+  while (rows.step()) ids.push_back(static_cast<std::uint64_t>(rows.integer(0)));
+  std::sort(ids.begin(), ids.end());
+  return ids;
 }
 
 class Transaction {
@@ -212,13 +220,7 @@ std::optional<StoredRun> Store::find(const std::string& id, Curves curves) const
   return run;
 }
 
-std::vector<std::uint64_t> Store::ids() const {
-  std::vector<std::uint64_t> ids;
-  Statement rows(db_, "SELECT id FROM runs");
-  while (rows.step()) ids.push_back(static_cast<std::uint64_t>(rows.integer(0)));
-  std::sort(ids.begin(), ids.end());
-  return ids;
-}
+std::vector<std::uint64_t> Store::ids() const { return all_ids(db_); }
 
 Store::Loaded Store::load() const {
   Loaded loaded;
@@ -273,20 +275,17 @@ void Store::keep_study(const std::string& experiment, const std::string& command
   transaction.commit();
 }
 
-std::set<std::string> Store::ids_in(const std::filesystem::path& folder, std::span<const Metric> metrics) {
-  std::set<std::string> ids;
+std::vector<std::uint64_t> Store::ids_in(const std::filesystem::path& folder, std::span<const Metric> metrics) {
   const std::filesystem::path path = folder / file_name;
-  if (!std::filesystem::exists(path)) return ids;
+  if (!std::filesystem::exists(path)) return {};
   const Database db(path, Access::write, journal_of(folder));
   Statement whole(db, "PRAGMA integrity_check(1)");
   const Value said = whole.step() ? whole.value(0) : Value();
   const auto* text = std::get_if<std::string_view>(&said);
   if (!text || *text != "ok") throw std::runtime_error(path.string() + ": the database is damaged");
-  if (is_empty(db)) return ids;  // a program was killed just after it had made the file
+  if (is_empty(db)) return {};  // a program was killed just after it had made the file
   Tables(metrics).check(db);
-  Statement rows(db, "SELECT id FROM runs");
-  while (rows.step()) ids.insert(id_of_key(rows.integer(0)));
-  return ids;
+  return all_ids(db);
 }
 
 std::size_t Store::longest_folder() {
@@ -294,16 +293,5 @@ std::size_t Store::longest_folder() {
   return static_cast<std::size_t>(sqlite3_vfs_find(nullptr)->mxPathname) - std::strlen("/-journal") -
          std::strlen(file_name);
 }
-
-std::uint64_t number_of_id(const std::string& id) {
-  std::uint64_t number = 0;
-  const auto read = std::from_chars(id.data(), id.data() + id.size(), number, 16);
-  if (id.size() != 16 || read.ec != std::errc() || read.ptr != id.data() + id.size()) {
-    throw std::logic_error("\"" + id + "\" is not the id of a run");
-  }
-  return number;
-}
-
-std::string id_of_number(std::uint64_t number) { return fmt::format("{:016x}", number); }
 
 }  // namespace polhode::study::store

@@ -9,7 +9,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -70,10 +69,10 @@ class Store {
   /// Stores what made results: name of the experiment, command line, manifest.json. The same study stands there once.
   void keep_study(const std::string& experiment, const std::string& command, const std::string& manifest);
 
-  /// The run ids in the store of a folder, empty if there is no store. Also throws if any part of the database is
-  /// damaged in its structure.
-  static std::set<std::string> ids_in(const std::filesystem::path& folder,
-                                      std::span<const Metric> metrics = metric_table());
+  /// ids() of the store of a folder, empty if there is no store. Also throws if any part of the database is damaged in
+  /// its structure.
+  static std::vector<std::uint64_t> ids_in(const std::filesystem::path& folder,
+                                           std::span<const Metric> metrics = metric_table());
 
   /// Largest length of the absolute path of a folder, bytes; SQLite does not open a store below a longer path.
   static std::size_t longest_folder();
@@ -90,9 +89,5 @@ class Store {
   std::unique_ptr<Writer> writer_;                             ///< made at the first keep()
   mutable std::unique_ptr<Reader> finder_, finder_of_curves_;  ///< made at the first find()
 };
-
-/// The id as an integer, and back: 16 hexadecimal digits. Throws std::logic_error for a text that is no id.
-std::uint64_t number_of_id(const std::string& id);
-std::string id_of_number(std::uint64_t number);
 
 }  // namespace polhode::study::store

@@ -6,6 +6,8 @@
 
 namespace polhode::study::inline text {
 
-std::string text_hash(std::string_view text) { return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size())); }
+std::uint64_t text_number(std::string_view text) { return XXH3_64bits(text.data(), text.size()); }
+
+std::string text_hash(std::string_view text) { return fmt::format("{:016x}", text_number(text)); }
 
 }  // namespace polhode::study::text

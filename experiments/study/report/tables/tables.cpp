@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,9 +25,11 @@ std::string title_of(const StudyView& study) {
 
 /// Indices of the runs with a row in the tables.
 std::vector<std::size_t> rows_of(const StudyView& study) {
-  std::vector<const RunConfig*> runs;
-  for (const RunRecord& run : study.runs) runs.push_back(&run.config);
-  return shown_runs(runs, runs.size() <= most_table_rows ? most_table_rows : rows_of_large_tables);
+  const std::size_t runs = study.runs.size();
+  if (runs <= most_table_rows) return evenly_spread(runs, runs);
+  std::vector<std::uint64_t> motions;
+  for (const RunRecord& run : study.runs) motions.push_back(number_of(*run.scenario));
+  return shown_runs(motions, rows_of_large_tables);
 }
 
 void write_tables_of_runs(const StudyView& study, const std::filesystem::path& folder) {

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <string>
 #include <vector>
 
 #include "experiments/study/plan/shard.hpp"
@@ -17,17 +16,17 @@ namespace {
 Plan plan_of_costs(const std::vector<double>& costs) {
   Plan plan;
   for (std::size_t i = 0; i < costs.size(); ++i) {
-    PlannedRun run;
-    run.id = std::to_string(i);
-    run.cost = costs[i];
-    plan.runs.push_back(run);
+    PlanRow row;
+    row.id = i;
+    row.cost = costs[i];
+    plan.rows.push_back(row);
   }
   return plan;
 }
 
 std::vector<double> loads(const Plan& plan, const std::vector<std::size_t>& numbers, std::size_t count) {
   std::vector<double> all(count + 1);
-  for (std::size_t i = 0; i < numbers.size(); ++i) all[numbers[i]] += plan.runs[i].cost;
+  for (std::size_t i = 0; i < numbers.size(); ++i) all[numbers[i]] += plan.rows[i].cost;
   return all;
 }
 
@@ -48,7 +47,7 @@ TEST(Shards, DoNotDependOnTheOrderOfTheRuns) {
   Plan plan = plan_of_costs({5, 3, 3, 3, 1, 1, 8, 2});
   const auto numbers = deal(plan, 3);
   Plan reversed = plan;
-  std::reverse(reversed.runs.begin(), reversed.runs.end());
+  std::reverse(reversed.rows.begin(), reversed.rows.end());
   auto others = deal(reversed, 3);
   std::reverse(others.begin(), others.end());
   EXPECT_EQ(numbers, others);
@@ -56,7 +55,7 @@ TEST(Shards, DoNotDependOnTheOrderOfTheRuns) {
 
 TEST(Shards, LeaveOutRefusedRuns) {
   Plan plan = plan_of_costs({5, 3, 1});
-  plan.runs[0].refusal = "makes no sense";
+  plan.rows[0].refused = true;
   EXPECT_THAT(deal(plan, 2), testing::ElementsAre(0, 1, 2));
 }
 

@@ -45,7 +45,7 @@ class StudyFiles : public ::testing::Test {
   Plan of_file(const std::string& text) const { return planned({"--study", file("study.toml", text)}); }
   static std::set<std::string> ids(const Plan& plan) {
     std::set<std::string> all;
-    for (const PlannedRun& run : plan.runs) all.insert(run.id);
+    for (const PlannedRun& run : plan.runs()) all.insert(run.id);
     return all;
   }
   static std::string error_of(const std::vector<std::string>& words) {
@@ -90,14 +90,14 @@ tolerance = "log_uniform(1e-9, 1e-6)"
        "orientation=quaternion,matrix", "--vary", "body.0.velocity.0=0", "--zip", "t-end=1,2 normalize=never,step",
        "--random", "n=3 seed=5 body.0.angular_velocity=sphere(2) tolerance=log_uniform(1e-9,1e-6)", "--cells", cells});
   EXPECT_EQ(ids(from_file), ids(from_line));
-  EXPECT_EQ(from_file.runs.size(), 48U);
+  EXPECT_EQ(from_file.size(), 48U);
   EXPECT_EQ(from_file.identity, from_line.identity);
 }
 
 TEST_F(StudyFiles, ATableMultipliesWithTheGrid) {
   const Plan plan = planned({"--integrator", "rk4,lie_euler", "--zip", "dt=0.1,0.2 t-end=1,2"});
   std::multiset<std::string> found;
-  for (const PlannedRun& run : plan.runs)
+  for (const PlannedRun& run : plan.runs())
     found.insert(run.config.integrator + " " + std::to_string(*run.config.dt).substr(0, 3) + " " +
                  std::to_string(run.config.t_end).substr(0, 1));
   EXPECT_THAT(found, ::testing::ElementsAre("lie_euler 0.1 1", "lie_euler 0.2 2", "rk4 0.1 1", "rk4 0.2 2"));
@@ -116,9 +116,9 @@ dt = 0.2
 )");
   const Plan both = planned({"--study", path}), wide = planned({"--study", path + ":wide"}),
              later = planned({"--study", path + ":long"});
-  EXPECT_EQ(wide.runs.size(), 4U);
-  EXPECT_EQ(later.runs.size(), 4U);
-  EXPECT_EQ(both.runs.size(), 6U) << "two runs are in both studies, and carried out once";
+  EXPECT_EQ(wide.size(), 4U);
+  EXPECT_EQ(later.size(), 4U);
+  EXPECT_EQ(both.size(), 6U) << "two runs are in both studies, and carried out once";
   std::set<std::string> joined = ids(wide);
   joined.merge(ids(later));
   EXPECT_EQ(ids(both), joined);
@@ -130,7 +130,7 @@ dt = 0.2
 
 TEST_F(StudyFiles, ANearerValueReplacesOneKeyOfATable) {
   const std::string path = file("study.toml", "[zip]\ndt = [0.1, 0.2]\nt_end = [1, 2]\n");
-  EXPECT_EQ(planned({"--study", path}).runs.size(), 2U);
+  EXPECT_EQ(planned({"--study", path}).size(), 2U);
   EXPECT_EQ(ids(planned({"--study", path, "--t-end", "3"})), ids(planned({"--dt", "0.1,0.2", "--t-end", "3"})));
 }
 
@@ -139,18 +139,17 @@ TEST_F(StudyFiles, WhereLeavesOutCells) {
                              "rk4,cvode_adams", "--where", "not (dt > 0.25 * body.0.inertia.1)"});
   EXPECT_EQ(plan.studies[0].cells, 8U);
   EXPECT_EQ(plan.studies[0].left_out, 3U);
-  for (const PlannedRun& run : plan.runs) {
+  for (const PlannedRun& run : plan.runs()) {
     EXPECT_LE(run.config.dt.value_or(0), 0.25 * std::stod(run.config.varied[0].value));
   }
   // Cells that could not be made are left out before they are.
   EXPECT_THAT(error_of({"--vary", "body.0.inertia.1=0.7,9"}), HasSubstr("triangle"));
-  EXPECT_EQ(planned({"--vary", "body.0.inertia.1=0.7,9", "--where", "body.0.inertia.1 < 1"}).runs.size(), 1U);
+  EXPECT_EQ(planned({"--vary", "body.0.inertia.1=0.7,9", "--where", "body.0.inertia.1 < 1"}).size(), 1U);
   // What the study does not vary is as in the scenario, and t_end may be a key of it.
-  EXPECT_EQ(planned({"--where", "t_end == 10 and body.0.inertia.1 > 0 and integrator == 'rk4'"}).runs.size(), 1U);
-  EXPECT_EQ(planned({"--vary", "t_end=1,2,3", "--where", "t_end < 2.5"}).runs.size(), 2U);
-  EXPECT_EQ(planned({"--vary", "body.0.velocity=[0,0,1];[1,0,0]", "--where", "body.0.velocity.2 == 1"}).runs.size(),
-            1U);
-  EXPECT_EQ(planned({"--where", "dt < 1", "--where", "dt > 0.01"}).runs.size(), 1U);
+  EXPECT_EQ(planned({"--where", "t_end == 10 and body.0.inertia.1 > 0 and integrator == 'rk4'"}).size(), 1U);
+  EXPECT_EQ(planned({"--vary", "t_end=1,2,3", "--where", "t_end < 2.5"}).size(), 2U);
+  EXPECT_EQ(planned({"--vary", "body.0.velocity=[0,0,1];[1,0,0]", "--where", "body.0.velocity.2 == 1"}).size(), 1U);
+  EXPECT_EQ(planned({"--where", "dt < 1", "--where", "dt > 0.01"}).size(), 1U);
   EXPECT_THAT(error_of({"--where", "dt < 0"}), StartsWith("--where: it leaves out all 1 cell"));
 }
 

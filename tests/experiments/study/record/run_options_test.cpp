@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -16,6 +18,7 @@
 #include "experiments/study/curves/curves.hpp"
 #include "experiments/study/plan/axis_values.hpp"
 #include "experiments/study/plan/plan.hpp"
+#include "experiments/study/record/run_id.hpp"
 #include "experiments/study/record/shown_runs.hpp"
 #include "experiments/study/report/tables/run_table.hpp"
 #include "experiments/study/report/tables/tex_values.hpp"
@@ -70,7 +73,7 @@ StudyView view_of(const Plan& plan) {
   StudyView view;
   view.named = plan.named;
   view.scenarios = plan.scenarios;
-  for (const PlannedRun& run : plan.runs) view.runs.push_back({run.id, run.config, {}, run.scenario});
+  for (const PlannedRun& run : plan.runs()) view.runs.push_back({run.id, run.config, {}, run.scenario});
   return view;
 }
 
@@ -86,7 +89,7 @@ TEST(RunOptions, OneEntryIsAllThatTheCommandLineAndStudyFilesNeed) {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "study.toml").string();
   std::ofstream(file) << "tidy_up = [\"never\", \"daily\"]\n";
-  EXPECT_EQ(planned({"--study", file.c_str()}).runs.size(), 2u);
+  EXPECT_EQ(planned({"--study", file.c_str()}).size(), 2u);
   try {
     planned({"--tidy-up", "dayly"});
     FAIL() << "an unknown value was taken";
@@ -101,11 +104,11 @@ TEST(RunOptions, OneEntryMakesRunsOfTheirOwnAndLeavesOtherStudiesAlone) {
   const Plan silent = planned({}), both = planned({"--tidy-up", "never,daily"});
   EXPECT_EQ(silent.identity, before.identity);
   EXPECT_EQ(config_columns({}, silent.named), config_columns({}, before.named));
-  ASSERT_EQ(both.runs.size(), 2u);
-  EXPECT_EQ(both.runs[1].id, before.runs[0].id) << "what a run does anyway is the same run";
-  EXPECT_NE(both.runs[0].id, before.runs[0].id);
-  EXPECT_EQ(config_cells(both.runs[0].config, both.named).back(), "daily");  // sorted by the value
-  EXPECT_EQ(config_cells(both.runs[1].config, both.named).back(), "never");
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_EQ(both.run(1).id, before.run(0).id) << "what a run does anyway is the same run";
+  EXPECT_NE(both.run(0).id, before.run(0).id);
+  EXPECT_EQ(config_cells(both.run(0).config, both.named).back(), "daily");  // sorted by the value
+  EXPECT_EQ(config_cells(both.run(1).config, both.named).back(), "never");
 }
 
 TEST(RunOptions, OneEntryIsFoundInTheStoreTheTablesTheFiguresAndTheReport) {
@@ -120,12 +123,14 @@ TEST(RunOptions, OneEntryIsFoundInTheStoreTheTablesTheFiguresAndTheReport) {
 
   CsvReader table((folder / "runs.csv").string());
   const std::size_t id = table.column("run"), tidy = table.column("tidy_up");
-  std::set<std::string> ids, values;
+  std::vector<std::uint64_t> ids;
+  std::set<std::string> values;
   while (table.next()) {
-    ids.insert(table.text(id));
+    ids.push_back(number_of_id(table.text(id)));
     values.insert(table.text(tidy));
   }
   EXPECT_EQ(values, (std::set<std::string>{"daily", "never"}));
+  std::sort(ids.begin(), ids.end());
   EXPECT_EQ(Store::ids_in(folder), ids);
   EXPECT_THAT(contents(folder / "report.html"), HasSubstr("<dt>tidies up</dt><dd>daily, never</dd>"));
   EXPECT_THAT(contents(folder / "manifest.json"), HasSubstr("\"tidy-up\": \"never,daily\""));
@@ -162,7 +167,7 @@ TEST(RunOptions, NamesAndColumnsAreUnique) {
 TEST(RunOptions, RunsAreSortedByTheirNumbersAndNotByTheirDigits) {
   const Plan plan = planned({"--dt", "9e-3,0.01,1e-4", "--vary", "body.0.mass=9,10,1e1,100"});
   std::vector<std::string> order;
-  for (const PlannedRun& run : plan.runs) order.push_back(text_of(*run.config.dt) + " " + run.config.varied[0].value);
+  for (const PlannedRun& run : plan.runs()) order.push_back(text_of(*run.config.dt) + " " + run.config.varied[0].value);
   EXPECT_EQ(order, (std::vector<std::string>{"1e-04 9", "1e-04 10", "1e-04 100", "0.009 9", "0.009 10", "0.009 100",
                                              "0.01 9", "0.01 10", "0.01 100"}));
 }

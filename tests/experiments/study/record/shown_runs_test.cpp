@@ -3,53 +3,42 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <map>
-#include <string>
 #include <vector>
 
 namespace polhode::study {
 namespace {
 
-/// Runs of `motions` values of a varied key with `steps` steps each, in the order of a study: the step changes last.
-std::vector<RunConfig> runs_of_motions(int motions, int steps) {
-  std::vector<RunConfig> runs;
+/// `motions` motions with `steps` steps each, in the order of a study: the step changes last.
+std::vector<std::uint64_t> runs_of_motions(std::uint64_t motions, int steps) {
+  std::vector<std::uint64_t> runs;
   for (int step = 0; step < steps; ++step) {
-    for (int motion = 0; motion < motions; ++motion) {
-      RunConfig run;
-      run.scenario = "top";
-      run.varied = {{"body.0.mass", std::to_string(motion), ""}};
-      run.dt = 1.0 / (step + 1);
-      runs.push_back(run);
-    }
+    for (std::uint64_t motion = 0; motion < motions; ++motion) runs.push_back(motion);
   }
   return runs;
 }
 
-std::vector<std::size_t> shown_of(const std::vector<RunConfig>& runs, std::size_t most) {
-  std::vector<const RunConfig*> all;
-  for (const RunConfig& run : runs) all.push_back(&run);
-  return shown_runs(all, most);
-}
-
 TEST(ShownRuns, AreAllOfASmallStudy) {
-  EXPECT_EQ(shown_of(runs_of_motions(2, 2), 4), (std::vector<std::size_t>{0, 1, 2, 3}));
-  EXPECT_EQ(shown_of(runs_of_motions(2, 2), 9), (std::vector<std::size_t>{0, 1, 2, 3}));
-  EXPECT_TRUE(shown_of(runs_of_motions(2, 2), 0).empty());
+  EXPECT_EQ(shown_runs(runs_of_motions(2, 2), 4), (std::vector<std::size_t>{0, 1, 2, 3}));
+  EXPECT_EQ(shown_runs(runs_of_motions(2, 2), 9), (std::vector<std::size_t>{0, 1, 2, 3}));
+  EXPECT_TRUE(shown_runs(runs_of_motions(2, 2), 0).empty());
 }
 
 TEST(ShownRuns, AreAllRunsOfEvenlyChosenMotions) {
   const auto runs = runs_of_motions(100, 7);
-  const auto shown = shown_of(runs, 30);
-  std::map<std::string, int> found;
-  for (const std::size_t i : shown) ++found[runs[i].varied[0].value];
-  EXPECT_EQ(found, (std::map<std::string, int>{{"0", 7}, {"33", 7}, {"66", 7}, {"99", 7}}));
+  const auto shown = shown_runs(runs, 30);
+  std::map<std::uint64_t, int> found;
+  for (const std::size_t i : shown) ++found[runs[i]];
+  EXPECT_EQ(found, (std::map<std::uint64_t, int>{{0, 7}, {33, 7}, {66, 7}, {99, 7}}));
   EXPECT_TRUE(std::is_sorted(shown.begin(), shown.end()));
 }
 
 TEST(ShownRuns, AreThinnedWhereOneMotionHasTooMany) {
-  EXPECT_EQ(shown_of(runs_of_motions(1, 100), 4), (std::vector<std::size_t>{0, 33, 66, 99}));
-  EXPECT_EQ(shown_of(runs_of_motions(1, 100), 1), (std::vector<std::size_t>{0}));
-  EXPECT_EQ(shown_of(runs_of_motions(3, 100), 5).size(), 5u);
+  EXPECT_EQ(shown_runs(runs_of_motions(1, 100), 4), (std::vector<std::size_t>{0, 33, 66, 99}));
+  EXPECT_EQ(shown_runs(runs_of_motions(1, 100), 1), (std::vector<std::size_t>{0}));
+  EXPECT_EQ(shown_runs(runs_of_motions(3, 100), 5).size(), 5u);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "experiments/study/record/metric_table.hpp"
+#include "experiments/study/record/run_id.hpp"
 #include "experiments/study/record/run_record.hpp"
 #include "experiments/study/store/store.hpp"
 

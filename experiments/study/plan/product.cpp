@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/plan/product.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "experiments/study/plan/axis_values.hpp"
+#include "experiments/study/record/run_options.hpp"
+#include "experiments/study/text/input_error.hpp"
+#include "experiments/study/text/notation.hpp"
+#include "experiments/study/text/value_lists.hpp"
+#include "integrators/catalogue.hpp"
+
+namespace polhode::study::inline plan {
+namespace {
+
+/// The study with the methods that the experiment allows. "all" leaves out the others; naming one is an error.
+StudyAxes with_fitting_methods(const Experiment& experiment, StudyAxes study) {
+  const auto said = study.axes.find("integrator");
+  if (!experiment.fixed_steps_only || said == study.axes.end() || study.table_with("integrator")) return study;
+  const bool all = said->second == "all";
+  std::string fitting;
+  for (const OptionValue& name : axis_values(run_option("integrator"), said->second, study.label("integrator"))) {
+    if (all && find_integrator(text_of(name))->declaration.adaptive) continue;
+    fitting += (fitting.empty() ? "" : ",") + text_of(name);
+  }
+  said->second = fitting;
+  return study;
+}
+
+/// Rejects several durations, and samples, if the experiment derives the duration of a run from its step.
+void check_durations(const Experiment& experiment, const StudyAxes& study) {
+  if (!experiment.duration) return;
+  const auto one = study.axes.find("t-end");
+  if (study.table_with("t-end") || (one != study.axes.end() && count_values(one->second) > 1)) {
+    throw InputError(fmt::format("{}: {} takes one, since its runs last as long as their steps have it",
+                                 study.label("t-end"), experiment.name));
+  }
+  if (study.axes.contains("samples") || study.table_with("samples")) {
+    throw InputError(
+        fmt::format("{}: {} looks at every step; leave the option out", study.label("samples"), experiment.name));
+  }
+}
+
+}  // namespace
+
+Product::Product(const Experiment& experiment, const StudyAxes& study, const Options& options, bool reference)
+    : experiment_(experiment),
+      study_(with_fitting_methods(experiment, study)),
+      max_steps_(options.max_steps),
+      reference_(reference) {
+  check_durations(experiment, study_);
+  for (const RunOption& option : run_options()) {
+    if (option.needed) needed_.push_back(&option);
+  }
+  for (const Condition& condition : study_.where) conditions_.emplace_back(condition.text, condition.label);
+  counted_ = make_cells(true).count();
+}
+
+std::set<std::string> Product::varied_keys() const {
+  std::set<std::string> keys;
+  for (const auto& [key, text] : study_.vary) keys.insert(key);
+  for (const PointTable& table : study_.tables) {
+    for (const PointColumn& column : table.columns) {
+      if (!is_option(column.key)) keys.insert(column.key);
+    }
+  }
+  return keys;
+}
+
+Cells Product::make_cells(bool counted) {
+  std::vector<Dimension> all = dimensions(study_, counted);
+  if (opened_.empty()) open_scenarios(all);
+  return Cells(std::move(all), [this](const std::string& name) {
+    const Opened& opened = *by_name_.at(name);
+    return Cells::Start{start_of(opened, *opened.scenario), opened.scenario.get()};
+  });
+}
+
+void Product::open_scenarios(const std::vector<Dimension>& dimensions) {
+  const std::string label = study_.label("scenario");
+  const std::set<std::string> varied = varied_keys();
+  std::set<std::string> names;
+  for (const Dimension& dimension : dimensions) {
+    for (std::size_t k = 0; k < dimension.keys.size(); ++k) {
+      const RunOption* option = dimension.keys[k].option;
+      if (!option || option->role != RunOption::Role::scenario) continue;
+      for (std::size_t point = 0; point < dimension.size; ++point) {
+        const std::string name = text_of(dimension.value(point, k));
+        if (by_name_.contains(name)) continue;
+        ScenarioSource source = ScenarioSource::open(name, label);
+        if (!names.insert(source.name()).second) throw InputError(label + ": '" + source.name() + "' is named twice");
+        auto scenario = std::make_shared<const Scenario>(source.resolve());
+        BoundConditions bound(conditions_, source, {varied.begin(), varied.end()});
+        opened_.push_back(
+            std::make_unique<const Opened>(Opened{name, std::move(source), std::move(scenario), std::move(bound)}));
+        by_name_[name] = opened_.back().get();
+      }
+    }
+  }
+  std::vector<const ScenarioSource*> sources;
+  for (const auto& opened : opened_) sources.push_back(&opened->source);
+  for (const Where& condition : conditions_) BoundConditions::check_keys(condition, sources);
+}
+
+RunConfig Product::start_of(const Opened& opened, const Scenario& scenario) const {
+  RunConfig config;
+  config.scenario = opened.source.name();
+  config.reference = reference_;
+  if (!scenario.colliders.empty()) config.contact.emplace();
+  return config;
+}
+
+/// The configuration of the cell. Options that the study does not give have the defaults of the scenario.
+RunConfig Product::configured(const Cell& cell, const Opened& opened, const Scenario& scenario) const {
+  RunConfig config = start_of(opened, scenario);
+  config.varied = cell.varied;
+  for (const RunOption& option : run_options()) {
+    if (option.role == RunOption::Role::scenario || !option.applies_to(config)) continue;
+    const auto given =
+        std::find_if(cell.options.begin(), cell.options.end(), [&](const auto& o) { return o.first == &option; });
+    if (given != cell.options.end()) option.set(config, given->second);
+    else if (option.preset) option.set(config, option.preset(scenario));
+  }
+  return config;
+}
+
+Product::Run Product::made(const Cell& cell, const Opened& opened, std::shared_ptr<const Scenario> scenario) const {
+  if (!scenario) scenario = std::make_shared<const Scenario>(opened.source.resolve(cell.varied));
+  RunConfig config = configured(cell, opened, *scenario);
+  if (config.tolerance) config.max_steps = max_steps_;
+  // Without a step the run is refused by check().
+  if (experiment_.duration && (config.tolerance || config.dt))
+    config.t_end = experiment_.duration(config.t_end, config.tolerance ? *config.tolerance : *config.dt);
+  return {std::move(config), std::move(scenario)};
+}
+
+/// Throws InputError if the run cannot have this configuration.
+void Product::check(const RunConfig& config) const {
+  if (experiment_.fixed_steps_only && find_integrator(config.integrator)->declaration.adaptive) {
+    throw InputError(fmt::format("{}: {} chooses its own steps, and {} is about steps; name methods that take --dt",
+                                 study_.label("integrator"), config.integrator, experiment_.name));
+  }
+  for (const RunOption* option : needed_) {
+    if (!option->applies_to(config) || option->value(config) != OptionValue{}) continue;
+    if (!study_.table_with(option->name)) throw InputError(config.integrator + " needs --" + option->name);
+    throw InputError(
+        fmt::format("{}: {} needs it, and a row leaves it empty; fill it in, or leave the cell out with "
+                    "where: given({})",
+                    study_.label(option->name), config.integrator, option->name));
+  }
+}
+
+Product::Count Product::for_each(const std::function<void(std::uint64_t cell, Run&& run)>& use) {
+  cells_.emplace(make_cells(false));
+  Count count{static_cast<std::size_t>(cells_->count()), 0, cells_->tables(), {}};
+  std::vector<const RunOption*> without_effect;
+  for (const RunOption& option : run_options()) {
+    if (study_.has(option.name)) without_effect.push_back(&option);
+  }
+  std::shared_ptr<const Scenario> variant;  // the last one: neighbouring cells mostly have the same
+  const Opened* variant_of = nullptr;
+  std::vector<Override> variant_keys;
+  for (std::uint64_t k = 0; k < count.cells; ++k) {
+    const Cell cell = cells_->at(k);
+    const Opened& opened = *by_name_.at(cell.scenario);
+    if (!conditions_.empty() && !opened.conditions.hold(cell, configured(cell, opened, *opened.scenario))) {
+      ++count.left_out;
+      continue;
+    }
+    if (variant_of != &opened || variant_keys != cell.varied) variant.reset();
+    Run run = made(cell, opened, variant);
+    variant = run.scenario;
+    variant_of = &opened;
+    variant_keys = cell.varied;
+    check(run.config);
+    std::erase_if(without_effect, [&](const RunOption* option) {
+      if (!option->applies_to(run.config)) return false;
+      count.effective.insert(option->name);
+      return true;
+    });
+    try {
+      use(k, std::move(run));
+    } catch (const std::invalid_argument& error) {
+      throw InputError(study_.label("dt") + ": " + std::string(error.what()));
+    }
+  }
+  if (count.left_out == count.cells) {
+    throw InputError(fmt::format("{}: it leaves out all {}; widen it, or the axes", conditions_.front().label(),
+                                 study::count(count.cells, "cell")));
+  }
+  return count;
+}
+
+Product::Run Product::run(std::uint64_t cell, std::shared_ptr<const Scenario> scenario) const {
+  const Cell of = cells_->at(cell);
+  return made(of, *by_name_.at(of.scenario), std::move(scenario));
+}
+
+}  // namespace polhode::study::plan

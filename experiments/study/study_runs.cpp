@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/study_runs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "experiments/study/metrics/references.hpp"
+#include "experiments/study/plan/deal.hpp"
+#include "experiments/study/record/run_id.hpp"
+#include "experiments/study/record/shown_runs.hpp"
+#include "experiments/study/run/run.hpp"
+#include "experiments/study/store/shard_folders.hpp"
+#include "experiments/study/trajectory/trajectory_files.hpp"
+#include "experiments/study/workers.hpp"
+
+namespace polhode::study {
+namespace {
+
+std::filesystem::path trajectory_folder(const Experiment& experiment, const std::filesystem::path& folder,
+                                        const std::string& id) {
+  return experiment.one_run ? folder : folder / "trajectories" / id;
+}
+
+/// Carries out one run. If the experiment requires best times, a run shorter than 0.04 s is repeated and the least time
+/// kept, since disturbances by other programs only increase it.
+RunResult carry_out_alone(const Experiment& experiment, const PlannedRun& run, const TrajectoryRequest& trajectory,
+                          References& references, Interruption& interruption, std::atomic<double>& share) {
+  constexpr double long_enough = 0.04;  // s
+  constexpr int most_times = 5;
+  const std::atomic<bool>* stop = &interruption.stop();
+  RunResult result = carry_out(run.config, *run.scenario, trajectory, stop, &references, &share);
+  for (int k = 1; k < most_times && experiment.best_times && result.seconds < long_enough && !*stop; ++k) {
+    const RunResult again = carry_out(run.config, *run.scenario, {}, stop, &references);
+    if (again.status == result.status) result.seconds = std::min(result.seconds, again.seconds);
+  }
+  return result;
+}
+
+/// The study with those of these runs that are refused or have a result. `take` moves the result of a run of the plan;
+/// absent: there is none.
+StudyView view_of(const Experiment& experiment, const Options& options, const Plan& plan,
+                  const std::filesystem::path& folder, const std::vector<std::size_t>& runs,
+                  const std::function<std::optional<RunResult>(std::size_t run)>& take) {
+  StudyView view;
+  view.experiment = experiment.name;
+  view.question = experiment.question;
+  view.command = options.command;
+  view.scenarios = plan.scenarios;
+  view.varied_keys = plan.varied_keys;
+  view.named = plan.named;
+  view.invariants = plan.invariants;
+  view.folder = folder;
+  view.durations_follow_steps = static_cast<bool>(experiment.duration);
+  Variants variants(runs.size());
+  for (const std::size_t i : runs) {
+    std::optional<RunResult> result;
+    if (!plan.rows[i].refused && !(result = take(i))) continue;
+    PlannedRun run = plan.run(i, &variants);
+    RunRecord record{std::move(run.id), std::move(run.config), {}, std::move(run.scenario)};
+    if (result) {
+      record.result = std::move(*result);
+      if (!plan.rows[i].keeps_curves) drop_curves(record.result);
+    } else {
+      record.result.status = "refused";
+      record.result.message = run.refusal;
+    }
+    view.runs.push_back(std::move(record));
+  }
+  return view;
+}
+
+std::vector<std::size_t> all_of(const Plan& plan) {
+  std::vector<std::size_t> runs(plan.size());
+  std::iota(runs.begin(), runs.end(), std::size_t{0});
+  return runs;
+}
+
+/// True if the result has all that is kept of it. A run that took no step has no curves.
+bool is_complete(const RunResult& result, const PlanRow& row) {
+  return !row.keeps_curves || !result.series.empty() || result.steps == 0;
+}
+
+using UseResult = std::function<void(std::size_t run, RunResult&& result)>;
+
+/// Calls use(run, result) for the valid results of runs of the plan in the store of a folder. Throws std::runtime_error
+/// if it cannot be read.
+void for_each_result(const std::filesystem::path& folder, const Plan& plan, const UseResult& use) {
+  if (Store::ids_in(folder).empty()) return;  // a shard that has just begun
+  const Store store(folder, metric_table(), Access::read);
+  store.for_each(Curves::with, [&](StoredRun&& stored) {
+    const auto run = plan.find(number_of_id(stored.id));
+    if (run && stored.damage.empty()) use(*run, std::move(stored.result));
+  });
+}
+
+}  // namespace
+
+StudyRuns::StudyRuns(const Experiment& experiment, const Options& options, Plan& plan, std::filesystem::path folder,
+                     std::filesystem::path own)
+    : experiment_(experiment),
+      options_(options),
+      plan_(plan),
+      folder_(std::move(folder)),
+      own_(std::move(own)),
+      store_(own_),
+      others_(shard_folders(folder_)) {
+  store_.keep_scenarios(plan.scenarios);
+  if (std::filesystem::exists(folder_ / Store::file_name)) others_.push_back(folder_);
+  std::erase(others_, own_);
+  look(false);
+}
+
+/// Finds out which runs of the plan are in a store. `again`: after runs have been carried out.
+void StudyRuns::look(bool again) {
+  places_.assign(plan_.size(), Place::nowhere);
+  std::vector<std::pair<std::string, std::string>> damaged;
+  std::size_t stored = 0;
+  store_.for_each(Curves::with, [&](StoredRun&& run) {
+    ++stored;
+    if (!run.damage.empty()) {
+      damaged.emplace_back(std::move(run.id), std::move(run.damage));
+    } else if (again || !options_.force || run.result.status != "failed") {
+      const auto number = plan_.find(number_of_id(run.id));
+      if (number && is_whole(*number, run.result)) places_[*number] = Place::own_store;
+    }
+  });
+  if (!damaged.empty()) {
+    fmt::print(stderr, "{}: {}: {} of {} runs are damaged and carried out again (the first: run {}, {})\n",
+               experiment_.name, (own_ / Store::file_name).string(), damaged.size(), stored, damaged.front().first,
+               damaged.front().second);
+  }
+  for (const auto& [id, column] : damaged) store_.forget(id);
+  std::erase_if(others_, [&](const std::filesystem::path& other) {
+    try {
+      for_each_result(other, plan_, [&](std::size_t run, RunResult&& result) {
+        if (places_[run] == Place::nowhere && is_whole(run, result)) places_[run] = Place::other_store;
+      });
+      return false;
+    } catch (const std::runtime_error& error) {  // its shard is under way on a network file system
+      fmt::print(stderr, "{}: left out: {}\n", experiment_.name, error.what());
+      return true;
+    }
+  });
+}
+
+/// True if nothing that is kept of the run is missing.
+bool StudyRuns::is_whole(std::size_t run, const RunResult& result) const {
+  const PlanRow& row = plan_.rows[run];
+  if (!is_complete(result, row)) return false;
+  return options_.trajectory == TrajectoryFormat::none ||
+         has_trajectory(options_.trajectory, trajectory_folder(experiment_, folder_, id_of_number(row.id)));
+}
+
+std::size_t StudyRuns::count(Place place) const {
+  return static_cast<std::size_t>(std::count(places_.begin(), places_.end(), place));
+}
+
+std::size_t StudyRuns::missing() const {
+  std::size_t missing = 0;
+  for (std::size_t i = 0; i < places_.size(); ++i) missing += places_[i] == Place::nowhere && !plan_.rows[i].refused;
+  return missing;
+}
+
+void StudyRuns::join() {
+  constexpr std::size_t at_a_time = 1000;
+  std::vector<RunRecord> records;
+  const auto keep = [&] {
+    store_.keep(records);
+    records.clear();
+  };
+  for (const auto& other : others_) {
+    for_each_result(other, plan_, [&](std::size_t i, RunResult&& result) {
+      if (places_[i] != Place::other_store || !is_complete(result, plan_.rows[i])) return;
+      PlannedRun run = plan_.run(i);
+      records.push_back({std::move(run.id), std::move(run.config), std::move(result)});
+      places_[i] = Place::own_store;
+      if (records.size() == at_a_time) keep();
+    });
+  }
+  keep();
+}
+
+bool StudyRuns::carry_out_missing(Interruption& interruption) {
+  std::vector<std::uint32_t> runs;
+  const auto shards = options_.shard ? deal(plan_, options_.shard->count) : std::vector<std::size_t>();
+  std::size_t elsewhere = 0;  // missing runs of other shards
+  for (std::size_t i = 0; i < plan_.size(); ++i) {
+    if (places_[i] != Place::nowhere || plan_.rows[i].refused) continue;
+    if (options_.shard && shards[i] != options_.shard->number) ++elsewhere;
+    else runs.push_back(static_cast<std::uint32_t>(i));
+  }
+  if (runs.empty()) return true;
+  const std::size_t there = count(Place::own_store) + count(Place::other_store);
+  if (there > 0 && !std::exchange(begun_, true)) {
+    fmt::print(stderr, "{}: {} of {} runs are there already\n", experiment_.name,
+               plan_.size() - runs.size() - elsewhere, plan_.size());
+  }
+  begun_ = true;
+  run(runs, interruption);
+  if (!interruption.no_more()) return true;
+  fmt::print(stderr, "{}: interrupted; {} of {} runs are kept in {}; the same command goes on from there\n",
+             experiment_.name, count(Place::own_store) + count(Place::other_store), plan_.size(), folder_.string());
+  return false;
+}
+
+/// Carries out these runs, until no more may begin.
+void StudyRuns::run(const std::vector<std::uint32_t>& runs, Interruption& interruption) {
+  References references;
+  std::vector<std::uint64_t> scenarios;
+  for (const std::uint32_t i : runs) scenarios.push_back(plan_.rows[i].scenario);
+  references.expect(std::move(scenarios));
+  const auto trajectory = [&](const std::string& id) {
+    return TrajectoryRequest{options_.trajectory, trajectory_folder(experiment_, folder_, id)};
+  };
+  const Work work{
+      .key = [&](const PlannedRun& run) { return ensemble_key(run.config, *run.scenario, trajectory(run.id)); },
+      .carry_out = [&](Batch batch, std::atomic<double>& share) -> std::vector<RunResult> {
+        if (batch.size() == 1) {
+          return {carry_out_alone(experiment_, batch.front(), trajectory(batch.front().id), references, interruption,
+                                  share)};
+        }
+        std::vector<LanedRun> lanes;
+        for (const PlannedRun& run : batch) lanes.push_back({run.config, *run.scenario});
+        return carry_out_together(lanes, &interruption.stop(), &references);
+      },
+      .finish =
+          [&](const std::vector<RunRecord>& records) {
+            std::vector<std::filesystem::path> folders;
+            for (const RunRecord& record : records) folders.push_back(trajectory(record.id).folder);
+            finish_trajectories(options_.trajectory, folders);
+          }};
+  const std::string name =
+      options_.shard ? fmt::format("{} {}/{}", experiment_.name, options_.shard->number, options_.shard->count)
+                     : experiment_.name;
+  for (const std::uint32_t i : run_all(name, plan_, runs, work, options_.jobs, store_, interruption.no_more()))
+    places_[i] = Place::own_store;
+}
+
+bool StudyRuns::widen() {
+  if (!experiment_.refine || study::widen(plan_, experiment_.refine(view())) == 0) return false;
+  choose_curves(options_, plan_);
+  look(true);
+  return true;
+}
+
+StudyView StudyRuns::view() const {
+  // All results are read in the order of the stores, which is faster than one by one.
+  std::vector<std::optional<RunResult>> results(plan_.size());
+  store_.for_each(Curves::with, [&](StoredRun&& run) {
+    const auto number = plan_.find(number_of_id(run.id));
+    if (number && run.damage.empty()) results[*number] = std::move(run.result);
+  });
+  for (const auto& other : others_) {
+    for_each_result(other, plan_, [&](std::size_t i, RunResult&& result) {
+      if (places_[i] == Place::other_store) results[i] = std::move(result);
+    });
+  }
+  return view_of(experiment_, options_, plan_, folder_, all_of(plan_),
+                 [&](std::size_t i) { return std::move(results[i]); });
+}
+
+StudyView StudyRuns::view(const std::vector<std::size_t>& runs) const {
+  return view_of(experiment_, options_, plan_, folder_, runs, [&](std::size_t i) { return std::optional(result(i)); });
+}
+
+RunResult StudyRuns::result(std::size_t run) const {
+  auto stored = store_.find(id_of_number(plan_.rows[run].id), Curves::with);
+  if (!stored || !stored->damage.empty()) {
+    throw std::runtime_error(fmt::format("{}: run {} cannot be read back ({})", (own_ / Store::file_name).string(),
+                                         id_of_number(plan_.rows[run].id), stored ? stored->damage : "it is gone"));
+  }
+  return std::move(stored->result);
+}
+
+void choose_curves(const Options& options, Plan& plan) {
+  std::vector<std::uint64_t> motions;
+  for (PlanRow& row : plan.rows) {
+    row.keeps_curves = false;
+    motions.push_back(row.scenario);
+  }
+  for (const std::size_t i : shown_runs(motions, options.curves.value_or(motions.size())))
+    plan.rows[i].keeps_curves = true;
+}
+
+Plan with_further_runs(const Experiment& experiment, const Options& options, Plan plan,
+                       const std::filesystem::path& folder) {
+  if (!experiment.refine) return plan;
+  std::vector<std::filesystem::path> stores = shard_folders(folder);
+  stores.push_back(folder);
+  for (bool more = true; more;) {
+    std::map<std::size_t, RunResult> results;
+    for (const auto& store : stores) {
+      try {
+        for_each_result(store, plan, [&](std::size_t i, RunResult&& result) { results.emplace(i, std::move(result)); });
+      } catch (const std::runtime_error&) {  // ResultFolder reports the error
+      }
+    }
+    const StudyView view =
+        view_of(experiment, options, plan, folder, all_of(plan), [&](std::size_t i) -> std::optional<RunResult> {
+          const auto found = results.find(i);
+          if (found == results.end()) return std::nullopt;
+          return found->second;
+        });
+    more = widen(plan, experiment.refine(view)) > 0;
+    if (more) choose_curves(options, plan);
+  }
+  return plan;
+}
+
+}  // namespace polhode::study

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The runs of a study in its stores: which are there, how the missing ones are carried out, and their results.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "experiments/study/interruption.hpp"
+#include "experiments/study/plan/experiment.hpp"
+#include "experiments/study/plan/plan.hpp"
+#include "experiments/study/record/study_view.hpp"
+#include "experiments/study/store/store.hpp"
+
+namespace polhode::study {
+
+class StudyRuns {
+ public:
+  /// `folder`: that of the study. `own`: that of the store into which this process writes: the study's or a shard's.
+  /// Reads which runs are there. Prints what is damaged, and removes it from the own store, so that it is carried out
+  /// again; with --force, failed runs are too. All parameters must outlive this object.
+  StudyRuns(const Experiment& experiment, const Options& options, Plan& plan, std::filesystem::path folder,
+            std::filesystem::path own);
+
+  Store& store() { return store_; }
+
+  /// Number of runs of the plan that no store of the study has. Refused runs are not missing.
+  std::size_t missing() const;
+
+  /// Copies results of the plan's runs from the other stores of the study into the own one.
+  void join();
+
+  /// Carries out the runs that no store has yet; of a shard its own. Returns false if interrupted.
+  bool carry_out_missing(Interruption& interruption);
+
+  /// Adds the further runs that the experiment requests, given the results of the plan. Returns false if there are
+  /// none.
+  bool widen();
+
+  /// The study with these runs of the plan (ascending), which must be there or be refused.
+  StudyView view(const std::vector<std::size_t>& runs) const;
+  StudyView view() const;  ///< with all runs
+
+  /// The result of a run that is in the own store.
+  RunResult result(std::size_t run) const;
+
+ private:
+  enum class Place : char { nowhere, own_store, other_store };
+
+  void look(bool again);
+  bool is_whole(std::size_t run, const RunResult& result) const;
+  std::size_t count(Place place) const;
+  void run(const std::vector<std::uint32_t>& runs, Interruption& interruption);
+
+  const Experiment& experiment_;
+  const Options& options_;
+  Plan& plan_;
+  std::filesystem::path folder_, own_;
+  Store store_;
+  std::vector<std::filesystem::path> others_;  // folders of the other stores of the study that can be read
+  std::vector<Place> places_;                  // by run of the plan
+  bool begun_ = false;                         // runs have been carried out
+};
+
+/// Chooses the runs of the plan whose curves against time are kept (--curves).
+void choose_curves(const Options& options, Plan& plan);
+
+/// The plan with all further runs that can be told from the results in the folder of the study, even if some results
+/// are missing, because the study was interrupted or has more runs than before. Changes no file.
+Plan with_further_runs(const Experiment& experiment, const Options& options, Plan plan,
+                       const std::filesystem::path& folder);
+
+}  // namespace polhode::study
