@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <stdexcept>
 
 #include "experiments/study/interruption.hpp"
@@ -14,8 +15,11 @@
 #include "experiments/study/plan/options.hpp"
 #include "experiments/study/plan/plan.hpp"
 #include "experiments/study/plan_text.hpp"
+#include "experiments/study/record/run_options.hpp"
+#include "experiments/study/record/shown_runs.hpp"
 #include "experiments/study/report/figures/study_figures.hpp"
 #include "experiments/study/report/page/report.hpp"
+#include "experiments/study/report/population/population.hpp"
 #include "experiments/study/report/tables/results.hpp"
 #include "experiments/study/report/tables/summary.hpp"
 #include "experiments/study/report/tables/tables.hpp"
@@ -39,9 +43,8 @@ std::filesystem::path folder_of(const Experiment& experiment, const Options& opt
   return std::filesystem::path("results") / (experiment.name + "-" + what + "-" + plan.identity.substr(0, 8));
 }
 
-void write_everything(const StudyView& view, const Options& options, const Plan& plan) {
-  write_runs_csv(view);
-  write_timings_csv(view);
+/// Writes what is made of the runs besides runs.csv and timings.csv, and prints the summary.
+void write_reports(const StudyView& view, const Options& options, const Plan& plan, StudyRuns& runs) {
   write_manifest(view, options, plan);
   write_tables(view);
   if (options.figures) {
@@ -49,18 +52,8 @@ void write_everything(const StudyView& view, const Options& options, const Plan&
     if (!skipped.empty()) fmt::print(stderr, "{}: {}\n", view.experiment, skipped);
   }
   write_report(view);
-}
-
-/// Message about runs of one status: "2 of 51 runs failed, the first with: out of memory"; empty if there are none.
-std::string missed_text(const std::vector<const RunRecord*>& missed, std::size_t runs, const std::string& status) {
-  const auto is_so = [&](const RunRecord* run) { return run->result.status == status; };
-  const auto first = std::find_if(missed.begin(), missed.end(), is_so);
-  if (first == missed.end()) return {};
-  const auto count = std::count_if(missed.begin(), missed.end(), is_so);
-  std::string text = fmt::format("{} of {} run{} {}{}: {}", count, runs, runs == 1 ? "" : "s", status,
-                                 count > 1 ? ", the first with" : "", (*first)->result.message);
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
+  runs.store().keep_study(view.experiment, view.command, read_file(view.folder / "manifest.json").value_or(""));
+  fmt::print("{}\n{}\n", summary_table(view), (view.folder / "report.html").string());
 }
 
 /// Carries out a shard, in a folder of its own.
@@ -95,22 +88,67 @@ int prepare_jobs(const Experiment& experiment, const Options& options, const Pla
   return 0;
 }
 
-/// The exit status of a study with these results. Prints what was not carried out.
-int status_of(const Experiment& experiment, const StudyView& view) {
-  // A refused run is no error if the report shows the analysis alone: the refusal is part of its answer.
-  const bool answers_refusals = view.analysis && view.analysis->alone;
-  std::vector<const RunRecord*> missed;
-  for (const RunRecord& run : view.runs) {
-    const bool refused = run.result.status == "refused" && !answers_refusals;
-    const bool failed = run.result.status == "failed" && !experiment.failures_are_results;
-    if (refused || failed) missed.push_back(&run);
-  }
-  if (missed.empty()) return 0;
-  std::string text = missed_text(missed, view.runs.size(), "failed");
-  const std::string refused = missed_text(missed, view.runs.size(), "refused");
+/// Message about runs of one status: "2 of 51 runs failed, the first with: out of memory"; empty if there are none.
+std::string missed_text(const std::map<std::string, Population::Outcome>& outcomes, std::size_t runs,
+                        const std::string& status) {
+  const auto found = outcomes.find(status);
+  if (found == outcomes.end()) return {};
+  const auto& [missed, message] = found->second;
+  std::string text = fmt::format("{} of {} run{} {}{}: {}", missed, runs, runs == 1 ? "" : "s", status,
+                                 missed > 1 ? ", the first with" : "", message);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+/// The exit status of a study with these outcomes. Prints what was not carried out.
+int status_of(const Experiment& experiment, bool answers_refusals,
+              const std::map<std::string, Population::Outcome>& outcomes) {
+  std::size_t runs = 0;
+  for (const auto& [status, outcome] : outcomes) runs += outcome.runs;
+  std::string text = experiment.failures_are_results ? "" : missed_text(outcomes, runs, "failed");
+  const std::string refused = answers_refusals ? "" : missed_text(outcomes, runs, "refused");
   if (!refused.empty()) text += (text.empty() ? "" : "; ") + refused;
+  if (text.empty()) return 0;
   fmt::print(stderr, "{}: {}\n", experiment.name, text);
   return not_carried_out;
+}
+
+/// Writes all files of the study from all its runs.
+int write_study(const Experiment& experiment, const Options& options, const Plan& plan, StudyRuns& runs) {
+  StudyView view = runs.view();
+  if (experiment.analysis) view.analysis = experiment.analysis(view);
+  write_runs_csv(view);
+  write_timings_csv(view);
+  write_reports(view, options, plan, runs);
+  std::map<std::string, Population::Outcome> outcomes;
+  for (const RunRecord& run : view.runs) {
+    Population::Outcome& outcome = outcomes[run.result.status];
+    if (++outcome.runs == 1) outcome.message = run.result.message;
+  }
+  // A refused run is no error if the report shows the analysis alone: the refusal is part of its answer.
+  return status_of(experiment, view.analysis && view.analysis->alone, outcomes);
+}
+
+/// Writes all files of a study whose runs are too many to be held: from one run at a time, and a sample of them.
+int write_large_study(const Experiment& experiment, const Options& options, const Plan& plan, StudyRuns& runs) {
+  std::vector<std::uint64_t> motions;
+  for (const PlanRow& row : plan.rows) motions.push_back(row.scenario);
+  StudyView sample = runs.view(shown_runs(motions, rows_of_large_tables));
+  Population population(sample);
+  RunsCsv results(sample);
+  TimingsCsv timings(sample);
+  runs.for_each([&](const RunRecord& run) {
+    const std::vector<std::string> cells = config_cells(run.config, plan.named);
+    results.add(run, cells);
+    timings.add(run);
+    population.add(run, cells);
+  });
+  results.finish();
+  timings.finish();
+  for (const auto& [status, outcome] : population.outcomes()) sample.all_runs[status] = outcome.runs;
+  sample.analysis = population.analysis();
+  write_reports(sample, options, plan, runs);
+  return status_of(experiment, false, population.outcomes());
 }
 
 int run_study(const Experiment& experiment, const Options& options) {
@@ -143,12 +181,8 @@ int run_study(const Experiment& experiment, const Options& options) {
     }
   } while (runs.widen());
   interruption.study_is_stored();
-  StudyView view = runs.view();
-  if (experiment.analysis) view.analysis = experiment.analysis(view);
-  write_everything(view, options, plan);
-  runs.store().keep_study(view.experiment, view.command, read_file(folder / "manifest.json").value_or(""));
-  fmt::print("{}\n{}\n", summary_table(view), (folder / "report.html").string());
-  return status_of(experiment, view);
+  const bool fits = plan.size() <= most_table_rows || experiment.analysis || experiment.refine;
+  return fits ? write_study(experiment, options, plan, runs) : write_large_study(experiment, options, plan, runs);
 }
 
 }  // namespace

@@ -268,11 +268,27 @@ StudyView StudyRuns::view() const {
 }
 
 StudyView StudyRuns::view(const std::vector<std::size_t>& runs) const {
-  return view_of(experiment_, options_, plan_, folder_, runs, [&](std::size_t i) { return std::optional(result(i)); });
+  return view_of(experiment_, options_, plan_, folder_, runs,
+                 [&](std::size_t i) { return std::optional(result(i, Curves::with)); });
 }
 
-RunResult StudyRuns::result(std::size_t run) const {
-  auto stored = store_.find(id_of_number(plan_.rows[run].id), Curves::with);
+void StudyRuns::for_each(const std::function<void(const RunRecord& run)>& use) const {
+  Variants variants;
+  for (std::size_t i = 0; i < plan_.size(); ++i) {
+    PlannedRun run = plan_.run(i, &variants);
+    RunRecord record{std::move(run.id), std::move(run.config), {}, std::move(run.scenario)};
+    if (plan_.rows[i].refused) {
+      record.result.status = "refused";
+      record.result.message = run.refusal;
+    } else {
+      record.result = result(i, Curves::without);
+    }
+    use(record);
+  }
+}
+
+RunResult StudyRuns::result(std::size_t run, Curves curves) const {
+  auto stored = store_.find(id_of_number(plan_.rows[run].id), curves);
   if (!stored || !stored->damage.empty()) {
     throw std::runtime_error(fmt::format("{}: run {} cannot be read back ({})", (own_ / Store::file_name).string(),
                                          id_of_number(plan_.rows[run].id), stored ? stored->damage : "it is gone"));

@@ -44,8 +44,11 @@ class StudyRuns {
   StudyView view(const std::vector<std::size_t>& runs) const;
   StudyView view() const;  ///< with all runs
 
+  /// Calls use(run) for all runs of the plan, in its order, without curves. One run at a time is in memory.
+  void for_each(const std::function<void(const RunRecord& run)>& use) const;
+
   /// The result of a run that is in the own store.
-  RunResult result(std::size_t run) const;
+  RunResult result(std::size_t run, Curves curves) const;
 
  private:
   enum class Place : char { nowhere, own_store, other_store };

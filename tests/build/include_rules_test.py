@@ -58,6 +58,8 @@ MAY_INCLUDE = {
                               " experiments/study/run",
     "experiments/study/report/findings": "integrators experiments/study/text experiments/study/statistics"
                                          " experiments/study/plot experiments/study/record experiments/study/curves",
+    "experiments/study/report/population": "experiments/study/text experiments/study/statistics experiments/study/plot"
+                                           " experiments/study/record",
     "experiments/study/report/figures": "experiments/study/text experiments/study/plot experiments/study/record"
                                         " experiments/study/curves",
     "experiments/study/report/tables": "experiments/study/text experiments/study/plot experiments/study/record"

@@ -25,7 +25,8 @@ Panel plain_panel(std::string title, const PlainAxis& x, const PlainAxis& y, con
     if (!plotted.points.empty()) panel.curves.push_back(std::move(plotted));
   }
   if (xs.empty()) return panel;
-  panel.x = step_axis(x.label, xs);
+  const auto [least, largest] = std::minmax_element(xs.begin(), xs.end());
+  panel.x = x.scale == Scale::logarithmic ? step_axis(x.label, xs) : linear_axis(x.label, *least, *largest);
   std::vector<Panel> alone = {std::move(panel)};
   share_y_axis(alone, y.scale == Scale::logarithmic ? log_axis(y.label, positive, needs)
                                                     : linear_axis(y.label, 0, highest > 0 ? 1.05 * highest : 1));

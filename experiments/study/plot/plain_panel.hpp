@@ -13,13 +13,13 @@ namespace polhode::study::inline plot {
 struct PlainCurve {
   std::string label;
   std::size_t method = 0, variant = 0;  ///< colour and dashes: indices into the figure's methods and variants
-  std::vector<std::pair<double, double>> points{};  ///< x positive, sorted; y not negative
+  std::vector<std::pair<double, double>> points{};  ///< sorted; x positive if its axis is logarithmic; y not negative
 };
 
 /// Name in the data file and label of an axis.
 struct PlainAxis {
   std::string column, label;
-  Scale scale = Scale::logarithmic;  ///< of y; the x axis is logarithmic
+  Scale scale = Scale::logarithmic;  ///< logarithmic or linear
 };
 
 /// A panel; values of exactly zero are drawn at the bottom if y is logarithmic.

@@ -2,7 +2,9 @@
 // A finished study: the input of the writers of tables, figures and reports.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,10 +25,19 @@ struct StudyView {
   NamedOptions named{};                  ///< options on demand that the study gives
   std::vector<std::string> invariants;   ///< names of further declared invariants, sorted: columns of runs.csv
   std::vector<RunRecord> runs;           ///< sorted by configuration: the order of runs.csv
-  std::filesystem::path folder;          ///< results folder (--out)
-  bool durations_follow_steps = false;   ///< the duration of a run depends on its step
-  std::optional<Analysis> analysis{};    ///< results of the experiment's own analysis
+  /// Number of all runs by status, if `runs` are a sample of a study that is too large to be held; else empty.
+  std::map<std::string, std::size_t> all_runs{};
+  std::filesystem::path folder;         ///< results folder (--out)
+  bool durations_follow_steps = false;  ///< the duration of a run depends on its step
+  std::optional<Analysis> analysis{};   ///< results of the experiment's own analysis
   std::span<const Metric> metrics = metric_table();
+
+  /// Number of all runs.
+  std::size_t size() const {
+    std::size_t n = all_runs.empty() ? runs.size() : 0;
+    for (const auto& [status, count] : all_runs) n += count;
+    return n;
+  }
 };
 
 }  // namespace polhode::study::record

@@ -34,16 +34,17 @@ void append(std::vector<std::string>& all, std::vector<std::string> more) {
 }
 
 std::string outcome(const StudyView& study) {
-  std::map<std::string, std::size_t> counts;
-  for (const auto& run : study.runs) ++counts[run.result.status];
+  std::map<std::string, std::size_t> counts = study.all_runs;
+  if (counts.empty()) {
+    for (const auto& run : study.runs) ++counts[run.result.status];
+  }
   std::vector<std::string> parts;
   for (const auto& [status, text] : {std::pair("ok", "completed"), std::pair("diverged", "diverged"),
                                      std::pair("failed", "failed"), std::pair("refused", "refused")}) {
     if (counts[status] > 0) parts.push_back(fmt::format("{} {}", counts[status], text));
   }
-  if (study.runs.size() > 1 && counts["ok"] == study.runs.size())
-    return fmt::format("{} runs, all completed.", study.runs.size());
-  return fmt::format("{}: {}.", count(study.runs.size(), "run"), parts.empty() ? "none completed" : words(parts));
+  if (study.size() > 1 && counts["ok"] == study.size()) return fmt::format("{} runs, all completed.", study.size());
+  return fmt::format("{}: {}.", count(study.size(), "run"), parts.empty() ? "none completed" : words(parts));
 }
 
 std::string drift_phrase(const RunRecord& run) {

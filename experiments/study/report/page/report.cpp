@@ -288,7 +288,8 @@ std::string values_of(const RunOption& option, const StudyView& study) {
 
 std::string options_html(const StudyView& study) {
   using Role = RunOption::Role;
-  std::string out = "<h3>Options</h3>\n<dl>\n";
+  std::string out = fmt::format("<h3>Options{}</h3>\n<dl>\n",
+                                study.runs.size() < study.size() ? " of the runs in the table below" : "");
   const auto add = [&](const std::string& term, const std::string& text) {
     if (!text.empty()) out += fmt::format("<dt>{}</dt><dd>{}</dd>\n", term, html(text));
   };
@@ -332,8 +333,9 @@ std::string all_runs(const StudyView& study) {
       "<a href=\"tables/summary.tex\">LaTeX</a>, <a href=\"tables/summary.md\">Markdown</a>, "
       "<a href=\"tables/values.tex\">LaTeX commands</a>; what made them: <a "
       "href=\"manifest.json\">manifest.json</a>.</p>\n";
-  const auto summary =
+  std::string summary =
       n > most_runs_shown ? fmt::format("The first {} of {} runs", most_runs_shown, n) : count(n, "run");
+  if (n < study.size()) summary += fmt::format(" of evenly chosen motions; the study has {}", study.size());
   return out + folded(summary, html(table), n <= open_rows) + "</section>\n";
 }
 
@@ -360,7 +362,9 @@ void write_report(const StudyView& study) {
   }
   const auto grouping = group(study);
   if (alone(study)) {
+    const bool drawn = !study.analysis->figures.empty() || !study.analysis->timed.figures.empty();
     write_text(study.folder / "report.html", head(study) + what_is_seen(study, findings_of(study, grouping)) +
+                                                 (drawn ? figures(study, {study.analysis->figures, {}}) : "") +
                                                  what_was_run(study, grouping) + all_runs(study) + foot());
     return;
   }

@@ -129,35 +129,46 @@ nlohmann::ordered_json options_of(const Options& options) {
           {"trajectory", name_of(options.trajectory)}};
 }
 
+void add_to(std::vector<std::string>& row, const std::vector<std::string>& cells) {
+  row.insert(row.end(), cells.begin(), cells.end());
+}
+
 }  // namespace
 
-void write_runs_csv(const StudyView& study) {
+RunsCsv::RunsCsv(const StudyView& study)
+    : metrics_(metrics_of(study)), invariants_(study.invariants), file_(study.folder / "runs.csv") {
   std::vector<std::string> header = {"run"};
-  const auto add = [](std::vector<std::string>& row, const std::vector<std::string>& cells) {
-    row.insert(row.end(), cells.begin(), cells.end());
-  };
-  add(header, config_columns(study.varied_keys, study.named));
-  const auto metrics = metrics_of(study);
-  for (const Metric* metric : metrics) add(header, csv_columns(*metric, study.invariants));
-  TextFile file(study.folder / "runs.csv");
-  file.add(csv_row(header));
-  for (const RunRecord& run : study.runs) {
-    std::vector<std::string> row = {run.id};
-    add(row, config_cells(run.config, study.named));
-    for (const Metric* metric : metrics) add(row, csv_cells(*metric, run.result, study.invariants));
-    file.add(csv_row(row));
-  }
+  add_to(header, config_columns(study.varied_keys, study.named));
+  for (const Metric* metric : metrics_) add_to(header, csv_columns(*metric, invariants_));
+  file_.add(csv_row(header));
+}
+
+void RunsCsv::add(const RunRecord& run, const std::vector<std::string>& cells) {
+  std::vector<std::string> row = {run.id};
+  add_to(row, cells);
+  for (const Metric* metric : metrics_) add_to(row, csv_cells(*metric, run.result, invariants_));
+  file_.add(csv_row(row));
+}
+
+TimingsCsv::TimingsCsv(const StudyView& study) : file_(study.folder / "timings.csv") {
+  file_.add("run,wall_s,steps,wall_per_step_s\n");
+}
+
+void TimingsCsv::add(const RunRecord& run) {
+  const RunResult& r = run.result;
+  file_.add(fmt::format("{},{},{},{}\n", run.id, exact(r.seconds), r.steps,
+                        r.steps > 0 ? exact(r.seconds / static_cast<double>(r.steps)) : ""));
+}
+
+void write_runs_csv(const StudyView& study) {
+  RunsCsv file(study);
+  for (const RunRecord& run : study.runs) file.add(run, config_cells(run.config, study.named));
   file.finish();
 }
 
 void write_timings_csv(const StudyView& study) {
-  TextFile file(study.folder / "timings.csv");
-  file.add("run,wall_s,steps,wall_per_step_s\n");
-  for (const RunRecord& run : study.runs) {
-    const RunResult& r = run.result;
-    file.add(fmt::format("{},{},{},{}\n", run.id, exact(r.seconds), r.steps,
-                         r.steps > 0 ? exact(r.seconds / static_cast<double>(r.steps)) : ""));
-  }
+  TimingsCsv file(study);
+  for (const RunRecord& run : study.runs) file.add(run);
   file.finish();
 }
 
@@ -192,8 +203,9 @@ void write_manifest(const StudyView& study, const Options& options, const Plan& 
     axes["scenario"] = fmt::format("{}", fmt::join(plan.scenario_names, ","));
   Json scenarios = Json::object();
   for (const Scenario& s : study.scenarios) scenarios[s.name] = {{"title", s.title}, {"resolved", s.canonical}};
-  Json manifest = {{"experiment", study.experiment},  {"command", study.command},       {"study", plan.identity},
-                   {"runs", study.runs.size()},       {"options", options_of(options)}, {"axes", axes},
+  Json manifest = {{"experiment", study.experiment},  {"command", study.command},
+                   {"study", plan.identity},          {"runs", study.size()},
+                   {"options", options_of(options)},  {"axes", axes},
                    {"vary", studies.front()["vary"]}, {"scenarios", scenarios}};
   // One study that is the product of its axes has said all there is to say.
   const StudyAxes& first = options.studies.front();

@@ -2,11 +2,42 @@
 // Results of a study for other programs: runs.csv, timings.csv and manifest.json.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "experiments/study/plan/options.hpp"
 #include "experiments/study/plan/plan.hpp"
+#include "experiments/study/record/metric_table.hpp"
 #include "experiments/study/record/study_view.hpp"
+#include "experiments/study/text/text_file.hpp"
 
 namespace polhode::study::inline report::inline tables {
+
+/// Writes runs.csv one run at a time.
+class RunsCsv {
+ public:
+  /// `study`: all of it, or a sample of its runs. Throws WriteError, as the other members do.
+  explicit RunsCsv(const StudyView& study);
+  /// `cells`: those of the run below config_columns().
+  void add(const RunRecord& run, const std::vector<std::string>& cells);
+  void finish() { file_.finish(); }
+
+ private:
+  std::vector<const Metric*> metrics_;
+  std::vector<std::string> invariants_;
+  TextFile file_;
+};
+
+/// Writes timings.csv one run at a time.
+class TimingsCsv {
+ public:
+  explicit TimingsCsv(const StudyView& study);
+  void add(const RunRecord& run);
+  void finish() { file_.finish(); }
+
+ private:
+  TextFile file_;
+};
 
 /// Writes runs.csv: one row per run, sorted by configuration, without timings. Deterministic: the same bytes for the
 /// same study, whatever the number of jobs or interruptions.

@@ -35,9 +35,9 @@ std::vector<std::size_t> rows_of(const StudyView& study) {
 void write_tables_of_runs(const StudyView& study, const std::filesystem::path& folder) {
   const auto rows = rows_of(study);
   const auto table = run_table(study, Extent::summary, rows);
-  const std::string part = rows.size() == study.runs.size() ? ""
-                                                            : fmt::format("{} of {} runs, of evenly chosen motions; ",
-                                                                          rows.size(), study.runs.size());
+  const std::string part = rows.size() == study.size()
+                               ? ""
+                               : fmt::format("{} of {} runs, of evenly chosen motions; ", rows.size(), study.size());
   write_text(folder / "summary.tex",
              fmt::format("% {}\n% The preamble needs \\usepackage[T1]{{fontenc}}\\usepackage{{booktabs,longtable}}. "
                          "A dash: not defined for that run.\n% {}runs.csv has all digits and all options.\n{}",

@@ -190,11 +190,11 @@ std::string tex_values(const StudyView& study, std::span<const std::size_t> show
   const auto example =
       done == shown.end() ? "polhodeRuns" : names[static_cast<std::size_t>(done - shown.begin())] + "EnergyDriftMax";
   std::string out = fmt::format(explanation, example);
-  if (shown.size() < study.runs.size()) {
+  if (shown.size() < study.size()) {
     out += fmt::format("% {} of {} runs, of evenly chosen motions; runs.csv has all of them.\n", shown.size(),
-                       study.runs.size());
+                       study.size());
   }
-  define_count(out, "polhodeRuns", static_cast<std::int64_t>(study.runs.size()));
+  define_count(out, "polhodeRuns", static_cast<std::int64_t>(study.size()));
   const auto metrics = in_table_order(study.metrics);
   for (std::size_t k = 0; k < shown.size(); ++k) {
     const RunRecord& run = study.runs[shown[k]];

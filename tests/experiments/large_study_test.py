@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A study with more runs than are held: what it writes, however it was carried out."""
+import csv
+import re
+import unittest
+
+from programs import call, temporary_folder
+from shards_test import files
+
+STUDY = ["--integrator", "rk4", "--dt", "0.01", "--t-end", "0.03", "--vary", "body.0.angular_velocity.1=1:5:101", "--vary",
+         "body.0.angular_velocity.0=0.1:2:101", "--no-figures"]  # 10201 runs
+
+
+class LargeStudy(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = temporary_folder(cls.addClassCleanup)
+        cls.whole = cls.run_in("whole")
+        cls.files = files(cls.folder / "whole/out")
+
+    @classmethod
+    def run_in(cls, place, *arguments, study=None):
+        (cls.folder / place).mkdir(exist_ok=True)
+        return call("energy_drift", *(study or STUDY), *arguments, "--out", "out", folder=cls.folder / place)
+
+    def rows(self):
+        with open(self.folder / "whole/out/runs.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def test_every_run_has_a_row_in_the_order_of_its_values(self):
+        values = [(float(row["body.0.angular_velocity.0"]), float(row["body.0.angular_velocity.1"])) for row in self.rows()]
+        self.assertEqual(len(values), 101 * 101)
+        self.assertEqual(values, sorted(set(values)))
+
+    def test_the_distributions_are_those_of_the_rows(self):
+        rows = self.rows()
+        with open(self.folder / "whole/out/distributions.csv", newline="") as file:
+            found = list(csv.DictReader(file))
+        self.assertIn("energy_drift_max_rel", [line["metric"] for line in found])
+        for line in found:
+            values = sorted(float(row[line["metric"]]) for row in rows if row[line["metric"]])
+            self.assertEqual(int(line["runs"]), len(values))
+            self.assertEqual((float(line["least"]), float(line["largest"])), (values[0], values[-1]))
+            largest = next(row for row in rows if row["run"] == line["largest_in_run"])
+            self.assertEqual(float(largest[line["metric"]]), values[-1])
+            for share in (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99):
+                exact = values[int(share * (len(values) - 1) + 0.5)]
+                self.assertAlmostEqual(float(line[f"quantile_{share:g}"]), exact, delta=0.0101 * abs(exact))
+
+    def test_the_page_and_the_terminal_tell_all_runs(self):
+        page = self.files["report.html"].decode()
+        self.assertIn("10201 runs, all completed.", page)
+        self.assertIn("of evenly chosen motions; the study has 10201", page)
+        self.assertIn("largest energy drift (relative)", self.whole.stdout)
+        self.assertLess(len(page), 5_000_000)
+
+    def test_shards_make_the_same_bytes(self):
+        for k in (1, 2):
+            self.run_in("parts", "--shard", f"{k}/2")
+        self.run_in("parts", "--merge")
+        self.assertEqual(files(self.folder / "parts/out"), self.files)
+
+    def test_a_study_that_grew_carries_out_what_is_new(self):
+        fewer = [word.replace("1:5:101", "1:5:51") for word in STUDY]  # every other value
+        self.run_in("grown", study=fewer)
+        said = self.run_in("grown")
+        there = re.search(r"(\d+) of 10201 runs are there already", said.stderr)
+        self.assertGreater(int(there[1]), 5000)  # of 5151, but for those that now keep curves
+        self.assertEqual(files(self.folder / "grown/out"), self.files)
+
+
+if __name__ == "__main__":
+    unittest.main()
