@@ -113,8 +113,11 @@ class Planner {
     for (const RunOption& option : run_options()) {
       if (option.on_demand && study_.has(option.name)) plan_.named.insert(option.name);
     }
+    Cells::Place place;
     for (std::size_t k = 0; k < count.cells; ++k) {
-      if (!add_cell(all.at(k), effective)) ++count.left_out;
+      all.find(k, place);
+      if (holds(all, place)) add_cell(all.at(place), effective);
+      else ++count.left_out;
     }
     if (count.left_out == count.cells) {
       throw InputError(fmt::format("{}: it leaves out all {}; widen it, or the axes", conditions_.front().label(),
@@ -221,13 +224,20 @@ class Planner {
     return variant_;
   }
 
-  /// Adds the run of the cell. False: the conditions leave it out.
-  bool add_cell(const Cell& cell, std::set<std::string>& effective) {
-    const Opened& opened = opened_.at(cell.scenario);
-    if (!conditions_.empty()) {
+  /// False: the conditions leave out the cell.
+  bool holds(const Cells& cells, const Cells::Place& place) {
+    if (conditions_.empty()) return true;
+    Opened& opened = opened_.at(cells.scenario(place));
+    const auto value_not_given = [&](const RunOption& option, const Cell& cell) {
       const RunConfig config = configured(cell, opened.source, *opened.scenario);
-      if (!opened.conditions.hold(cell, config)) return false;
-    }
+      return option.applies_to(config) ? option.value(config) : OptionValue{};
+    };
+    return opened.conditions.hold(cells, place, value_not_given);
+  }
+
+  /// Adds the run of the cell.
+  void add_cell(const Cell& cell, std::set<std::string>& effective) {
+    const Opened& opened = opened_.at(cell.scenario);
     const auto& scenario = variant(cell, opened.source);
     RunConfig config = configured(cell, opened.source, *scenario);
     const bool adaptive = find_integrator(config.integrator)->declaration.adaptive;
@@ -256,7 +266,6 @@ class Planner {
     } catch (const std::invalid_argument& error) {
       throw InputError(study_.label("dt") + ": " + std::string(error.what()));
     }
-    return true;
   }
 
   const Experiment& experiment_;
