@@ -46,6 +46,19 @@ TEST(ShownRuns, AreAllRunsOfEvenlyChosenMotions) {
   EXPECT_TRUE(std::is_sorted(shown.begin(), shown.end()));
 }
 
+TEST(ShownRuns, OfTwoScenariosAreTwoMotions) {
+  std::vector<RunConfig> runs(6);
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].scenario = i < 3 ? "top" : "box";
+  EXPECT_EQ(shown_of(runs, 3), (std::vector<std::size_t>{0, 1, 2}));
+}
+
+TEST(ShownRuns, AreNotMoreThanAskedForWhereMotionsDiffer) {
+  std::vector<RunConfig> runs = runs_of_motions(4, 1);  // one motion of these has five more runs
+  for (int i = 0; i < 5; ++i) runs.push_back(runs[3]);
+  EXPECT_EQ(shown_of(runs, 6), (std::vector<std::size_t>{0}));
+  EXPECT_EQ(shown_of(runs, 8), (std::vector<std::size_t>{0}));
+}
+
 TEST(ShownRuns, AreThinnedWhereOneMotionHasTooMany) {
   EXPECT_EQ(shown_of(runs_of_motions(1, 100), 4), (std::vector<std::size_t>{0, 33, 66, 99}));
   EXPECT_EQ(shown_of(runs_of_motions(1, 100), 1), (std::vector<std::size_t>{0}));
