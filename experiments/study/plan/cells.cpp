@@ -175,27 +175,46 @@ std::vector<std::string> Cells::tables() const {
   return all;
 }
 
-Cell Cells::at(std::size_t k) const {
+void Cells::find(std::size_t k, Place& place) const {
   const auto after = std::upper_bound(blocks_.begin(), blocks_.end(), static_cast<double>(k),
                                       [](double cell, const Block& block) { return cell < block.first; });
   const Block& block = *std::prev(after);
+  place.block = static_cast<std::size_t>(&block - blocks_.data());
+  place.points.resize(dimensions_.size());
   std::size_t rest = k - static_cast<std::size_t>(block.first);
+  for (std::size_t d = dimensions_.size(); d-- > 0;) {
+    const std::size_t digit = block.sizes[d] == 1 ? 0 : rest % block.sizes[d];
+    rest /= block.sizes[d];
+    place.points[d] = block.points[d].empty() ? digit : block.points[d][digit];
+  }
+}
+
+Cell Cells::at(std::size_t k) const {
+  Place place;
+  find(k, place);
+  return at(place);
+}
+
+Override Cells::override_at(const Place& place, std::size_t d, std::size_t i) const {
+  const Dimension& dimension = dimensions_[d];
+  const std::size_t point = place.points[d];
+  return {dimension.keys[i].name, text_of(dimension.value(point, i)),
+          dimension.place ? dimension.place(point, i) : dimension.keys[i].label};
+}
+
+Cell Cells::at(const Place& place) const {
+  const Block& block = blocks_[place.block];
   Cell cell;
   cell.scenario = block.scenario;
   for (std::size_t d = dimensions_.size(); d-- > 0;) {
-    const std::size_t digit = rest % block.sizes[d];
-    rest /= block.sizes[d];
-    const std::size_t point = block.points[d].empty() ? digit : block.points[d][digit];
     for (std::size_t i = 0; i < dimensions_[d].keys.size(); ++i) {
       const DimensionKey& key = dimensions_[d].keys[i];
       if (!block.applies[d][i] || (key.option && key.option->role == RunOption::Role::scenario)) continue;
-      OptionValue value = dimensions_[d].value(point, i);
-      if (value == OptionValue{}) continue;
       if (key.option) {
-        cell.options.emplace_back(key.option, std::move(value));
-      } else {
-        const std::string place = dimensions_[d].place ? dimensions_[d].place(point, i) : key.label;
-        cell.varied.push_back({key.name, std::get<std::string>(std::move(value)), place});
+        OptionValue value = dimensions_[d].value(place.points[d], i);
+        if (value != OptionValue{}) cell.options.emplace_back(key.option, std::move(value));
+      } else if (Override override = override_at(place, d, i); !override.value.empty()) {
+        cell.varied.push_back(std::move(override));
       }
     }
   }

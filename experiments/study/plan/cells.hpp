@@ -40,8 +40,26 @@ class Cells {
   /// The tables of points in words.
   std::vector<std::string> tables() const;
 
-  /// Cell k, below count(). Throws InputError for a value that the option cannot have.
+  /// Where a cell is: which product, and which point of each dimension.
+  struct Place {
+    std::size_t block = 0;
+    std::vector<std::size_t> points{};  ///< by dimension
+  };
+  /// Finds cell k, below count().
+  void find(std::size_t k, Place& place) const;
+
+  /// The cell. Throws InputError for a value that the option cannot have.
+  Cell at(const Place& place) const;
   Cell at(std::size_t k) const;
+
+  const std::string& scenario(const Place& place) const { return blocks_[place.block].scenario; }
+  const std::vector<Dimension>& dimensions() const { return dimensions_; }
+  /// True if the key of the dimension affects the runs of the cells of that product.
+  bool applies(std::size_t block, std::size_t dimension, std::size_t key) const {
+    return blocks_[block].applies[dimension][key];
+  }
+  /// The value that the cell gives to a key of the scenario; its text is empty if the cell gives none.
+  Override override_at(const Place& place, std::size_t dimension, std::size_t key) const;
 
  private:
   using Points = std::vector<std::uint32_t>;

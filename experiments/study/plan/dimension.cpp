@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <memory>
+#include <string_view>
 #include <utility>
+#include <variant>
 
 #include "experiments/study/plan/axis_values.hpp"
 #include "experiments/study/plan/distribution.hpp"
@@ -28,11 +30,39 @@ Values values_of_scenario_key(const std::string& text, const std::string& label)
   return values;
 }
 
+Glance glance(double x) { return {Glance::Kind::number, x}; }
+
+/// Unknown for a text of the scenario that is no number: it may be quoted, or a list.
+Glance glance(const OptionValue& value, bool of_option) {
+  if (const auto* x = std::get_if<double>(&value)) return glance(*x);
+  if (const auto* n = std::get_if<std::int64_t>(&value)) return glance(static_cast<double>(*n));
+  const auto* text = std::get_if<std::string>(&value);
+  if (!text) return {Glance::Kind::none};
+  if (of_option) return {Glance::Kind::text, 0, *text};
+  const auto x = to_number(*text);
+  return x ? glance(*x) : Glance{};
+}
+
+/// glance() at each value of a list, which must outlive it.
+std::vector<Glance> glances(const Values& values, bool of_option) {
+  std::vector<Glance> all;
+  for (const OptionValue& value : values) all.push_back(glance(value, of_option));
+  return all;
+}
+
 /// A dimension of lists of equal lengths, one for each key.
-void set_lists(Dimension& dimension, std::vector<Values> lists) {
-  dimension.size = lists.front().size();
-  dimension.value = [kept = std::make_shared<const std::vector<Values>>(std::move(lists))](
-                        std::size_t point, std::size_t key) { return (*kept)[key][point]; };
+void set_lists(Dimension& dimension, std::vector<Values> made) {
+  struct Lists {
+    std::vector<Values> values;
+    std::vector<std::vector<Glance>> glances;
+  };
+  dimension.size = made.front().size();
+  const auto lists = std::make_shared<Lists>();
+  lists->values = std::move(made);
+  for (std::size_t k = 0; k < lists->values.size(); ++k)
+    lists->glances.push_back(glances(lists->values[k], dimension.keys[k].option != nullptr));
+  dimension.value = [lists](std::size_t point, std::size_t key) { return lists->values[key][point]; };
+  dimension.look = [lists](std::size_t point, std::size_t key) { return lists->glances[key][point]; };
 }
 
 Dimension axis_of(const RunOption& option, const std::string& text, const std::string& label, bool counted) {
@@ -76,6 +106,19 @@ Dimension random_of(const PointTable& table) {
   dimension.value = [keys = dimension.keys, distributions, seed = table.seed](std::size_t point, std::size_t key) {
     return distributions[key].draw(seed, keys[key].name, static_cast<std::uint32_t>(point));
   };
+  std::vector<std::vector<Glance>> choices(distributions.size());
+  for (std::size_t k = 0; k < distributions.size(); ++k) {
+    if (const auto* values = distributions[k].choices())
+      choices[k] = glances(*values, dimension.keys[k].option != nullptr);
+  }
+  dimension.look = [keys = dimension.keys, distributions, choices, seed = table.seed](std::size_t point,
+                                                                                      std::size_t key) -> Glance {
+    const Distribution& distribution = distributions[key];
+    const auto number_of_point = static_cast<std::uint32_t>(point);
+    if (!choices[key].empty()) return choices[key][distribution.choice(seed, keys[key].name, number_of_point)];
+    const auto x = distribution.number(seed, keys[key].name, number_of_point);
+    return x ? glance(*x) : Glance{};
+  };
   return dimension;
 }
 
@@ -88,6 +131,14 @@ Dimension cells_of(const PointTable& table) {
   }
   dimension.place = [file = table.file, columns](std::size_t row, std::size_t key) {
     return file->place(row, columns[key]);
+  };
+  dimension.look = [file = table.file, columns, keys = dimension.keys](std::size_t row, std::size_t key) -> Glance {
+    const std::string_view text = file->text(row, columns[key]);
+    if (text.empty()) return {Glance::Kind::none};
+    const bool names = keys[key].option && keys[key].option->kind == RunOption::Kind::name;
+    if (names && text.find_first_of(" \t") == std::string_view::npos) return {Glance::Kind::text, 0, text};
+    const auto x = names ? std::nullopt : to_number(text);
+    return x ? glance(*x) : Glance{};
   };
   dimension.value = [file = table.file, columns, keys = dimension.keys](std::size_t row,
                                                                         std::size_t key) -> OptionValue {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/study/plan/study_axes.hpp"
@@ -18,6 +19,14 @@ struct DimensionKey {
   std::string label;  ///< name in error messages; empty: a key of --vary
 };
 
+/// A value as conditions look at it.
+struct Glance {
+  enum class Kind { none, number, text, unknown };  ///< none: the point does not give the key; unknown: ask value()
+  Kind kind = Kind::unknown;
+  double number = 0;
+  std::string_view text{};
+};
+
 struct Dimension {
   std::vector<DimensionKey> keys;
   std::size_t size = 0;  ///< number of points
@@ -25,6 +34,9 @@ struct Dimension {
   /// The value of a key in a point: that of an option, or a TOML text; none if the point does not give the key. Empty
   /// while only the points are counted.
   std::function<OptionValue(std::size_t point, std::size_t key)> value{};
+  /// The same value without a text made, or a check that the option can have it. Texts live as long as this function or
+  /// a copy of it.
+  std::function<Glance(std::size_t point, std::size_t key)> look{};
   /// The place of that value in a file, if it has one of its own.
   std::function<std::string(std::size_t point, std::size_t key)> place{};
 };

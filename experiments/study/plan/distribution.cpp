@@ -7,7 +7,9 @@
 
 #include <Random123/uniform.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "experiments/study/plan/assignments.hpp"
@@ -23,19 +25,27 @@ using Number = std::function<double(PointRandom&)>;
 
 constexpr double largest_whole = 0x1p52;  // integers are drawn from one number of 53 bits
 
-/// ratio^exponent for an exponent in (0, 1) with 53 binary places: the product of the square roots of square roots.
+/// ratio^exponent for exponents in (0, 1) with 53 binary places: the product of the square roots of square roots.
 /// Not std::pow, whose last digit differs between C libraries. Relative error below 1e-14.
-double power(double ratio, double exponent) {
-  double root = ratio, product = 1;
-  while (exponent > 0) {
-    root = std::sqrt(root);
-    exponent *= 2;
-    if (exponent < 1) continue;
-    product *= root;
-    exponent -= 1;
+class Powers {
+ public:
+  explicit Powers(double ratio) {
+    for (double& root : roots_) root = ratio = std::sqrt(ratio);
   }
-  return product;
-}
+  double operator()(double exponent) const {
+    double product = 1;
+    for (std::size_t k = 0; exponent > 0; ++k) {
+      exponent *= 2;
+      if (exponent < 1) continue;
+      product *= roots_[k];
+      exponent -= 1;
+    }
+    return product;
+  }
+
+ private:
+  std::array<double, 53> roots_;  // the square root of the ratio, the square root of that, …
+};
 
 /// Standard normal distribution by the ratio of uniforms (Kinderman & Monahan, ACM TOMS 3, 1977). The logarithm decides
 /// only whether a value is kept: another last digit of it changes a value with a probability below 1e-15.
@@ -111,7 +121,7 @@ Number number_of(const Call& call, const std::string& label) {
   if (call.name == "log_uniform") {
     need(p[0] > 0, "both numbers must be positive");
     need(std::isfinite(p[1] / p[0]), "the second number must be less than 1e308 times the first");
-    return [p](PointRandom& random) { return p[0] * power(p[1] / p[0], random.uniform()); };
+    return [from = p[0], powers = Powers(p[1] / p[0])](PointRandom& random) { return from * powers(random.uniform()); };
   }
   need(p[0] == std::floor(p[0]) && p[1] == std::floor(p[1]), "both numbers must be whole");
   need(p[1] - p[0] < largest_whole && std::abs(p[0]) < largest_whole && std::abs(p[1]) < largest_whole,
@@ -162,9 +172,7 @@ Distribution Distribution::parse(const std::string& text, const RunOption* optio
   const Call call = call_of(text, label);
   Distribution distribution;
   if (call.name == "choice") {
-    distribution.draw_ = [values = values_of(call, option, label)](PointRandom& random) {
-      return values[static_cast<std::size_t>(static_cast<double>(values.size()) * random.uniform())];
-    };
+    distribution.choices_ = std::make_shared<const std::vector<OptionValue>>(values_of(call, option, label));
   } else if (option && (option->kind == RunOption::Kind::name || call.name == "sphere")) {
     throw InputError(fmt::format(
         "{}: {} makes {}; {}", label, call.name, call.name == "sphere" ? "vectors, which no option takes" : "numbers",
@@ -172,20 +180,31 @@ Distribution Distribution::parse(const std::string& text, const RunOption* optio
   } else if (call.name == "sphere") {
     const double radius = parameters_of(call, label)[0];
     if (!(radius > 0)) throw InputError(label + ": sphere: the radius must be positive");
-    distribution.draw_ = [radius](PointRandom& random) { return point_of_sphere(random, radius); };
-  } else if (option) {
-    distribution.draw_ = [number = number_of(call, label), option, label](PointRandom& random) {
-      return option_value(*option, number(random), label);
-    };
+    distribution.text_ = [radius](PointRandom& random) { return point_of_sphere(random, radius); };
   } else {
-    distribution.draw_ = [number = number_of(call, label)](PointRandom& random) { return exact(number(random)); };
+    distribution.number_ = number_of(call, label);
+    if (option) distribution.value_of_number_ = [option, label](double x) { return option_value(*option, x, label); };
+    else distribution.value_of_number_ = [](double x) -> OptionValue { return exact(x); };
   }
   return distribution;
 }
 
 OptionValue Distribution::draw(std::uint64_t seed, std::string_view key, std::uint32_t point) const {
+  if (const auto x = number(seed, key, point)) return value_of_number_(*x);
+  if (choices_) return (*choices_)[choice(seed, key, point)];
   PointRandom random(seed, key, point);
-  return draw_(random);
+  return text_(random);
+}
+
+std::optional<double> Distribution::number(std::uint64_t seed, std::string_view key, std::uint32_t point) const {
+  if (!number_) return std::nullopt;
+  PointRandom random(seed, key, point);
+  return number_(random);
+}
+
+std::size_t Distribution::choice(std::uint64_t seed, std::string_view key, std::uint32_t point) const {
+  const double count = choices_ ? static_cast<double>(choices_->size()) : 0;
+  return static_cast<std::size_t>(count * PointRandom(seed, key, point).uniform());
 }
 
 }  // namespace polhode::study::plan

@@ -7,6 +7,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,8 +38,18 @@ class Distribution {
   /// The value of a point: that of the option, or a TOML text. Throws InputError if the option cannot have that number.
   OptionValue draw(std::uint64_t seed, std::string_view key, std::uint32_t point) const;
 
+  /// The number that draw() makes a value of, which it checks and this does not; absent: it draws no numbers.
+  std::optional<double> number(std::uint64_t seed, std::string_view key, std::uint32_t point) const;
+  /// The values among which draw() chooses, and the one of a point; null and unspecified: it is no choice.
+  const std::vector<OptionValue>* choices() const { return choices_.get(); }
+  std::size_t choice(std::uint64_t seed, std::string_view key, std::uint32_t point) const;
+
  private:
-  std::function<OptionValue(PointRandom&)> draw_;
+  // One of these is set.
+  std::function<double(PointRandom&)> number_;
+  std::shared_ptr<const std::vector<OptionValue>> choices_;
+  std::function<std::string(PointRandom&)> text_;
+  std::function<OptionValue(double)> value_of_number_;  ///< set with number_
 };
 
 /// Names and parameters of the distributions: {"uniform", {"from", "to"}}.

@@ -81,12 +81,12 @@ PointTable random_of_words(const std::string& text, std::uint64_t seed) {
   return table;
 }
 
-/// The number that --curves gives; absent: all.
-std::optional<std::size_t> curves_of(const std::string& text, const Experiment& experiment) {
+/// The number of runs in "all", "none" or a number; absent: all. `label`: "--curves", or its place in the study file.
+std::optional<std::size_t> curves_of(const std::string& text, const std::string& label, const Experiment& experiment) {
   if (text.empty() && !experiment.curves_are_results) return most_curves;
   if (text.empty() || text == "all") return std::nullopt;
   const auto fault = [&](const std::string& what) {
-    return InputError("--curves " + text + ": " + what + "; give all, none or a number of runs");
+    return InputError(label + " " + text + ": " + what + "; give all, none or a number of runs");
   };
   std::size_t number = 0;
   const bool none = text == "none";
@@ -253,7 +253,6 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   options.trajectory = trajectory == "csv"    ? TrajectoryFormat::csv
                        : trajectory == "hdf5" ? TrajectoryFormat::hdf5
                                               : TrajectoryFormat::none;
-  options.curves = curves_of(curves, experiment);
   options.words = words_without({"--shard", "--slurm"}, {"--merge", "--submit", "--force"}, argc, argv);
   if (options.submit && !options.slurm) throw InputError("--submit: there is nothing to submit; give --slurm too");
   if (shard) options.shard = read_shard(*shard, "--shard");
@@ -264,6 +263,8 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   StudyFile file;
   if (study_file) file = read_study_file(*study_file, options.seed);
   else file.studies.emplace_back();
+  options.curves = curves.empty() ? curves_of(file.curves, file.curves_label, experiment)
+                                  : curves_of(curves, "--curves", experiment);
   options.study_file = file.path;
   options.study_file_hash = file.hash;
   options.shared = std::move(file.shared);

@@ -60,6 +60,8 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
 struct StudyFile {
   std::vector<StudyAxes> studies;  ///< with the file's defaults
   std::set<std::string> shared;    ///< options that its defaults give
+  std::string curves;              ///< what --curves would say; empty: nothing
+  std::string curves_label;        ///< its place: "study.toml:1:10: curves"
   std::string path;                ///< as given
   std::string hash;                ///< text_hash() of its text
 };

@@ -95,7 +95,7 @@ void Product::open_scenarios(const std::vector<Dimension>& dimensions) {
         auto scenario = std::make_shared<const Scenario>(source.resolve());
         BoundConditions bound(conditions_, source, {varied.begin(), varied.end()});
         opened_.push_back(
-            std::make_unique<const Opened>(Opened{name, std::move(source), std::move(scenario), std::move(bound)}));
+            std::make_unique<Opened>(Opened{name, std::move(source), std::move(scenario), std::move(bound)}));
         by_name_[name] = opened_.back().get();
       }
     }
@@ -137,6 +137,17 @@ Product::Run Product::made(const Cell& cell, const Opened& opened, std::shared_p
   return {std::move(config), std::move(scenario)};
 }
 
+/// False: the conditions leave out the cell.
+bool Product::holds(const Cells::Place& place) {
+  if (conditions_.empty()) return true;
+  Opened& opened = *by_name_.at(cells_->scenario(place));
+  const auto value_not_given = [&](const RunOption& option, const Cell& cell) {
+    const RunConfig config = configured(cell, opened, *opened.scenario);
+    return option.applies_to(config) ? option.value(config) : OptionValue{};
+  };
+  return opened.conditions.hold(*cells_, place, value_not_given);
+}
+
 /// Throws InputError if the run cannot have this configuration.
 void Product::check(const RunConfig& config) const {
   if (experiment_.fixed_steps_only && find_integrator(config.integrator)->declaration.adaptive) {
@@ -163,13 +174,15 @@ Product::Count Product::for_each(const std::function<void(std::uint64_t cell, Ru
   std::shared_ptr<const Scenario> variant;  // the last one: neighbouring cells mostly have the same
   const Opened* variant_of = nullptr;
   std::vector<Override> variant_keys;
+  Cells::Place place;
   for (std::uint64_t k = 0; k < count.cells; ++k) {
-    const Cell cell = cells_->at(k);
-    const Opened& opened = *by_name_.at(cell.scenario);
-    if (!conditions_.empty() && !opened.conditions.hold(cell, configured(cell, opened, *opened.scenario))) {
+    cells_->find(k, place);
+    if (!holds(place)) {
       ++count.left_out;
       continue;
     }
+    const Cell cell = cells_->at(place);
+    const Opened& opened = *by_name_.at(cell.scenario);
     if (variant_of != &opened || variant_keys != cell.varied) variant.reset();
     Run run = made(cell, opened, variant);
     variant = run.scenario;

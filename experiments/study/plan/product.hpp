@@ -39,7 +39,7 @@ class Product {
     BoundConditions conditions;
   };
   /// The scenarios in their order. Valid after open().
-  const std::vector<std::unique_ptr<const Opened>>& opened() const { return opened_; }
+  const std::vector<std::unique_ptr<Opened>>& opened() const { return opened_; }
   std::set<std::string> varied_keys() const;
   const StudyAxes& study() const { return study_; }
 
@@ -67,6 +67,7 @@ class Product {
   RunConfig start_of(const Opened& opened, const Scenario& scenario) const;
   RunConfig configured(const Cell& cell, const Opened& opened, const Scenario& scenario) const;
   Run made(const Cell& cell, const Opened& opened, std::shared_ptr<const Scenario> scenario) const;
+  bool holds(const Cells::Place& place);
   void check(const RunConfig& config) const;
 
   Experiment experiment_;
@@ -75,8 +76,8 @@ class Product {
   bool reference_;
   std::vector<const RunOption*> needed_;
   std::vector<Where> conditions_;
-  std::vector<std::unique_ptr<const Opened>> opened_;
-  std::map<std::string, const Opened*> by_name_;  ///< by the name that the study says
+  std::vector<std::unique_ptr<Opened>> opened_;
+  std::map<std::string, Opened*> by_name_;  ///< by the name that the study says
   double counted_ = 0;
   std::optional<Cells> cells_;
 };

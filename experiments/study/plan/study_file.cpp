@@ -51,9 +51,8 @@ class StudyFileReader {
     const TomlValue file = read_tree();
     if (!file.find("study") && !file.find("defaults")) {
       if (!only.empty()) throw InputError("--study " + path_ + ":" + only + ": the file has no [study." + only + "]");
-      StudyFile one;
-      one.studies.push_back(study_of(file, ""));
-      return one;
+      file_.studies.push_back(study_of(file, ""));
+      return std::move(file_);
     }
     for (const TomlEntry& entry : file.entries) {
       if (entry.key == "study" || entry.key == "defaults") continue;
@@ -95,7 +94,7 @@ class StudyFileReader {
   }
 
   StudyFile studies_of(const TomlValue& file, const std::string& only) {
-    StudyFile all;
+    StudyFile& all = file_;
     StudyAxes defaults;
     if (const TomlValue* said = file.find("defaults"))
       defaults = study_of(table(*said, "defaults", "a table of axes"), "defaults.");
@@ -122,7 +121,7 @@ class StudyFileReader {
       throw InputError("--study " + path_ + ": it has no study " + only + suggestion(only, "There are", names));
     }
     all.shared = std::move(defaults.said);
-    return all;
+    return std::move(all);
   }
 
   static void add_defaults(StudyAxes& study, const StudyAxes& defaults) {
@@ -155,6 +154,8 @@ class StudyFileReader {
         read_vary(table(value, name, "a table from scenario keys to lists"), name + ".", study);
       } else if (entry.key == "grid") {
         read_grid(table(value, name, "a table of axes"), name + ".", study);
+      } else if (entry.key == "curves") {
+        read_curves(value, name, above);
       } else if (entry.key == "reference") {
         if (value.type != Type::boolean) throw InputError(label(value, name) + ": must be true or false");
         study.reference = value.boolean;
@@ -187,6 +188,17 @@ class StudyFileReader {
     std::vector<const TomlValue*> all;
     for (const TomlValue& item : value.items) all.push_back(&item);
     return all;
+  }
+
+  /// What --curves says. All studies of a file are one list of runs, of which so many keep their curves.
+  void read_curves(const TomlValue& value, const std::string& name, const std::string& above) {
+    if (above.starts_with("study."))
+      throw InputError(label(value, name) + ": it is for all studies of the file; put it into [defaults]");
+    if (value.type != Type::text && value.type != Type::number)
+      throw InputError(label(value, name) + ": must be \"all\", \"none\" or a number of runs");
+    file_.curves = as_text(value, name);
+    file_.curves_label = label(value, name);
+    if (file_.curves.empty()) throw InputError(file_.curves_label + ": is empty; give all, none or a number of runs");
   }
 
   void read_grid(const TomlValue& grid, const std::string& above, StudyAxes& study) {
@@ -287,6 +299,7 @@ class StudyFileReader {
 
   std::string path_, hash_;
   std::uint64_t seed_;
+  StudyFile file_;
 };
 
 }  // namespace

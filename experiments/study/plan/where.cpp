@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -300,7 +301,7 @@ class OperandStack {
   }
 
   const std::string& label_;
-  std::vector<Operand> operands_;
+  boost::container::small_vector<Operand, 16> operands_;  // most conditions need no more
 };
 
 }  // namespace
@@ -309,7 +310,7 @@ bool Where::holds(std::span<const WhereValue> values) const {
   OperandStack stack(label_);
   const auto value = [&](std::size_t i) -> Operand {
     if (const double* x = std::get_if<double>(&values[i])) return *x;
-    if (const std::string* text = std::get_if<std::string>(&values[i])) return std::string_view(*text);
+    if (const auto* text = std::get_if<std::string_view>(&values[i])) return *text;
     return Absent{};
   };
   const auto least = [](double a, double b) { return std::min(a, b); };

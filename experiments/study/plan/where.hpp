@@ -19,8 +19,8 @@
 
 namespace polhode::study::inline plan {
 
-/// The value of a key in a cell; std::monostate: the cell does not have it.
-using WhereValue = std::variant<std::monostate, double, std::string>;
+/// The value of a key in a cell; std::monostate: the cell does not have it. The text is held elsewhere.
+using WhereValue = std::variant<std::monostate, double, std::string_view>;
 
 class Where {
  public:

@@ -37,6 +37,22 @@ TEST(TimeLeft, CountsWorkUnderWay) {
   EXPECT_DOUBLE_EQ(time.share(half), 0.5);
 }
 
+TEST(TimeLeft, TakesTheRateFromAllOfAKind) {
+  TimeLeft time;
+  time.add("rk4", 100);
+  time.done("rk4", 20, 20);
+  const std::vector<UnderWay> two = {{"rk4", 20, 0.5, 20}, {"rk4", 40, 0.25, 30}};  // 10 units in 20 s, 10 in 30 s
+  EXPECT_DOUBLE_EQ(*time.seconds(two, 1), 60 * (20.0 + 20 + 30) / 40);
+  EXPECT_DOUBLE_EQ(time.share(two), 0.4);
+}
+
+TEST(TimeLeft, TakesNoRateFromWorkThatHasHardlyBegun) {
+  TimeLeft time;
+  time.add("rk4", 100);
+  time.done("rk4", 50, 50);
+  EXPECT_NEAR(*time.seconds(std::vector<UnderWay>{{"rk4", 50, 0.005, 1000}}, 1), 50 * 0.995, 1e-9);
+}
+
 TEST(TimeLeft, IsAtLeastThatOfTheLongestRunUnderWay) {
   TimeLeft time;
   time.add("rk4", 100);

@@ -6,6 +6,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -153,12 +155,76 @@ TEST_F(StudyFiles, WhereLeavesOutCells) {
   EXPECT_THAT(error_of({"--where", "dt < 0"}), StartsWith("--where: it leaves out all 1 cell"));
 }
 
+TEST_F(StudyFiles, ConditionsSeeWhatTheRunsHave) {
+  const std::string cells =
+      file("cells.csv", "dt,body.0.mass,orientation\n0.1,2,matrix\n0.2,,quaternion\n0.25,3,matrix\n,0.5,quaternion\n");
+  std::vector<std::string> words = {
+      "--grid",
+      "dt=0.1",
+      "--random",
+      "n=200 seed=5 body.0.angular_velocity=sphere(3) integrator=choice(rk4,cvode_adams) "
+      "tolerance=log_uniform(1e-9,1e-6) body.0.velocity=choice([0,0,1],[1,0,0]) samples=integer(1,9)",
+      "--zip",
+      "t_end=1,2 normalize=never,step"};
+  const Plan all = planned(words);
+  words.insert(words.end(),
+               {"--where",
+                "body.0.angular_velocity.2 > 0 and body.0.velocity.0 == 0 and samples >= 4 and (integrator "
+                "== 'rk4' or tolerance < 1e-7) and (t_end == 1 or normalize != 'step') and body.0.mass > 0"});
+  const Plan some = planned(words);
+  std::set<std::string> expected;
+  for (const PlannedRun& run : all.runs()) {
+    std::map<std::string, std::string> varied;
+    for (const Override& o : run.config.varied) varied[o.key] = o.value;
+    const std::string& turn = varied.at("body.0.angular_velocity");
+    const bool up = std::stod(turn.substr(turn.rfind(',') + 1)) > 0,
+               still = varied.at("body.0.velocity") == "[0, 0, 1]" || varied.at("body.0.velocity") == "[0,0,1]";
+    const bool method = run.config.integrator == "rk4" || *run.config.tolerance < 1e-7;
+    if (up && still && *run.config.samples >= 4 && method && (run.config.t_end == 1 || !run.config.normalize))
+      expected.insert(run.id);
+  }
+  EXPECT_GT(expected.size(), 3U);
+  EXPECT_LT(expected.size(), all.size() / 2);
+  EXPECT_EQ(ids(some), expected);
+
+  const std::vector<std::string> table = {"--cells", cells};
+  const auto runs_where = [&](const std::string& condition) {
+    return planned({"--cells", cells, "--where", condition}).size();
+  };
+  EXPECT_THAT(error_of(table), HasSubstr("rk4 needs it, and a row leaves it empty"));
+  EXPECT_EQ(runs_where("given(dt)"), 3U);
+  EXPECT_EQ(runs_where("given(dt) and orientation == 'matrix'"), 2U);
+  EXPECT_EQ(runs_where("dt < 0.22 and body.0.mass > 2.5"), 1U) << "an empty cell leaves the mass of the scenario";
+}
+
 TEST_F(StudyFiles, RandomPointsUseTheSeedOfTheCommandLineUnlessTheyHaveTheirOwn) {
   const std::string path = file("study.toml", "[random]\nn = 3\nt_end = \"uniform(1, 2)\"\n");
   EXPECT_EQ(ids(planned({"--study", path})), ids(planned({"--random", "n=3 seed=1 t_end=uniform(1,2)"})));
   EXPECT_EQ(ids(planned({"--study", path, "--seed", "9"})),
             ids(planned({"--random", "n=3 seed=9 t_end=uniform(1,2)"})));
   EXPECT_NE(ids(planned({"--study", path, "--seed", "9"})), ids(planned({"--study", path})));
+}
+
+TEST_F(StudyFiles, CurvesSayTheSameAsOnTheCommandLine) {
+  const auto curves = [&](const std::string& text, std::vector<std::string> words = {}) {
+    words.insert(words.begin(), {"tops", "--study", file("study.toml", text)});
+    std::vector<const char*> argv;
+    for (const std::string& word : words) argv.push_back(word.c_str());
+    return parse_options(tops, int(argv.size()), argv.data()).options.curves;
+  };
+  EXPECT_EQ(curves("dt = 0.1\n"), 2000U);
+  EXPECT_EQ(curves("curves = \"none\"\n"), 0U);
+  EXPECT_EQ(curves("curves = 7\n"), 7U);
+  EXPECT_EQ(curves("curves = \"7\"\n"), 7U);
+  EXPECT_EQ(curves("curves = \"all\"\n"), std::nullopt);
+  EXPECT_EQ(curves("curves = 7\n", {"--curves", "all"}), std::nullopt) << "the command line wins";
+  EXPECT_EQ(curves("[defaults]\ncurves = 3\n[study.a]\ndt = 1\n"), 3U);
+  EXPECT_THAT(error_in("curves = 2.5\n"), StartsWith("study.toml:1:10: curves 2.5: is no whole number"));
+  EXPECT_THAT(error_in("curves = \"some\"\n"), StartsWith("study.toml:1:10: curves some: is no whole number"));
+  EXPECT_THAT(error_in("curves = \"\"\n"), StartsWith("study.toml:1:10: curves: is empty"));
+  EXPECT_THAT(error_in("curves = true\n"), StartsWith("study.toml:1:10: curves: must be"));
+  EXPECT_THAT(error_in("[study.a]\ncurves = 3\n"),
+              StartsWith("study.toml:2:10: study.a.curves: it is for all studies of the file"));
 }
 
 TEST_F(StudyFiles, ErrorsNameTheirPlace) {

@@ -35,6 +35,13 @@ TEST(ShownRuns, AreAllRunsOfEvenlyChosenMotions) {
   EXPECT_TRUE(std::is_sorted(shown.begin(), shown.end()));
 }
 
+TEST(ShownRuns, AreNotMoreThanAskedForWhereMotionsDiffer) {
+  std::vector<std::uint64_t> runs = runs_of_motions(4, 1);  // one motion of these has five more runs
+  for (int i = 0; i < 5; ++i) runs.push_back(runs[3]);
+  EXPECT_EQ(shown_runs(runs, 6), (std::vector<std::size_t>{0}));
+  EXPECT_EQ(shown_runs(runs, 8), (std::vector<std::size_t>{0}));
+}
+
 TEST(ShownRuns, AreThinnedWhereOneMotionHasTooMany) {
   EXPECT_EQ(shown_runs(runs_of_motions(1, 100), 4), (std::vector<std::size_t>{0, 33, 66, 99}));
   EXPECT_EQ(shown_runs(runs_of_motions(1, 100), 1), (std::vector<std::size_t>{0}));
