@@ -4,7 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <unordered_set>
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "experiments/study/record/run_options.hpp"
@@ -14,24 +15,18 @@
 namespace polhode::study {
 namespace {
 
-constexpr std::size_t most_values = 24;  // values of an axis that are printed
-
-/// The values of one column, in the order in which they are met: the first ones, and how many there are.
-class Values {
- public:
-  void add(const std::string& value) {
-    if (!value.empty() && seen_.insert(value).second && shown_.size() < most_values) shown_.push_back(rounded(value));
+/// The values of one column: the first ones, and how many there are.
+std::string values_text(const Plan& plan, const std::string& name, std::size_t column) {
+  const auto found = plan.values.find(name);
+  if (found == plan.values.end()) return {};
+  std::string line;
+  for (const std::uint32_t i : found->second.runs) {
+    const std::string value = config_cells(plan.run(i).config, plan.named)[column];
+    if (!value.empty()) line += (line.empty() ? "" : ", ") + rounded(value);
   }
-  std::string text() const {
-    std::string line;
-    for (const std::string& value : shown_) line += (line.empty() ? "" : ", ") + value;
-    return seen_.size() == shown_.size() ? line : line + fmt::format(", … ({} values)", seen_.size());
-  }
-
- private:
-  std::unordered_set<std::string> seen_;
-  std::vector<std::string> shown_;
-};
+  const auto& [count, shown] = found->second;
+  return shown.size() == count ? line : line + fmt::format(", … ({} values)", count);
+}
 
 /// The cells of each study, if they are more than the runs.
 std::string studies_text(const Plan& plan) {
@@ -59,16 +54,10 @@ std::string plan_text(const Experiment& experiment, const Plan& plan, const std:
   double cost = 0;
   std::size_t there = 0;
   std::vector<Unfinished> refused;
-  const auto names = config_columns(plan.varied_keys, plan.named);
-  std::vector<Values> values(names.size());
-  Variants variants;
   for (std::size_t i = 0; i < plan.size(); ++i) {
-    const PlannedRun run = plan.run(i, &variants);
     cost += plan.rows[i].cost;
     if (std::binary_search(done.begin(), done.end(), plan.rows[i].id)) ++there;
-    if (!run.refusal.empty()) refused.push_back({"will be refused", run.refusal});
-    const auto cells = config_cells(run.config, plan.named);
-    for (std::size_t k = 0; k < names.size(); ++k) values[k].add(cells[k]);
+    if (plan.rows[i].refused) refused.push_back({"will be refused", plan.run(i).refusal});
   }
   std::string text = fmt::format("{}: {}, about {:.2g} right-hand sides, into {}\n", experiment.name,
                                  count(plan.size(), "run"), cost, folder.string());
@@ -76,8 +65,10 @@ std::string plan_text(const Experiment& experiment, const Plan& plan, const std:
   if (there > 0) text += fmt::format("{} of {} are there already\n", there, count(plan.size(), "run"));
   text += reasons(refused);
   if (experiment.refine) text += "further runs follow from the results of these\n";
+  const auto names = config_columns(plan.varied_keys, plan.named);
   for (std::size_t k = 0; k < names.size(); ++k) {
-    if (const std::string line = values[k].text(); !line.empty()) text += fmt::format("  {:<15} {}\n", names[k], line);
+    if (const std::string line = values_text(plan, names[k], k); !line.empty())
+      text += fmt::format("  {:<15} {}\n", names[k], line);
   }
   for (const StudyCount& study : plan.studies) {
     for (const std::string& table : study.tables)

@@ -24,6 +24,8 @@
 namespace polhode::study::inline plan {
 namespace {
 
+constexpr std::size_t most_values = 24;  // of an axis, with runs in Plan::values
+
 double cost_of(const RunConfig& config) {
   if (!config.dt) return 200 * config.t_end * (1 - std::log10(*config.tolerance));
   const int stages = std::max(1, find_integrator(config.integrator)->declaration.evaluations_per_step);
@@ -85,6 +87,12 @@ PlanRow row_of(const RunConfig& config, const Scenario& scenario, const Identity
 /// The rows of a plan in the making.
 class Rows {
  public:
+  /// `expected`: number of runs, for which room is made.
+  explicit Rows(std::size_t expected) : order_(expected) {
+    rows_.reserve(expected);
+    motions_.reserve(expected);
+  }
+
   /// Throws std::invalid_argument for an impossible step.
   void add(std::uint16_t product, std::uint64_t cell, const RunConfig& config, const Scenario& scenario) {
     const Identity identity = identity_of_run(config, scenario);
@@ -96,22 +104,31 @@ class Rows {
     rows_.push_back(row);
   }
 
-  /// The rows by configuration. Of several runs of the same motion the first one is kept.
-  std::vector<PlanRow> sorted() const {
+  /// Puts the rows into the plan, by configuration. Of several runs of the same motion the first one is kept.
+  void move_into(Plan& plan) && {
     std::vector<std::uint32_t> numbers(rows_.size());
     std::iota(numbers.begin(), numbers.end(), 0U);
     std::stable_sort(numbers.begin(), numbers.end(), [&](auto a, auto b) { return motions_[a] < motions_[b]; });
     std::vector<bool> again(rows_.size());
     for (std::size_t i = 1; i < numbers.size(); ++i)
       again[numbers[i]] = motions_[numbers[i]] == motions_[numbers[i - 1]];
-    std::vector<PlanRow> sorted;
-    for (const std::uint32_t i : order_.sorted([&](auto a, auto b) { return rows_[a].id < rows_[b].id; })) {
-      if (!again[i]) sorted.push_back(rows_[i]);
+    numbers = order_.sorted([&](auto a, auto b) { return rows_[a].id < rows_[b].id; });
+    std::erase_if(numbers, [&](std::uint32_t i) { return again[i]; });
+    const auto values = order_.values(numbers, most_values);
+    std::vector<std::uint32_t> places(rows_.size());
+    plan.rows.reserve(numbers.size());
+    for (const std::uint32_t i : numbers) {
+      places[i] = static_cast<std::uint32_t>(plan.rows.size());
+      plan.rows.push_back(rows_[i]);
     }
-    return sorted;
+    rows_ = {};
+    const std::vector<std::string> columns = sort_columns(plan.varied_keys);
+    for (std::size_t k = 0; k < columns.size(); ++k) {  // the last of several values of a column is its text
+      Plan::Values& of_column = plan.values[columns[k]] = {values[k].count, {}};
+      for (const std::uint32_t i : values[k].runs) of_column.runs.push_back(places[i]);
+    }
+    plan.kinds = kinds_;
   }
-
-  const std::vector<std::string>& kinds() const { return kinds_; }
 
  private:
   std::vector<PlanRow> rows_;
@@ -188,6 +205,12 @@ std::vector<std::shared_ptr<Product>> products_of(const Experiment& experiment, 
   return products;
 }
 
+/// True if conditions may leave out cells.
+bool with_conditions(const Options& options) {
+  return std::any_of(options.studies.begin(), options.studies.end(),
+                     [](const StudyAxes& study) { return !study.where.empty(); });
+}
+
 void refuse_too_many(double cells) {
   if (cells <= static_cast<double>(most_runs)) return;
   throw InputError(fmt::format("{} runs are more than the 10 million that a study may have; make the axes shorter",
@@ -242,7 +265,7 @@ Plan make_plan(const Experiment& experiment, const Options& options) {
   sort_without_duplicates(plan.varied_keys);
   sort_without_duplicates(plan.invariants);
   std::set<std::string> effective;
-  Rows rows;
+  Rows rows(with_conditions(options) ? 0 : static_cast<std::size_t>(cells));
   for (std::size_t i = 0; i < products.size(); ++i) {
     const StudyAxes& study = options.studies[i];
     std::set<std::string> own;
@@ -260,8 +283,7 @@ Plan make_plan(const Experiment& experiment, const Options& options) {
     effective.merge(own);
   }
   refuse_without_effect(options.studies.front(), options.shared, effective);
-  plan.rows = rows.sorted();
-  plan.kinds = rows.kinds();
+  std::move(rows).move_into(plan);
   plan.by_id_ = numbers_by_id(plan.rows);
   if (experiment.one_run && plan.size() != 1) {
     throw InputError(fmt::format("{} makes one run, and this is {}; give each axis one value, or use energy_drift",

@@ -74,6 +74,13 @@ class Plan {
   std::vector<std::string> invariants;      ///< further declared invariants of all scenarios, sorted
   std::vector<PlanRow> rows;                ///< the runs, sorted by configuration, without duplicates
   std::vector<std::string> kinds;           ///< runs of a kind take times in proportion to their cost
+  /// The different values of each column of the configuration, by name: their number, and the first runs that have
+  /// them, at most 24.
+  struct Values {
+    std::size_t count = 0;
+    std::vector<std::uint32_t> runs;
+  };
+  std::map<std::string, Values> values;
   std::vector<StudyCount> studies;
   /// Axes of each further product of the experiment (Experiment::more), in the syntax of the command line.
   std::vector<std::map<std::string, std::string>> further_axes;

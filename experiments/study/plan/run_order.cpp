@@ -2,9 +2,11 @@
 #include "experiments/study/plan/run_order.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <numeric>
 #include <string_view>
+#include <unordered_set>
 
 namespace polhode::study::inline plan {
 namespace {
@@ -36,6 +38,7 @@ void RunOrder::add(const std::vector<OptionValue>& key) {
     Column& column = columns_[k];
     if (column.codes.empty()) {
       if (key[k] == column.first) continue;
+      column.codes.reserve(expected_);
       column.codes.assign(runs_, code_of(column.first, column));
     }
     column.codes.push_back(code_of(key[k], column));
@@ -71,6 +74,26 @@ std::vector<std::uint32_t> RunOrder::sorted(const std::function<bool(std::uint32
     return before(a, b);
   });
   return numbers;
+}
+
+std::vector<RunOrder::Values> RunOrder::values(const std::vector<std::uint32_t>& runs, std::size_t most) const {
+  std::vector<Values> all;
+  for (const Column& column : columns_) {
+    Values& values = all.emplace_back();
+    if (column.codes.empty()) {
+      values.count = 1;
+      values.runs = {runs.front()};
+      continue;
+    }
+    std::array<std::unordered_set<std::uint64_t>, std::variant_size_v<OptionValue>> seen;  // by type
+    for (const std::uint32_t run : runs) {
+      const auto [type, bits] = column.codes[run];
+      if (!seen[type].insert(bits).second) continue;
+      ++values.count;
+      if (values.runs.size() < most) values.runs.push_back(run);
+    }
+  }
+  return all;
 }
 
 }  // namespace polhode::study::plan

@@ -17,11 +17,22 @@ namespace polhode::study::inline plan {
 
 class RunOrder {
  public:
+  /// `expected`: number of runs, for which room is made.
+  explicit RunOrder(std::size_t expected = 0) : expected_(expected) {}
+
   /// Adds the next run by its sort_key(). All keys have the same length.
   void add(const std::vector<OptionValue>& key);
 
   /// Numbers of all runs in their order, from 0. `before` decides between runs of equal keys.
   std::vector<std::uint32_t> sorted(const std::function<bool(std::uint32_t, std::uint32_t)>& before) const;
+
+  /// The different values of one place of the keys: how many they are, and the first runs that have them.
+  struct Values {
+    std::size_t count = 0;
+    std::vector<std::uint32_t> runs;
+  };
+  /// Values of each place of the keys, as they are met in these runs; at most `most` runs are named.
+  std::vector<Values> values(const std::vector<std::uint32_t>& runs, std::size_t most) const;
 
  private:
   /// Type of a value, and bits that are ordered like the values of that type; a text has the number of a word.
@@ -35,7 +46,7 @@ class RunOrder {
   static Code code_of(const OptionValue& value, Column& column);
 
   std::vector<Column> columns_;
-  std::size_t runs_ = 0;
+  std::size_t runs_ = 0, expected_;
 };
 
 }  // namespace polhode::study::plan

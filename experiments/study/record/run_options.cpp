@@ -549,11 +549,19 @@ std::vector<OptionValue> sort_key(const RunConfig& config) {
     }
     key.push_back(std::move(value));
   }
-  for (const Override& o : config.varied) {
-    key.push_back(value_in(o.value));
-    key.emplace_back(o.value);
-  }
+  for (const Override& o : config.varied) key.push_back(value_in(o.value));
   return key;
+}
+
+std::vector<std::string> sort_columns(const std::vector<std::string>& varied_keys) {
+  std::vector<std::string> columns;
+  for (const RunOption* option : options_by_column()) {
+    if (option->column.empty()) continue;
+    if (option->role == Role::scenario) columns.push_back(option->column);
+    columns.push_back(option->column);
+  }
+  columns.insert(columns.end(), varied_keys.begin(), varied_keys.end());
+  return columns;
 }
 
 }  // namespace polhode::study::record
