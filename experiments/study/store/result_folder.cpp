@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/study/record/analysis.hpp"
+#include "experiments/study/store/database.hpp"
 #include "experiments/study/store/shard_folders.hpp"
 #include "experiments/study/store/store.hpp"
 #include "experiments/study/text/input_error.hpp"
@@ -59,6 +60,8 @@ bool holds_only(const std::filesystem::path& path, const std::set<std::string>& 
     std::set<std::string> stored;
     for (const auto& folder : with_shards(path)) stored.merge(Store::ids_in(folder));
     return std::includes(ids.begin(), ids.end(), stored.begin(), stored.end()) && !stored.empty();
+  } catch (const DiskFull&) {
+    throw;
   } catch (const std::runtime_error&) {
     return false;  // damaged
   }
@@ -90,6 +93,8 @@ void refuse_other_study(const std::filesystem::path& path, const std::set<std::s
   bool foreign = false;
   try {
     for (const auto& folder : with_shards(path)) foreign = foreign || holds_foreign_runs(folder, ids);
+  } catch (const DiskFull&) {
+    throw;
   } catch (const std::runtime_error& error) {
     throw InputError("--out: " + std::string(error.what()) + remedy);
   }
