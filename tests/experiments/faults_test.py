@@ -220,12 +220,15 @@ class DamagedStores(FaultsTest):
                                 ("an older version", "PRAGMA user_version = 0; PRAGMA application_id = 0", None),
                                 ("a newer version", "PRAGMA user_version = 99", None),
                                 ("a database of another program", "PRAGMA application_id = 1", None),
+                                ("a text", "SELECT 1", lambda: (self.out / "results.sqlite").write_text("mine\n" * 2000)),
                                 ("cut off", "SELECT 1", cut), ("a page of it overwritten", "SELECT 1", overwrite)):
             with self.subTest(what):
                 self.damage(sql)
                 if more:
                     more()
+                before = {path.name: path.read_bytes() for path in self.out.iterdir() if path.is_file()}
                 self.refused(*SMALL, say=["results.sqlite", "--force"])
+                self.assertEqual({path.name: path.read_bytes() for path in self.out.iterdir() if path.is_file()}, before)
                 self.call(*SMALL, "--force")
                 self.assertEqual((self.out / "runs.csv").read_bytes(), self.runs)
                 self.call(*SMALL)
