@@ -18,6 +18,7 @@ import unittest
 from random import Random
 
 from programs import BIN, PATIENCE, read, temporary_folder
+from shards_test import files
 
 SMALL = ["--scenario", "lagrange_top", "--integrator", "rk4", "--dt", "1e-2,5e-3", "--t-end", "1", "--no-figures"]
 CONTACT = """t_end = 1
@@ -219,12 +220,15 @@ class DamagedStores(FaultsTest):
                                 ("an older version", "PRAGMA user_version = 0; PRAGMA application_id = 0", None),
                                 ("a newer version", "PRAGMA user_version = 99", None),
                                 ("a database of another program", "PRAGMA application_id = 1", None),
+                                ("a text", "SELECT 1", lambda: (self.out / "results.sqlite").write_text("mine\n" * 2000)),
                                 ("cut off", "SELECT 1", cut), ("a page of it overwritten", "SELECT 1", overwrite)):
             with self.subTest(what):
                 self.damage(sql)
                 if more:
                     more()
+                before = {path.name: path.read_bytes() for path in self.out.iterdir() if path.is_file()}
                 self.refused(*SMALL, say=["results.sqlite", "--force"])
+                self.assertEqual({path.name: path.read_bytes() for path in self.out.iterdir() if path.is_file()}, before)
                 self.call(*SMALL, "--force")
                 self.assertEqual((self.out / "runs.csv").read_bytes(), self.runs)
                 self.call(*SMALL)
@@ -380,6 +384,54 @@ class FullDisks(FaultsTest):
                     subprocess.run(["mount", "-o", "remount,size=20m", str(place)], check=True, capture_output=True)
                     self.call(*study, out=place / "out")
                     self.assertEqual({p.relative_to(place / "out"): p.read_bytes() for p in place.glob("out/trajectories/*/*")}, files)
+
+    def runs_in_copy(self, out):
+        """The number of runs in a copy of a store, where there is room to read it."""
+        copied = pathlib.Path(tempfile.mkdtemp(dir=self.folder))
+        for name in ("results.sqlite", "results.sqlite-wal"):
+            if (out / name).exists():
+                shutil.copy(out / name, copied)
+        with contextlib.closing(sqlite3.connect(copied / "results.sqlite")) as store:
+            has_runs = store.execute("SELECT count(*) FROM sqlite_master WHERE name = 'runs'").fetchone()[0]
+            return store.execute("SELECT count(*) FROM runs").fetchone()[0] if has_runs else 0
+
+    def test_each_file_of_a_study_on_a_disk_that_gets_room_little_by_little(self):
+        study = ["--integrator", "rk4,dmv", "--dt", "1e-2,5e-3", "--t-end", "1", "--out", "out"]
+
+        def carry_out(folder):
+            return subprocess.run([str(BIN / "energy_drift"), *study], cwd=folder, capture_output=True, text=True,
+                                  timeout=PATIENCE, stdin=subprocess.DEVNULL)
+
+        (self.folder / "whole").mkdir()
+        self.assertEqual(carry_out(self.folder / "whole").returncode, 0)
+        whole = files(self.folder / "whole/out")
+        store = self.folder / "whole/out/results.sqlite"
+        stages = set()
+        for room, kept in ((12, 0), (store.stat().st_size // 1024 + 12, 4)):  # kB, runs in the store at the start
+            place = self.mounted("-t", "tmpfs", "-o", f"size={room}k", "none")
+            if kept:
+                (place / "out").mkdir()
+                shutil.copy(store, place / "out")
+            while (done := carry_out(place)).returncode != 0:
+                said = [line for line in done.stderr.splitlines() if "runs are there already" not in line]
+                with self.subTest(room=room, said=said):
+                    self.assertEqual(done.returncode, 3)
+                    self.assertEqual(len(said), 1)
+                    self.assertRegex(said[0], "^energy_drift: .*(No space left on device|disk is full|is the disk full).*; "
+                                              "finished runs are kept, and the same command goes on")
+                    self.assertNotIn("--force", said[0])
+                now = self.runs_in_copy(place / "out")
+                self.assertGreaterEqual(now, kept, "a run that was stored is lost")
+                kept = now
+                name = re.search(r"out/([a-z_./]+[a-z])", said[0])[1]
+                stages.add(name.split("/")[0])
+                room += 12 if name == store.name else 4 * max(1, len(whole.get(name, b"")) // 4096)
+                self.assertLess(room, 20_000)
+                subprocess.run(["mount", "-o", f"remount,size={room}k", str(place)], check=True, capture_output=True)
+            found = files(place / "out")
+            self.assertEqual(sorted(found), sorted(whole))
+            self.assertEqual([name for name in whole if found[name] != whole[name]], [])
+        self.assertLessEqual({store.name, "runs.csv", "tables", "figures", "report.html"}, stages)
 
     def test_a_trajectory_in_hdf5_that_may_not_grow(self):
         """The same without a file system of its own: the limit of files."""

@@ -10,8 +10,12 @@
 namespace polhode::fuzz {
 
 std::span<const Reader> readers() {
-  static const std::vector<Reader> all = {scenario_reader(), study_reader(), trajectory_reader(),
-                                          obj_reader(),      pairs_reader(), boxes_reader()};
+  static const std::vector<Reader> all = {scenario_reader(), study_reader(), trajectory_reader(), obj_reader(),
+                                          pairs_reader(),    boxes_reader(), cells_reader(),
+#ifdef POLHODE_HAS_VIEWER
+                                          session_reader()
+#endif
+  };
   return all;
 }
 

@@ -41,5 +41,7 @@ Reader trajectory_reader();
 Reader obj_reader();
 Reader pairs_reader();
 Reader boxes_reader();
+Reader cells_reader();
+Reader session_reader();  ///< only where the viewer is built
 
 }  // namespace polhode::fuzz

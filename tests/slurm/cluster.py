@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A Slurm of two nodes on this host, for tests: it is started and stopped here, and nothing of it is left."""
+import collections
 import os
 import pathlib
 import shutil
@@ -11,13 +12,17 @@ import time
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scontrol", "scancel")
 PATIENCE = 60  # s
 
+Task = collections.namedtuple("Task", "process starter job node")  # process ids of the program and of its slurmstepd
+
+# cred_expire is also how long a requeued task waits before it starts again, s; Slurm's default is 120. A node whose daemon
+# is silent for SlurmdTimeout, s, counts as lost, and its tasks are requeued; the default is 300.
 CONFIGURATION = """\
 ClusterName=test
 SlurmctldHost={host}
 SlurmUser=root
 SlurmdUser=root
 AuthType=auth/munge
-AuthInfo=socket={folder}/munge/socket
+AuthInfo=socket={folder}/munge/socket,cred_expire=10
 CredType=cred/munge
 StateSaveLocation={folder}/state
 SlurmdSpoolDir={folder}/spool/%n
@@ -34,6 +39,7 @@ AccountingStorageType=accounting_storage/none
 SelectType=select/cons_tres
 SelectTypeParameters=CR_CPU
 ReturnToService=2
+SlurmdTimeout=10
 MaxArraySize=101
 KillWait=5
 MinJobAge=300
@@ -87,10 +93,42 @@ class Cluster:
     def start_node(self, node):
         self.start(node, "slurmd", "-D", "-N", node)
 
-    def kill_node(self, node):
-        """Kills a node's daemon, and not what it has started."""
+    def kill_node(self, node, with_tasks=False):
+        """Kills a node's daemon and, as when a machine breaks down, all that it has started."""
         self.daemons[node].kill()
         self.daemons[node].wait()
+        for task in self.tasks(node) if with_tasks else []:
+            for process in (task.starter, task.process):
+                try:
+                    os.kill(process, signal.SIGKILL)
+                except ProcessLookupError:
+                    pass  # it has just ended
+
+    def wait_for_loss(self, node):
+        """Waits until Slurm counts the node as lost and has requeued its tasks."""
+        self.wait(lambda: self.call("sinfo", "-h", "-n", node, "-o", "%t").stdout.startswith("down"), f"the loss of {node}")
+
+    def tasks(self, node=None):
+        """The programs, not their scripts, that run in job arrays of this cluster, or on one node of it."""
+        found = []
+        for folder in pathlib.Path("/proc").glob("[0-9]*"):
+            try:
+                entries = (folder / "environ").read_bytes().split(b"\0")
+                variables = dict(entry.decode(errors="replace").split("=", 1) for entry in entries if b"=" in entry)
+                words = (folder / "cmdline").read_bytes().split(b"\0")
+                parent = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
+            except (OSError, IndexError):
+                continue  # it has just ended
+            ours = variables.get("SLURM_CONF") == str(self.configuration) and "SLURM_ARRAY_TASK_ID" in variables
+            if ours and b"--shard" in words and node in (None, variables.get("SLURMD_NODENAME")):
+                job = f"{variables['SLURM_ARRAY_JOB_ID']}_{variables['SLURM_ARRAY_TASK_ID']}"
+                found.append(Task(int(folder.name), parent, job, variables["SLURMD_NODENAME"]))
+        return sorted(found)
+
+    def wait_for_task(self, patience=PATIENCE):
+        """A task of an array that runs."""
+        self.wait(self.tasks, "a running task", patience)
+        return self.tasks()[0]
 
     def wait(self, ready, what, patience=PATIENCE):
         end = time.monotonic() + patience

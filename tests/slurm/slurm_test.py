@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Studies by job scripts, on a real Slurm and by GNU parallel: the files are those of one process, whatever strikes."""
+import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -85,13 +87,6 @@ class Slurm(Jobs):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r"submitted: array \d+, merge \d+")
 
-    def running_task(self):
-        """Waits for a task of the array that runs. Returns its process."""
-        def found():
-            return subprocess.run(["pgrep", "-f", f"{BIN}/energy_drift.*--shard"], capture_output=True, text=True).stdout.split()
-        self.cluster.wait(found, "a running task")
-        return int(found()[0])
-
     def test_an_array_and_its_merge(self):
         self.submit(STUDY, "shards=4")
         self.cluster.wait_for_jobs()
@@ -100,15 +95,33 @@ class Slurm(Jobs):
     def test_a_task_that_is_killed(self):
         self.submit(LONG, "shards=4")
         time.sleep(0.5)
-        subprocess.run(["kill", "-9", str(self.running_task())], check=False)
+        os.kill(self.cluster.wait_for_task().process, signal.SIGKILL)
         self.cluster.wait_for_jobs(2 * PATIENCE)
         self.assert_same(self.whole(LONG))
 
     def test_a_warning_before_the_time_limit(self):
         self.submit(LONG, "shards=2")
         time.sleep(0.5)
-        subprocess.run(["kill", "-USR1", str(self.running_task())], check=False)
+        os.kill(self.cluster.wait_for_task().process, signal.SIGUSR1)
         self.cluster.wait_for_jobs(2 * PATIENCE)
+        self.assert_same(self.whole(LONG))
+
+    def test_a_task_that_is_requeued(self):
+        self.submit(LONG, "shards=2")
+        task = self.cluster.wait_for_task()
+        time.sleep(0.5)
+        self.assertEqual(self.cluster.call("scontrol", "requeue", task.job).stderr, "")
+        self.cluster.wait_for_jobs(3 * PATIENCE)
+        self.assert_same(self.whole(LONG))
+
+    def test_a_node_whose_daemon_is_killed(self):
+        self.submit(LONG, "shards=2")
+        node = self.cluster.wait_for_task().node
+        time.sleep(0.5)
+        self.cluster.kill_node(node)
+        time.sleep(1)
+        self.cluster.start_node(node)
+        self.cluster.wait_for_jobs(3 * PATIENCE)
         self.assert_same(self.whole(LONG))
 
     def test_the_limit_of_arrays_is_that_of_the_site(self):

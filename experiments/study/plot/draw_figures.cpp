@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "experiments/study/plot/gnuplot_figure.hpp"
@@ -66,6 +67,13 @@ std::optional<ChildProcess> start_gnuplot(const std::string& name, const fs::pat
                              {{"SOURCE_DATE_EPOCH", "0"}, {"TZ", "UTC0"}, {"LC_ALL", "C.UTF-8"}});
 }
 
+/// True if the file has all of a picture, up to the words that end its format. On a full disk gnuplot cuts its output
+/// off and reports no error.
+bool is_whole(const fs::path& picture, std::string_view end) {
+  const std::string text = read_file(picture).value_or("");
+  return std::string_view(text).substr(0, text.find_last_not_of("\r\n") + 1).ends_with(end);
+}
+
 void finish_gnuplot(ChildProcess& child, const std::string& name, const fs::path& folder) {
   const auto outcome = child.wait();
   const auto file = folder / name;
@@ -73,10 +81,11 @@ void finish_gnuplot(ChildProcess& child, const std::string& name, const fs::path
     throw std::runtime_error(fmt::format("gnuplot failed on {}.gp with exit status {}: {}", file.string(),
                                          outcome.exit_status, one_line(outcome.printed)));
   }
-  for (const auto* ending : {".svg", ".pdf"}) {
+  for (const auto& [ending, end] : {std::pair{".svg", "</svg>"}, {".pdf", "%%EOF"}}) {
     const fs::path made = file.string() + ending;
-    if (!fs::exists(made) || fs::file_size(made) == 0) {
-      throw std::runtime_error(fmt::format("gnuplot left no {}: {}", made.string(), one_line(outcome.printed)));
+    if (!is_whole(made, end)) {
+      throw std::runtime_error(fmt::format("gnuplot did not write {} to its end; is the disk full?{}{}", made.string(),
+                                           outcome.printed.empty() ? "" : " ", one_line(outcome.printed)));
     }
   }
   fix_date(file.string() + ".pdf");

@@ -103,8 +103,12 @@ void Database::set_journal(Journal journal) {
 void Database::fail() const {
   if (!db_) throw std::runtime_error(path_.string() + ": out of memory");
   std::string why = sqlite3_errmsg(db_.get());
-  if (const int reason = sqlite3_system_errno(db_.get())) why += std::string(": ") + std::strerror(reason);
-  if (sqlite3_errcode(db_.get()) == SQLITE_BUSY) why += FolderLock::holder(path_.parent_path());
+  const int code = sqlite3_errcode(db_.get()), reason = sqlite3_system_errno(db_.get());
+  if (reason != 0) why += std::string(": ") + std::strerror(reason);
+  if (code == SQLITE_BUSY) why += FolderLock::holder(path_.parent_path());
+  const bool input_or_output = code == SQLITE_IOERR || code == SQLITE_CANTOPEN;
+  if (code == SQLITE_FULL || (input_or_output && (reason == ENOSPC || reason == EDQUOT)))
+    throw DiskFull(path_.string() + ": " + why);
   throw std::runtime_error(path_.string() + ": " + why);
 }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An open SQLite database and its prepared statements. Every function throws std::runtime_error with the file and
-// SQLite's reason (disk full, locked, damaged) in one line.
+// SQLite's reason (locked, damaged) in one line, and DiskFull where the disk is full.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 
 #include "experiments/study/store/file_system.hpp"
@@ -16,6 +17,11 @@ struct sqlite3;
 struct sqlite3_stmt;
 
 namespace polhode::study::inline store {
+
+/// There is no room for what is to be written. The database itself is sound.
+struct DiskFull : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 enum class Access {
   read,    ///< the file is not changed; with write-ahead logging another program may write meanwhile

@@ -7,6 +7,7 @@
 
 #include "experiments/study/record/analysis.hpp"
 #include "experiments/study/record/run_id.hpp"
+#include "experiments/study/store/database.hpp"
 #include "experiments/study/store/shard_folders.hpp"
 #include "experiments/study/store/store.hpp"
 #include "experiments/study/text/input_error.hpp"
@@ -63,6 +64,8 @@ bool holds_only(const std::filesystem::path& path, const BelongsToStudy& belongs
       stored += ids.size();
     }
     return stored > 0;
+  } catch (const DiskFull&) {
+    throw;
   } catch (const std::runtime_error&) {
     return false;  // damaged
   }
@@ -93,6 +96,8 @@ void refuse_other_study(const std::filesystem::path& path, const BelongsToStudy&
   bool foreign = false;
   try {
     for (const auto& folder : with_shards(path)) foreign = foreign || holds_foreign_runs(folder, belongs);
+  } catch (const DiskFull&) {
+    throw;
   } catch (const std::runtime_error& error) {
     throw InputError("--out: " + std::string(error.what()) + remedy);
   }
