@@ -13,8 +13,8 @@
 #include "experiments/study/plan/cells.hpp"
 #include "experiments/study/plan/most_runs.hpp"
 #include "experiments/study/plan/where.hpp"
+#include "experiments/study/record/run_id.hpp"
 #include "experiments/study/record/run_options.hpp"
-#include "experiments/study/record/versions.hpp"
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/notation.hpp"
@@ -61,13 +61,10 @@ double cost_of(const RunConfig& config) {
 
 /// The run with its identity. Throws std::invalid_argument for an impossible step.
 PlannedRun planned(const RunConfig& config, const std::shared_ptr<const Scenario>& scenario) {
-  const std::string text = fmt::format("{}\n{}\n", results_version, scenario->canonical);
-  RunConfig said = config;  // keys that this run does not change are not part of its identity
-  std::erase_if(said.varied, [](const Override& o) { return o.value.empty(); });
-  RunConfig motion = said;  // a reference does not change the motion
+  RunConfig motion = config;  // a reference does not change the motion
   motion.reference = false;
-  return {.id = text_hash(text + identity_of(said)),
-          .motion = text_hash(text + identity_of(motion)),
+  return {.id = run_id(config, scenario->canonical),
+          .motion = run_id(motion, scenario->canonical),
           .config = config,
           .scenario = scenario,
           .refusal = refusal(config, *scenario),

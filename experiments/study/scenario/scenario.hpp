@@ -43,6 +43,8 @@ struct Scenario {
   /// Everything that affects the results, and nothing else, as text with every default filled in and numbers that read
   /// back exactly. t_end is not included, since it is an option of the run. Part of the identity of a run.
   std::string canonical;
+  /// The TOML text that it was read from, without the varied keys.
+  std::shared_ptr<const std::string> source{};
 };
 
 /// A key of a scenario.
