@@ -56,6 +56,8 @@ MAY_INCLUDE = {
     "experiments/study/plan": "core/* integrators collision collision/contact collision/shapes experiments/study/text"
                               " experiments/study/scenario experiments/study/trajectory experiments/study/record"
                               " experiments/study/run",
+    "experiments/study/query": "experiments/study/text experiments/study/scenario experiments/study/record"
+                               " experiments/study/store experiments/study/plan",
     "experiments/study/report/findings": "integrators experiments/study/text experiments/study/statistics"
                                          " experiments/study/plot experiments/study/record experiments/study/curves",
     "experiments/study/report/population": "experiments/study/text experiments/study/statistics experiments/study/plot"
@@ -75,12 +77,15 @@ MAY_INCLUDE = {
     "experiments/certificate": "core/* integrators collision/* experiments/study/*",
     "experiments/convergence": "core/* integrators collision/* experiments/study/*",
     "experiments/energy_drift": "experiments/study/*",
+    "experiments/explain": "experiments/study/*",
     "experiments/impact": "core/* integrators collision/* experiments/study/*",
     "experiments/judge": "core/* integrators collision/* experiments/study/*",
     "experiments/narrow_phase": "core/* integrators collision/* experiments/study/*",
     "experiments/pile": "core/* integrators collision/* experiments/study/*",
     "experiments/precision": "core/* integrators collision/* experiments/study/*",
     "experiments/replay": "core/* integrators collision/* experiments/study/* experiments/scene",
+    "experiments/rerun": "experiments/study/*",
+    "experiments/results": "experiments/study/*",
     "experiments/simulate": "experiments/study/*",
     "experiments/stability": "core/* integrators collision/* experiments/study/*",
     "experiments/stack": "core/* integrators collision/* experiments/study/*",

@@ -9,7 +9,8 @@ from programs import BIN, PATIENCE, temporary_folder
 
 EXPERIMENTS = pathlib.Path(__file__).resolve().parents[2] / "experiments"
 PROGRAMS = sorted(main.parent.name for main in EXPERIMENTS.glob("*/main.cpp") if (BIN / main.parent.name).exists())
-STUDIES = [name for name in PROGRAMS if name not in ("archive", "broad_phase", "judge", "narrow_phase", "replay", "viewer")]
+NO_STUDIES = ("archive", "broad_phase", "explain", "judge", "narrow_phase", "replay", "rerun", "results", "viewer")
+STUDIES = [name for name in PROGRAMS if name not in NO_STUDIES]
 PAIRS = ("id,class,ahx,ahy,ahz,apx,apy,apz,aqw,aqx,aqy,aqz,bhx,bhy,bhz,bpx,bpy,bpz,bqw,bqx,bqy,bqz\n"
          "7,kissing,1,1,1,0,0,0,1,0,0,0,1,1,1,3,0,0,2,0,0,0\n")
 BOXES = "step,id,hx,hy,hz,px,py,pz\n0,1,1,1,1,0,0,0\n0,2,1,1,1,1,0,0\n"
@@ -33,7 +34,7 @@ class FullDisk(unittest.TestCase):
         for program in PROGRAMS:
             with self.subTest(program):
                 self.refused(program, "--help")
-                if program not in ("archive", "judge"):
+                if program not in ("archive", "explain", "judge", "rerun", "results"):
                     self.refused(program, "--list")
                     self.refused(program, "--list", "shapes")
         for program in STUDIES:
@@ -48,6 +49,9 @@ class FullDisk(unittest.TestCase):
         self.refused("simulate", "--dt", "0.1", "--t-end", "1", "--no-figures", "--out", "run")
         self.refused("judge", "--scenario", "peters_hsu", "run/trajectory.csv", "--no-figures", "--out", "judged")
         self.refused("archive", "check", "run")
+        self.refused("results", "run")
+        self.refused("results", "run", "--format", "csv")
+        self.refused("rerun", "--all", "run")
         self.assertTrue((self.folder / "run/runs.csv").exists(), "what was made is kept all the same")
 
     def test_files(self):

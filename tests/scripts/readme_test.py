@@ -26,7 +26,7 @@ NOT_RUN = {
     "certificate --integrator my_method": "the method is the reader's",
 }
 # Of these the options alone are looked up in --help.
-WITHOUT_DRY_RUN = {"archive", "broad_phase", "narrow_phase", "judge", "replay", "viewer"}
+WITHOUT_DRY_RUN = {"archive", "broad_phase", "explain", "narrow_phase", "judge", "replay", "rerun", "results", "viewer"}
 
 
 def name(readme):

@@ -15,7 +15,6 @@
 #include "experiments/study/plan/run_order.hpp"
 #include "experiments/study/record/run_id.hpp"
 #include "experiments/study/record/run_options.hpp"
-#include "experiments/study/record/versions.hpp"
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/text_hash.hpp"
@@ -40,14 +39,10 @@ struct Identity {
 };
 
 Identity identity_of_run(const RunConfig& config, const Scenario& scenario) {
-  const std::string text = fmt::format("{}\n{}\n", results_version, scenario.canonical);
-  RunConfig said = config;  // keys that this run does not change are not part of its identity
-  std::erase_if(said.varied, [](const Override& o) { return o.value.empty(); });
-  Identity identity;
-  identity.id = text_number(text + identity_of(said));
-  identity.scenario = number_of(scenario);
-  said.reference = false;
-  identity.motion = config.reference ? text_number(text + identity_of(said)) : identity.id;
+  Identity identity{run_number(config, scenario.canonical), number_of(scenario), 0};
+  RunConfig motion = config;
+  motion.reference = false;
+  identity.motion = config.reference ? run_number(motion, scenario.canonical) : identity.id;
   return identity;
 }
 

@@ -73,7 +73,7 @@ struct Guide {
 };
 
 /// A rectangle of a map, in the units of the axes.
-struct Cell {
+struct MapCell {
   double x_low = 0, x_high = 0, y_low = 0, y_high = 0;
   std::size_t shade = 0;  ///< index in the figure's shades
 };
@@ -92,7 +92,7 @@ struct Panel {
   std::vector<PlottedCurve> curves{};
   std::vector<Guide> guides{};
   std::vector<EnvelopeMark> envelope{};  ///< drawn as a broad pale line behind the curves
-  std::vector<Cell> cells{};             ///< drawn behind everything
+  std::vector<MapCell> cells{};             ///< drawn behind everything
 };
 
 struct Figure {

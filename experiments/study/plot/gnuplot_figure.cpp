@@ -163,8 +163,8 @@ bool has(const PlottedCurve& curve, Mark mark) {
   return std::any_of(curve.points.begin(), curve.points.end(), [&](const auto& point) { return point.mark == mark; });
 }
 
-std::vector<Cell> cells_of(const Panel& panel, std::size_t shade) {
-  std::vector<Cell> some;
+std::vector<MapCell> cells_of(const Panel& panel, std::size_t shade) {
+  std::vector<MapCell> some;
   std::copy_if(panel.cells.begin(), panel.cells.end(), std::back_inserter(some),
                [&](const auto& cell) { return cell.shade == shade; });
   return some;

@@ -1,11 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The id of a run as a number, for lists of many runs.
+// The id of a run: a hash of all that decides its results. As a number for lists of many runs, as text elsewhere.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "experiments/study/record/run_record.hpp"
+#include "experiments/study/record/versions.hpp"
 
 namespace polhode::study::inline record {
+
+/// `canonical`: Scenario::canonical with the varied keys set. Varied keys with an empty value, which the run leaves
+/// unchanged, are no part of the id.
+std::uint64_t run_number(const RunConfig& config, std::string_view canonical, int version = results_version);
+/// The same as 16 hexadecimal digits.
+std::string run_id(const RunConfig& config, std::string_view canonical, int version = results_version);
+
+/// What the id is made of besides the version and the text of the scenario: options by the names of their columns (or
+/// as files name them), max_steps, reference, and the varied keys. Two configurations have the same parts if and only
+/// if identity_of() is the same.
+std::vector<std::pair<std::string, std::string>> identity_parts(const RunConfig& config);
 
 /// The id as an integer, and back: 16 hexadecimal digits. Throws std::logic_error for a text that is no id.
 std::uint64_t number_of_id(const std::string& id);

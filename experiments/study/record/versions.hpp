@@ -10,6 +10,6 @@ constexpr int results_version = 5;
 
 /// Version of the tables of results.sqlite (PRAGMA user_version). Increase it when the tables, or the bytes under a
 /// checksum, change. Metrics are columns of their own and are checked by name. Stores without a version count as 0.
-constexpr int store_version = 1;
+constexpr int store_version = 2;
 
 }  // namespace polhode::study::record

@@ -18,14 +18,18 @@ namespace polhode::study::inline scenario {
 struct ScenarioSource::Parsed {
   std::string name;
   std::string origin;  ///< as messages name it: the path as the user gave it, or "builtin NAME"
+  std::shared_ptr<const std::string> text;
   TomlValue root;
 
-  Parsed(std::string given_name, std::string given_origin, std::string_view text)
-      : name(std::move(given_name)), origin(std::move(given_origin)), root(parsed(text)) {}
+  Parsed(std::string given_name, std::string given_origin, std::string_view given_text)
+      : name(std::move(given_name)),
+        origin(std::move(given_origin)),
+        text(std::make_shared<const std::string>(given_text)),
+        root(parsed()) {}
 
-  TomlValue parsed(std::string_view text) const {
+  TomlValue parsed() const {
     try {
-      return parse_toml(text);
+      return parse_toml(*text);
     } catch (const TomlSyntaxError& error) {
       throw InputError(at(error.place) + error.message);
     }
@@ -98,13 +102,18 @@ void ScenarioSource::Parsed::tell(const Fault& fault, std::span<const Override> 
 
 Scenario ScenarioSource::Parsed::resolve(std::span<const Override> overrides) const {
   std::vector<std::string> paths;
+  const auto read = [&](const TomlValue& tree) {
+    Scenario scenario = read_scenario(tree, name);
+    scenario.source = text;
+    return scenario;
+  };
   try {
-    if (overrides.empty()) return read_scenario(root, name);
+    if (overrides.empty()) return read(root);
     TomlValue tree = root;
     for (std::size_t i = 0; i < overrides.size(); ++i) {
       paths.push_back(apply_override(tree, overrides[i], static_cast<int>(i)));
     }
-    return read_scenario(tree, name);
+    return read(tree);
   } catch (const Fault& fault) {
     tell(fault, overrides, paths);
   }

@@ -44,6 +44,8 @@ struct Scenario {
   /// Everything that affects the results, and nothing else, as text with every default filled in and numbers that read
   /// back exactly. t_end is not included, since it is an option of the run. Part of the identity of a run.
   std::string canonical;
+  /// The TOML text that it was read from, without the varied keys.
+  std::shared_ptr<const std::string> source{};
 };
 
 /// Hash of the scenario's name and of its canonical text.

@@ -166,8 +166,8 @@ ResultColumn configuration_key_column() {
       .put = [](const Value& stored, RunResult&) { return std::holds_alternative<std::int64_t>(stored); }};
 }
 
-ResultColumn varied_column() {
-  return {.name = "varied",
+ResultColumn varied_text_column() {
+  return {.name = std::string(varied_column),
           .type = "TEXT",
           .value = [](const RunRecord& record, std::string& text) -> Value {
             text = varied_text(record.config);
@@ -197,7 +197,7 @@ ResultTable runs_table(std::span<const Metric> metrics) {
   table.columns.push_back(number_column("t_reached_s", &RunResult::t_reached));
   table.columns.push_back(has_curves_column());
   table.columns.push_back(configuration_key_column());
-  table.columns.push_back(varied_column());
+  table.columns.push_back(varied_text_column());
   return sorted(std::move(table));
 }
 

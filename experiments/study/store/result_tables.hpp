@@ -48,6 +48,9 @@ constexpr std::string_view configuration_column = "configuration";
 /// Name of the column of `runs` that is 1 for a run with a row in `curves`, and 0 for others.
 constexpr std::string_view has_curves = "has_curves";
 
+/// Name of the column of `runs` that holds varied_text() (configurations.hpp).
+constexpr std::string_view varied_column = "varied";
+
 ResultTable runs_table(std::span<const Metric> metrics);
 ResultTable curves_table();
 ResultTable timings_table();

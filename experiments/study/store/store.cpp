@@ -5,6 +5,7 @@
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
@@ -39,7 +40,7 @@ void check_version(const Database& db) {
   if (version != store_version) {
     throw std::runtime_error(fmt::format(
         "{}: the store has schema version {}, and this program reads version {}; use the version of polhode "
-        "that made it",
+        "that made it, or make the study again in another folder",
         db.path().string(), version, store_version));
   }
 }
@@ -50,6 +51,17 @@ std::vector<std::uint64_t> all_ids(const Database& db) {
   while (rows.step()) ids.push_back(static_cast<std::uint64_t>(rows.integer(0)));
   std::sort(ids.begin(), ids.end());
   return ids;
+}
+
+/// The three values as texts; absent if one is none.
+std::optional<std::array<std::string, 3>> texts_of(std::span<const Value, 3> values) {
+  std::array<std::string, 3> texts;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto* text = std::get_if<std::string_view>(&values[k]);
+    if (!text) return std::nullopt;
+    texts[k] = *text;
+  }
+  return texts;
 }
 
 class Transaction {
@@ -83,7 +95,7 @@ struct Store::Tables {
     if (is_empty(db)) {
       for (const ResultTable* table : {&runs, &curves, &timings}) db.execute(table->definition());
       db.execute(ConfigurationWriter::definition);
-      db.execute("CREATE TABLE scenarios (name TEXT PRIMARY KEY, canonical TEXT, checksum INTEGER)");
+      db.execute("CREATE TABLE scenarios (name TEXT PRIMARY KEY, canonical TEXT, source TEXT, checksum INTEGER)");
       db.execute("CREATE TABLE studies (key INTEGER PRIMARY KEY, experiment TEXT, command TEXT, manifest TEXT)");
       db.execute(fmt::format("PRAGMA application_id={}", application_id));
       db.execute(fmt::format("PRAGMA user_version={}", store_version));
@@ -181,6 +193,10 @@ class Store::Reader {
     const std::int64_t id = select_->integer(0);
     run.id = id_of_key(id);
     run.damage = runs_.read(*select_, id, run.result);
+    if (run.damage.empty()) {
+      run.configuration = std::get<std::int64_t>(runs_.value(configuration_column));
+      run.varied = std::get<std::string_view>(runs_.value(varied_column));
+    }
     if (run.damage.empty()) run.damage = timings_.read(*select_, id, run.result);
     if (run.damage.empty() && curves_ && is_integer(runs_.value(has_curves), 1))
       run.damage = curves_->read(*select_, id, run.result);
@@ -222,6 +238,18 @@ std::optional<StoredRun> Store::find(const std::string& id, Curves curves) const
 
 std::vector<std::uint64_t> Store::ids() const { return all_ids(db_); }
 
+std::vector<std::string> Store::ids_with(const std::string& beginning) const {
+  const std::string first = beginning + std::string(16 - std::min<std::size_t>(beginning.size(), 16), '0');
+  const std::string last = beginning + std::string(16 - std::min<std::size_t>(beginning.size(), 16), 'f');
+  std::vector<std::string> ids;
+  // All of them have the same first digit, so that their order as integers with sign is that of their digits.
+  Statement rows(db_, "SELECT id FROM runs WHERE id BETWEEN ? AND ? ORDER BY id");
+  rows.bind(1, key_of(first));
+  rows.bind(2, key_of(last));
+  while (rows.step()) ids.push_back(id_of_key(rows.integer(0)));
+  return ids;
+}
+
 Store::Loaded Store::load() const {
   Loaded loaded;
   for_each(Curves::with, [&](StoredRun&& run) {
@@ -258,13 +286,36 @@ std::map<std::int64_t, Configuration> Store::configurations() const { return rea
 
 void Store::keep_scenarios(std::span<const Scenario> scenarios) {
   Transaction transaction(db_);
-  Statement insertion(db_, "INSERT OR REPLACE INTO scenarios (name, canonical, checksum) VALUES (?,?,?)");
+  Statement insertion(db_, "INSERT OR REPLACE INTO scenarios (name, canonical, source, checksum) VALUES (?,?,?,?)");
   for (const Scenario& scenario : scenarios) {
-    Value row[] = {std::string_view(scenario.name), std::string_view(scenario.canonical), {}};
-    row[2] = checksum_of(0, std::span(row).first(2));
+    const std::string_view source = scenario.source ? std::string_view(*scenario.source) : std::string_view();
+    Value row[] = {std::string_view(scenario.name), std::string_view(scenario.canonical), source, {}};
+    row[3] = checksum_of(0, std::span(row).first(3));
     insertion.run(row);
   }
   transaction.commit();
+}
+
+std::map<std::string, StoredScenario> Store::scenarios() const {
+  std::map<std::string, StoredScenario> all;
+  Statement rows(db_, "SELECT name, canonical, source, checksum FROM scenarios");
+  while (rows.step()) {
+    const Value row[] = {rows.value(0), rows.value(1), rows.value(2)};
+    const auto texts = texts_of(row);
+    if (texts && is_integer(rows.value(3), checksum_of(0, row))) all[(*texts)[0]] = {(*texts)[1], (*texts)[2]};
+  }
+  return all;
+}
+
+std::vector<StoredStudy> Store::studies() const {
+  std::vector<StoredStudy> all;
+  Statement rows(db_, "SELECT experiment, command, manifest, key FROM studies ORDER BY experiment, command, key");
+  while (rows.step()) {
+    const Value row[] = {rows.value(0), rows.value(1), rows.value(2)};
+    const auto texts = texts_of(row);
+    if (texts && is_integer(rows.value(3), checksum_of(0, row))) all.push_back({(*texts)[0], (*texts)[1], (*texts)[2]});
+  }
+  return all;
 }
 
 void Store::keep_study(const std::string& experiment, const std::string& command, const std::string& manifest) {
@@ -286,6 +337,11 @@ std::vector<std::uint64_t> Store::ids_in(const std::filesystem::path& folder, st
   if (is_empty(db)) return {};  // a program was killed just after it had made the file
   Tables(metrics).check(db);
   return all_ids(db);
+}
+
+bool Store::is_unbegun(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / file_name;
+  return std::filesystem::exists(path) && is_empty(Database(path, Access::read, journal_of(folder)));
 }
 
 std::size_t Store::longest_folder() {

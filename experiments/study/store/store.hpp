@@ -25,8 +25,21 @@ namespace polhode::study::inline store {
 /// A run as it stands in the store.
 struct StoredRun {
   std::string id;
-  RunResult result;    ///< unspecified if the run is damaged
+  std::int64_t configuration = 0;  ///< key in configurations()
+  std::string varied;              ///< as varied_text() writes it
+  RunResult result;                ///< unspecified if the run is damaged
   std::string damage;  ///< first invalid column: "runs.status", "curves.series", "runs.checksum"; empty: none
+};
+
+/// A scenario as it stands in the store.
+struct StoredScenario {
+  std::string canonical;  ///< Scenario::canonical, without varied keys
+  std::string source;     ///< its TOML text
+};
+
+/// A study that ended in the folder of the store.
+struct StoredStudy {
+  std::string experiment, command, manifest;
 };
 
 /// Whether curves against time are read too: RunResult::series and attitude_errors.
@@ -49,6 +62,8 @@ class Store {
   /// The run with this id; absent if there is none.
   std::optional<StoredRun> find(const std::string& id, Curves curves) const;
   std::vector<std::uint64_t> ids() const;  ///< of all runs, damaged ones too, in ascending order
+  /// Ids of the runs, damaged ones too, that begin with these 1 to 16 hexadecimal digits, in ascending order.
+  std::vector<std::string> ids_with(const std::string& beginning) const;
 
   struct Loaded {
     std::map<std::string, RunResult> runs;       ///< valid results by run id
@@ -64,7 +79,11 @@ class Store {
   /// The configurations of the runs, by key (`runs.configuration`). Damaged ones are left out.
   std::map<std::int64_t, Configuration> configurations() const;
 
-  /// Stores the canonical text of each scenario by name, and replaces what is there.
+  /// The scenarios by name, and the studies. Damaged ones are left out.
+  std::map<std::string, StoredScenario> scenarios() const;
+  std::vector<StoredStudy> studies() const;
+
+  /// Stores the canonical text and the source of each scenario by name, and replaces what is there.
   void keep_scenarios(std::span<const Scenario> scenarios);
   /// Stores what made results: name of the experiment, command line, manifest.json. The same study stands there once.
   void keep_study(const std::string& experiment, const std::string& command, const std::string& manifest);
@@ -74,10 +93,15 @@ class Store {
   static std::vector<std::uint64_t> ids_in(const std::filesystem::path& folder,
                                            std::span<const Metric> metrics = metric_table());
 
+  /// True if the folder has a store without tables: its study was stopped before the first run.
+  static bool is_unbegun(const std::filesystem::path& folder);
+
   /// Largest length of the absolute path of a folder, bytes; SQLite does not open a store below a longer path.
   static std::size_t longest_folder();
 
   static constexpr const char* file_name = "results.sqlite";
+
+  const Database& database() const { return db_; }  ///< for reading
 
  private:
   struct Tables;

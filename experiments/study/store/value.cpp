@@ -12,7 +12,9 @@ namespace polhode::study::inline store {
 namespace {
 
 void add_number(std::string& bytes, std::uint64_t number) {
-  for (int shift = 0; shift < 64; shift += 8) bytes += static_cast<char>(number >> shift);
+  char parts[8];
+  for (std::size_t k = 0; k < 8; ++k) parts[k] = static_cast<char>(number >> 8 * k);
+  bytes.append(parts, sizeof parts);
 }
 
 void add_value(std::string& bytes, const Value& value) {

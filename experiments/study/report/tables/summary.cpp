@@ -9,6 +9,7 @@
 
 #include "experiments/study/record/metric_table.hpp"
 #include "experiments/study/record/run_options.hpp"
+#include "experiments/study/text/aligned.hpp"
 #include "experiments/study/text/notation.hpp"
 #include "experiments/study/text/value_lists.hpp"
 
@@ -70,24 +71,6 @@ std::string left_out(std::size_t n, const char* what, const std::string& where) 
   if (n <= most_rows) return {};
   return fmt::format("({} of {} {}, evenly spread; the other {} are in {})\n", rows_of_more, n, what, n - rows_of_more,
                      where);
-}
-
-/// Text of a table with columns of constant width, aligned to the left or to the right.
-std::string aligned(const std::vector<std::vector<std::string>>& table, const std::vector<bool>& left) {
-  std::vector<std::size_t> width(table[0].size());
-  for (const auto& row : table) {
-    for (std::size_t k = 0; k < row.size(); ++k) width[k] = std::max(width[k], length(row[k]));
-  }
-  std::string text;
-  for (const auto& row : table) {
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      const std::string blanks(width[k] - length(row[k]), ' ');
-      text += (left[k] ? row[k] + blanks : blanks + row[k]) + "  ";
-    }
-    while (text.back() == ' ') text.pop_back();
-    text += '\n';
-  }
-  return text;
 }
 
 std::string plain(const Table& table) {

@@ -124,8 +124,8 @@ TEST(Store, AStoreOfAnotherVersionIsRefusedInOneLine) {
   };
   const std::string file = (folder.path() / Store::file_name).string();
   for (const auto& [sql, said] : std::vector<std::pair<std::string, std::string>>{
-           {"PRAGMA user_version=77", "schema version 77, and this program reads version 1"},
-           {"PRAGMA user_version=0; PRAGMA application_id=0", "schema version 0, and this program reads version 1"},
+           {"PRAGMA user_version=77", "schema version 77, and this program reads version 2"},
+           {"PRAGMA user_version=0; PRAGMA application_id=0", "schema version 0, and this program reads version 2"},
            {"PRAGMA application_id=5", "no store of polhode"},
            {"ALTER TABLE runs ADD COLUMN colour TEXT", "has the further column colour"},
            {"ALTER TABLE runs DROP COLUMN drift_exponent", "lacks the column drift_exponent"},

@@ -81,7 +81,7 @@ TEST(Population, DrawsDistributionsEnvelopesAndAMap) {
   ASSERT_EQ(map.panels.size(), 1u);
   EXPECT_EQ(map.panels[0].cells.size(), 32u * 32u);
   EXPECT_EQ(map.shades.size(), 4u) << "1 to 4096 are four decades";
-  for (const Cell& cell : map.panels[0].cells) {
+  for (const MapCell& cell : map.panels[0].cells) {
     const double product = (cell.x_low - 100) * (cell.y_low - 100);
     if (product > 1000 && cell.shade < 3) ADD_FAILURE() << "the shade of " << product << " is " << cell.shade;
   }

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/results/listing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "experiments/results/groups.hpp"
+#include "experiments/results/output.hpp"
+#include "experiments/study/query/run_columns.hpp"
+#include "experiments/study/record/metric_table.hpp"
+#include "experiments/study/record/run_options.hpp"
+#include "experiments/study/text/notation.hpp"
+
+namespace polhode::study::results {
+namespace {
+
+using Of = RunColumn::Of;
+
+constexpr std::size_t rows_of_terminal = 100;
+
+/// The configurations of the hits, each once.
+std::vector<const Configuration*> configurations_of(const ResultStores& stores, const Selection& selection) {
+  std::map<std::int64_t, const Configuration*> found;
+  for (const Hit& hit : selection.hits) {
+    const auto& known = stores.all()[hit.store]->configurations;
+    if (const auto at = known.find(hit.configuration); at != known.end()) found.emplace(at->first, &at->second);
+  }
+  std::vector<const Configuration*> all;
+  for (const auto& [key, configuration] : found) all.push_back(configuration);
+  return all;
+}
+
+std::string value_in(const Configuration& configuration, const std::string& name) {
+  const auto found = configuration.find(name);
+  return found == configuration.end() ? "" : text_of(found->second);
+}
+
+RunColumn varied_key(const std::string& key) { return {.of = Of::scenario, .name = key, .key = key}; }
+
+/// All columns that runs.csv has for these runs.
+std::vector<RunColumn> all_columns(const ResultStores& stores, const RunColumns& columns, const Selection& selection) {
+  std::vector<RunColumn> all = {{.of = Of::run, .name = "run"}};
+  if (stores.folders().size() > 1) all.push_back({.of = Of::folder, .name = "folder"});
+  const auto configurations = configurations_of(stores, selection);
+  const auto some_have = [&](const std::string& name) {
+    return std::any_of(configurations.begin(), configurations.end(),
+                       [&](const Configuration* c) { return c->contains(name); });
+  };
+  for (const RunOption* option : options_by_column()) {
+    if (!option->column.empty() && (!option->on_demand || some_have(option->column)))
+      all.push_back(columns.find(option->column, "--columns"));
+  }
+  for (const std::string& key : selection.varied_keys) all.push_back(varied_key(key));
+  const bool contact = some_have("response"), reference = some_have("reference");
+  for (const RunColumn& metric : columns.metrics(reference, contact)) all.push_back(metric);
+  return all;
+}
+
+/// The columns for readers: what differs between the runs, and the metrics of the tables of runs.
+std::vector<RunColumn> short_columns(const ResultStores& stores, const RunColumns& columns,
+                                     const Selection& selection) {
+  std::vector<RunColumn> all = {{.of = Of::run, .name = "run"}};
+  if (stores.folders().size() > 1) all.push_back({.of = Of::folder, .name = "folder"});
+  const auto configurations = configurations_of(stores, selection);
+  for (const RunOption* option : options_by_column()) {
+    if (option->column.empty()) continue;
+    std::set<std::string> values;
+    for (const Configuration* c : configurations) values.insert(value_in(*c, option->column));
+    const bool always = option->role == RunOption::Role::method || option->role == RunOption::Role::size;
+    if (values.size() > 1 || (always && !values.contains(""))) all.push_back(columns.find(option->column, "--columns"));
+  }
+  for (const std::string& key : selection.varied_keys) all.push_back(varied_key(key));
+  for (const Metric* metric : in_table_order(metric_table())) {
+    if (metric->in_summary && metric->column != "invariant_drifts_max_rel")
+      all.push_back(columns.find(metric->column, "--columns"));
+  }
+  return all;
+}
+
+std::vector<RunColumn> chosen_columns(const ResultStores& stores, const RunColumns& columns,
+                                      const ResultsOptions& options, const Selection& selection, Format format) {
+  if (options.columns.empty() && format != Format::csv) return short_columns(stores, columns, selection);
+  if (options.columns.empty() || options.columns == std::vector<std::string>{"all"})
+    return all_columns(stores, columns, selection);
+  std::vector<RunColumn> chosen;
+  for (const std::string& name : options.columns) chosen.push_back(columns.find(name, "--columns"));
+  return chosen;
+}
+
+std::vector<SortKey> sort_keys_of(const RunColumns& columns, const ResultsOptions& options) {
+  std::vector<SortKey> keys;
+  for (const std::string& said : options.sort) {
+    const bool descending = said.starts_with('-');
+    keys.push_back({columns.find(said.substr(descending ? 1 : 0), "--sort"), descending});
+  }
+  return keys;
+}
+
+/// The rows without columns in which no row has a value.
+void write_without_empty_columns(Output& output, const std::vector<std::vector<OptionValue>>& rows,
+                                 const std::vector<bool>& kept) {
+  for (const auto& row : rows) {
+    std::vector<OptionValue> cells;
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      if (kept[k]) cells.push_back(row[k]);
+    }
+    output.add(cells);
+  }
+}
+
+}  // namespace
+
+std::vector<Where> conditions_of(const ResultsOptions& options) {
+  std::vector<Where> conditions;
+  for (const std::string& text : options.where) conditions.emplace_back(text, "--where");
+  return conditions;
+}
+
+int say_damage(const RunReader& reader) {
+  if (reader.damaged() == 0) return 0;
+  fmt::print(stderr,
+             "results: {} damaged and left out (the first: {}); the command of the study carries {} out again\n",
+             reader.damaged() == 1 ? "1 run is" : fmt::format("{} runs are", reader.damaged()), reader.first_damaged(),
+             reader.damaged() == 1 ? "it" : "them");
+  return damaged_runs;
+}
+
+int list_runs(const ResultStores& stores, const ResultsOptions& options) {
+  const RunColumns columns(stores);
+  const std::vector<Where> conditions = conditions_of(options);
+  if (!options.group.empty()) return list_groups(stores, columns, conditions, options);
+  const Format format = options.format.value_or(Format::table);
+  const Selection selection = select(stores, columns, conditions, sort_keys_of(columns, options));
+  const std::vector<RunColumn> shown = chosen_columns(stores, columns, options, selection, format);
+  std::size_t most = selection.hits.size();
+  if (options.limit) most = *options.limit;
+  else if (format == Format::table && options.out.empty()) most = rows_of_terminal;
+
+  RunReader reader(stores);
+  CellReader cells;
+  std::vector<OptionValue> row(shown.size());
+  std::pair<const OpenStore*, std::int64_t> last;  // neighbours mostly have the same options
+  const auto fill = [&](const CheckedRow& checked) {
+    const std::pair configuration(checked.place.store, checked.place.configuration);
+    const bool same = configuration == std::exchange(last, configuration);
+    for (std::size_t k = 0; k < shown.size(); ++k) {
+      if (same && shown[k].of == Of::option) continue;
+      row[k] = cells.value(shown[k], checked.place, shown[k].in_store() ? checked.values[shown[k].index] : Value());
+    }
+  };
+  std::vector<std::string> names;
+  for (const RunColumn& column : shown) names.push_back(column.name);
+  if (format == Format::csv || !options.columns.empty()) {
+    Output output(format, options.out, names);
+    reader.read(selection, [&](const CheckedRow& checked) {
+      if (output.rows() == most) return false;
+      fill(checked);
+      output.add(row);
+      return true;
+    });
+    output.finish();
+    most = output.rows();
+  } else {
+    std::vector<std::vector<OptionValue>> rows;
+    std::vector<bool> kept(shown.size());
+    reader.read(selection, [&](const CheckedRow& checked) {
+      if (rows.size() == most) return false;
+      fill(checked);
+      for (std::size_t k = 0; k < row.size(); ++k) kept[k] = kept[k] || !text_of(row[k]).empty();
+      rows.push_back(row);
+      return true;
+    });
+    if (rows.empty()) kept.assign(kept.size(), true);
+    std::vector<std::string> names_kept;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      if (kept[k]) names_kept.push_back(names[k]);
+    }
+    Output output(format, options.out, names_kept);
+    write_without_empty_columns(output, rows, kept);
+    output.finish();
+    most = rows.size();
+  }
+  if (format == Format::table && options.out.empty()) {
+    const std::size_t left_out = selection.runs - most - reader.damaged();
+    if (left_out > 0 && !options.limit) fmt::print("({} of {} runs; --limit shows more)\n", most, most + left_out);
+    else fmt::print("{}\n", count(most, "run"));
+  }
+  return say_damage(reader);
+}
+
+}  // namespace polhode::study::results

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Choice and order of stored runs. Conditions and sort keys are read without the checksums of rows; what is shown is
+// read again, and checked.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiments/study/plan/where.hpp"
+#include "experiments/study/query/result_stores.hpp"
+#include "experiments/study/query/run_columns.hpp"
+#include "experiments/study/store/run_rows.hpp"
+
+namespace polhode::study::inline query {
+
+/// A run that was chosen. Nothing of it has been checked.
+struct Hit {
+  std::uint32_t store;   ///< index in ResultStores::all()
+  std::uint32_t varied;  ///< index in Selection::varied
+  std::int64_t number, id, configuration;
+};
+
+struct SortKey {
+  RunColumn column;
+  bool descending = false;
+};
+
+struct Selection {
+  std::vector<Hit> hits;
+  std::vector<std::string> varied;       ///< texts of `runs.varied`, each once
+  std::vector<std::string> varied_keys;  ///< sorted
+  std::size_t runs = 0;                  ///< hits, the same run in several stores counted once
+};
+
+enum class Order {
+  sorted,
+  stored,  ///< as they stand in the stores, which is read fastest
+};
+
+/// The runs that satisfy all conditions, sorted by `sort`, runs without a value last; of equals those come first that
+/// come first in runs.csv, folder by folder. The same run in several stores of a study stands there once for each, next
+/// to each other. Throws InputError for a condition that compares a number with a text.
+Selection select(const ResultStores& stores, const RunColumns& columns, std::span<const Where> conditions,
+                 std::span<const SortKey> sort, Order order = Order::sorted);
+
+/// A checked row.
+struct CheckedRow {
+  RunPlace place;
+  std::span<const Value> values;  ///< by RunRows::columns(), valid until the next row
+};
+
+/// Reads chosen runs.
+class RunReader {
+ public:
+  explicit RunReader(const ResultStores& stores);  ///< `stores` must outlive this object
+
+  /// Calls use(row) for each run that is not damaged, in the order of the hits, until it returns false. A run that
+  /// stands in several stores of a study comes once.
+  void read(const Selection& selection, const std::function<bool(const CheckedRow&)>& use);
+
+  std::size_t damaged() const { return damaged_; }             ///< runs that were left out
+  const std::string& first_damaged() const { return first_; }  ///< "run 0123456789abcdef of FILE: runs.checksum"
+
+ private:
+  const ResultStores* stores_;
+  std::vector<std::unique_ptr<RunRows>> rows_;
+  std::size_t damaged_ = 0;
+  std::string first_;
+};
+
+/// Order of values: numbers, then texts; std::monostate last. Negative, 0 or positive.
+int compare(const OptionValue& a, const OptionValue& b);
+
+}  // namespace polhode::study::query

@@ -1,0 +1,267 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""results, rerun and explain on the folders of studies, as a user calls them."""
+import csv
+import io
+import random
+import re
+import shutil
+import sqlite3
+import unittest
+
+from programs import call, read, temporary_folder
+
+TOP = ["--scenario", "peters_hsu,lagrange_top", "--integrator", "rk4,heun,dmv,cvode_adams", "--dt", "0.02,0.01,0.005", "--tolerance",
+       "1e-6", "--t-end", "1", "--no-figures"]  # 20 runs
+LANES = ["--scenario", "dzhanibekov", "--integrator", "rk4", "--dt", "0.01", "--t-end", "1", "--vary", "body.0.angular_velocity.1=1:5:12",
+         "--curves", "3", "--no-figures"]
+
+
+def change(folder, sql):
+    with sqlite3.connect(folder / "results.sqlite") as db:
+        db.executescript(sql)
+    db.close()
+
+
+class Results(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = temporary_folder(cls.addClassCleanup)
+        call("energy_drift", *TOP, "--out", "results/top", folder=cls.folder)
+        call("energy_drift", *LANES, "--out", "results/lanes", folder=cls.folder)
+        cls.top = [row for row in read(cls.folder / "results/top/runs.csv") if row["status"] != "refused"]
+
+    def copy(self, name, study="top"):
+        folder = self.folder / name
+        shutil.copytree(self.folder / "results" / study, folder)
+        self.addCleanup(shutil.rmtree, folder)
+        return folder
+
+    def said(self, *arguments, program="results", status=0):
+        done = call(program, *arguments, folder=self.folder, status=status)
+        self.assertEqual(done.stderr, "")
+        return done.stdout
+
+    def rows(self, *arguments):
+        return list(csv.DictReader(io.StringIO(self.said(*arguments, "--format", "csv"))))
+
+    def refused(self, *arguments, program="results", status=2):
+        done = call(program, *arguments, folder=self.folder, status=status)
+        self.assertEqual((done.stdout, done.stderr.count("\n")), ("", 1), done.stderr)
+        return done.stderr
+
+    # Listing.
+
+    def test_csv_of_all_runs_is_runs_csv(self):
+        for study in ("top", "lanes"):
+            lines = (self.folder / "results" / study / "runs.csv").read_text().splitlines(keepends=True)
+            self.assertEqual(self.said(f"results/{study}", "--format", "csv"), "".join(x for x in lines if ",refused," not in x))
+        self.said("results/top", "--format", "csv", "--out", "all.csv")
+        self.assertEqual((self.folder / "all.csv").read_text(), self.said("results/top", "--format", "csv"))
+        self.assertFalse((self.folder / "all.csv.new").exists())
+
+    def test_the_summary(self):
+        text = self.said("results")
+        self.assertIn("results/lanes: 12 runs\n  energy_drift: ./run energy_drift --scenario dzhanibekov", text)
+        self.assertIn(f"results/top: {len(self.top)} runs\n", text)
+        self.assertIn("  scenarios: dzhanibekov (12)\n  methods: rk4 (12)\n  status: ok (12)\n", text)
+        self.assertIn("cvode_adams (2)", text)
+        self.assertNotIn("damaged", text)
+        self.assertEqual(self.said("results/lanes", "results/top"), text)
+
+    def test_conditions_on_options_metrics_and_scenario_keys(self):
+        def ids(*arguments):
+            return {row["run"] for row in self.rows(*arguments, "--columns", "run")}
+
+        def wanted(test):
+            return {row["run"] for row in self.top if test(row)}
+
+        self.assertEqual(ids("results/top", "--where", "integrator == 'rk4' and dt < 0.01"),
+                         wanted(lambda r: r["integrator"] == "rk4" and r["dt_s"] == "0.005"))
+        self.assertEqual(ids("results/top", "--where", "given(dt_s) and attitude_error_max_rad < 1e-4"),
+                         wanted(lambda r: r["dt_s"] and r["attitude_error_max_rad"] and float(r["attitude_error_max_rad"]) < 1e-4))
+        self.assertEqual(ids("results/top", "--where", "not (integrator == 'rk4')", "--where", "evaluations > 150"),
+                         wanted(lambda r: r["integrator"] != "rk4" and int(r["rhs_evaluations"]) > 150))
+        varied = {row["run"]: float(row["body.0.angular_velocity.1"]) for row in read(self.folder / "results/lanes/runs.csv")}
+        self.assertEqual(ids("results/lanes", "--where", "body.0.angular_velocity.1 >= 3"), {r for r, x in varied.items() if x >= 3})
+        # A key that no run varies has the value of the scenario.
+        mass = self.rows("results/lanes", "--columns", "body.0.mass,body.0.angular_velocity")
+        self.assertEqual(len({row["body.0.mass"] for row in mass}), 1)
+        self.assertNotEqual(mass[0]["body.0.mass"], "")
+        self.assertEqual(len({row["body.0.angular_velocity"] for row in mass}), 12, "its part 1 is varied")
+        self.assertEqual(ids("results", "--where", "folder == 'results/top'"), {row["run"] for row in self.top})
+        self.assertEqual(ids("results/top", "--where", "status == 'failed'"), set())
+
+    def test_sorting_and_limits(self):
+        drifts = [float(r["energy_drift_max_rel"]) for r in self.rows("results/top", "--sort", "-energy_drift_max_rel")]
+        self.assertEqual(drifts, sorted((float(r["energy_drift_max_rel"]) for r in self.top), reverse=True))
+        steps = [(r["integrator"], r["dt_s"]) for r in self.rows("results/top", "--sort", "dt,integrator", "--limit", "3")]
+        self.assertEqual([dt for _, dt in steps], ["0.005"] * 3)
+        last = self.rows("results/top", "--sort", "-dt")[-1]
+        self.assertEqual(last["dt_s"], "", "runs without a value come last")
+        text = self.said("results/top", "--limit", "2")
+        self.assertEqual(text.count("\n"), 4)
+        self.assertIn("\n2 runs\n", text)
+
+    def test_groups(self):
+        groups = self.rows("results/top", "--group", "scenario,integrator", "--show", "count,median:rhs_evaluations,max:dt,mean:dt")
+        self.assertEqual([(g["scenario"], g["integrator"]) for g in groups],
+                         sorted((g["scenario"], g["integrator"]) for g in groups))
+        mine = next(g for g in groups if (g["scenario"], g["integrator"]) == ("peters_hsu", "rk4"))
+        work = sorted(int(r["rhs_evaluations"]) for r in self.top if (r["scenario"], r["integrator"]) == ("peters_hsu", "rk4"))
+        self.assertEqual((mine["count"], float(mine["median:rhs_evaluations"]), mine["max:dt"]), ("3", work[1], "0.02"))
+        self.assertAlmostEqual(float(mine["mean:dt"]), 0.035 / 3, places=15)
+        order = self.rows("results/top", "--group", "integrator", "--show", "min:evaluations", "--sort", "-min:evaluations")
+        self.assertEqual([float(g["min:evaluations"]) for g in order], sorted((float(g["min:evaluations"]) for g in order), reverse=True))
+
+    def test_markdown_and_latex(self):
+        text = self.said("results/top", "--format", "markdown", "--columns", "integrator,dt,energy_drift_max_rel", "--limit", "2")
+        self.assertEqual(text.count("\n"), 4)
+        self.assertIn("| integrator | dt\\_s | energy\\_drift\\_max\\_rel |\n| --- | ---: | ---: |\n", text)
+        self.assertIn("\\begin{tabular}", self.said("results/top", "--format", "latex", "--limit", "2"))
+
+    def test_wrong_names_are_answered_by_what_was_meant(self):
+        for arguments, said in ((["--columns", "atitude_error_max_rad"], "--columns: there is no column 'atitude_error_max_rad'; did you "
+                                 "mean 'attitude_error_max_rad'?"),
+                                (["--where", "integratr == 'rk4'"], "--where: integratr: there is no column 'integratr'; did you mean 'integrator'?"),
+                                (["--sort", "-stepps"], "did you mean 'steps'?"),
+                                (["--where", "dt < 'a'"], "it compares the number"),
+                                (["--where", "dt <"], "the condition ends too early"),
+                                (["--group", "scenario", "--show", "medium:steps"], "there is no 'medium'; did you mean 'median'?"),
+                                (["--group", "scenario", "--show", "mean:status"], "the column holds texts"),
+                                (["--show", "count"], "name their columns with --group"),
+                                (["--limit", "0"], "0 rows"),
+                                (["--colums", "run"], "did you mean '--columns'?")):
+            with self.subTest(arguments):
+                self.assertIn(said, self.refused("results/top", *arguments))
+        (self.folder / "nothing").mkdir(exist_ok=True)
+        self.assertIn("has no results", self.refused("nothing"))
+        self.assertIn("no such folder", self.refused("nowhere"))
+        self.assertIn("is not a folder", self.refused("results/top/runs.csv"))
+        self.assertIn("body.0.mass", self.said("results/lanes", "--columns", "body.0.mass", "--limit", "1"))
+        self.assertIn("attitude_error_max_rad\n", self.said("results/lanes", "--list"))
+
+    def test_damaged_runs_are_said_and_never_shown(self):
+        folder = self.copy("damaged")
+        victim, other = self.top[0]["run"], self.top[1]["run"]
+        change(folder, f"UPDATE runs SET steps = steps + 1 WHERE printf('%016x', id) = '{victim}';"
+                       f"UPDATE timings SET wall_s = 0.5 WHERE number = (SELECT number FROM runs WHERE printf('%016x', id) = '{other}')")
+        done = call("results", "damaged", "--format", "csv", folder=self.folder, status=1)
+        self.assertEqual([r["run"] for r in csv.DictReader(io.StringIO(done.stdout))], [r["run"] for r in self.top[2:]])
+        self.assertRegex(done.stderr, r"results: 2 runs are damaged and left out \(the first: run " + victim + r" of \S+: runs.checksum\)")
+        text = call("results", "damaged", folder=self.folder, status=1).stdout
+        self.assertIn(f"damaged: {len(self.top) - 2} runs", text)
+        self.assertIn("  damaged: 2 runs (the first: run ", text)
+        groups = call("results", "damaged", "--group", "folder", "--format", "csv", folder=self.folder, status=1).stdout
+        self.assertIn(f"damaged,{len(self.top) - 2}\n", groups)
+        self.assertIn("not repeated: it is damaged (runs.checksum)", self.refused(victim, "damaged", program="rerun", status=3))
+        self.assertIn("it is damaged (runs.checksum)", self.refused(victim, "damaged", program="explain", status=3))
+        change(folder, "UPDATE configurations SET dt_s = 7 WHERE dt_s = 0.02")
+        done = call("results", "damaged", "--format", "csv", "--columns", "run,dt", folder=self.folder, status=1)
+        self.assertNotIn("0.02", done.stdout)
+        self.assertNotIn(",7\n", done.stdout)
+        self.assertIn("runs.configuration", done.stderr)
+
+    def test_shards_belong_to_their_study(self):
+        study = ["energy_drift", *LANES, "--out", "sharded"]
+        for k in (1, 2, 3):
+            call(*study, "--shard", f"{k}/3", folder=self.folder)
+        whole = self.said("results/lanes", "--format", "csv")
+        self.assertEqual(self.said("sharded", "--format", "csv"), whole)
+        self.assertIn("sharded: 12 runs in 3 stores\n  no study has ended here yet\n", self.said("sharded"))
+        self.assertIn("12 runs repeated: 12 the same", self.said("--all", "sharded", program="rerun").replace("12 of 12", "12"))
+        call(*study, "--merge", folder=self.folder)
+        self.assertEqual(self.said("sharded", "--format", "csv"), whole, "each run once, although it stands in two stores")
+        self.assertIn("sharded: 12 runs in 4 stores\n", self.said("sharded"))
+        victim = read(self.folder / "results/lanes/runs.csv")[3]["run"]
+        change(self.folder / "sharded", f"UPDATE runs SET steps = 1 WHERE printf('%016x', id) = '{victim}'")
+        self.assertEqual(self.said("sharded", "--format", "csv"), whole, "the run of the shard stands in for the damaged one")
+        self.assertNotIn("damaged", self.said("sharded"))
+
+    def test_stores_without_runs_and_of_another_version(self):
+        folder = self.copy("other")
+        change(folder, "PRAGMA user_version = 1")
+        for program, arguments in (("results", []), ("rerun", ["--all"]), ("explain", ["00"])):
+            line = self.refused(*arguments, "other", program=program)
+            self.assertIn("the store has schema version 1, and this program reads version 2; use the version of polhode that made it, or", line)
+        (self.folder / "begun").mkdir()
+        self.addCleanup(shutil.rmtree, self.folder / "begun")
+        sqlite3.connect(self.folder / "begun/results.sqlite").close()
+        done = call("results", "begun", "--format", "csv", folder=self.folder)
+        self.assertIn("begun/results.sqlite: is empty, because its study was stopped before the first run", done.stderr)
+        change(folder, "PRAGMA user_version = 2; DELETE FROM runs; DELETE FROM timings; DELETE FROM curves")
+        self.assertIn("other: 0 runs\n", self.said("other"))
+        self.assertEqual(self.said("other", "--format", "csv").count("\n"), 1)
+        self.assertEqual(self.said("other", "--limit", "3").splitlines()[-1], "0 runs")
+        self.assertIn("no run 00… in other", self.refused("00", "other", program="rerun"))
+
+    # best.
+
+    def test_best_answers_work_against_precision(self):
+        rows = self.rows("best", "results/top", "--at-most", "evaluations=900")
+        for scenario in ("peters_hsu", "lagrange_top"):
+            mine = [r for r in rows if r["scenario"] == scenario]
+            self.assertEqual([r["place"] for r in mine], [str(k + 1) for k in range(len(mine))])
+            least = {}
+            for r in self.top:
+                if r["scenario"] == scenario and r["attitude_error_max_rad"] and int(r["rhs_evaluations"]) <= 900:
+                    error = float(r["attitude_error_max_rad"])
+                    least[r["integrator"]] = min(error, least.get(r["integrator"], error))
+            self.assertEqual({r["integrator"]: float(r["attitude_error_max_rad"]) for r in mine}, least)
+            self.assertEqual(mine[0]["integrator"], min(least, key=least.get))
+        cheap = self.rows("best", "results/top", "--by", "evaluations", "--at-most", "attitude_error_max_rad=1e-5", "--limit", "1",
+                          "--where", "scenario == 'peters_hsu' and integrator != 'dmv'")
+        wanted = min(int(r["rhs_evaluations"]) for r in self.top if r["scenario"] == "peters_hsu" and r["integrator"] != "dmv"
+                     and float(r["attitude_error_max_rad"]) <= 1e-5)
+        self.assertEqual([int(float(r["rhs_evaluations"])) for r in cheap], [wanted])
+
+    def test_best_without_a_bound_prints_pareto_fronts(self):
+        rows = self.rows("best", "results/top", "--where", "scenario == 'peters_hsu'")
+        for method in {r["integrator"] for r in rows}:
+            front = [(float(r["rhs_evaluations"]), float(r["attitude_error_max_rad"])) for r in rows if r["integrator"] == method]
+            self.assertEqual(front, sorted(front))
+            self.assertEqual([e for _, e in front], sorted((e for _, e in front), reverse=True))
+        self.assertIn("yes", {r["best of all"] for r in rows})
+        self.assertIn("a column and a number", self.refused("best", "results/top", "--at-most", "evaluations"))
+        self.assertIn("belong to best", self.refused("results/top", "--by", "steps"))
+
+    # rerun.
+
+    def test_reruns_have_the_same_digits(self):
+        one = self.top[4]["run"]
+        self.assertEqual(self.said(one[:9], "results", program="rerun").count("every digit is the same"), 1)
+        self.assertIn("32 of 32 runs repeated: 32 the same, 0 different, 0 not repeated\n", self.said("--all", program="rerun"))
+        self.assertIn("5 of 5 runs repeated: 5 the same", self.said("--random", "5", "--seed", "3", "results/lanes", program="rerun"))
+        self.assertIn("no run ffffffff… in", self.refused("ffffffff", program="rerun"))
+        self.assertIn("is not the id of a run", self.refused("xyz", program="rerun"))
+        self.assertIn("no run is named", self.refused(program="rerun"))
+
+    def test_a_run_whose_id_is_not_that_of_its_row_is_not_compared(self):
+        folder = self.copy("without_source")
+        change(folder, "DELETE FROM scenarios WHERE name = 'lagrange_top'")
+        done = call("rerun", "--all", "without_source", folder=self.folder, status=3)
+        lost = sum(r["scenario"] == "lagrange_top" for r in self.top)
+        self.assertIn(f"{len(self.top) - lost} the same, 0 different, {lost} not repeated", done.stdout)
+        self.assertIn("not repeated: the store does not have its scenario lagrange_top, or it is damaged", done.stderr)
+
+    # explain.
+
+    def test_explain_names_the_keys(self):
+        chance = random.Random(5)
+        for _ in range(5):
+            a, b = chance.sample(self.top, 2)
+            text = self.said(a["run"], b["run"], program="explain")
+            keys = set(re.findall(r"^(\S+)  ", text, re.M))
+            options = {k for k in ("scenario", "integrator", "dt_s", "tolerance") if a[k] != b[k]}
+            self.assertEqual(options, keys & {"scenario", "integrator", "dt_s", "tolerance"}, text)
+        lanes = [row["run"] for row in read(self.folder / "results/lanes/runs.csv")]
+        text = self.said(lanes[0], lanes[-1], "results/top", "results/lanes", program="explain")
+        self.assertRegex(text, r"body\.0\.angular_velocity\.1 +1\.0 +5\.0\n1 key differs|body\.0\.angular_velocity\.1 +1 +5\n1 key differs")
+        self.assertEqual(self.said(lanes[0], lanes[0], program="explain"), "the same run\n")
+        one = self.said(lanes[0], program="explain")
+        for words in ("results version ", "scenario text ", "integrator ", "dt_s ", "body.0.angular_velocity.1 "):
+            self.assertIn(f"\n{words}", one)
+        self.assertIn("\nbody mass=", one)
+
+
+if __name__ == "__main__":
+    unittest.main()
