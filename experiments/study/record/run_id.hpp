@@ -20,8 +20,8 @@ std::uint64_t run_number(const RunConfig& config, std::string_view canonical, in
 std::string run_id(const RunConfig& config, std::string_view canonical, int version = results_version);
 
 /// What the id is made of besides the version and the text of the scenario: options by the names of their columns (or
-/// as files name them), max_steps, reference, and the varied keys. Two configurations have the same parts if and only
-/// if identity_of() is the same.
+/// as files name them), max_steps, reference, and the varied keys. Of two configurations that vary the same keys, the
+/// parts are the same if and only if identity_of() is.
 std::vector<std::pair<std::string, std::string>> identity_parts(const RunConfig& config);
 
 /// The id as an integer, and back: 16 hexadecimal digits. Throws std::logic_error for a text that is no id.

@@ -81,8 +81,10 @@ TEST(StoredRuns, PartsOfTheIdentityAreEqualIfAndOnlyIfItIs) {
     if (config.samples) config.samples = 3;
     if (config.max_steps) config.max_steps = 3;
     if (!config.varied.empty()) config.varied.front().value = "7";
+    std::string varied;  // the text of a scenario differs if other keys are set
+    for (const Override& one : config.varied) varied += one.key + " ";
     const auto parts = identity_parts(config);
-    const auto [at, is_new] = known.try_emplace(run_id(config, ""), parts);
+    const auto [at, is_new] = known.try_emplace(run_id(config, varied), parts);
     EXPECT_EQ(at->second, parts);
   }
   std::map<std::vector<std::pair<std::string, std::string>>, std::string> by_parts;
