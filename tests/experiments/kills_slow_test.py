@@ -60,9 +60,9 @@ class Kills(unittest.TestCase):
             self.assertLess(time.monotonic(), end, "the runs do not come to an end")
             time.sleep(0.002)
 
-    def try_kills(self, program, study, after=0, keeps_runs=True):
+    def try_kills(self, program, study, after=0):
         """Kills the study KILLS times, at moments between its beginning, or the one at which `after` runs are stored, and
-        its end. `keeps_runs`: a run is complete once it is stored."""
+        its end."""
         chance = random.Random(f"{SEED} {self.id()}")
         process = self.start(program, study, "whole")
         self.wait_for_runs(process, self.folder / "whole/out", after)
@@ -92,8 +92,7 @@ class Kills(unittest.TestCase):
                 call(program, *study, "--out", "out", folder=self.folder / "killed")
                 after_it = made(self.out, self.folder / "scratch")
                 self.assertEqual(sorted(after_it), sorted(runs))
-                if keeps_runs:
-                    self.assertEqual({run: after_it[run] for run in before}, before, "a run that was stored was made again")
+                self.assertEqual({run: after_it[run] for run in before}, before, "a run that was stored was made again")
                 found = files(self.out)
                 self.assertEqual(sorted(found), sorted(whole))
                 self.assertEqual([name for name in whole if found[name] != whole[name]], [])
@@ -102,10 +101,10 @@ class Kills(unittest.TestCase):
               file=sys.stderr)
 
     def test_trajectories_in_csv(self):
-        self.try_kills("energy_drift", [*RUNS, "--dt", "2e-4", "--trajectory", "csv", "--no-figures"], keeps_runs=False)
+        self.try_kills("energy_drift", [*RUNS, "--dt", "2e-4", "--trajectory", "csv", "--no-figures"])
 
     def test_trajectories_in_hdf5(self):
-        self.try_kills("energy_drift", [*RUNS, "--dt", "2e-4", "--trajectory", "hdf5", "--no-figures"], keeps_runs=False)
+        self.try_kills("energy_drift", [*RUNS, "--dt", "2e-4", "--trajectory", "hdf5", "--no-figures"])
 
     def test_references(self):
         self.try_kills("energy_drift", ["--scenario", "spring_box,two_bodies", "--integrator", "rk4,heun", "--dt", "1e-3,2e-3",
