@@ -127,6 +127,10 @@ std::string time_needed_text(const Experiment& experiment, const Options& option
   const double running = time_of_workers(times.seconds, timing.workers);
   const double after = fixed_work + work_of_a_run * static_cast<double>(plan.runs.size()) +
                        (options.figures ? seconds_of_figures(experiment, plan) : 0);
+  if (times.known == 0 && !missing.empty())
+    return fmt::format("at least {} with {} job{}: no run came far enough in {} to tell its time\n",
+                       text_of_time(running + after), timing.workers, timing.workers == 1 ? "" : "s",
+                       text_of_time(timing.budget));
   std::string text =
       fmt::format("{} {} with {} job{}, of which {} after the runs", experiment.refine ? "at least" : "about",
                   text_of_time(running + after), timing.workers, timing.workers == 1 ? "" : "s", text_of_time(after));
