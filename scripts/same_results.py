@@ -62,6 +62,7 @@ FILTERS = [
     ("*manifest.json", r'"libraries": \{[^}]*\}', '"libraries": …', "build"),
     ("*.html", r"(polhode [0-9.]+, commit )[0-9A-Za-z.-]+", r"\1…", "build"),
     ("*.stderr", r"(?m)^\w+: \d+ of \d+ runs, \d+ %, .*\n", "", "progress, printed every 10 s"),
+    ("*.stdout", r"(?m)^(about|at least) .* with \d+ jobs?[,:] .*\n", "", "time that --dry-run expects"),
     ("*.stdout", r"(?m)^.*: [0-9.e+-]+ steps per second\.\n", "", "wall times (pile)"),
     ("*.stdout", r"(?m)^Cheapest by wall time .*\n", "", "wall times (work_precision)"),
     ("*.stdout", r"(?m)^.*A step takes .*\n", "", "wall times (certificate)"),

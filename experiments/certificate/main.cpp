@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
                               {"dt", "0.1"},
                               {"tolerance", "1e-8"},
                               {"t-end", "200"}}}},
+       .analysis_alone = true,
        .analysis = polhode::study::certificate::certificates},
       argc, argv);
 }

@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
                                          .curves_are_results = true,
                                          .duration = polhode::study::stability::whole_steps,
                                          .refine = polhode::study::stability::bisection,
+                                         .analysis_figures = 3,
                                          .analysis = polhode::study::stability::stability},
                                         argc, argv);
 }

@@ -32,6 +32,7 @@
 #include "experiments/study/text/program.hpp"
 #include "experiments/study/text/read_file.hpp"
 #include "experiments/study/text/value_lists.hpp"
+#include "experiments/study/time_needed.hpp"
 
 namespace polhode::study {
 namespace {
@@ -156,7 +157,9 @@ int run_study(const Experiment& experiment, const Options& options) {
   choose_curves(options, plan);
   const std::filesystem::path folder = folder_of(experiment, options, plan);
   if (options.dry_run) {
-    fmt::print("{}", plan_text(experiment, plan, folder, Store::ids_in(folder)));
+    const std::set<std::string> done = Store::ids_in(folder);
+    fmt::print("{}{}", plan_text(experiment, plan, folder, done),
+               time_needed_text(experiment, options, plan, folder, done));
     return 0;
   }
   if (options.slurm) return prepare_jobs(experiment, options, plan, folder);

@@ -46,6 +46,7 @@ class StudyFiles(unittest.TestCase):
         self.assertRegex(text, r"  turns: random of body\.0\.angular_velocity: 3 points: \(\[")
         self.assertIn("  listed: cells of dt, t-end, body.0.mass: 2 points: (0.05, 1, ), (0.1, 2, 4)\n", text)
         self.assertNotIn("are there already", text)
+        self.assertRegex(text, r"(?m)^(about|at least) [\d.]+ s with \d+ jobs?[,:] ")
         self.assertFalse((self.folder / "out").exists())
         self.drift("--study", "two.toml:listed", "--out", "out")
         self.assertIn("4 of 4 runs are there already\n", self.drift("--study", "two.toml:listed", "--out", "out", "--dry-run").stdout)
@@ -64,6 +65,15 @@ class StudyFiles(unittest.TestCase):
         self.assertEqual(said.pop("name"), "turns")
         self.assertEqual(said["random"], ["n=3 seed=7 body.0.angular_velocity=sphere(3)"])
         self.assertEqual(said["where"], ["dt < 0.15 or given(tolerance)"])
+
+    def test_defaults_give_conditions_and_the_columns_that_a_study_leaves_to_them(self):
+        (self.folder / "shared.toml").write_text(
+            "[defaults]\nintegrator = 'rk4'\nwhere = 'dt < 0.15'\n[defaults.zip]\ndt = [0.05, 0.1, 0.2]\nt_end = [1, 2, 3]\n"
+            "[study.a]\n[study.b]\nt_end = 5\nwhere = 'dt > 0.07'\n")
+        text = self.drift("--study", "shared.toml", "--out", "out", "--dry-run").stdout
+        self.assertIn("energy_drift: 3 runs, ", text)
+        self.assertIn("a: 3 cells, of which where leaves out 1\n", text)
+        self.assertIn("b: 3 cells, of which where leaves out 2\n", text)
 
     def test_more_points_use_the_results_that_are_there(self):
         few = ["--integrator", "rk4", "--dt", "0.1", "--t-end", "1", "--random"]

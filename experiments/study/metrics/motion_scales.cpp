@@ -208,14 +208,11 @@ MotionScales along_rk4(const Scenario& scenario, double t_end, const std::atomic
 }
 
 MotionScales along_contact(const Scenario& scenario, double t_end, const std::atomic<bool>* stop) {
-  constexpr double longest_step = 1.0 / 120;  // s
-  constexpr double fewest = 100, most = 20000, most_body_steps = 2e5;
   RunConfig config;
   config.integrator = "semi_implicit_euler";
   config.contact = {"sweep_and_prune", narrow_phase_for(scenario), "sequential_impulses", "time_stepping"};
   config.t_end = t_end;
-  const double affordable = std::clamp(most_body_steps / static_cast<double>(scenario.problem.moving()), fewest, most);
-  config.dt = t_end / std::clamp(std::ceil(t_end / longest_step), fewest, affordable);
+  config.dt = t_end / steps_of_contact_scales(scenario, t_end);
   return along_steps(scenario, config, stop);
 }
 
@@ -233,6 +230,13 @@ double MotionScales::energy_round_off(Precision precision, std::int64_t steps) c
   const double unit = std::max(epsilon(precision), epsilon(Precision::double_precision)),
                n = static_cast<double>(std::max<std::int64_t>(steps, 1));
   return unit * (std::sqrt(n) * (16 * kinetic_terms + force_terms) + 4 * force_terms + n * steady_terms);
+}
+
+double steps_of_contact_scales(const Scenario& scenario, double t_end) {
+  constexpr double longest_step = 1.0 / 120;  // s
+  constexpr double fewest = 100, most = 20000, most_body_steps = 2e5;
+  const double affordable = std::clamp(most_body_steps / static_cast<double>(scenario.problem.moving()), fewest, most);
+  return std::clamp(std::ceil(t_end / longest_step), fewest, affordable);
 }
 
 MotionScales motion_scales(const Scenario& scenario, double t_end, const std::atomic<bool>* stop) {

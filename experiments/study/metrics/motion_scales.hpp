@@ -54,4 +54,7 @@ struct MotionScales {
 /// with incomplete scales.
 MotionScales motion_scales(const Scenario& scenario, double t_end, const std::atomic<bool>* stop = nullptr);
 
+/// Number of steps in which motion_scales() follows a motion with contact.
+double steps_of_contact_scales(const Scenario& scenario, double t_end);
+
 }  // namespace polhode::study::metrics

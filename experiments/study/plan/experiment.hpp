@@ -2,6 +2,7 @@
 // Definition of an experiment: its question, its default runs and its analysis.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <string>
@@ -44,6 +45,8 @@ struct Experiment {
   /// no new run. Must be deterministic: the same finished runs must yield the same requests, so that an interrupted
   /// study can be continued.
   std::function<std::vector<RunConfig>(const StudyView&)> refine{};
+  std::size_t analysis_figures = 0;  ///< number of figures that the analysis makes of the default study
+  bool analysis_alone = false;       ///< the analysis replaces the figures of every study (Analysis::alone)
   /// Analysis of the finished runs beyond that of every study; empty: none.
   std::function<Analysis(const StudyView&)> analysis{};
 };

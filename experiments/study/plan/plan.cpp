@@ -216,7 +216,7 @@ void refuse_too_many(double cells) {
 
 PlannedRun Plan::run(std::size_t i, Variants* known) const {
   const PlanRow& row = rows[i];
-  PlannedRun run{.id = id_of_number(row.id), .config = {}, .scenario = {}, .refusal = {}};
+  PlannedRun run{.id = id_of_number(row.id), .config = {}, .scenario = {}, .refusal = {}, .cost = row.cost};
   if (row.product == products_.size()) {
     run.config = further_[row.cell].config;
     run.scenario = further_[row.cell].scenario;

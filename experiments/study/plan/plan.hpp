@@ -23,6 +23,7 @@ struct PlannedRun {
   RunConfig config;
   std::shared_ptr<const Scenario> scenario;
   std::string refusal;  ///< reason for which the run cannot be carried out; empty if it can
+  double cost = 0;      ///< as PlanRow::cost
 };
 
 /// What is held of each run of a plan.

@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/run_times.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <ctime>
+#include <functional>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <queue>
+#include <set>
+#include <string>
+#include <thread>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+#include "core/math/lanes.hpp"
+#include "experiments/study/metrics/motion_scales.hpp"
+#include "experiments/study/metrics/references.hpp"
+#include "experiments/study/run/run.hpp"
+
+namespace polhode::study {
+namespace {
+
+using TimingClock = std::chrono::steady_clock;
+
+/// Processor time of this thread, s. Other programs do not change it much, as they do the wall time of a short run.
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+constexpr double shortest_slice = 3e-4;  // s
+constexpr double repeated_below = 0.04;  // s; a run of best times that is shorter is repeated
+constexpr double repetitions = 5;
+constexpr double seconds_of_reference = 2;  // if it takes longer than there is time
+// Part of a run that tells its rate. The first steps of an adaptive method are small.
+constexpr double least_share = 1e-4, least_adaptive_share = 0.05;
+
+/// A run that was carried out, in part or in full.
+struct Timed {
+  const PlannedRun* run;
+  double share;    ///< of the run that was done, 0 to 1
+  double seconds;  ///< of one run, s
+};
+
+/// Runs of one kind.
+struct RunKind {
+  std::vector<std::size_t> runs;
+  double cost = 0;  ///< of all runs together
+  std::size_t least = 0, largest = 0;
+  std::vector<Timed> timed{};
+};
+
+bool in_contact(const PlannedRun& run) { return run.config.contact.has_value(); }
+double moving_bodies(const PlannedRun& run) { return static_cast<double>(run.scenario->problem.moving()); }
+
+auto kind_key_of(const PlannedRun& run) {
+  const RunConfig& config = run.config;
+  const ContactConfig none;
+  const ContactConfig& contact = config.contact ? *config.contact : none;
+  return std::tuple(config.integrator, config.scenario, config.precision, contact.response, contact.impact_timing,
+                    contact.narrow_phase, contact.broad_phase, run.scenario->problem.moving());
+}
+
+using KindKey = decltype(kind_key_of(std::declval<const PlannedRun&>()));
+
+std::vector<RunKind> kinds_of(std::span<const PlannedRun* const> runs) {
+  std::map<KindKey, RunKind> kinds;
+  RunKind* last = nullptr;
+  const PlannedRun* before = nullptr;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const PlannedRun& run = *runs[i];
+    // Runs are sorted: most are of the kind of the one before.
+    if (!last || before->config.integrator != run.config.integrator || before->config.scenario != run.config.scenario ||
+        before->config.precision != run.config.precision || in_contact(run) ||
+        moving_bodies(*before) != moving_bodies(run))
+      last = &kinds[kind_key_of(run)];
+    before = &run;
+    if (last->runs.empty()) last->least = last->largest = i;
+    last->runs.push_back(i);
+    last->cost += run.cost * moving_bodies(run);
+    if (run.cost < runs[last->least]->cost) last->least = i;
+    if (run.cost > runs[last->largest]->cost) last->largest = i;
+  }
+  std::vector<RunKind> all;
+  for (auto& [key, kind] : kinds) all.push_back(std::move(kind));
+  std::stable_sort(all.begin(), all.end(), [](const RunKind& a, const RunKind& b) { return a.cost > b.cost; });
+  return all;
+}
+
+/// A true motion that runs share.
+using TrueMotionKey = std::pair<const Scenario*, double>;
+TrueMotionKey true_motion_key(const PlannedRun& run) { return {run.scenario.get(), run.config.t_end}; }
+struct TrueMotionHash {
+  std::size_t operator()(const TrueMotionKey& key) const {
+    return std::hash<const Scenario*>()(key.first) * 31 + std::hash<double>()(key.second);
+  }
+};
+
+/// Stops what workers do when their time is over.
+class Alarm {
+ public:
+  explicit Alarm(std::size_t workers) : ends_(workers), stops_(workers) {
+    for (auto& end : ends_) end = never;
+    thread_ = std::thread([this] {
+      while (!finished_) {
+        const auto now = TimingClock::now().time_since_epoch().count();
+        for (std::size_t i = 0; i < ends_.size(); ++i) {
+          if (now >= ends_[i]) stops_[i] = true;
+        }
+        std::this_thread::sleep_for(std::chrono::microseconds(100));
+      }
+    });
+  }
+  ~Alarm() {
+    finished_ = true;
+    thread_.join();
+  }
+  Alarm(const Alarm&) = delete;
+  Alarm& operator=(const Alarm&) = delete;
+
+  /// The flag that is set after so many seconds; it was cleared.
+  const std::atomic<bool>* in(double seconds, std::size_t worker) {
+    ends_[worker] = never;
+    stops_[worker] = false;
+    const auto length = std::chrono::duration_cast<TimingClock::duration>(std::chrono::duration<double>(seconds));
+    ends_[worker] = (TimingClock::now() + length).time_since_epoch().count();
+    return &stops_[worker];
+  }
+
+ private:
+  static constexpr TimingClock::rep never = std::numeric_limits<TimingClock::rep>::max();
+  std::vector<std::atomic<TimingClock::rep>> ends_;
+  std::vector<std::atomic<bool>> stops_;
+  std::atomic<bool> finished_{false};
+  std::thread thread_;
+};
+
+class Calibration {
+ public:
+  Calibration(std::span<const PlannedRun* const> runs, std::span<const KnownTime> known, const Timing& timing)
+      : runs_(runs), timing_(timing), kinds_(kinds_of(runs)), alarm_(std::max<std::size_t>(timing.workers, 1)) {
+    std::map<KindKey, RunKind*> by_key;
+    for (RunKind& kind : kinds_) by_key[kind_key_of(*runs_[kind.largest])] = &kind;
+    for (const KnownTime& time : known) {
+      const auto found = by_key.find(kind_key_of(*time.run));
+      if (found != by_key.end()) found->second->timed.push_back({time.run, 1, time.seconds});
+    }
+  }
+
+  RunTimes run() {
+    measure();
+    settle();
+    RunTimes times;
+    times.seconds.reserve(runs_.size());
+    times.seconds.resize(runs_.size());
+    double known = 0, cost = 0;
+    for (const RunKind& kind : kinds_) {
+      if (kind.timed.empty()) continue;
+      for (const std::size_t i : kind.runs) known += times.seconds[i] = seconds_of(kind, *runs_[i]);
+      cost += kind.cost;
+    }
+    double all = known;
+    for (const RunKind& kind : kinds_) {
+      if (!kind.timed.empty() || !(cost > 0)) continue;
+      for (const std::size_t i : kind.runs)
+        all += times.seconds[i] = known / cost * runs_[i]->cost * moving_bodies(*runs_[i]);
+    }
+    for (double& seconds : times.seconds) {
+      if (timing_.best_times && seconds < repeated_below) seconds *= repetitions;
+    }
+    add_true_motions(times.seconds);
+    times.known = all > 0 ? known / all : 0;
+    return times;
+  }
+
+ private:
+  /// First the largest run of each kind, then the least.
+  void measure() {
+    std::vector<std::pair<RunKind*, std::size_t>> work;
+    for (RunKind& kind : kinds_) {
+      if (kind.timed.size() < 2) work.emplace_back(&kind, kind.largest);
+    }
+    for (RunKind& kind : kinds_) {
+      if (kind.timed.size() < 2 && kind.least != kind.largest) work.emplace_back(&kind, kind.least);
+    }
+    const auto start = TimingClock::now();
+    const std::size_t workers = std::min(std::max<std::size_t>(timing_.workers, 1), work.size());
+    if (work.empty()) return;
+    std::atomic<std::size_t> next{0};
+    const auto worker = [&](std::size_t number) {
+      for (std::size_t i = next++; i < work.size(); i = next++) {
+        const double left = timing_.budget - std::chrono::duration<double>(TimingClock::now() - start).count();
+        if (left <= 0) return;
+        const double slice = left * static_cast<double>(workers) / static_cast<double>(work.size() - i);
+        time(*work[i].first, work[i].second, std::max(slice, shortest_slice), number);
+      }
+    };
+    std::vector<std::thread> others;
+    for (std::size_t k = 1; k < workers; ++k) others.emplace_back(worker, k);
+    worker(0);
+    for (std::thread& thread : others) thread.join();
+  }
+
+  void time(RunKind& kind, std::size_t index, double slice, std::size_t worker) {
+    const PlannedRun& run = *runs_[index];
+    const bool has_truth = time_true_motion(run, slice, worker);
+    const std::vector<const PlannedRun*> batch = batch_of(kind, index);
+    // The run finds its true motion made. Without it a part of the run is carried out, whose true motion is soon made.
+    RunConfig config = run.config;
+    if (!has_truth && config.reference) config.reference = false;
+    else if (!has_truth) config.t_end /= 16;
+    const std::atomic<bool>* stop = alarm_.in(slice, worker);
+    RunResult result;
+    const double start = processor_seconds();
+    if (batch.size() > 1 && has_truth) {
+      std::vector<LanedRun> lanes;
+      for (const PlannedRun* one : batch) lanes.push_back({one->config, *one->scenario});
+      result = carry_out_together(lanes, stop, &references_).front();
+    } else {
+      result = carry_out(config, *run.scenario, {}, stop, &references_);
+    }
+    const double seconds = (processor_seconds() - start) / (has_truth ? static_cast<double>(batch.size()) : 1);
+    const bool whole = result.status != "interrupted" && config.t_end == run.config.t_end;
+    const double share = whole ? 1 : result.t_reached / run.config.t_end;
+    if (share < (run.config.dt ? least_share : least_adaptive_share)) return;
+    const std::lock_guard lock(mutex_);
+    kind.timed.push_back({&run, share, seconds});
+    if (share == 1) overhead_ = std::min(overhead_, seconds);
+  }
+
+  /// Makes the scales and the reference of a run, and takes the time of that if it is the first run that shares them.
+  /// False if there was not enough time.
+  bool time_true_motion(const PlannedRun& run, double slice, std::size_t worker) {
+    bool first = false;
+    {
+      const std::lock_guard lock(mutex_);
+      first = known_motions_.insert(true_motion_key(run)).second;
+    }
+    references_.expect(std::vector<std::uint64_t>(1 + std::size_t(lane_count), number_of(*run.scenario)));
+    const std::atomic<bool>* stop = alarm_.in(slice, worker);
+    const double start = processor_seconds();
+    references_.of(run.config, *run.scenario, stop);
+    const double seconds = processor_seconds() - start;
+    if (first) {
+      const std::lock_guard lock(mutex_);
+      MotionTimes& times = motion_times_[run.config.scenario];
+      if (*stop) times.cut = true;
+      times.sum += *stop && run.config.reference ? seconds_of_reference : seconds;
+      ++times.count;
+    }
+    return !*stop;
+  }
+
+  /// The runs that are carried out together with this one.
+  std::vector<const PlannedRun*> batch_of(const RunKind& kind, std::size_t index) const {
+    const PlannedRun& run = *runs_[index];
+    std::vector<const PlannedRun*> batch = {&run};
+    if (!timing_.in_lanes || kind.runs.size() == 1) return batch;
+    const std::string key = ensemble_key(run.config, *run.scenario, {});
+    if (key.empty()) return batch;
+    for (const std::size_t i : kind.runs) {
+      const PlannedRun& other = *runs_[i];
+      if (i == index || other.config.dt != run.config.dt || other.config.t_end != run.config.t_end) continue;
+      if (ensemble_key(other.config, *other.scenario, {}) == key) batch.push_back(&other);
+      if (batch.size() == std::size_t(lane_count)) break;
+    }
+    return batch;
+  }
+
+  /// A contact run that was stopped may have seen its bodies fall and not yet rest on each other. It costs at least
+  /// what a step of a body costs in runs with the same response that came to their end.
+  void settle() {
+    struct Settled {
+      double work = 0, rate = 0;  // cost times bodies; s per unit of that
+    };
+    std::map<std::pair<std::string, std::string>, Settled> rates;  // of the largest run that came to its end
+    const auto group = [](const PlannedRun& run) {
+      return std::pair(run.config.integrator, run.config.contact->response);
+    };
+    for (const RunKind& kind : kinds_) {
+      for (const Timed& timed : kind.timed) {
+        if (!in_contact(*timed.run) || timed.share < 1) continue;
+        Settled& settled = rates[group(*timed.run)];
+        const double work = timed.run->cost * moving_bodies(*timed.run);
+        if (work > settled.work) settled = {work, timed.seconds / work};
+      }
+    }
+    for (RunKind& kind : kinds_) {
+      for (Timed& timed : kind.timed) {
+        if (!in_contact(*timed.run) || timed.share == 1) continue;
+        const auto rate = rates.find(group(*timed.run));
+        if (rate == rates.end()) continue;
+        const double least = rate->second.rate * timed.run->cost * moving_bodies(*timed.run) * timed.share;
+        timed.seconds = std::max(timed.seconds, least);
+      }
+    }
+  }
+
+  /// Without repetitions.
+  double seconds_of(const RunKind& kind, const PlannedRun& run) const {
+    return run.config.dt ? seconds_at_step(kind, run) : seconds_at_tolerance(kind, run);
+  }
+
+  /// In proportion to the number of steps, with a part that each run has.
+  double seconds_at_step(const RunKind& kind, const PlannedRun& run) const {
+    const auto done = [](const Timed& timed) { return timed.run->cost * timed.share; };
+    const auto [low, high] = std::minmax_element(kind.timed.begin(), kind.timed.end(),
+                                                 [&](const Timed& a, const Timed& b) { return done(a) < done(b); });
+    double fixed = std::min(overhead_, low->seconds), rate = (high->seconds - fixed) / done(*high);
+    if (done(*high) > done(*low) && high->seconds > low->seconds) {
+      const double slope = (high->seconds - low->seconds) / (done(*high) - done(*low));
+      const double rest = low->seconds - slope * done(*low);
+      if (rest > 0) rate = slope, fixed = rest;
+    }
+    return fixed + rate * run.cost;
+  }
+
+  /// In proportion to the duration, and by a power of the tolerance.
+  double seconds_at_tolerance(const RunKind& kind, const PlannedRun& run) const {
+    const auto rate = [&](const Timed& timed) {  // of its logarithm
+      const double least = timed.seconds / 10;
+      return std::log(std::max(timed.seconds - overhead_, least) / (timed.share * timed.run->config.t_end));
+    };
+    const auto place = [](const PlannedRun& one) { return std::log(*one.config.tolerance); };
+    const auto [low, high] =
+        std::minmax_element(kind.timed.begin(), kind.timed.end(),
+                            [&](const Timed& x, const Timed& y) { return place(*x.run) < place(*y.run); });
+    const Timed &a = *low, &b = *high;
+    double at = rate(a);
+    if (place(*a.run) != place(*b.run))
+      at += (rate(b) - rate(a)) * (place(run) - place(*a.run)) / (place(*b.run) - place(*a.run));
+    else at += std::log(run.cost / run.config.t_end / (a.run->cost / a.run->config.t_end));
+    return std::min(overhead_, a.seconds) + std::exp(at) * run.config.t_end;
+  }
+
+  /// Adds the time of each true motion to its first run.
+  void add_true_motions(std::vector<double>& seconds) const {
+    std::unordered_map<TrueMotionKey, bool, TrueMotionHash> met;
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      const PlannedRun& run = *runs_[i];
+      if (!met.emplace(true_motion_key(run), true).second) continue;
+      const auto found = motion_times_.find(run.config.scenario);
+      if (found == motion_times_.end()) continue;
+      const MotionTimes& times = found->second;
+      if (times.cut && in_contact(run) && run.config.dt)
+        seconds[i] += seconds[i] * steps_of_contact_scales(*run.scenario, run.config.t_end) /
+                      std::ceil(run.config.t_end / *run.config.dt);
+      else seconds[i] += times.sum / times.count;
+    }
+  }
+
+  struct MotionTimes {
+    double sum = 0, count = 0;
+    bool cut = false;  ///< one was not finished in its time
+  };
+
+  std::span<const PlannedRun* const> runs_;
+  Timing timing_;
+  std::vector<RunKind> kinds_;
+  References references_;
+  std::mutex mutex_;
+  std::set<TrueMotionKey> known_motions_;
+  std::map<std::string, MotionTimes> motion_times_;  // by scenario
+  double overhead_ = 2e-4;                           // of each run, s
+  Alarm alarm_;
+};
+
+}  // namespace
+
+RunTimes run_times(std::span<const PlannedRun* const> runs, std::span<const KnownTime> known, const Timing& timing) {
+  if (runs.empty()) return {};
+  return Calibration(runs, known, timing).run();
+}
+
+double time_of_workers(std::span<const double> seconds, std::size_t workers) {
+  std::priority_queue<double, std::vector<double>, std::greater<>> free;  // when each worker is free
+  for (std::size_t k = 0; k < std::max<std::size_t>(workers, 1); ++k) free.push(0);
+  double end = 0;
+  for (const double time : seconds) {
+    const double done = free.top() + time;
+    free.pop();
+    free.push(done);
+    end = std::max(end, done);
+  }
+  return end;
+}
+
+}  // namespace polhode::study

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How long the runs of a plan will take, found by carrying out some of them for a few milliseconds each.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiments/study/plan/plan.hpp"
+
+namespace polhode::study {
+
+struct RunTimes {
+  std::vector<double> seconds;  ///< time that one worker takes for each run, s, in the order of the runs
+  double known = 0;             ///< share of the sum of these that runs of the same kind were timed for, 0 to 1
+};
+
+/// How runs are timed.
+struct Timing {
+  bool best_times = false;  ///< short runs are repeated (Experiment::best_times)
+  bool in_lanes = false;    ///< runs that can share the lanes of an ensemble do
+  std::size_t workers = 1;  ///< runs at a time
+  double budget = 0.45;     ///< s
+};
+
+/// The wall time that a run had before.
+struct KnownTime {
+  const PlannedRun* run;
+  double seconds;
+};
+
+/// Runs are of one kind if they agree in method, scenario, arithmetic, contact algorithms and number of bodies. Of each
+/// kind the run of largest and the run of least cost are carried out for a while, the most expensive kinds first, until
+/// the budget has passed; a kind that was not reached gets the mean rate of the others. Of a kind with several
+/// known times no run is carried out. The reference and the scales that runs share are counted with the first of these.
+/// Writes no file.
+RunTimes run_times(std::span<const PlannedRun* const> runs, std::span<const KnownTime> known, const Timing& timing);
+
+/// Time until so many workers have carried out runs that take these times (s), begun in this order, s.
+double time_of_workers(std::span<const double> seconds, std::size_t workers);
+
+}  // namespace polhode::study

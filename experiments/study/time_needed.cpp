@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/time_needed.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "core/exact/exact_motion.hpp"
+#include "experiments/study/curves/curves.hpp"
+#include "experiments/study/progress.hpp"
+#include "experiments/study/record/shown_runs.hpp"
+#include "experiments/study/report/figures/study_figures.hpp"
+#include "experiments/study/run_times.hpp"
+#include "experiments/study/store/store.hpp"
+
+namespace polhode::study {
+namespace {
+
+constexpr std::size_t most_looked_up = 500;  // stored wall times that are read
+constexpr std::size_t most_drawn = 5000;     // runs that are taken for the figures
+constexpr std::size_t most_timed = 10'000;   // runs whose times are summed up; others take as long in the mean
+
+// Measured on a processor of 2.5 GHz, s.
+constexpr double fixed_work = 0.06;        // store, summary, page
+constexpr double work_of_a_run = 2.5e-4;   // its rows in the store, in tables and in the page
+constexpr double work_of_a_figure = 0.03;  // a start of gnuplot
+constexpr double work_of_a_panel = 0.003;
+constexpr double work_of_a_point = 3e-5;
+constexpr double figures_at_a_time = 2;
+
+/// Short times with a tenth of a second.
+std::string text_of_time(double seconds) {
+  return seconds < 9.95 ? fmt::format("{:.1f} s", std::max(seconds, 0.1)) : duration_text(seconds);
+}
+
+std::size_t workers_of(const Options& options) {
+  return options.jobs > 0 ? static_cast<std::size_t>(options.jobs) : std::max(1U, std::thread::hardware_concurrency());
+}
+
+/// A result with everything that figures may show.
+RunResult full_result(const PlannedRun& run, bool known_motion, bool keeps_curves) {
+  RunResult result;
+  result.status = "ok";
+  result.t_reached = run.config.t_end;
+  result.energy_drift_max_rel = result.linear_momentum_drift_max_rel = result.angular_momentum_drift_max_rel =
+      result.orientation_defect_max = 1e-3;
+  if (known_motion) result.attitude_error_max = result.position_error_max = 1e-3;
+  for (const std::string& name : run.scenario->invariants) result.invariant_drift_max_rel[name] = 1e-3;
+  constexpr double most_points = 256;
+  const double steps = run.config.dt ? run.config.t_end / *run.config.dt : most_points;
+  const auto points = static_cast<std::size_t>(std::clamp(steps, 1.0, most_points));
+  if (keeps_curves) result.series.assign(points, {1, 1e-3, 1e-3, 1e-3, 1e-3});
+  return result;
+}
+
+/// The figures that the study would have if all runs came to their end.
+FigureSet usual_figures(const Plan& plan) {
+  StudyView view;
+  view.scenarios = plan.scenarios;
+  view.varied_keys = plan.varied_keys;
+  view.named = plan.named;
+  view.invariants = plan.invariants;
+  std::map<std::string, bool> known;
+  Variants variants;
+  for (const std::size_t i : evenly_spread(plan.size(), most_drawn)) {
+    if (plan.rows[i].refused) continue;
+    const PlannedRun run = plan.run(i, &variants);
+    const auto [found, added] = known.try_emplace(run.config.scenario, run.config.reference);
+    if (added && run.scenario->colliders.empty())
+      found->second = found->second || ExactMotion(*make_system<double>(run.scenario->problem, {})).is_complete();
+    view.runs.push_back({run.id, run.config, full_result(run, found->second, plan.rows[i].keeps_curves), run.scenario});
+  }
+  return figures_of(view, group(view));
+}
+
+double seconds_of_figures(const Experiment& experiment, const Plan& plan) {
+  double work = static_cast<double>(experiment.analysis_figures) * (work_of_a_figure + 4 * work_of_a_panel);
+  if (!experiment.analysis_alone) {
+    for (const Figure& figure : usual_figures(plan).figures) {
+      double points = 0;
+      for (const Panel& panel : figure.panels) {
+        for (const PlottedCurve& curve : panel.curves) points += static_cast<double>(curve.points.size());
+      }
+      work += work_of_a_figure + work_of_a_panel * static_cast<double>(figure.panels.size()) + work_of_a_point * points;
+    }
+  }
+  return work / std::clamp<double>(std::thread::hardware_concurrency(), 1, figures_at_a_time);
+}
+
+/// Finished runs with their wall times, of an even choice of these.
+struct StoredTimes {
+  std::vector<PlannedRun> runs;
+  std::vector<double> seconds;
+};
+
+StoredTimes stored_times(const Plan& plan, const std::filesystem::path& folder,
+                         const std::vector<std::uint64_t>& done) {
+  std::vector<std::size_t> there;
+  for (const std::uint64_t id : done) {
+    if (const auto i = plan.find(id)) there.push_back(*i);
+  }
+  std::sort(there.begin(), there.end());
+  StoredTimes times;
+  if (there.empty()) return times;
+  const Store store(folder, metric_table(), Access::read);
+  Variants variants;
+  for (const std::size_t k : evenly_spread(there.size(), most_looked_up)) {
+    PlannedRun run = plan.run(there[k], &variants);
+    const auto stored = store.find(run.id, Curves::without);
+    if (!stored || !stored->damage.empty() || !(stored->result.seconds > 0)) continue;
+    times.runs.push_back(std::move(run));
+    times.seconds.push_back(stored->result.seconds);
+  }
+  return times;
+}
+
+}  // namespace
+
+std::string time_needed_text(const Experiment& experiment, const Options& options, const Plan& plan,
+                             const std::filesystem::path& folder, const std::vector<std::uint64_t>& done) {
+  std::vector<std::size_t> missing;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    if (!plan.rows[i].refused && !std::binary_search(done.begin(), done.end(), plan.rows[i].id)) missing.push_back(i);
+  }
+  std::vector<PlannedRun> runs;
+  Variants variants(most_timed);
+  for (const std::size_t k : evenly_spread(missing.size(), most_timed)) runs.push_back(plan.run(missing[k], &variants));
+  std::vector<const PlannedRun*> timed;
+  for (const PlannedRun& run : runs) timed.push_back(&run);
+  std::stable_sort(timed.begin(), timed.end(),
+                   [](const PlannedRun* a, const PlannedRun* b) { return a->cost > b->cost; });  // as run_all() does
+  const StoredTimes stored = stored_times(plan, folder, done);
+  std::vector<KnownTime> known;
+  for (std::size_t k = 0; k < stored.runs.size(); ++k) known.push_back({&stored.runs[k], stored.seconds[k]});
+  Timing timing;
+  timing.best_times = experiment.best_times;
+  timing.in_lanes = options.trajectory == TrajectoryFormat::none;
+  timing.workers = workers_of(options);
+  const RunTimes times = run_times(timed, known, timing);
+  const double of_all = runs.empty() ? 1 : static_cast<double>(missing.size()) / static_cast<double>(runs.size());
+  const double running = time_of_workers(times.seconds, timing.workers) * of_all;
+  const double after = fixed_work + work_of_a_run * static_cast<double>(plan.size()) +
+                       (options.figures ? seconds_of_figures(experiment, plan) : 0);
+  if (times.known == 0 && !missing.empty())
+    return fmt::format("at least {} with {} job{}: no run came far enough in {} to tell its time\n",
+                       text_of_time(running + after), timing.workers, timing.workers == 1 ? "" : "s",
+                       text_of_time(timing.budget));
+  std::string text =
+      fmt::format("{} {} with {} job{}, of which {} after the runs", experiment.refine ? "at least" : "about",
+                  text_of_time(running + after), timing.workers, timing.workers == 1 ? "" : "s", text_of_time(after));
+  if (times.known < 0.995 && !missing.empty())
+    text += fmt::format("; {:.0f} % of this is known from timed runs, and guessed from them for the rest",
+                        100 * times.known);
+  return text + "\n";
+}
+
+}  // namespace polhode::study

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Times of runs: what follows from times that are known. No time is measured here.
+#include "experiments/study/run_times.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "experiments/study/plan/options.hpp"
+
+namespace polhode::study::run_times_tests {
+namespace {
+
+const Experiment timed_tops = {
+    .name = "tops",
+    .question = "How long do runs take?",
+    .defaults = {{"scenario", "peters_hsu"}, {"integrator", "rk4"}, {"dt", "0.1"}, {"tolerance", "1e-6"}}};
+
+Plan planned(std::vector<std::string> words) {
+  words.insert(words.begin(), "tops");
+  std::vector<const char*> argv;
+  for (const std::string& word : words) argv.push_back(word.c_str());
+  return make_plan(timed_tops, parse_options(timed_tops, int(argv.size()), argv.data()).options);
+}
+
+std::vector<const PlannedRun*> pointers_to(const std::vector<PlannedRun>& runs) {
+  std::vector<const PlannedRun*> all;
+  for (const PlannedRun& run : runs) all.push_back(&run);
+  return all;
+}
+
+/// The time of a run is known for the first and the last of the plan.
+RunTimes times_of(const Plan& plan, double first, double last, const Timing& timing = {}) {
+  const std::vector<PlannedRun> runs = plan.runs();
+  const std::vector<const PlannedRun*> missing = pointers_to(runs);
+  const std::vector<KnownTime> known = {{missing.front(), first}, {missing.back(), last}};
+  return run_times(missing, known, timing);
+}
+
+TEST(RunTimes, GrowWithTheNumberOfStepsFromAPartThatEachRunHas) {
+  const Plan plan = planned({"--dt", "0.01,0.02,0.04"});  // 4 : 2 : 1 steps
+  const RunTimes times = times_of(plan, 9, 3);
+  ASSERT_EQ(times.seconds.size(), 3U);
+  EXPECT_NEAR(times.seconds[0], 9, 1e-9);
+  EXPECT_NEAR(times.seconds[1], 5, 1e-9);
+  EXPECT_NEAR(times.seconds[2], 3, 1e-9);
+  EXPECT_EQ(times.known, 1);
+}
+
+TEST(RunTimes, AreAPowerOfTheTolerance) {
+  const Plan plan = planned({"--integrator", "cvode_adams", "--tolerance", "1e-8,1e-6,1e-4"});
+  const RunTimes times = times_of(plan, 400, 4);
+  EXPECT_NEAR(times.seconds[1], 40, 0.01);
+}
+
+TEST(RunTimes, OfShortRunsAreRepeatedForBestTimes) {
+  const Plan plan = planned({"--dt", "0.01,0.02,0.04"});
+  Timing timing;
+  timing.best_times = true;
+  const RunTimes times = times_of(plan, 0.09, 0.024, timing);
+  EXPECT_NEAR(times.seconds[0], 0.09, 1e-9);
+  EXPECT_NEAR(times.seconds[1], 0.046, 1e-9);
+  EXPECT_NEAR(times.seconds[2], 5 * 0.024, 1e-9);
+}
+
+TEST(RunTimes, OfAKindThatWasNotTimedFollowTheOthers) {
+  const Plan plan = planned({"--integrator", "heun,rk4", "--dt", "0.01,0.02"});
+  const std::vector<PlannedRun> runs = plan.runs();
+  const std::vector<const PlannedRun*> missing = pointers_to(runs);
+  Timing timing;
+  timing.budget = 0;
+  const std::vector<KnownTime> known = {{missing[0], 6}, {missing[1], 3}};
+  const RunTimes times = run_times(missing, known, timing);
+  EXPECT_NEAR(times.seconds[2], 6 * missing[2]->cost / missing[0]->cost, 0.01);
+  EXPECT_GT(times.known, 0.2);
+  EXPECT_LT(times.known, 0.5);
+}
+
+TEST(RunTimes, OfWorkersThatTakeOneRunAfterTheOther) {
+  const std::vector<double> seconds = {5, 3, 2, 2};
+  EXPECT_EQ(time_of_workers(seconds, 1), 12);
+  EXPECT_EQ(time_of_workers(seconds, 2), 7);
+  EXPECT_EQ(time_of_workers(seconds, 9), 5);
+  EXPECT_EQ(time_of_workers({}, 3), 0);
+}
+
+}  // namespace
+}  // namespace polhode::study::run_times_tests
