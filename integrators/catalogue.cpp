@@ -57,7 +57,8 @@ namespace polhode::inline integrators {
 POLHODE_CATALOGUE(IntegratorEntry, integrator_catalogue, POLHODE_INTEGRATORS)
 
 const IntegratorEntry* find_integrator(std::string_view name) {
-  return find_entry(integrator_catalogue(), name, [](const auto& entry) { return entry.declaration.name; });
+  return find_entry(integrator_catalogue(), name,
+                    [](const auto& entry) -> std::string_view { return entry.declaration.name; });
 }
 
 }  // namespace polhode::integrators

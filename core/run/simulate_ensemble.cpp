@@ -13,14 +13,17 @@ namespace {
 class EnsembleLoop {
  public:
   EnsembleLoop(const System<Lanes>& system, Integrator<Lanes>& integrator, std::span<const LaneRun> runs,
-               const Schedule& schedule, const std::atomic<bool>* stop)
-      : integrator_(integrator),
+               const Schedule& schedule, const std::atomic<bool>* stop, std::span<const LaneQuantity> watched)
+      : system_(system),
+        integrator_(integrator),
         runs_(runs),
         schedule_(schedule),
         stop_(stop),
+        watched_(watched),
         state_(system.start()),
         lanes_(runs.size()),
-        samples_(std::size_t(longest_batch) * std::size_t(lane_count)) {}
+        samples_(std::size_t(longest_batch) * std::size_t(lane_count)),
+        values_(watched.size() * samples_.size()) {}
 
   std::vector<RunOutcome> run() {
     integrator_.begin(state_);
@@ -73,7 +76,7 @@ class EnsembleLoop {
       batch.samples = samples_.data();
       batch.lanes = static_cast<int>(runs_.size());
       batch.lane_stride = longest_batch;
-      integrator_.advance(state_, batch);
+      advance(batch);
       taken_ += batch.count;
       k += batch.count;
       if (k == steps) state_.t = schedule_.t_end;
@@ -81,6 +84,33 @@ class EnsembleLoop {
         if (lanes_[i].running) show(i, batch.count, k == steps);
       }
     }
+  }
+
+  /// Takes the steps of a batch; where quantities are watched, one by one.
+  void advance(const StepBatch& batch) {
+    if (watched_.empty()) {
+      integrator_.advance(state_, batch);
+      return;
+    }
+    StepBatch step = batch;
+    step.count = 1;
+    for (std::int64_t k = 0; k < batch.count; ++k) {
+      step.first = batch.first + k;
+      step.samples = batch.samples + k;
+      integrator_.advance(state_, step);
+      const BodySnapshot<Lanes> body = system_.snapshot(state_.y, 0);
+      for (std::size_t which = 0; which < watched_.size(); ++which) {
+        const Lanes values = watched_[which](body);
+        for (std::size_t i = 0; i < runs_.size(); ++i)
+          values_of(which, i)[std::size_t(k)] = values[static_cast<int>(i)];
+      }
+    }
+  }
+
+  /// The values of a watched quantity in lane i after the steps of the last batch.
+  std::span<double> values_of(std::size_t which, std::size_t i) {
+    return std::span(values_).subspan((which * runs_.size() + i) * std::size_t(longest_batch),
+                                      std::size_t(longest_batch));
   }
 
   /// Passes the samples of lane i in the last batch of steps to its observer.
@@ -102,6 +132,10 @@ class EnsembleLoop {
     Lane& lane = lanes_[i];
     const TakenSamples taken = hand_over(samples, runs_[i].observer);
     lane.outcome.steps += steps;
+    if (steps > 0 && runs_[i].on_watched) {
+      for (std::size_t which = 0; which < watched_.size(); ++which)
+        runs_[i].on_watched(which, values_of(which, i).first(taken.count));
+    }
     if (!taken.why) return true;
     const double t = samples[taken.count].t;
     lane.outcome.steps -= std::int64_t(samples.size() - taken.count) - 1;
@@ -122,13 +156,16 @@ class EnsembleLoop {
     return true;
   }
 
+  const System<Lanes>& system_;
   Integrator<Lanes>& integrator_;
   std::span<const LaneRun> runs_;
   const Schedule& schedule_;
   const std::atomic<bool>* stop_;
+  std::span<const LaneQuantity> watched_;
   State<Lanes> state_;
   std::vector<Lane> lanes_;
   std::vector<Sample> samples_;
+  std::vector<double> values_;  ///< of the watched quantities: by quantity, lane and step
   std::int64_t taken_ = 0;
 };
 
@@ -136,8 +173,8 @@ class EnsembleLoop {
 
 std::vector<RunOutcome> simulate_ensemble(const System<Lanes>& system, Integrator<Lanes>& integrator,
                                           std::span<const LaneRun> runs, const Schedule& schedule,
-                                          const std::atomic<bool>* stop) {
-  return EnsembleLoop(system, integrator, runs, schedule, stop).run();
+                                          const std::atomic<bool>* stop, std::span<const LaneQuantity> watched) {
+  return EnsembleLoop(system, integrator, runs, schedule, stop, watched).run();
 }
 
 }  // namespace polhode

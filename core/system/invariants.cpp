@@ -91,31 +91,77 @@ std::string refuse_casimir(const Problem& problem) {
   return has_torque(problem, true) ? "a force exerts a torque" : "";
 }
 
-// Values of the invariants.
-
-Vector angular_velocity_body(const Snapshot& s) { return s.rotation.transpose() * s.angular_velocity; }
-
-double p_phi(const Problem& problem, const Snapshot& s) { return up(problem).dot(s.angular_momentum); }
-
-double p_psi(const Problem& problem, const Snapshot& s) {
-  return problem.bodies.front().inertia.row(2).dot(angular_velocity_body(s));
-}
-
 /// k = m g l/I3, 1/s². l is the signed coordinate of the mass centre along body axis 1, m.
 double kovalevskaya_k(const Problem& problem) {
   const Body& body = problem.bodies.front();
   return body.mass * gravity(problem).norm() * body.center_of_mass.x() / body.inertia(2, 2);
 }
 
-double kovalevskaya(const Problem& problem, const Snapshot& s) {
-  const Vector w = angular_velocity_body(s), gamma = s.rotation.transpose() * up(problem);
-  const double k = kovalevskaya_k(problem);
-  const double real = w[0] * w[0] - w[1] * w[1] - k * gamma[0];
-  const double imaginary = 2 * w[0] * w[1] - k * gamma[1];
-  return real * real + imaginary * imaginary;
+// Values of the invariants, each a function of the snapshot of the first body. S: double for one problem, or Lanes for
+// lane_count problems.
+
+using Problems = std::span<const Problem>;
+
+/// The vector of each problem, one in each lane.
+template <class S, class OfProblem>
+Vector3<S> gathered(Problems problems, const OfProblem& of) {
+  Vector3<S> all;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    all[k] = gather<S>([&](int lane) { return Vector(of(problems[std::size_t(lane)]))[k]; });
+  }
+  return all;
 }
 
-double casimir(const Problem&, const Snapshot& s) { return s.angular_momentum.norm(); }
+template <class S>
+Vector3<S> angular_velocity_body(const BodySnapshot<S>& s) {
+  return s.rotation.transpose() * s.angular_velocity;
+}
+
+template <class S>
+struct PPhi {
+  Vector3<S> vertical;
+  explicit PPhi(Problems problems) : vertical(gathered<S>(problems, up)) {}
+  S operator()(const BodySnapshot<S>& s) const { return vertical.dot(s.angular_momentum); }
+};
+
+template <class S>
+struct PPsi {
+  Vector3<S> inertia3;
+  explicit PPsi(Problems problems)
+      : inertia3(gathered<S>(problems, [](const Problem& p) { return p.bodies.front().inertia.row(2); })) {}
+  S operator()(const BodySnapshot<S>& s) const { return inertia3.dot(angular_velocity_body(s)); }
+};
+
+template <class S>
+struct Kovalevskaya {
+  Vector3<S> vertical;
+  S k;
+  explicit Kovalevskaya(Problems problems)
+      : vertical(gathered<S>(problems, up)),
+        k(gather<S>([&](int lane) { return kovalevskaya_k(problems[std::size_t(lane)]); })) {}
+  S operator()(const BodySnapshot<S>& s) const {
+    const Vector3<S> w = angular_velocity_body(s), gamma = s.rotation.transpose() * vertical;
+    const S real = w[0] * w[0] - w[1] * w[1] - k * gamma[0];
+    const S imaginary = S(2) * w[0] * w[1] - k * gamma[1];
+    return real * real + imaginary * imaginary;
+  }
+};
+
+template <class S>
+struct Casimir {
+  explicit Casimir(Problems) {}
+  S operator()(const BodySnapshot<S>& s) const { return s.angular_momentum.norm(); }
+};
+
+template <template <class> class Invariant>
+double value(const Problem& problem, const Snapshot& s) {
+  return Invariant<double>({&problem, 1})(s);
+}
+
+template <template <class> class Invariant>
+LaneInvariant lanes_of(Problems problems) {
+  return Invariant<Lanes>(problems);
+}
 
 // Scales of the invariants: magnitude of the terms, which stays positive when the terms cancel.
 
@@ -132,14 +178,14 @@ const std::vector<InvariantKind>& invariant_catalogue() {
   static const std::vector<InvariantKind> invariants = {
       {"p_phi", "kg m^2/s",
        "vertical component of a top's angular momentum about its pivot, against gravity or along z", refuse_unless_top,
-       p_phi, momentum_scale},
-      {"p_psi", "kg m^2/s", "I3 W3, a symmetric top's angular momentum along body axis 3", refuse_p_psi, p_psi,
-       momentum_scale},
+       value<PPhi>, lanes_of<PPhi>, momentum_scale},
+      {"p_psi", "kg m^2/s", "I3 W3, a symmetric top's angular momentum along body axis 3", refuse_p_psi, value<PPsi>,
+       lanes_of<PPsi>, momentum_scale},
       {"kovalevskaya", "1/s^4",
        "(W1^2 - W2^2 - k g1)^2 + (2 W1 W2 - k g2)^2, g the vertical in body axes, k = m g l/I3, inertia [2, 2, 1] I3",
-       refuse_kovalevskaya, kovalevskaya, kovalevskaya_scale},
+       refuse_kovalevskaya, value<Kovalevskaya>, lanes_of<Kovalevskaya>, kovalevskaya_scale},
       {"casimir", "kg m^2/s", "|L| about the mass centre, or the pivot, of a body without torque", refuse_casimir,
-       casimir, momentum_scale},
+       value<Casimir>, lanes_of<Casimir>, momentum_scale},
   };
   return invariants;
 }

@@ -3,13 +3,19 @@
 // Kovalevskaya's integral, Casimirs. Each is a scalar function of the state with a unit and a scale for relative drift.
 #pragma once
 
+#include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/math/lanes.hpp"
 #include "core/system/system.hpp"
 
 namespace polhode {
+
+/// The value of an invariant in the lanes of an ensemble.
+using LaneInvariant = std::function<Lanes(const BodySnapshot<Lanes>& first_body)>;
 
 /// An invariant of the first body.
 struct InvariantKind {
@@ -20,6 +26,8 @@ struct InvariantKind {
   std::string (*refusal)(const Problem&);
   /// Value of the invariant, in `unit`.
   double (*value)(const Problem&, const BodySnapshot<double>& first_body);
+  /// The invariant in an ensemble of lane_count problems: in each lane the digits of `value`.
+  LaneInvariant (*in_lanes)(std::span<const Problem> problems);
   /// Magnitude of the terms of the value in this state, in `unit`. A relative drift is divided by its maximum along the
   /// exact motion.
   double (*scale)(const Problem&, const BodySnapshot<double>& first_body);

@@ -76,7 +76,7 @@ Measurement<S> RigidBodies<S, O, A, N>::measure(const VectorX<S>& y) const {
 }
 
 template <class S, Orientation O, AngularState A, BodyCount N>
-BodySnapshot<S> RigidBodies<S, O, A, N>::snapshot(const VectorX<S>& flat, std::size_t i) const {
+POLHODE_FLATTEN BodySnapshot<S> RigidBodies<S, O, A, N>::snapshot(const VectorX<S>& flat, std::size_t i) const {
   const S* y = flat.data();
   const Constants& b = this->body(i);
   const Layout::Slot s = this->slot(i);

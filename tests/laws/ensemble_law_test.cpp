@@ -3,7 +3,9 @@
 // however they end.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "core/run/simulate_ensemble.hpp"
 #include "integrators/catalogue.hpp"
@@ -90,6 +92,34 @@ void expect_same(const Seen& a, const Seen& b) {
   }
 }
 
+/// Quantities of a body, as one run and as an ensemble measure them.
+template <class S>
+S spin(const BodySnapshot<S>& body) {
+  return body.angular_momentum.norm();
+}
+template <class S>
+S advance(const BodySnapshot<S>& body) {
+  return body.velocity.dot(body.rotation * body.angular_velocity);
+}
+
+/// Measures them at every step of a run alone.
+struct Watch final : Observer {
+  const System<double>& system;
+  Seen& seen;
+  std::array<std::vector<double>, 2> values{};
+
+  Watch(const System<double>& of, Seen& also) : system(of), seen(also) {}
+  void on_start(const State<double>& state, const Sample& sample) override { seen.on_start(state, sample); }
+  std::size_t on_samples(std::span<const Sample> part) override { return seen.on_samples(part); }
+  void on_state(const State<double>& state, const Sample& sample) override {
+    const BodySnapshot<double> body = system.snapshot(state.y, 0);
+    values[0].push_back(spin(body));
+    values[1].push_back(advance(body));
+    if (sample.t >= seen.next_state()) seen.on_state(state, sample);
+  }
+  double next_state() const override { return 0; }
+};
+
 class EnsembleLaw : public testing::TestWithParam<std::string> {
  protected:
   /// Runs the problems alone and together, and compares.
@@ -98,19 +128,23 @@ class EnsembleLaw : public testing::TestWithParam<std::string> {
     const IntegratorEntry& entry = *find_integrator(GetParam());
     std::vector<std::unique_ptr<System<double>>> systems;
     std::vector<Seen> together(problems.size());
+    std::vector<std::array<std::vector<double>, 2>> watched(problems.size());
     std::vector<LaneRun> runs;
     for (std::size_t i = 0; i < problems.size(); ++i) {
       systems.push_back(make_system<double>(problems[i], f));
       ASSERT_FALSE(lane_key(*systems[i]).empty());
       ASSERT_EQ(lane_key(*systems[i]), lane_key(*systems[0]));
       together[i].bound = bound;
-      runs.push_back({*systems[i], together[i]});
+      runs.push_back({*systems[i], together[i], [&watched, i](std::size_t which, std::span<const double> values) {
+                        watched[i][which].insert(watched[i][which].end(), values.begin(), values.end());
+                      }});
     }
     std::vector<Problem> padded = problems;
     padded.resize(std::size_t(lane_count), problems.back());
     const auto ensemble = make_ensemble(padded, f);
     const auto method = entry.make_lanes(*ensemble, {.dt = schedule.dt, .t_end = schedule.t_end});
-    const auto outcomes = simulate_ensemble(*ensemble, *method, runs, schedule);
+    const LaneQuantity quantities[] = {spin<Lanes>, advance<Lanes>};
+    const auto outcomes = simulate_ensemble(*ensemble, *method, runs, schedule, nullptr, quantities);
     ASSERT_EQ(outcomes.size(), problems.size());
     for (std::size_t i = 0; i < problems.size(); ++i) {
       SCOPED_TRACE("lane " + std::to_string(i));
@@ -118,13 +152,15 @@ class EnsembleLaw : public testing::TestWithParam<std::string> {
       alone.bound = bound;
       const auto own = entry.make(*systems[i], {.dt = schedule.dt, .t_end = schedule.t_end});
       State<double> state = systems[i]->start();
-      const RunOutcome outcome = simulate(*systems[i], *systems[i], *own, state, schedule, alone);
+      Watch watch(*systems[i], alone);
+      const RunOutcome outcome = simulate(*systems[i], *systems[i], *own, state, schedule, watch);
       EXPECT_EQ(outcomes[i].status, outcome.status);
       EXPECT_EQ(outcomes[i].message, outcome.message);
       EXPECT_EQ(outcomes[i].t, outcome.t);
       EXPECT_EQ(outcomes[i].steps, outcome.steps);
       EXPECT_EQ(outcomes[i].evaluations, outcome.evaluations);
       expect_same(together[i], alone);
+      EXPECT_EQ(watched[i], watch.values);
     }
   }
 };

@@ -149,12 +149,13 @@ void classify_both_ways(const DriftRecord& record, const DriftGrowth& g, DriftCl
 
 DriftClass classify(const DriftRecord& record) {
   DriftClass c;
-  const auto growth = growth_of(record.blocks);
-  if (growth) c.slope_half_width = growth->slope_half_width_95;
   if (record.largest <= record.round_off) {
+    c.slope_half_width = slope_half_width_95(record.blocks);
     c.name = "round-off";
     return c;
   }
+  const auto growth = growth_of(record.blocks);
+  if (growth) c.slope_half_width = growth->slope_half_width_95;
   c.name = "undecided";
   if (record.blocks.size() < fewest_blocks) {
     if (record.samples > 0)

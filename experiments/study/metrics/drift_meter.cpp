@@ -2,6 +2,7 @@
 #include "experiments/study/metrics/drift_meter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -12,32 +13,41 @@ namespace {
 
 constexpr int exact_instants = 50;
 constexpr int most_attitude_errors = 64;
+constexpr std::size_t most_at_once = 64;  // samples
 
 /// Sets worst to max(worst, |x|), or to NaN if x is NaN.
 void raise(double& worst, double x) {
   const double size = std::abs(x);
-  if (!(size <= worst)) worst = size;
+  worst = size <= worst ? worst : size;
 }
 
 std::optional<double> finite(double x) { return std::isfinite(x) ? std::optional(x) : std::nullopt; }
 
 }  // namespace
 
-void ThinnedSeries::add(double t, double energy, double linear2, double angular2, double defect) {
-  if (in_open_ == 0 || !(std::abs(energy) <= std::abs(open_.energy_drift_rel))) {
-    open_.t = t;
-    open_.energy_drift_rel = energy;
+void ThinnedSeries::add(std::span<const double> t, std::span<const double> energy, std::span<const double> linear2,
+                        std::span<const double> angular2, std::span<const double> defect) {
+  for (std::size_t i = 0; i < t.size();) {
+    if (in_open_ == 0) open_ = {t[i], energy[i], linear2[i], angular2[i], defect[i]};
+    if (per_point_ == 1) {
+      ++i;
+      close();
+      continue;
+    }
+    const std::size_t end = std::min(t.size(), i + per_point_ - in_open_);
+    SeriesPoint p = open_;  // local copy, so that the compiler keeps it in registers
+    in_open_ += end - i;
+    for (; i < end; ++i) {
+      const bool larger = !(std::abs(energy[i]) <= std::abs(p.energy_drift_rel));
+      p.t = larger ? t[i] : p.t;
+      p.energy_drift_rel = larger ? energy[i] : p.energy_drift_rel;
+      p.linear_momentum_drift_rel = std::max(p.linear_momentum_drift_rel, linear2[i]);
+      p.angular_momentum_drift_rel = std::max(p.angular_momentum_drift_rel, angular2[i]);
+      p.orientation_defect = std::max(p.orientation_defect, defect[i]);
+    }
+    open_ = p;
+    if (in_open_ == per_point_) close();
   }
-  if (in_open_ == 0) {
-    open_.linear_momentum_drift_rel = linear2;
-    open_.angular_momentum_drift_rel = angular2;
-    open_.orientation_defect = defect;
-  } else {
-    open_.linear_momentum_drift_rel = std::max(open_.linear_momentum_drift_rel, linear2);
-    open_.angular_momentum_drift_rel = std::max(open_.angular_momentum_drift_rel, angular2);
-    open_.orientation_defect = std::max(open_.orientation_defect, defect);
-  }
-  if (++in_open_ == per_point_) close();
 }
 
 void ThinnedSeries::close() {
@@ -102,49 +112,81 @@ void DriftMeter::on_start(const State<double>& state, const Sample& sample) {
 }
 
 std::size_t DriftMeter::on_samples(std::span<const Sample> samples) {
+  std::size_t taken = 0;
+  while (taken < samples.size()) {
+    const auto part = samples.subspan(taken, std::min(most_at_once, samples.size() - taken));
+    const std::size_t taken_now = take(part);
+    taken += taken_now;
+    if (taken_now < part.size()) break;
+  }
+  return taken;
+}
+
+/// Takes at most most_at_once samples: the changes of all of them first, then each of the sums and maxima, so that
+/// neither waits for the other.
+std::size_t DriftMeter::take(std::span<const Sample> samples) {
+  struct Column : std::array<double, most_at_once> {};
+  Column t, energy, linear2, angular2, defect;
   const double bound = scales_.energy > 0 ? hopeless_drift * scales_.energy : std::numeric_limits<double>::max();
-  const double per_t_end = 1 / t_end_, energy_start = energy_start_;
+  const double energy_start = energy_start_;
+  const Vector3<double> linear_start = linear_start_, angular_start = angular_start_, center = scales_.mass_center;
   const ConservedMomenta conserved = conserved_;
   const bool several = system_.moving() > 1;
-  Sums sums = sums_;  // local copy, so that the compiler keeps it in registers
-  std::size_t taken = 0;
-  for (; taken < samples.size(); ++taken) {
-    const Sample& sample = samples[taken];
+  std::size_t taken = 0, seen = 0;
+  while (seen < samples.size()) {
+    const Sample& sample = samples[seen];
     const Measurement<double>& m = sample.seen;
-    const double energy = sample.ledger(lost_in_contact_) - energy_start;
-    const double linear2 = conserved.linear ? (m.linear_momentum - linear_start_).squaredNorm() : 0.0;
-    double angular2 = 0;
+    t[seen] = sample.t;
+    energy[seen] = sample.ledger(lost_in_contact_) - energy_start;
+    linear2[seen] = conserved.linear ? (m.linear_momentum - linear_start).squaredNorm() : 0.0;
+    angular2[seen] = 0;
     if (conserved.angular) {
-      Vector3<double> change = m.angular_momentum - angular_start_;
-      if (several) change -= scales_.mass_center.cross(m.linear_momentum - linear_start_);
-      angular2 = change.squaredNorm();
+      Vector3<double> change = m.angular_momentum - angular_start;
+      if (several) change -= center.cross(m.linear_momentum - linear_start);
+      angular2[seen] = change.squaredNorm();
     }
-    raise(sums.worst_energy, energy);
-    raise(sums.worst_linear2, linear2);
-    raise(sums.worst_angular2, angular2);
-    raise(sums.worst_defect, m.orientation_defect);
-    sums.last_energy = energy;
-    series_.add(sample.t, energy, linear2, angular2, m.orientation_defect);
-    blocks_.add(sample.t, energy);
-    const double s = sample.t * per_t_end;
+    defect[seen] = m.orientation_defect;
+    const bool hopeless = !(std::abs(energy[seen]) <= bound && m.kinetic <= bound);
+    ++seen;
+    if (hopeless) break;
+    ++taken;
+  }
+  const auto first = [&](const Column& c) { return std::span(c).first(seen); };
+  series_.add(first(t), first(energy), first(linear2), first(angular2), first(defect));
+  blocks_.add(first(t), first(energy));
+  Sums sums = sums_;  // local copy, so that the compiler keeps it in registers
+  const double per_t_end = 1 / t_end_;
+  for (std::size_t i = 0; i < seen; ++i) {
+    raise(sums.worst_energy, energy[i]);
+    raise(sums.worst_linear2, linear2[i]);
+    raise(sums.worst_angular2, angular2[i]);
+    raise(sums.worst_defect, defect[i]);
+    const double s = t[i] * per_t_end;
     sums.t += s;
     sums.tt += s * s;
-    sums.d += energy;
-    sums.td += s * energy;
-    ++sums.samples;
-    if (!(std::abs(energy) <= bound && m.kinetic <= bound)) break;
+    sums.d += energy[i];
+    sums.td += s * energy[i];
   }
+  if (seen > 0) sums.last_energy = energy[seen - 1];
+  sums.samples += static_cast<std::int64_t>(seen);
   sums_ = sums;
   return taken;
 }
 
+void DriftMeter::on_invariant(std::size_t k, std::span<const double> values) {
+  Watched& w = invariants_[k];
+  double worst = w.worst;
+  for (const double value : values) raise(worst, value - w.start);
+  w.worst = worst;
+}
+
 double DriftMeter::next_state() const {
-  if (!invariants_.empty() || (has_exact_ && exact_at_samples_)) return 0;
+  if (measures_invariants() || (has_exact_ && exact_at_samples_)) return 0;
   return has_exact_ ? next_exact_ : std::numeric_limits<double>::infinity();
 }
 
 void DriftMeter::on_state(const State<double>& state, const Sample&) {
-  if (!invariants_.empty()) measure_further(state);
+  if (measures_invariants()) measure_further(state);
   if (!has_exact_ || (!exact_at_samples_ && state.t < next_exact_)) return;
   measure_errors(state);
   while (next_exact_ <= state.t) {

@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/exact/exact_motion.hpp"
@@ -24,9 +25,11 @@ namespace polhode::study::inline metrics {
 /// History of a run in at most 256 intervals of equally many samples; when all are in use, neighbours are merged.
 class ThinnedSeries {
  public:
-  /// Adds a sample: time, energy drift (signed), squared changes of linear and angular momentum, orientation defect.
+  ThinnedSeries() { points_.reserve(capacity); }
+  /// Adds samples: times, energy drifts (signed), squared changes of linear and angular momentum, orientation defects.
   /// Energies and momenta in any units.
-  void add(double t, double energy, double linear2, double angular2, double defect);
+  void add(std::span<const double> t, std::span<const double> energy, std::span<const double> linear2,
+           std::span<const double> angular2, std::span<const double> defect);
   /// The history, with drifts relative to these scales (in the units of add()); 0 where a scale is 0.
   std::vector<SeriesPoint> finish(double energy_scale, double linear_scale, double angular_scale);
 
@@ -58,6 +61,11 @@ class DriftMeter final : public Observer {
   void on_contact_energy(const ContactLosses& losses) override { lost_in_contact_ = losses.total(); }
   void on_impacts(std::span<const Impact> impacts) override;
 
+  /// Invariants are measured by others, who tell their values after each step. To be called before the run.
+  void expect_invariants() { invariants_told_ = true; }
+  /// Receives values of the k-th invariant after consecutive steps.
+  void on_invariant(std::size_t k, std::span<const double> values);
+
   /// Scale of the energy drift, J; 0: nothing moves, and there are no relative drifts.
   double energy_scale() const { return scales_.energy; }
 
@@ -66,7 +74,9 @@ class DriftMeter final : public Observer {
   void report(RunResult& result);
 
  private:
+  bool measures_invariants() const { return !invariants_.empty() && !invariants_told_; }
   void measure_further(const State<double>& state);
+  std::size_t take(std::span<const Sample> samples);
   void measure_errors(const State<double>& state);
   static void forget_errors(RunResult& result);
   void judge_by_reference(RunResult& result) const;
@@ -82,6 +92,7 @@ class DriftMeter final : public Observer {
   bool exact_at_samples_;
   ConservedMomenta conserved_;
   std::vector<Watched> invariants_;
+  bool invariants_told_ = false;
   ExactMotion exact_;
   std::shared_ptr<const ReferenceMotion> reference_;
   std::optional<ReferenceMotion::Follower> follower_;

@@ -31,7 +31,7 @@ PolhodeError::PolhodeError(const Matrix3<double>& inertia, const Vector3<double>
   const double count =
       std::isfinite(period) ? std::ceil(std::clamp(period * speed_ / longest_step, points, most_points)) : points;
   search_step_ = std::isfinite(period) ? period / count : longest_step / speed_;
-  for (int i = 0; i < static_cast<int>(count); ++i) ring_.push_back(exact(i * search_step_).value);
+  points_ = static_cast<std::size_t>(count);
 }
 
 PolhodeError::Momentum PolhodeError::exact(double t) const {
@@ -40,20 +40,17 @@ PolhodeError::Momentum PolhodeError::exact(double t) const {
   return {y, rate, rate.cross(omega) + y.cross(inverse_inertia_ * rate)};
 }
 
-/// Phase of the nearest point by Newton's method from `phase`, with steps of at most search_step_; by the Gauss–Newton
+/// The nearest point by Newton's method from `phase`, with steps of at most search_step_; by the Gauss–Newton
 /// method where the squared distance is not sufficiently convex.
-double PolhodeError::refined(double t, const Vector3<double>& y, double phase) const {
+PolhodeError::Nearest PolhodeError::refined(double t, const Vector3<double>& y, double phase) const {
   constexpr int most_steps = 30;
   constexpr double rounding = std::numeric_limits<double>::epsilon();
-  double best = phase, least = std::numeric_limits<double>::infinity();
+  Nearest best{phase, std::numeric_limits<double>::infinity()};
   for (int i = 0; i < most_steps; ++i) {
     const Momentum m = exact(t + phase);
     const Vector3<double> off = y - m.value;
     const double distance = off.squaredNorm(), rate2 = m.rate.squaredNorm();
-    if (distance < least) {
-      least = distance;
-      best = phase;
-    }
+    if (distance < best.distance2) best = {phase, distance};
     if (!(rate2 > 0)) break;
     const double curvature = rate2 - off.dot(m.second);
     const double step =
@@ -65,8 +62,11 @@ double PolhodeError::refined(double t, const Vector3<double>& y, double phase) c
 }
 
 /// Phase of the nearest point of the ring, within half a period of the expected phase.
-double PolhodeError::nearest_of_ring(double t, const Vector3<double>& y, double expected) const {
-  const auto size = static_cast<double>(ring_.size());
+double PolhodeError::nearest_of_ring(double t, const Vector3<double>& y, double expected) {
+  for (std::size_t i = ring_.size(); i < points_; ++i) {
+    ring_.push_back(exact(static_cast<double>(i) * search_step_).value);
+  }
+  const auto size = static_cast<double>(points_);
   const double centre = std::round((t + expected) / search_step_);
   double best = centre, least = std::numeric_limits<double>::infinity();
   for (double place = centre - std::floor(size / 2); place < centre + size / 2; ++place) {
@@ -84,17 +84,17 @@ PolhodeError::At PolhodeError::at(double t, const BodySnapshot<double>& body) {
   const Vector3<double> y = inertia_ * (body.rotation.transpose() * body.angular_velocity);
   if (!y.allFinite()) return {t, t, std::numeric_limits<double>::infinity()};
   const double expected = phase_ + phase_rate_ * (t - t_);
-  double phase = refined(t, y, expected), least = (y - exact(t + phase).value).squaredNorm();
+  Nearest found = refined(t, y, expected);
   // If y is close to the curve, the minimum next to the expected phase is the global one.
   constexpr double close = 0.02;
-  if (!(least <= close * close * size_ * size_)) {
+  if (!(found.distance2 <= close * close * size_ * size_)) {
     const double other = nearest_of_ring(t, y, expected);
-    if ((y - exact(t + other).value).squaredNorm() < least) phase = refined(t, y, other);
+    if ((y - exact(t + other).value).squaredNorm() < found.distance2) found = refined(t, y, other);
   }
-  if (t > t_) phase_rate_ = (phase - phase_) / (t - t_);
+  if (t > t_) phase_rate_ = (found.phase - phase_) / (t - t_);
   t_ = t;
-  phase_ = phase;
-  return {phase, speed_ * phase, (y - exact(t + phase).value).norm() / size_};
+  phase_ = found.phase;
+  return {phase_, speed_ * phase_, std::sqrt(found.distance2) / size_};
 }
 
 }  // namespace polhode::study::metrics

@@ -9,6 +9,7 @@
 // At the nearest point the two parts are at right angles: |y − y_exact(t)|² ≈ (|ẏ| τ)² + (off |y(0)|)².
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -37,15 +38,21 @@ class PolhodeError {
   struct Momentum {
     Vector3<double> value, rate, second;  ///< y in kg m²/s, and its first and second time derivatives, body frame
   };
+  struct Nearest {
+    double phase = 0;      ///< s
+    double distance2 = 0;  ///< squared distance of y from the exact one at that phase, (kg m²/s)²
+  };
   Momentum exact(double t) const;
-  double refined(double t, const Vector3<double>& y, double phase) const;
-  double nearest_of_ring(double t, const Vector3<double>& y, double expected) const;
+  Nearest refined(double t, const Vector3<double>& y, double phase) const;
+  double nearest_of_ring(double t, const Vector3<double>& y, double expected);
 
   Matrix3<double> inertia_, inverse_inertia_;
   FreeTop top_;
-  double speed_, size_;                ///< |ω(0)|, |y(0)|
-  double search_step_;                 ///< time between the points of the ring, s
-  std::vector<Vector3<double>> ring_;  ///< exact y at equal steps over a period, for the search of the nearest point
+  double speed_, size_;  ///< |ω(0)|, |y(0)|
+  double search_step_;   ///< time between the points of the ring, s
+  std::size_t points_;   ///< number of the points of the ring
+  /// Exact y at equal steps over a period, for the search of the nearest point; made when it is first needed.
+  std::vector<Vector3<double>> ring_;
   double t_ = 0, phase_ = 0, phase_rate_ = 0;
 };
 

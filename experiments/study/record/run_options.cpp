@@ -390,14 +390,28 @@ std::vector<RunOption> options_of_contact() {
                                      &ContactConfig::impact_timing, impact_timing_catalogue)};
 }
 
-std::vector<RunOption>& table() {
-  static std::vector<RunOption> all = [] {
-    std::vector<RunOption> options;
+struct OptionTable {
+  std::vector<RunOption> options;
+  std::vector<const RunOption*> by_column;
+
+  OptionTable() {
     for (const auto& part : {options_of_motion(), options_of_formulation(), options_of_summation(),
                              options_of_settings(), options_of_time(), options_of_contact()})
       options.insert(options.end(), part.begin(), part.end());
-    return options;
-  }();
+    sort();
+  }
+
+  void sort() {
+    by_column.clear();
+    for (const RunOption& option : options) by_column.push_back(&option);
+    std::stable_sort(by_column.begin(), by_column.end(), [](const RunOption* a, const RunOption* b) {
+      return a->on_demand != b->on_demand ? b->on_demand : a->on_demand && a->column < b->column;
+    });
+  }
+};
+
+OptionTable& table() {
+  static OptionTable all;
   return all;
 }
 
@@ -424,16 +438,9 @@ bool has_column(const RunOption& option, const NamedOptions& named, Roles withou
 
 }  // namespace
 
-const std::vector<RunOption>& run_options() { return table(); }
+const std::vector<RunOption>& run_options() { return table().options; }
 
-std::vector<const RunOption*> options_by_column() {
-  std::vector<const RunOption*> all;
-  for (const RunOption& option : run_options()) all.push_back(&option);
-  std::stable_sort(all.begin(), all.end(), [](const RunOption* a, const RunOption* b) {
-    return a->on_demand != b->on_demand ? b->on_demand : a->on_demand && a->column < b->column;
-  });
-  return all;
-}
+const std::vector<const RunOption*>& options_by_column() { return table().by_column; }
 
 std::vector<const RunOption*> options_of_role(RunOption::Role role) {
   auto all = options_by_column();
@@ -465,8 +472,14 @@ RunOption without_member(RunOption option) {
   return option;
 }
 
-AddedRunOption::AddedRunOption(RunOption option) { table().push_back(std::move(option)); }
-AddedRunOption::~AddedRunOption() { table().pop_back(); }
+AddedRunOption::AddedRunOption(RunOption option) {
+  table().options.push_back(std::move(option));
+  table().sort();
+}
+AddedRunOption::~AddedRunOption() {
+  table().options.pop_back();
+  table().sort();
+}
 
 std::string file_key(const RunOption& option) {
   std::string key = option.name;

@@ -12,6 +12,7 @@
 #include "collision/contact/impact_timing.hpp"
 #include "core/run/setting.hpp"
 #include "core/run/simulate_ensemble.hpp"
+#include "core/system/invariants.hpp"
 #include "experiments/study/metrics/contact_meter.hpp"
 #include "experiments/study/metrics/drift_meter.hpp"
 #include "experiments/study/record/result_numbers.hpp"
@@ -154,13 +155,19 @@ std::vector<RunResult> side_by_side(std::span<const LanedRun> runs, const std::a
     truths.push_back(make_system<double>(run.scenario.problem, config.formulation));
     meters.push_back(std::make_unique<DriftMeter>(*truths.back(), run.scenario.invariants, config.t_end, false,
                                                   true_motion_of(run.config, run.scenario, stop, references)));
-    lanes.push_back({*truths.back(), *meters.back()});
+    DriftMeter& meter = *meters.back();
+    meter.expect_invariants();
+    lanes.push_back({*truths.back(), meter,
+                     [&meter](std::size_t k, std::span<const double> values) { meter.on_invariant(k, values); }});
   }
   problems.resize(std::size_t(lane_count), problems.back());  // lanes that nobody looks at
+  std::vector<LaneQuantity> invariants;
+  for (const std::string& name : runs.front().scenario.invariants)
+    invariants.push_back(find_invariant(name)->in_lanes(problems));
   const auto system = make_ensemble(problems, config.formulation);
   const auto integrator = integrator_of<Lanes>(config, *system);
   const auto started = Clock::now();
-  const auto outcomes = simulate_ensemble(*system, *integrator, lanes, schedule_of(config), stop);
+  const auto outcomes = simulate_ensemble(*system, *integrator, lanes, schedule_of(config), stop, invariants);
   const double seconds = seconds_since(started) / static_cast<double>(runs.size());
   std::vector<RunResult> results;
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -246,8 +253,9 @@ std::string ensemble_key(const RunConfig& config, const Scenario& scenario, cons
   const std::string key = lane_key(*make_system<double>(scenario.problem, config.formulation));
   if (key.empty()) return {};
   const Formulation& f = config.formulation;
-  return fmt::format("{} {} {} {} {} {} {} {} {}", key, config.integrator, name(f.orientation), name(f.angular_state),
-                     f.gyroscopic, name(f.rotation_from), config.normalize, *config.dt, config.t_end);
+  return fmt::format("{} {} {} {} {} {} {} {} {} {}", key, config.integrator, name(f.orientation),
+                     name(f.angular_state), f.gyroscopic, name(f.rotation_from), config.normalize, *config.dt,
+                     config.t_end, fmt::join(scenario.invariants, " "));
 }
 
 std::vector<RunResult> carry_out_together(std::span<const LanedRun> runs, const std::atomic<bool>* stop,

@@ -1,7 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/statistics/block_means.hpp"
 
+#include <algorithm>
+
 namespace polhode::study::inline statistics {
+
+void BlockMeans::add(std::span<const double> t, std::span<const double> values) {
+  for (std::size_t i = 0; i < t.size();) {
+    const std::size_t end = std::min(t.size(), i + per_block_ - in_open_);
+    BlockMean sum = open_;  // local copy, so that the compiler keeps it in registers
+    in_open_ += end - i;
+    for (; i < end; ++i) {
+      sum.t += t[i];
+      sum.value += values[i];
+    }
+    open_ = sum;
+    if (in_open_ == per_block_) close();
+  }
+}
 
 void BlockMeans::close() {
   sums_.push_back(open_);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace polhode::study::inline statistics {
@@ -15,11 +16,10 @@ struct BlockMean {
 /// Means of a series over blocks of equally many samples; when all blocks are in use, neighbours are merged.
 class BlockMeans {
  public:
-  void add(double t, double value) {
-    open_.t += t;
-    open_.value += value;
-    if (++in_open_ == per_block_) close();
-  }
+  BlockMeans() { sums_.reserve(capacity); }
+  void add(double t, double value) { add({&t, 1}, {&value, 1}); }
+  /// Adds consecutive samples, as many times as values.
+  void add(std::span<const double> t, std::span<const double> values);
   /// The blocks. The last one is included if it is at least half full.
   std::vector<BlockMean> finish() const;
 

@@ -38,7 +38,8 @@ Cosines::Cosines(Index n) : blocks(n), size(n - 1), even_(size / 2, (n + 1) / 2)
     shape.variance = &shape == &shapes.front()  ? Spectrum(Spectrum::Ones(size))
                      : &shape == &shapes.back() ? walk
                                                 : Spectrum(1 + (ratio *= 8) * walk.array());
-    shape.logarithm = shape.variance.array().log();
+    shape.sum_of_logs = shape.variance.array().log();
+    for (Index k = 1; k < size; ++k) shape.sum_of_logs[k] += shape.sum_of_logs[k - 1];
   }
 }
 
@@ -73,11 +74,13 @@ Regressors Cosines::edges(Index count) const {
   return x;
 }
 
-const Cosines& cosines_of(Index n) {
+std::shared_ptr<const Cosines> cosines_of(Index n) {
   constexpr std::size_t most = 16;
-  thread_local std::map<Index, Cosines> kept;
+  thread_local std::map<Index, std::shared_ptr<const Cosines>> kept;
   if (kept.size() >= most && !kept.contains(n)) kept.clear();
-  return kept.try_emplace(n, n).first->second;
+  auto& cosines = kept[n];
+  if (!cosines) cosines = std::make_shared<const Cosines>(n);
+  return cosines;
 }
 
 namespace {
@@ -102,58 +105,76 @@ double dot(const double* a, const double* b, Index n) {
   return sum;
 }
 
-Fit fit(const Spectrum& c, const Regressors& x, const Spectrum& v, double sum_of_log_v) {
+Regression::Regression(const Regressors& x, const Spectrum& v, double sum_of_log_v)
+    : x_(x), weighted_(x.rows(), x.cols()), weight_(v.cwiseInverse()), sum_of_log_v_(sum_of_log_v) {
+  const Index n = x.rows();
+  normal_.resize(x.cols(), x.cols());
+  for (Index j = 0; j < x.cols(); ++j) {
+    weighted_.col(j) = x.col(j).cwiseProduct(weight_);
+    for (Index i = 0; i <= j; ++i) {
+      normal_(i, j) = normal_(j, i) = dot(x.col(i).data(), weighted_.col(j).data(), n);
+    }
+  }
+  solve();
+}
+
+Regression::Regression(const Regressors& x, const Regression& behind)
+    : x_(x.rows(), x.cols() + behind.x_.cols()),
+      weighted_(x_.rows(), x_.cols()),
+      weight_(behind.weight_),
+      sum_of_log_v_(behind.sum_of_log_v_) {
+  const Index n = x.rows(), front = x.cols(), rest = behind.x_.cols();
+  x_ << x, behind.x_;
+  weighted_ << weight_.asDiagonal() * x, behind.weighted_;
+  normal_.resize(x_.cols(), x_.cols());
+  normal_.bottomRightCorner(rest, rest) = behind.normal_;
+  for (Index i = 0; i < front; ++i) {
+    for (Index j = i; j < x_.cols(); ++j) {
+      normal_(i, j) = normal_(j, i) = dot(x_.col(i).data(), weighted_.col(j).data(), n);
+    }
+  }
+  solve();
+}
+
+void Regression::solve() {
+  const Eigen::LDLT<Normal> factors(normal_);
+  covariance_ = factors.solve(Normal::Identity(normal_.rows(), normal_.cols()));
+  log_determinant_ = factors.vectorD().array().log().sum();
+}
+
+Fit Regression::fit(const Spectrum& c) const {
   Fit f;
   const Index n = c.size();
-  const Spectrum weight = v.cwiseInverse();
-  Spectrum weighted(n);
-  Normal normal(x.cols(), x.cols());
-  Coefficients right(x.cols());
-  for (Index j = 0; j < x.cols(); ++j) {
-    weighted = x.col(j).cwiseProduct(weight);
-    for (Index i = 0; i <= j; ++i) normal(i, j) = normal(j, i) = dot(x.col(i).data(), weighted.data(), n);
-    right[j] = dot(weighted.data(), c.data(), n);
-  }
-  const Eigen::LDLT<Normal> factors(normal);
-  f.covariance = factors.solve(Normal::Identity(x.cols(), x.cols()));
+  Coefficients right(x_.cols());
+  for (Index j = 0; j < x_.cols(); ++j) right[j] = dot(weighted_.col(j).data(), c.data(), n);
+  f.covariance = covariance_;
   f.coefficients = f.covariance * right;
   Spectrum rest = c;
-  for (Index j = 0; j < x.cols(); ++j) rest -= f.coefficients[j] * x.col(j);
-  weighted = rest.cwiseProduct(weight);
+  for (Index j = 0; j < x_.cols(); ++j) rest -= f.coefficients[j] * x_.col(j);
+  const Spectrum weighted = rest.cwiseProduct(weight_);
   // The data are of size one: below this there is nothing but the rounding of this arithmetic.
   constexpr double rounding2 = 1e-30;
   f.squares = std::max(dot(rest.data(), weighted.data(), n), rounding2);
-  f.degrees = static_cast<double>(n - x.cols());
-  f.restricted = -0.5 * (sum_of_log_v + f.degrees * std::log(f.squares) + factors.vectorD().array().log().sum());
+  f.degrees = static_cast<double>(n - x_.cols());
+  f.restricted = -0.5 * (sum_of_log_v_ + f.degrees * std::log(f.squares) + log_determinant_);
   return f;
 }
 
-Spectrum noise_shape(const Cosines& cosines, const Spectrum& c, const Regressors& x) {
-  Spectrum best;
-  double most = -std::numeric_limits<double>::infinity();
-  for (const auto& shape : cosines.shapes) {
-    const Spectrum v = shape.variance.head(c.size());
-    const double likelihood = fit(c, x, v, shape.logarithm.head(c.size()).sum()).restricted;
-    if (likelihood > most) {
-      most = likelihood;
-      best = v;
-    }
-  }
-  return best;
-}
-
 Spectrum whitened(const Cosines& cosines, const Spectrum& power) {
-  Spectrum best = power;
+  const Index n = power.size();
+  std::size_t best = noise_shapes;
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& shape : cosines.shapes) {
-    const Spectrum white = power.cwiseQuotient(shape.variance.head(power.size()));
-    const double minus_likelihood = shape.logarithm.head(power.size()).mean() + std::log(white.mean());
+  for (std::size_t k = 0; k < noise_shapes; ++k) {
+    const Cosines::Shape& shape = cosines.shapes[k];
+    const double mean_of_logs = shape.sum_of_logs[n - 1] / static_cast<double>(n);
+    const double minus_likelihood = mean_of_logs + std::log(power.cwiseQuotient(shape.variance.head(n)).mean());
     if (minus_likelihood < least) {
       least = minus_likelihood;
-      best = white;
+      best = k;
     }
   }
-  return best;
+  if (best == noise_shapes) return power;
+  return power.cwiseQuotient(cosines.shapes[best].variance.head(n));
 }
 
 }  // namespace polhode::study::statistics::spectral

@@ -5,6 +5,9 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
+#include <limits>
+#include <memory>
 
 namespace polhode::study::inline statistics::spectral {
 
@@ -13,6 +16,7 @@ using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
 constexpr Index most_regressors = 6;
+constexpr std::size_t noise_shapes = 9;
 using Spectrum = Vector;    ///< over the cosines
 using Regressors = Matrix;  ///< a column each, over the cosines
 using Normal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_regressors, most_regressors>;
@@ -35,19 +39,20 @@ class Cosines {
   Spectrum log_frequency;  ///< ln(2 sin(θ/2)), θ = πk/n
   Spectrum log_averaging;  ///< ln((2 + cos θ)/3): what the means over blocks leave of a random walk
   struct Shape {
-    Spectrum variance, logarithm;
+    Spectrum variance;
+    Spectrum sum_of_logs;  ///< Σ ln v_1 … v_k at k − 1
   };
   /// Shapes of the noise a + b g_k, from b = 0 to a = 0.
-  std::array<Shape, 9> shapes;
+  std::array<Shape, noise_shapes> shapes;
 
  private:
   /// √(2/n) cos(πk (2i + 1)/2n) over the first half of the blocks, for k = 2, 4, … and 1, 3, …
   Matrix even_, odd_;
 };
 
-/// The cosines of n blocks. Kept for later calls, since many runs of a study have as many: at most half a megabyte
-/// each.
-const Cosines& cosines_of(Index n);
+/// The cosines of n blocks. Kept for later calls of the thread, since many runs of a study have as many: at most half a
+/// megabyte each.
+std::shared_ptr<const Cosines> cosines_of(Index n);
 
 /// Sum of a_i b_i over n numbers, in eight sums, none of which waits for another.
 double dot(const double* a, const double* b, Index n);
@@ -62,11 +67,42 @@ struct Fit {
   double scale2() const { return squares / degrees; }
 };
 
-Fit fit(const Spectrum& c, const Regressors& x, const Spectrum& v, double sum_of_log_v);
-inline Fit fit(const Spectrum& c, const Regressors& x, const Spectrum& v) { return fit(c, x, v, 0); }
+/// All of a fit that does not depend on c, for the fits of several series.
+class Regression {
+ public:
+  Regression(const Regressors& x, const Spectrum& v, double sum_of_log_v = 0);
+  /// The regressors x before those of another regression, with its variances.
+  Regression(const Regressors& x, const Regression& behind);
 
-/// The variances, to a factor, that are most likely beside these regressors.
-Spectrum noise_shape(const Cosines& cosines, const Spectrum& c, const Regressors& x);
+  Fit fit(const Spectrum& c) const;
+
+ private:
+  void solve();
+
+  Regressors x_, weighted_;  ///< weighted: over the variances
+  Spectrum weight_;          ///< 1/v_k
+  Normal normal_, covariance_;
+  double sum_of_log_v_ = 0, log_determinant_ = 0;
+};
+
+inline Fit fit(const Spectrum& c, const Regressors& x, const Spectrum& v, double sum_of_log_v = 0) {
+  return Regression(x, v, sum_of_log_v).fit(c);
+}
+
+/// Number of the shape of Cosines::shapes that is most likely; regression(k) is that of shape k.
+template <class RegressionOf>
+std::size_t likeliest_shape(const Spectrum& c, const RegressionOf& regression) {
+  std::size_t best = 0;
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < noise_shapes; ++k) {
+    const double likelihood = regression(k).fit(c).restricted;
+    if (likelihood > most) {
+      most = likelihood;
+      best = k;
+    }
+  }
+  return best;
+}
 
 /// The squares of a series without regressors over its most likely variances.
 Spectrum whitened(const Cosines& cosines, const Spectrum& power);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/statistics/drift_growth.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "experiments/study/statistics/block_times.hpp"
 #include "experiments/study/statistics/cosine_spectrum.hpp"
 #include "experiments/study/statistics/quantiles.hpp"
 #include "experiments/study/statistics/spectral_lines.hpp"
@@ -26,38 +26,42 @@ struct Exponent {
   double value = 0, half_width = 0;
 };
 
+/// Estimates from a series over blocks. slope_half_width() may be called at once, all others after separate().
 class Estimator {
  public:
-  Estimator(const Cosines& cosines, const Vector& t, const Vector& drift)
-      : cosines_(cosines), t_(t), log_t_(t.array().log()) {
-    polynomial_.resize(cosines_.size, 2);
-    polynomial_ << cosines_.transform(t), cosines_.transform(t.cwiseAbs2());
-    const Spectrum c = cosines_.transform(drift);
-    with_lines_ = c.head(std::min(most_cosines, below_lines(cosines_, without_polynomial(c))));
-    without_lines(drift);
-    trend_ = polynomial_.topRows(c_.size());
-    edges_ = cosines_.edges(c_.size());
-    v_ = noise_shape(cosines_, c_, with_edges(trend_));
+  Estimator(BlockTimes& times, const Vector& drift)
+      : times_(times), cosines_(times.cosines()), drift_(drift), all_(cosines_.transform(drift)) {
+    const Spectrum rest = without_polynomial(all_);
+    strongest_line_ = line_in(cosines_, rest);
+    with_lines_ = first_of(strongest_line_ ? below_lines(cosines_, rest) : rest.size());
   }
 
-  bool secular() const {
-    const Fit with = fit(c_, with_edges(trend_), v_), without = fit(c_, edges_, v_);
+  /// Half the 95 % interval of the slope by ordinary least squares, which the oscillations affect too.
+  double slope_half_width() {
+    const Index count = with_lines_.size();
+    const std::size_t shape = likeliest(with_lines_, Trend::polynomial);
+    const Spectrum v = cosines_.shapes[shape].variance.head(count);
+    const Spectrum x2 = times_.polynomial().col(0).head(count).cwiseAbs2();
+    const Fit f = times_.regression(Trend::polynomial, count, shape).fit(with_lines_);
+    return students_t_95(f.degrees) * std::sqrt(f.scale2() * x2.dot(v)) / x2.sum();
+  }
+
+  /// Takes out the oscillations, and finds the noise beside a trend.
+  void separate() {
+    without_lines();
+    shape_ = likeliest(c_, Trend::curve);
+  }
+
+  bool secular() {
+    const Fit with = fitted(Trend::curve), without = fitted(Trend::none);
     const double f = (without.squares - with.squares) / 2 / with.scale2();
     return f > fisher_f_exceeded(2, with.degrees, significance);
   }
 
   /// Upper limit (97.5 % confidence) of a change in proportion to time over the run.
-  double change_limit() const {
-    const Fit f = fit(c_, with_edges(trend_.leftCols(1)), v_);
+  double change_limit() {
+    const Fit f = fitted(Trend::line);
     return std::abs(f.coefficients[0]) + students_t_95(f.degrees) * std::sqrt(f.scale2() * f.covariance(0, 0));
-  }
-
-  /// Half the 95 % interval of the slope by ordinary least squares, which the oscillations affect too.
-  double slope_half_width() const {
-    const Regressors x = polynomial_.topRows(with_lines_.size());
-    const Spectrum v = noise_shape(cosines_, with_lines_, x), x2 = x.col(0).cwiseAbs2();
-    const Fit f = fit(with_lines_, x, v);
-    return students_t_95(f.degrees) * std::sqrt(f.scale2() * x2.dot(v)) / x2.sum();
   }
 
   /// constant + a t^p, by Gauss and Newton: the regressors are t^p and its derivative with respect to p.
@@ -67,16 +71,19 @@ class Estimator {
     double p = start();
     for (int pass = 0; pass < passes; ++pass) {
       for (int i = 0; i < most_steps; ++i) {
-        const Fit f = fit(c_, power_regressors(p), v_);
+        const Fit f = beside_edges(power_regressors(p), shape_).fit(c_);
         const double step = std::clamp(f.coefficients[1] / f.coefficients[0], -longest_step, longest_step);
         p = std::clamp(p + step, least, most);
         if (!(std::abs(step) > close)) break;
       }
-      if (pass + 1 < passes) v_ = noise_shape(cosines_, c_, power_regressors(p));
+      if (pass + 1 < passes) {
+        const Regressors x = power_regressors(p);
+        shape_ = likeliest_shape(c_, [&](std::size_t shape) { return beside_edges(x, shape); });
+      }
     }
     const Regressors x = power_regressors(p);
-    const Fit f = fit(c_, x, v_);
-    change_ = std::abs(f.coefficients[0]) * (1 - std::pow(t_[0], p));
+    const Fit f = beside_edges(x, shape_).fit(c_);
+    change_ = std::abs(f.coefficients[0]) * (1 - std::pow(times_.t()[0], p));
     misfit_ = c_ - x.col(0) * f.coefficients[0];
     const double error = std::sqrt(f.scale2() * f.covariance(1, 1)) / std::abs(f.coefficients[0]);
     return {p, students_t_95(f.degrees) * error};
@@ -151,94 +158,126 @@ class Estimator {
 
  private:
   /// Peak-to-peak amplitude of a sine whose cosines have this sum of squares.
-  double peak_to_peak(double squares) const { return 2 * std::sqrt(2 * squares / static_cast<double>(t_.size())); }
+  double peak_to_peak(double squares) const {
+    return 2 * std::sqrt(2 * squares / static_cast<double>(times_.t().size()));
+  }
 
   Spectrum without_polynomial(const Spectrum& c) const {
-    return c - polynomial_ * fit(c, polynomial_, Spectrum::Ones(c.size())).coefficients;
+    return c - times_.polynomial() * times_.flat().fit(c).coefficients;
+  }
+
+  /// The first cosines of the drift, as many as trends are fitted to.
+  Spectrum first_of(Index count) const { return all_.head(std::min(most_cosines, count)); }
+
+  std::size_t likeliest(const Spectrum& c, Trend trend) {
+    return likeliest_shape(
+        c, [&](std::size_t shape) -> const Regression& { return times_.regression(trend, c.size(), shape); });
+  }
+  Fit fitted(Trend trend) { return times_.regression(trend, c_.size(), shape_).fit(c_); }
+  Regression beside_edges(const Regressors& x, std::size_t shape) {
+    return {x, times_.regression(Trend::none, c_.size(), shape)};
   }
 
   /// Takes out, one after the other, the oscillations that the blocks resolve.
-  void without_lines(const Vector& drift) {
+  void without_lines() {
     constexpr int most_oscillations = 8;
-    Matrix polynomial(t_.size(), 3);
-    polynomial << Vector::Ones(t_.size()), t_, t_.cwiseAbs2();
-    const Matrix trend = polynomial.householderQr().householderQ() * Matrix::Identity(t_.size(), polynomial.cols());
-    Vector smooth = drift;
-    Spectrum c = cosines_.transform(smooth), rest = without_polynomial(c);
-    for (int i = 0; i < most_oscillations; ++i) {
-      const auto line = line_in(cosines_, rest);
-      if (!line) break;
-      smooth -= fitted_oscillation(smooth, trend, *line);
-      slowest_line_ = i == 0 ? *line : std::min(slowest_line_, *line);
-      c = cosines_.transform(smooth);
-      rest = without_polynomial(c);
+    Vector smooth = drift_;
+    below_ = all_;
+    if (strongest_line_) {
+      const Matrix trend = times_.orthonormal();
+      Spectrum c = all_, rest = without_polynomial(c);
+      for (int i = 0; i < most_oscillations; ++i) {
+        const auto line = i == 0 ? strongest_line_ : line_in(cosines_, rest);
+        if (!line) break;
+        smooth -= fitted_oscillation(smooth, trend, *line);
+        slowest_line_ = i == 0 ? *line : std::min(slowest_line_, *line);
+        c = cosines_.transform(smooth);
+        rest = without_polynomial(c);
+      }
+      below_ = c.head(below_lines(cosines_, rest));
     }
-    below_ = c.head(below_lines(cosines_, rest));
     c_ = below_.head(std::min(most_cosines, below_.size()));
-    largest_oscillation_ = (drift - smooth).cwiseAbs().maxCoeff();
+    largest_oscillation_ = (drift_ - smooth).cwiseAbs().maxCoeff();
     smooth_ = std::move(smooth);
   }
 
-  Regressors with_edges(const Regressors& x) const {
-    Regressors both(x.rows(), x.cols() + edges_.cols());
-    both << x, edges_;
-    return both;
-  }
-
   Regressors power_regressors(double p) const {
-    const Vector power = (p * log_t_).array().exp();
+    const Vector power = (p * times_.log_t()).array().exp();
     Regressors x(c_.size(), 2);
-    x << cosines_.transform(power, c_.size()), cosines_.transform(power.cwiseProduct(log_t_), c_.size());
-    return with_edges(x);
+    x << cosines_.transform(power, c_.size()), cosines_.transform(power.cwiseProduct(times_.log_t()), c_.size());
+    return x;
   }
 
-  double start() const {
+  double start() {
     double best = 1, least = std::numeric_limits<double>::infinity();
-    for (const double p : {0.5, 1.0, 2.0, 4.0}) {
-      const Regressors x = cosines_.transform((p * log_t_).array().exp(), c_.size());
-      const double squares = fit(c_, with_edges(x), v_).squares;
+    for (std::size_t k = 0; k < BlockTimes::first_exponents.size(); ++k) {
+      const double squares = beside_edges(times_.first_power(k).head(c_.size()), shape_).fit(c_).squares;
       if (squares < least) {
         least = squares;
-        best = p;
+        best = BlockTimes::first_exponents[k];
       }
     }
     return best;
   }
 
+  BlockTimes& times_;
   const Cosines& cosines_;
-  Vector t_, log_t_;
-  Regressors polynomial_;  ///< t and t², all cosines
-  Spectrum with_lines_;    ///< the drift's cosines below its lowest line
+  const Vector& drift_;
+  Spectrum all_;                         ///< the drift's cosines
+  std::optional<Index> strongest_line_;  ///< the first one to be taken out
+  Spectrum with_lines_;                  ///< the drift's cosines below its lowest line
   Spectrum below_;         ///< the drift's cosines without its lines, those that are well below what is left of them
-  Spectrum c_, v_;         ///< the first of these, which trends are fitted to, and the shape of their variance
-  Regressors trend_, edges_;
-  Vector smooth_;    ///< the drift without its lines
-  Spectrum misfit_;  ///< c_ without t^p
+  Spectrum c_;             ///< the first of these, which trends are fitted to
+  std::size_t shape_ = 0;  ///< that of their variances
+  Vector smooth_;          ///< the drift without its lines
+  Spectrum misfit_;        ///< c_ without t^p
   double largest_oscillation_ = 0, change_ = 0;
   Index slowest_line_ = 0;
 };
 
-}  // namespace
+/// The series of a drift, over its largest deviation from its mean.
+struct Series {
+  Vector t;      ///< over the last time
+  Vector drift;  ///< less its mean, over `size`
+  double size = 0, end = 0;
+};
 
-std::optional<DriftGrowth> growth_of(const std::vector<BlockMean>& blocks) {
+std::optional<Series> series_of(const std::vector<BlockMean>& blocks) {
   if (blocks.size() < fewest_blocks) return std::nullopt;
   const auto n = static_cast<Index>(blocks.size());
-  Vector t(n), drift(n);
+  Series series{Vector(n), Vector(n)};
+  auto& [t, drift, size, end] = series;
   for (Index i = 0; i < n; ++i) {
     t[i] = blocks[static_cast<std::size_t>(i)].t;
     drift[i] = blocks[static_cast<std::size_t>(i)].value;
   }
-  const double end = t[n - 1], largest = drift.cwiseAbs().maxCoeff();
+  end = t[n - 1];
+  const double largest = drift.cwiseAbs().maxCoeff();
   if (!drift.allFinite() || !t.allFinite() || !(t[0] >= 0) || !(end > t[0])) return std::nullopt;
   t = (t / end).cwiseMax(std::numeric_limits<double>::min());
   drift.array() -= drift.mean();
-  const double size = drift.cwiseAbs().maxCoeff();
+  size = drift.cwiseAbs().maxCoeff();
   if (!(size > std::numeric_limits<double>::epsilon() * largest)) return std::nullopt;
   drift /= size;
+  return series;
+}
 
-  Estimator estimate(cosines_of(n), t, drift);
+}  // namespace
+
+std::optional<double> slope_half_width_95(const std::vector<BlockMean>& blocks) {
+  const auto series = series_of(blocks);
+  if (!series) return std::nullopt;
+  return Estimator(block_times(series->t), series->drift).slope_half_width() * series->size / series->end;
+}
+
+std::optional<DriftGrowth> growth_of(const std::vector<BlockMean>& blocks) {
+  const auto series = series_of(blocks);
+  if (!series) return std::nullopt;
+  const double size = series->size, end = series->end;
+  Estimator estimate(block_times(series->t), series->drift);
   DriftGrowth growth;
   growth.slope_half_width_95 = estimate.slope_half_width() * size / end;
+  estimate.separate();
   growth.secular = estimate.secular();
   growth.change_limit = estimate.change_limit() * size;
   growth.rest = estimate.largest_rest() * size;

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "core/math/quaternion.hpp"
 
@@ -187,6 +188,32 @@ TEST(Invariants, ScalesAreTheSizeOfTheTerms) {
         EXPECT_EQ(scale > 0, !spin.isZero(0) || weighs) << kind.name;
       }
     }
+  }
+}
+
+TEST(Invariants, LanesHaveTheDigitsOfEachProblem) {
+  std::mt19937 random(7);
+  std::vector<Problem> problems;
+  for (int i = 0; i < lane_count; ++i) {
+    Top top{.moments = Vector(2, 2, 1) * (1 + 0.3 * i), .center = Vector(0.5 - 0.1 * i, 0, 0)};
+    top.gravity = random_vector(random);
+    problems.push_back(problem_of(top, random));
+  }
+  std::vector<BodySnapshot<double>> each(problems.size());
+  BodySnapshot<Lanes> together;
+  for (std::size_t i = 0; i < problems.size(); ++i) {
+    each[i].rotation = rotation_matrix(random_orientation(random));
+    each[i].angular_velocity = random_vector(random);
+    each[i].angular_momentum = random_vector(random);
+    const int lane = static_cast<int>(i);
+    for (int j = 0; j < 9; ++j) together.rotation.data()[j].set(lane, each[i].rotation.data()[j]);
+    for (int j = 0; j < 3; ++j) together.angular_velocity[j].set(lane, each[i].angular_velocity[j]);
+    for (int j = 0; j < 3; ++j) together.angular_momentum[j].set(lane, each[i].angular_momentum[j]);
+  }
+  for (const InvariantKind& kind : invariant_catalogue()) {
+    const Lanes values = kind.in_lanes(problems)(together);
+    for (std::size_t i = 0; i < problems.size(); ++i)
+      EXPECT_EQ(values[static_cast<int>(i)], kind.value(problems[i], each[i])) << kind.name << " in lane " << i;
   }
 }
 

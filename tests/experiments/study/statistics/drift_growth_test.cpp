@@ -11,6 +11,8 @@
 #include <numbers>
 #include <ostream>
 #include <random>
+#include <thread>
+#include <vector>
 
 #include "experiments/study/metrics/drift_class.hpp"
 
@@ -138,6 +140,55 @@ TEST(Drift, WithoutEnoughOrFiniteNumbersHasNoClass) {
   BlockMeans broken;
   for (int k = 0; k < 100; ++k) broken.add(k, k == 50 ? std::nan("") : k);
   EXPECT_FALSE(growth_of(broken.finish()));
+}
+
+/// A drift with or without an oscillation, over blocks of other times for each n.
+std::vector<BlockMean> made_up_drift(int n, bool oscillates) {
+  std::mt19937 random(static_cast<unsigned>(n));
+  std::normal_distribution<double> normal;
+  std::vector<BlockMean> blocks;
+  for (int k = 0; k < 40 + n / 2; ++k) {
+    const double t = 0.1 * (k + 0.5) * (1 + 0.01 * n);
+    blocks.push_back({t, 0.3 * t + 0.05 * normal(random) + (oscillates ? 2 * std::sin(3 * t) : 0)});
+  }
+  return blocks;
+}
+
+void expect_the_same(const DriftGrowth& a, const DriftGrowth& b) {
+  EXPECT_EQ(a.secular, b.secular);
+  EXPECT_EQ(a.exponent, b.exponent);
+  EXPECT_EQ(a.low, b.low);
+  EXPECT_EQ(a.high, b.high);
+  EXPECT_EQ(a.slope_half_width_95, b.slope_half_width_95);
+  EXPECT_EQ(a.change, b.change);
+  EXPECT_EQ(a.change_limit, b.change_limit);
+  EXPECT_EQ(a.rest, b.rest);
+  EXPECT_EQ(a.oscillation, b.oscillation);
+  EXPECT_EQ(a.misfit, b.misfit);
+}
+
+/// What is kept of the times of the blocks from one series to the next changes no digit.
+TEST(Drift, IsTheSameAfterOtherSeries) {
+  constexpr int times = 24;  // more than are kept
+  std::vector<DriftGrowth> alone;
+  for (int n = 0; n < times; ++n) {
+    for (const bool oscillates : {false, true}) {
+      std::thread([&] { alone.push_back(growth_of(made_up_drift(n, oscillates)).value()); }).join();  // nothing kept
+    }
+  }
+  for (int pass = 0; pass < 2; ++pass) {
+    std::size_t i = 0;
+    for (int n = 0; n < times; ++n) {
+      for (const bool oscillates : {false, true}) {
+        SCOPED_TRACE(n);
+        const auto blocks = made_up_drift(n, oscillates);
+        const auto growth = growth_of(blocks);
+        ASSERT_TRUE(growth);
+        expect_the_same(*growth, alone[i++]);
+        EXPECT_EQ(slope_half_width_95(blocks), growth->slope_half_width_95);
+      }
+    }
+  }
 }
 
 TEST(Drift, OfOneSizeOverTheBlocksIsTheSameInAnyUnit) {

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All that the growth of a drift needs of the times of its blocks alone: polynomials of the time, their cosine
+// transforms, and regressions on them.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "experiments/study/statistics/cosine_spectrum.hpp"
+
+namespace polhode::study::inline statistics::spectral {
+
+/// Regressors beside noise. All but `polynomial` come with the pulses at the ends of the series (Cosines::edges).
+enum class Trend { polynomial, none, line, curve };
+
+class BlockTimes {
+ public:
+  /// t: times of the blocks over that of the last one, all above 0.
+  explicit BlockTimes(const Vector& t);
+
+  const Cosines& cosines() const { return *cosines_; }
+  const Vector& t() const { return t_; }
+  const Vector& log_t() const { return log_t_; }
+  const Regressors& polynomial() const { return polynomial_; }  ///< t and t², all cosines
+  const Regression& flat() const { return flat_; }              ///< on t and t², with equal variances
+  /// Cosines of t^p, for the exponents at which the search of an exponent begins.
+  static constexpr std::array<double, 4> first_exponents = {0.5, 1, 2, 4};
+  const Spectrum& first_power(std::size_t k) const { return first_powers_[k]; }
+  /// Orthonormal polynomials of the time up to the second degree, a column each.
+  Matrix orthonormal() const;
+
+  /// The regression on the first `count` cosines with the variances of a shape of Cosines::shapes.
+  const Regression& regression(Trend trend, Index count, std::size_t shape);
+
+ private:
+  friend BlockTimes& block_times(const Vector& t);
+  using Key = std::pair<Trend, Index>;
+  using Shaped = std::array<std::optional<Regression>, noise_shapes>;
+
+  Vector t_, log_t_;
+  std::shared_ptr<const Cosines> cosines_;
+  Regressors polynomial_;
+  Regression flat_;
+  std::array<Spectrum, first_exponents.size()> first_powers_;
+  std::map<Key, Shaped> regressions_;
+};
+
+/// The one of these times. Kept for later calls of the thread, since the runs of a study mostly share their times: at
+/// most 16 of some megabytes each. Valid until the next call.
+BlockTimes& block_times(const Vector& t);
+
+}  // namespace polhode::study::statistics::spectral

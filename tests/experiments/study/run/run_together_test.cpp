@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs side by side have the results that each has alone, and a meter shows the same however its samples are cut.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "experiments/study/metrics/drift_meter.hpp"
+#include "experiments/study/record/metric_table.hpp"
+#include "experiments/study/run/run.hpp"
+#include "experiments/study/scenario/scenario.hpp"
+
+namespace polhode::study {
+namespace {
+
+RunConfig by_rk4(const Scenario& scenario, double dt) {
+  RunConfig config;
+  config.scenario = scenario.name;
+  config.integrator = "rk4";
+  config.dt = dt;
+  config.t_end = 5;
+  return config;
+}
+
+void expect_same_result(const RunResult& a, const RunResult& b) {
+  for (const Metric& metric : metric_table()) {
+    with_value(metric, a, [&](const auto& of_a) {
+      with_value(metric, b, [&](const auto& of_b) {
+        if constexpr (std::is_same_v<decltype(of_a), decltype(of_b)>) {
+          EXPECT_EQ(of_a, of_b) << metric.column;
+        }
+      });
+    });
+  }
+  ASSERT_EQ(a.series.size(), b.series.size());
+  for (std::size_t i = 0; i < a.series.size(); ++i) {
+    const SeriesPoint &x = a.series[i], &y = b.series[i];
+    EXPECT_TRUE(x.t == y.t && x.energy_drift_rel == y.energy_drift_rel &&
+                x.linear_momentum_drift_rel == y.linear_momentum_drift_rel &&
+                x.angular_momentum_drift_rel == y.angular_momentum_drift_rel &&
+                x.orientation_defect == y.orientation_defect)
+        << "point " << i;
+  }
+}
+
+TEST(RunsTogether, HaveTheResultsThatEachHasAlone) {
+  std::vector<Scenario> scenarios;
+  for (const char* spin : {"0.3", "2.0", "1e6", "0.0"}) {  // the third one blows up at large steps
+    const Override spun{"body.0.angular_velocity.1", spin};
+    scenarios.push_back(ScenarioSource::open("free_symmetric_top").resolve({&spun, 1}));
+  }
+  ASSERT_EQ(scenarios.front().invariants.size(), 2u);
+  for (const double dt : {0.01, 0.5}) {
+    std::vector<RunConfig> configs;
+    for (const Scenario& scenario : scenarios) configs.push_back(by_rk4(scenario, dt));
+    std::vector<LanedRun> runs;
+    for (std::size_t i = 0; i < std::min(scenarios.size(), std::size_t(lane_count)); ++i)
+      runs.push_back({configs[i], scenarios[i]});
+    const auto together = carry_out_together(runs, nullptr);
+    ASSERT_EQ(together.size(), runs.size());
+    bool diverged = false;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      SCOPED_TRACE(i);
+      const RunResult alone = carry_out(configs[i], scenarios[i], {}, nullptr);
+      diverged = diverged || alone.status == "diverged";
+      expect_same_result(together[i], alone);
+    }
+    EXPECT_EQ(diverged, runs.size() > 2);
+  }
+}
+
+TEST(RunsTogether, HaveTheSameInvariants) {
+  const Scenario top = ScenarioSource::open("free_symmetric_top").resolve();
+  Scenario other = top;
+  other.invariants = {"casimir"};
+  const RunConfig config = by_rk4(top, 0.01);
+  ASSERT_NE(ensemble_key(config, top, {}), "");
+  EXPECT_NE(ensemble_key(config, top, {}), ensemble_key(config, other, {}));
+}
+
+TEST(DriftMeterSamples, MayComeInAnyParts) {
+  const Scenario scenario = ScenarioSource::open("free_symmetric_top").resolve();
+  const auto system = make_system<double>(scenario.problem, {});
+  const MotionScales scales = motion_scales(scenario, 10);
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  const State<double> start = system->start();
+  std::vector<Sample> samples;
+  for (int k = 0; k <= 1000; ++k) {
+    Sample sample{0.01 * k, system->measure(start.y), 0, 0};
+    sample.seen.kinetic += k == 0 ? 0 : 1e-3 * normal(random);
+    sample.seen.angular_momentum.x() += k == 0 ? 0 : 1e-3 * normal(random);
+    sample.seen.linear_momentum.y() += k == 0 ? 0 : 1e-3 * normal(random);
+    sample.seen.orientation_defect = std::abs(normal(random));
+    samples.push_back(sample);
+  }
+  const auto result_of_parts = [&](std::size_t length) {
+    DriftMeter meter(*system, {}, 10, false, {scales, nullptr});
+    meter.on_start(start, samples.front());
+    std::size_t taken = 0;
+    for (std::size_t i = 0; i < samples.size(); i += length) {
+      const auto part = std::span(samples).subspan(i, std::min(length, samples.size() - i));
+      const std::size_t now = meter.on_samples(part);
+      taken += now;
+      if (now < part.size()) break;
+    }
+    RunResult result;
+    result.status = "ok";
+    result.steps = static_cast<std::int64_t>(taken);
+    meter.report(result);
+    return result;
+  };
+  const RunResult one_by_one = result_of_parts(1);
+  EXPECT_EQ(one_by_one.steps, 1001);
+  for (const std::size_t length : {3u, 64u, 65u, 1001u}) expect_same_result(result_of_parts(length), one_by_one);
+  samples[500].seen.kinetic = 1e9 * scales.energy;  // hopeless: it counts, and is the last one
+  const RunResult broken = result_of_parts(1);
+  EXPECT_EQ(broken.steps, 500);
+  EXPECT_GT(broken.energy_drift_max_rel.value(), 1e8);
+  for (const std::size_t length : {7u, 64u, 1001u}) expect_same_result(result_of_parts(length), broken);
+}
+
+}  // namespace
+}  // namespace polhode::study
