@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 #include <stdexcept>
+#include <vector>
 
 #include "experiments/study/interruption.hpp"
 #include "experiments/study/plan/listing.hpp"
@@ -157,7 +158,7 @@ int run_study(const Experiment& experiment, const Options& options) {
   choose_curves(options, plan);
   const std::filesystem::path folder = folder_of(experiment, options, plan);
   if (options.dry_run) {
-    const std::set<std::string> done = Store::ids_in(folder);
+    const std::vector<std::uint64_t> done = Store::ids_in(folder);
     fmt::print("{}{}", plan_text(experiment, plan, folder, done),
                time_needed_text(experiment, options, plan, folder, done));
     return 0;

@@ -50,7 +50,7 @@ MAY_INCLUDE = {
                                  " experiments/study/scenario experiments/study/record experiments/study/setup",
     "experiments/study/curves": "core/run integrators experiments/study/text experiments/study/statistics"
                                 " experiments/study/scenario experiments/study/record",
-    "experiments/study/run": "core/run integrators collision/contact experiments/study/text experiments/study/scenario"
+    "experiments/study/run": "core/run core/system integrators collision/contact experiments/study/text experiments/study/scenario"
                              " experiments/study/trajectory experiments/study/record experiments/study/setup"
                              " experiments/study/metrics",
     "experiments/study/plan": "core/* integrators collision collision/contact collision/shapes experiments/study/text"

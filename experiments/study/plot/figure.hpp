@@ -92,7 +92,7 @@ struct Panel {
   std::vector<PlottedCurve> curves{};
   std::vector<Guide> guides{};
   std::vector<EnvelopeMark> envelope{};  ///< drawn as a broad pale line behind the curves
-  std::vector<MapCell> cells{};             ///< drawn behind everything
+  std::vector<MapCell> cells{};          ///< drawn behind everything
 };
 
 struct Figure {

@@ -21,17 +21,18 @@
 namespace polhode::study::inline query {
 namespace {
 
-WhereValue for_where(OptionValue value) {
+/// A text is not copied: the value must outlive what is returned.
+WhereValue for_where(const OptionValue& value) {
   if (const auto* n = std::get_if<std::int64_t>(&value)) return static_cast<double>(*n);
   if (const auto* x = std::get_if<double>(&value)) return *x;
-  if (auto* text = std::get_if<std::string>(&value)) return std::move(*text);
+  if (const auto* text = std::get_if<std::string>(&value)) return std::string_view(*text);
   return {};
 }
 
 WhereValue for_where(const Value& value) {
   if (const auto* n = std::get_if<std::int64_t>(&value)) return static_cast<double>(*n);
   if (const auto* x = std::get_if<double>(&value)) return *x;
-  if (const auto* text = std::get_if<std::string_view>(&value)) return std::string(*text);
+  if (const auto* text = std::get_if<std::string_view>(&value)) return *text;
   return {};
 }
 
@@ -65,9 +66,10 @@ class Filter {
       Known& known = at->second;
       if (is_new) {
         known.values.resize(bound.keys.size());
+        known.held.resize(bound.keys.size());
         for (std::size_t k = 0; k < bound.keys.size(); ++k) {
           if (bound.keys[k].of == RunColumn::Of::option)
-            known.values[k] = for_where(cells.value(bound.keys[k], run, {}));
+            known.values[k] = for_where(known.held[k] = cells.value(bound.keys[k], run, {}));
         }
         if (bound.by_configuration) known.holds = bound.where->holds(known.values);
       }
@@ -79,7 +81,8 @@ class Filter {
         const RunColumn& key = bound.keys[k];
         if (key.of == RunColumn::Of::metric) known.values[k] = for_where(stored(key.index));
         else if (key.of != RunColumn::Of::option)
-          known.values[k] = for_where(cells.value(key, run, key.in_store() ? stored(key.index) : Value()));
+          known.values[k] =
+              for_where(known.held[k] = cells.value(key, run, key.in_store() ? stored(key.index) : Value()));
       }
       if (!bound.where->holds(known.values)) return false;
     }
@@ -89,6 +92,7 @@ class Filter {
  private:
   struct Known {
     std::vector<WhereValue> values;  ///< those of options stay
+    std::vector<OptionValue> held;   ///< from which texts of these are taken
     bool holds = false;
   };
   struct HashOfKey {
