@@ -61,8 +61,7 @@ void write_reports(const StudyView& view, const Options& options, const Plan& pl
 /// Carries out a shard, in a folder of its own.
 int run_shard(const Experiment& experiment, const Options& options, Plan plan, const std::filesystem::path& folder) {
   const std::filesystem::path own = shard_folder(folder, options.shard->number, options.shard->count);
-  const Plan whole = with_further_runs(experiment, options, plan, folder);
-  const auto belongs = [&](std::uint64_t id) { return whole.contains(id); };
+  const BelongsToStudy belongs = runs_of_study(experiment, options, plan, folder);
   if (!options.force) refuse_other_study(folder, belongs);
   const ResultFolder held(own, belongs, options.force);
   Interruption interruption;
@@ -79,10 +78,7 @@ int run_shard(const Experiment& experiment, const Options& options, Plan plan, c
 int prepare_jobs(const Experiment& experiment, const Options& options, const Plan& plan,
                  const std::filesystem::path& folder) {
   const SlurmJobs jobs = read_slurm_jobs(*options.slurm, plan.size());
-  if (!options.force) {
-    const Plan whole = with_further_runs(experiment, options, plan, folder);
-    refuse_other_study(folder, [&](std::uint64_t id) { return whole.contains(id); });
-  }
+  if (!options.force) refuse_other_study(folder, runs_of_study(experiment, options, plan, folder));
   write_job_scripts(jobs, experiment.name, options.words, folder);
   fmt::print("{}: {} runs in {} shards; submit with {}, or carry out with {}\n", experiment.name, plan.size(),
              jobs.shards, (folder / "slurm/submit.sh").string(), (folder / "slurm/parallel.sh").string());
@@ -165,9 +161,7 @@ int run_study(const Experiment& experiment, const Options& options) {
   }
   if (options.slurm) return prepare_jobs(experiment, options, plan, folder);
   if (options.shard) return run_shard(experiment, options, std::move(plan), folder);
-  const Plan whole = with_further_runs(experiment, options, plan, folder);
-  const ResultFolder held(
-      folder, [&](std::uint64_t id) { return whole.contains(id); }, options.force);
+  const ResultFolder held(folder, runs_of_study(experiment, options, plan, folder), options.force);
   Interruption interruption;
   StudyRuns runs(experiment, options, plan, folder, folder);
   do {

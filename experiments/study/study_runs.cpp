@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdio>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -306,9 +307,11 @@ void choose_curves(const Options& options, Plan& plan) {
     plan.rows[i].keeps_curves = true;
 }
 
-Plan with_further_runs(const Experiment& experiment, const Options& options, Plan plan,
-                       const std::filesystem::path& folder) {
-  if (!experiment.refine) return plan;
+BelongsToStudy runs_of_study(const Experiment& experiment, const Options& options, const Plan& given,
+                             const std::filesystem::path& folder) {
+  if (!experiment.refine) return [&given](std::uint64_t id) { return given.contains(id); };
+  const auto whole = std::make_shared<Plan>(given);
+  Plan& plan = *whole;
   std::vector<std::filesystem::path> stores = shard_folders(folder);
   stores.push_back(folder);
   for (bool more = true; more;) {
@@ -328,7 +331,7 @@ Plan with_further_runs(const Experiment& experiment, const Options& options, Pla
     more = widen(plan, experiment.refine(view)) > 0;
     if (more) choose_curves(options, plan);
   }
-  return plan;
+  return [whole](std::uint64_t id) { return whole->contains(id); };
 }
 
 }  // namespace polhode::study

@@ -13,6 +13,7 @@
 #include "experiments/study/plan/experiment.hpp"
 #include "experiments/study/plan/plan.hpp"
 #include "experiments/study/record/study_view.hpp"
+#include "experiments/study/store/result_folder.hpp"
 #include "experiments/study/store/store.hpp"
 
 namespace polhode::study {
@@ -71,9 +72,10 @@ class StudyRuns {
 /// Chooses the runs of the plan whose curves against time are kept (--curves).
 void choose_curves(const Options& options, Plan& plan);
 
-/// The plan with all further runs that can be told from the results in the folder of the study, even if some results
-/// are missing, because the study was interrupted or has more runs than before. Changes no file.
-Plan with_further_runs(const Experiment& experiment, const Options& options, Plan plan,
-                       const std::filesystem::path& folder);
+/// Tells the runs of the study, with all further ones that follow from the results in its folder, even if some results
+/// are missing, because the study was interrupted or has more runs than before. Changes no file. `plan` must outlive
+/// what is returned.
+BelongsToStudy runs_of_study(const Experiment& experiment, const Options& options, const Plan& plan,
+                             const std::filesystem::path& folder);
 
 }  // namespace polhode::study
