@@ -51,7 +51,9 @@ const Regression& BlockTimes::regression(Trend trend, Index count, std::size_t s
 BlockTimes& block_times(const Vector& t) {
   constexpr std::size_t most_times = 16, most_regressions = 16;
   thread_local std::list<BlockTimes> kept;  // the latest one first
-  const auto found = std::find_if(kept.begin(), kept.end(), [&](const BlockTimes& one) { return one.t_ == t; });
+  const auto found = std::find_if(kept.begin(), kept.end(), [&](const BlockTimes& one) {
+    return one.t_.size() == t.size() && one.t_ == t;  // Eigen compares equal sizes only
+  });
   if (found != kept.end()) {
     kept.splice(kept.begin(), kept, found);
   } else {
