@@ -50,7 +50,7 @@ void expect_same_result(const RunResult& a, const RunResult& b) {
 
 TEST(RunsTogether, HaveTheResultsThatEachHasAlone) {
   std::vector<Scenario> scenarios;
-  for (const char* spin : {"0.3", "2.0", "1e6", "0.0"}) {  // the third one blows up at large steps
+  for (const char* spin : {"0.3", "1e6", "2.0", "0.0"}) {  // the second one blows up
     const Override spun{"body.0.angular_velocity.1", spin};
     scenarios.push_back(ScenarioSource::open("free_symmetric_top").resolve({&spun, 1}));
   }
@@ -70,7 +70,7 @@ TEST(RunsTogether, HaveTheResultsThatEachHasAlone) {
       diverged = diverged || alone.status == "diverged";
       expect_same_result(together[i], alone);
     }
-    EXPECT_EQ(diverged, runs.size() > 2);
+    EXPECT_TRUE(diverged);
   }
 }
 
