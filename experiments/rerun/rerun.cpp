@@ -18,6 +18,7 @@
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/record/versions.hpp"
 #include "experiments/study/run/run.hpp"
+#include "experiments/study/text/in_order.hpp"
 #include "experiments/study/text/input_error.hpp"
 
 namespace polhode::study::rerun {
@@ -74,8 +75,7 @@ Task read_task(const FoundRun& found) {
 
 void repeat(const std::vector<FoundRun>& runs, int jobs, const std::atomic<bool>& no_more,
             const std::atomic<bool>& stop, const std::function<void(const Repeated&)>& done) {
-  const std::size_t threads =
-      jobs > 0 ? static_cast<std::size_t>(jobs) : std::max(1U, std::thread::hardware_concurrency());
+  const std::size_t threads = number_of_threads(jobs);
   for (std::size_t first = 0; first < runs.size() && !no_more; first += at_a_time) {
     std::vector<Task> tasks;
     std::vector<std::uint64_t> scenarios;

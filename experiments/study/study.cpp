@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <vector>
 
@@ -29,6 +30,7 @@
 #include "experiments/study/store/shard_folders.hpp"
 #include "experiments/study/store/store.hpp"
 #include "experiments/study/study_runs.hpp"
+#include "experiments/study/text/in_order.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/program.hpp"
 #include "experiments/study/text/read_file.hpp"
@@ -127,7 +129,7 @@ int write_study(const Experiment& experiment, const Options& options, const Plan
   return status_of(experiment, view.analysis && view.analysis->alone, outcomes);
 }
 
-/// Writes all files of a study whose runs are too many to be held: from one run at a time, and a sample of them.
+/// Writes all files of a study whose runs are too many to be held: from a few runs at a time, and a sample of them.
 int write_large_study(const Experiment& experiment, const Options& options, const Plan& plan, StudyRuns& runs) {
   std::vector<std::uint64_t> motions;
   for (const PlanRow& row : plan.rows) motions.push_back(row.scenario);
@@ -135,11 +137,24 @@ int write_large_study(const Experiment& experiment, const Options& options, cons
   Population population(sample);
   RunsCsv results(sample);
   TimingsCsv timings(sample);
-  runs.for_each([&](const RunRecord& run) {
-    const std::vector<std::string> cells = config_cells(run.config, plan.named);
-    results.add(run, cells);
-    timings.add(run);
-    population.add(run, cells);
+  runs.for_each_part([&](std::vector<RunRecord>&& records) -> UsePart {
+    struct Part {
+      std::vector<RunRecord> records;
+      std::vector<std::vector<std::string>> cells;
+      std::string results, timings;
+    };
+    const auto part = std::make_shared<Part>();
+    part->records = std::move(records);
+    for (const RunRecord& run : part->records) {
+      part->cells.push_back(config_cells(run.config, plan.named));
+      part->results += results.row(run, part->cells.back());
+      part->timings += TimingsCsv::row(run);
+    }
+    return [&, part] {
+      results.add(part->results);
+      timings.add(part->timings);
+      for (std::size_t k = 0; k < part->records.size(); ++k) population.add(part->records[k], part->cells[k]);
+    };
   });
   results.finish();
   timings.finish();

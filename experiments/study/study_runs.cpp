@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -89,17 +90,35 @@ bool is_complete(const RunResult& result, const PlanRow& row) {
   return !row.keeps_curves || !result.series.empty() || result.steps == 0;
 }
 
-using UseResult = std::function<void(std::size_t run, RunResult&& result)>;
+using UseResult = std::function<void(std::uint64_t id, RunResult&& result)>;
 
-/// Calls use(run, result) for the valid results of runs of the plan in the store of a folder. Throws std::runtime_error
-/// if it cannot be read.
-void for_each_result(const std::filesystem::path& folder, const Plan& plan, const UseResult& use) {
+/// Calls use(id, result) for the valid results in the store of a folder. Throws std::runtime_error if it cannot be
+/// read.
+void for_each_result(const std::filesystem::path& folder, const UseResult& use) {
   if (Store::ids_in(folder).empty()) return;  // a shard that has just begun
-  const Store store(folder, metric_table(), Access::read);
-  store.for_each(Curves::with, [&](StoredRun&& stored) {
-    const auto run = plan.find(number_of_id(stored.id));
-    if (run && stored.damage.empty()) use(*run, std::move(stored.result));
+  Store(folder, metric_table(), Access::read).for_each(Curves::with, [&](StoredRun&& stored) {
+    if (stored.damage.empty()) use(number_of_id(stored.id), std::move(stored.result));
   });
+}
+
+/// The further runs that the experiment requests, given the results of the plan among these.
+std::vector<RunConfig> further_runs(const Experiment& experiment, const Options& options, const Plan& plan,
+                                    const std::filesystem::path& folder, ResultsById& results) {
+  ResultsById used;  // by the view, without the curves that the plan does not keep
+  StudyView view = view_of(experiment, options, plan, folder, all_of(plan), [&](std::size_t i) {
+    const auto found = results.find(plan.rows[i].id);
+    if (found == results.end()) return std::optional<RunResult>();
+    if (plan.rows[i].keeps_curves) return std::optional(std::move(found->second));
+    RunResult& kept = used[plan.rows[i].id] = std::move(found->second);
+    return std::optional(kept);
+  });
+  const std::vector<RunConfig> further = experiment.refine(view);
+  for (RunRecord& run : view.runs) {
+    const auto found = results.find(number_of_id(run.id));
+    if (found != results.end()) found->second = std::move(run.result);
+  }
+  for (auto& [id, result] : used) results[id] = std::move(result);
+  return further;
 }
 
 }  // namespace
@@ -116,11 +135,11 @@ StudyRuns::StudyRuns(const Experiment& experiment, const Options& options, Plan&
   store_.keep_scenarios(plan.scenarios);
   if (std::filesystem::exists(folder_ / Store::file_name)) others_.push_back(folder_);
   std::erase(others_, own_);
-  look(false);
+  look();
 }
 
-/// Finds out which runs of the plan are in a store. `again`: after runs have been carried out.
-void StudyRuns::look(bool again) {
+/// Finds out which runs of the plan are in a store.
+void StudyRuns::look() {
   places_.assign(plan_.size(), Place::nowhere);
   std::vector<std::pair<std::string, std::string>> damaged;
   std::size_t stored = 0;
@@ -128,7 +147,7 @@ void StudyRuns::look(bool again) {
     ++stored;
     if (!run.damage.empty()) {
       damaged.emplace_back(std::move(run.id), std::move(run.damage));
-    } else if (again || !options_.force || run.result.status != "failed") {
+    } else if (!options_.force || run.result.status != "failed") {
       const auto number = plan_.find(number_of_id(run.id));
       if (number && is_whole(*number, run.result)) places_[*number] = Place::own_store;
     }
@@ -141,8 +160,9 @@ void StudyRuns::look(bool again) {
   for (const auto& [id, column] : damaged) store_.forget(id);
   std::erase_if(others_, [&](const std::filesystem::path& other) {
     try {
-      for_each_result(other, plan_, [&](std::size_t run, RunResult&& result) {
-        if (places_[run] == Place::nowhere && is_whole(run, result)) places_[run] = Place::other_store;
+      for_each_result(other, [&](std::uint64_t id, RunResult&& result) {
+        const auto run = plan_.find(id);
+        if (run && places_[*run] == Place::nowhere && is_whole(*run, result)) places_[*run] = Place::other_store;
       });
       return false;
     } catch (const std::runtime_error& error) {  // its shard is under way on a network file system
@@ -178,11 +198,12 @@ void StudyRuns::join() {
     records.clear();
   };
   for (const auto& other : others_) {
-    for_each_result(other, plan_, [&](std::size_t i, RunResult&& result) {
-      if (places_[i] != Place::other_store || !is_complete(result, plan_.rows[i])) return;
-      PlannedRun run = plan_.run(i);
+    for_each_result(other, [&](std::uint64_t id, RunResult&& result) {
+      const auto i = plan_.find(id);
+      if (!i || places_[*i] != Place::other_store || !is_complete(result, plan_.rows[*i])) return;
+      PlannedRun run = plan_.run(*i);
       records.push_back({std::move(run.id), std::move(run.config), std::move(result)});
-      places_[i] = Place::own_store;
+      places_[*i] = Place::own_store;
       if (records.size() == at_a_time) keep();
     });
   }
@@ -246,26 +267,48 @@ void StudyRuns::run(const std::vector<std::uint32_t>& runs, Interruption& interr
 }
 
 bool StudyRuns::widen() {
-  if (!experiment_.refine || study::widen(plan_, experiment_.refine(view())) == 0) return false;
+  if (!experiment_.refine) return false;
+  hold_results();
+  if (study::widen(plan_, further_runs(experiment_, options_, plan_, folder_, held_)) == 0) return false;
   choose_curves(options_, plan_);
-  look(true);
+  places_.assign(plan_.size(), Place::nowhere);
+  for (std::size_t i = 0; i < plan_.size(); ++i) {
+    const std::uint64_t id = plan_.rows[i].id;
+    const auto found = held_.find(id);
+    if (found != held_.end() && is_whole(i, found->second))
+      places_[i] = elsewhere_.contains(id) ? Place::other_store : Place::own_store;
+  }
   return true;
 }
 
-StudyView StudyRuns::view() const {
-  // All results are read in the order of the stores, which is faster than one by one.
-  std::vector<std::optional<RunResult>> results(plan_.size());
-  store_.for_each(Curves::with, [&](StoredRun&& run) {
-    const auto number = plan_.find(number_of_id(run.id));
-    if (number && run.damage.empty()) results[*number] = std::move(run.result);
-  });
-  for (const auto& other : others_) {
-    for_each_result(other, plan_, [&](std::size_t i, RunResult&& result) {
-      if (places_[i] == Place::other_store) results[i] = std::move(result);
+/// Reads the results that are not held yet.
+void StudyRuns::hold_results() {
+  if (held_.empty()) {
+    store_.for_each(Curves::with, [&](StoredRun&& run) {
+      if (run.damage.empty()) held_[number_of_id(run.id)] = std::move(run.result);
     });
+    for (const auto& other : others_) {
+      for_each_result(other, [&](std::uint64_t id, RunResult&& result) {
+        if (held_.try_emplace(id, std::move(result)).second) elsewhere_.insert(id);
+      });
+    }
+    return;
   }
-  return view_of(experiment_, options_, plan_, folder_, all_of(plan_),
-                 [&](std::size_t i) { return std::move(results[i]); });
+  for (std::size_t i = 0; i < plan_.size(); ++i) {
+    const std::uint64_t id = plan_.rows[i].id;
+    if (places_[i] != Place::own_store || (held_.contains(id) && !elsewhere_.contains(id))) continue;
+    held_[id] = result(i, Curves::with);
+    elsewhere_.erase(id);
+  }
+}
+
+StudyView StudyRuns::view() {
+  if (held_.empty()) hold_results();
+  ResultsById results = std::exchange(held_, {});
+  return view_of(experiment_, options_, plan_, folder_, all_of(plan_), [&](std::size_t i) {
+    const auto found = results.find(plan_.rows[i].id);
+    return found == results.end() ? std::nullopt : std::optional(std::move(found->second));
+  });
 }
 
 StudyView StudyRuns::view(const std::vector<std::size_t>& runs) const {
@@ -273,19 +316,29 @@ StudyView StudyRuns::view(const std::vector<std::size_t>& runs) const {
                  [&](std::size_t i) { return std::optional(result(i, Curves::with)); });
 }
 
-void StudyRuns::for_each(const std::function<void(const RunRecord& run)>& use) const {
-  Variants variants;
-  for (std::size_t i = 0; i < plan_.size(); ++i) {
-    PlannedRun run = plan_.run(i, &variants);
-    RunRecord record{std::move(run.id), std::move(run.config), {}, std::move(run.scenario)};
-    if (plan_.rows[i].refused) {
-      record.result.status = "refused";
-      record.result.message = run.refusal;
-    } else {
-      record.result = result(i, Curves::without);
+void StudyRuns::for_each_part(const std::function<UsePart(std::vector<RunRecord>&& runs)>& make) const {
+  constexpr std::size_t at_a_time = 256;
+  std::mutex reading;
+  in_order((plan_.size() + at_a_time - 1) / at_a_time, number_of_threads(options_.jobs), [&](std::size_t part) {
+    std::vector<RunRecord> records;
+    Variants variants;
+    const std::size_t first = part * at_a_time, end = std::min(first + at_a_time, plan_.size());
+    for (std::size_t i = first; i < end; ++i) {
+      PlannedRun run = plan_.run(i, &variants);
+      records.push_back({std::move(run.id), std::move(run.config), {}, std::move(run.scenario)});
+      if (plan_.rows[i].refused) {
+        records.back().result.status = "refused";
+        records.back().result.message = run.refusal;
+      }
     }
-    use(record);
-  }
+    {
+      const std::lock_guard lock(reading);
+      for (std::size_t i = first; i < end; ++i) {
+        if (!plan_.rows[i].refused) records[i - first].result = result(i, Curves::without);
+      }
+    }
+    return make(std::move(records));
+  });
 }
 
 RunResult StudyRuns::result(std::size_t run, Curves curves) const {
@@ -314,23 +367,14 @@ BelongsToStudy runs_of_study(const Experiment& experiment, const Options& option
   Plan& plan = *whole;
   std::vector<std::filesystem::path> stores = shard_folders(folder);
   stores.push_back(folder);
-  for (bool more = true; more;) {
-    std::map<std::size_t, RunResult> results;
-    for (const auto& store : stores) {
-      try {
-        for_each_result(store, plan, [&](std::size_t i, RunResult&& result) { results.emplace(i, std::move(result)); });
-      } catch (const std::runtime_error&) {  // ResultFolder reports the error
-      }
+  ResultsById results;
+  for (const auto& store : stores) {
+    try {
+      for_each_result(store, [&](std::uint64_t id, RunResult&& result) { results.emplace(id, std::move(result)); });
+    } catch (const std::runtime_error&) {  // ResultFolder reports the error
     }
-    const StudyView view =
-        view_of(experiment, options, plan, folder, all_of(plan), [&](std::size_t i) -> std::optional<RunResult> {
-          const auto found = results.find(i);
-          if (found == results.end()) return std::nullopt;
-          return found->second;
-        });
-    more = widen(plan, experiment.refine(view)) > 0;
-    if (more) choose_curves(options, plan);
   }
+  while (widen(plan, further_runs(experiment, options, plan, folder, results)) > 0) choose_curves(options, plan);
   return [whole](std::uint64_t id) { return whole->contains(id); };
 }
 

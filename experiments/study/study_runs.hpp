@@ -7,6 +7,8 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "experiments/study/interruption.hpp"
@@ -15,8 +17,12 @@
 #include "experiments/study/record/study_view.hpp"
 #include "experiments/study/store/result_folder.hpp"
 #include "experiments/study/store/store.hpp"
+#include "experiments/study/text/in_order.hpp"
 
 namespace polhode::study {
+
+/// Results of runs by their id, as number_of_id() gives it.
+using ResultsById = std::unordered_map<std::uint64_t, RunResult>;
 
 class StudyRuns {
  public:
@@ -43,10 +49,12 @@ class StudyRuns {
 
   /// The study with these runs of the plan (ascending), which must be there or be refused.
   StudyView view(const std::vector<std::size_t>& runs) const;
-  StudyView view() const;  ///< with all runs
+  /// The study with all runs that are there or refused. To be called once, after the last widen().
+  StudyView view();
 
-  /// Calls use(run) for all runs of the plan, in its order, without curves. One run at a time is in memory.
-  void for_each(const std::function<void(const RunRecord& run)>& use) const;
+  /// Calls make(runs) for a few runs of the plan at a time, without curves, on several threads, and what it returns in
+  /// the order of the plan.
+  void for_each_part(const std::function<UsePart(std::vector<RunRecord>&& runs)>& make) const;
 
   /// The result of a run that is in the own store.
   RunResult result(std::size_t run, Curves curves) const;
@@ -54,7 +62,8 @@ class StudyRuns {
  private:
   enum class Place : char { nowhere, own_store, other_store };
 
-  void look(bool again);
+  void look();
+  void hold_results();
   bool is_whole(std::size_t run, const RunResult& result) const;
   std::size_t count(Place place) const;
   void run(const std::vector<std::uint32_t>& runs, Interruption& interruption);
@@ -64,9 +73,11 @@ class StudyRuns {
   Plan& plan_;
   std::filesystem::path folder_, own_;
   Store store_;
-  std::vector<std::filesystem::path> others_;  // folders of the other stores of the study that can be read
-  std::vector<Place> places_;                  // by run of the plan
-  bool begun_ = false;                         // runs have been carried out
+  std::vector<std::filesystem::path> others_;    // folders of the other stores of the study that can be read
+  std::vector<Place> places_;                    // by run of the plan
+  ResultsById held_;                             // in a study that is refined: all results of all stores
+  std::unordered_set<std::uint64_t> elsewhere_;  // those of held_ that only other stores have
+  bool begun_ = false;                           // runs have been carried out
 };
 
 /// Chooses the runs of the plan whose curves against time are kept (--curves).

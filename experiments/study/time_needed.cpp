@@ -18,6 +18,7 @@
 #include "experiments/study/report/figures/study_figures.hpp"
 #include "experiments/study/run_times.hpp"
 #include "experiments/study/store/store.hpp"
+#include "experiments/study/text/in_order.hpp"
 
 namespace polhode::study {
 namespace {
@@ -37,10 +38,6 @@ constexpr double figures_at_a_time = 2;
 /// Short times with a tenth of a second.
 std::string text_of_time(double seconds) {
   return seconds < 9.95 ? fmt::format("{:.1f} s", std::max(seconds, 0.1)) : duration_text(seconds);
-}
-
-std::size_t workers_of(const Options& options) {
-  return options.jobs > 0 ? static_cast<std::size_t>(options.jobs) : std::max(1U, std::thread::hardware_concurrency());
 }
 
 /// A result with everything that figures may show.
@@ -141,7 +138,7 @@ std::string time_needed_text(const Experiment& experiment, const Options& option
   Timing timing;
   timing.best_times = experiment.best_times;
   timing.in_lanes = options.trajectory == TrajectoryFormat::none;
-  timing.workers = workers_of(options);
+  timing.workers = number_of_threads(options.jobs);
   const RunTimes times = run_times(timed, known, timing);
   const double of_all = runs.empty() ? 1 : static_cast<double>(missing.size()) / static_cast<double>(runs.size());
   const double running = time_of_workers(times.seconds, timing.workers) * of_all;

@@ -17,6 +17,7 @@
 #include "experiments/study/progress.hpp"
 #include "experiments/study/record/run_id.hpp"
 #include "experiments/study/run_queue.hpp"
+#include "experiments/study/text/in_order.hpp"
 #include "experiments/study/time_left.hpp"
 
 namespace polhode::study {
@@ -200,8 +201,7 @@ class Worker {
 std::vector<std::uint32_t> run_all(const std::string& name, const Plan& plan, std::vector<std::uint32_t> runs,
                                    const Work& work, int jobs, Store& store, std::atomic<bool>& no_more) {
   if (runs.empty()) return {};
-  const int cores = std::max(1, jobs > 0 ? jobs : static_cast<int>(std::thread::hardware_concurrency()));
-  const int count = std::min(cores, static_cast<int>(std::min<std::size_t>(runs.size(), 4096)));
+  const auto count = static_cast<int>(std::min({number_of_threads(jobs), runs.size(), std::size_t{4096}}));
   // One run of each kind tells whether others can be carried out together with it.
   std::vector<std::size_t> together(plan.kinds.size());
   for (const std::uint32_t i : runs) {

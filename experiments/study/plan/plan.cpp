@@ -16,6 +16,7 @@
 #include "experiments/study/record/run_id.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/run/run.hpp"
+#include "experiments/study/text/in_order.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/text_hash.hpp"
 #include "integrators/catalogue.hpp"
@@ -70,13 +71,23 @@ std::uint16_t number_of_kind(const std::string& kind, std::vector<std::string>& 
   return number;
 }
 
-/// The row of a run, without its place. Throws std::invalid_argument for an impossible step.
-PlanRow row_of(const RunConfig& config, const Scenario& scenario, const Identity& identity,
-               std::vector<std::string>& kinds) {
-  PlanRow row{.id = identity.id, .scenario = identity.scenario, .cost = cost_of(config)};
-  row.kind = number_of_kind(kind_of(config), kinds);
-  row.refused = !refusal(config, scenario).empty();
-  return row;
+/// A run on its way into the plan.
+struct Draft {
+  PlanRow row;  ///< without its kind
+  std::string kind;
+  std::uint64_t motion = 0;      ///< as Identity::motion
+  std::vector<OptionValue> key;  ///< sort_key()
+};
+
+/// Throws std::invalid_argument for an impossible step.
+Draft draft_of(const RunConfig& config, const Scenario& scenario) {
+  const Identity identity = identity_of_run(config, scenario);
+  Draft draft{{.id = identity.id, .scenario = identity.scenario, .cost = cost_of(config)},
+              kind_of(config),
+              identity.motion,
+              sort_key(config)};
+  draft.row.refused = !refusal(config, scenario).empty();
+  return draft;
 }
 
 /// The rows of a plan in the making.
@@ -88,15 +99,11 @@ class Rows {
     motions_.reserve(expected);
   }
 
-  /// Throws std::invalid_argument for an impossible step.
-  void add(std::uint16_t product, std::uint64_t cell, const RunConfig& config, const Scenario& scenario) {
-    const Identity identity = identity_of_run(config, scenario);
-    PlanRow row = row_of(config, scenario, identity, kinds_);
-    row.product = product;
-    row.cell = cell;
-    order_.add(sort_key(config));
-    motions_.push_back(identity.motion);
-    rows_.push_back(row);
+  void add(const Draft& draft) {
+    rows_.push_back(draft.row);
+    rows_.back().kind = number_of_kind(draft.kind, kinds_);
+    motions_.push_back(draft.motion);
+    order_.add(draft.key);
   }
 
   /// Puts the rows into the plan, by configuration. Of several runs of the same motion the first one is kept.
@@ -206,6 +213,36 @@ bool with_conditions(const Options& options) {
                      [](const StudyAxes& study) { return !study.where.empty(); });
 }
 
+/// Adds the runs of all cells of a product, made on several threads. `number`: that of the product. `effective`: the
+/// options that affect a run of it are added.
+StudyCount add_cells(Product& product, std::uint16_t number, const Plan& plan, Rows& rows, int jobs,
+                     std::set<std::string>& effective) {
+  constexpr std::uint64_t at_a_time = 1024;
+  product.open();
+  StudyCount count{product.study().name, product.cells(), 0, product.tables()};
+  in_order((count.cells + at_a_time - 1) / at_a_time, number_of_threads(jobs), [&](std::size_t k) -> UsePart {
+    struct Made {
+      std::vector<Draft> drafts;
+      Product::Part part;
+    };
+    const auto made = std::make_shared<Made>();
+    const std::uint64_t first = k * at_a_time, end = std::min<std::uint64_t>(first + at_a_time, count.cells);
+    made->part = product.for_each(first, end, [&](std::uint64_t cell, Product::Run&& run) {
+      fill_varied(run.config, plan.varied_keys);
+      made->drafts.push_back(draft_of(run.config, *run.scenario));
+      made->drafts.back().row.product = number;
+      made->drafts.back().row.cell = cell;
+    });
+    return [&, made] {
+      for (const Draft& draft : made->drafts) rows.add(draft);
+      count.left_out += made->part.left_out;
+      effective.merge(made->part.effective);
+    };
+  });
+  if (count.left_out == count.cells) product.refuse_empty();
+  return count;
+}
+
 void refuse_too_many(double cells) {
   if (cells <= static_cast<double>(most_runs)) return;
   throw InputError(fmt::format("{} runs are more than the 10 million that a study may have; make the axes shorter",
@@ -266,12 +303,7 @@ Plan make_plan(const Experiment& experiment, const Options& options) {
     std::set<std::string> own;
     for (const auto& product : products[i]) {
       const auto number = static_cast<std::uint16_t>(plan.products_.size());
-      Product::Count count = product->for_each([&](std::uint64_t cell, Product::Run&& run) {
-        fill_varied(run.config, plan.varied_keys);
-        rows.add(number, cell, run.config, *run.scenario);
-      });
-      plan.studies.push_back({study.name, count.cells, count.left_out, std::move(count.tables)});
-      own.merge(count.effective);
+      plan.studies.push_back(add_cells(*product, number, plan, rows, options.jobs, own));
       plan.products_.push_back(product);
     }
     refuse_without_effect(study, study.said, own);
@@ -315,13 +347,15 @@ std::size_t widen(Plan& plan, const std::vector<RunConfig>& configs) {
   for (const RunConfig& config : configs) {
     const auto like = scenarios.find(setting(config));
     if (like == scenarios.end()) throw std::logic_error("a further run of a scenario that the study does not have");
-    PlanRow row = row_of(config, *like->second, identity_of_run(config, *like->second), plan.kinds);
+    const Draft draft = draft_of(config, *like->second);
+    PlanRow row = draft.row;
     if (plan.contains(row.id) || !added.insert(row.id).second) continue;
+    row.kind = number_of_kind(draft.kind, plan.kinds);
     row.product = static_cast<std::uint16_t>(plan.products_.size());
     row.cell = plan.further_.size();
     plan.further_.push_back({config, like->second});
     plan.rows.push_back(row);
-    order.add(sort_key(config));
+    order.add(draft.key);
   }
   if (added.empty()) return 0;
   std::vector<PlanRow> sorted;

@@ -138,14 +138,14 @@ Product::Run Product::made(const Cell& cell, const Opened& opened, std::shared_p
 }
 
 /// False: the conditions leave out the cell.
-bool Product::holds(const Cells::Place& place) {
+bool Product::holds(const Cells::Place& place, Conditions& conditions) const {
   if (conditions_.empty()) return true;
-  Opened& opened = *by_name_.at(cells_->scenario(place));
+  const Opened& opened = *by_name_.at(cells_->scenario(place));
   const auto value_not_given = [&](const RunOption& option, const Cell& cell) {
     const RunConfig config = configured(cell, opened, *opened.scenario);
     return option.applies_to(config) ? option.value(config) : OptionValue{};
   };
-  return opened.conditions.hold(*cells_, place, value_not_given);
+  return conditions.try_emplace(&opened, opened.conditions).first->second.hold(*cells_, place, value_not_given);
 }
 
 /// Throws InputError if the run cannot have this configuration.
@@ -164,9 +164,15 @@ void Product::check(const RunConfig& config) const {
   }
 }
 
-Product::Count Product::for_each(const std::function<void(std::uint64_t cell, Run&& run)>& use) {
-  cells_.emplace(make_cells(false));
-  Count count{static_cast<std::size_t>(cells_->count()), 0, cells_->tables(), {}};
+void Product::open() { cells_.emplace(make_cells(false)); }
+
+std::uint64_t Product::cells() const { return static_cast<std::uint64_t>(cells_->count()); }
+std::vector<std::string> Product::tables() const { return cells_->tables(); }
+
+Product::Part Product::for_each(std::uint64_t first, std::uint64_t end,
+                                const std::function<void(std::uint64_t cell, Run&& run)>& use) const {
+  Part part;
+  Conditions conditions;
   std::vector<const RunOption*> without_effect;
   for (const RunOption& option : run_options()) {
     if (study_.has(option.name)) without_effect.push_back(&option);
@@ -175,10 +181,10 @@ Product::Count Product::for_each(const std::function<void(std::uint64_t cell, Ru
   const Opened* variant_of = nullptr;
   std::vector<Override> variant_keys;
   Cells::Place place;
-  for (std::uint64_t k = 0; k < count.cells; ++k) {
+  for (std::uint64_t k = first; k < end; ++k) {
     cells_->find(k, place);
-    if (!holds(place)) {
-      ++count.left_out;
+    if (!holds(place, conditions)) {
+      ++part.left_out;
       continue;
     }
     const Cell cell = cells_->at(place);
@@ -191,7 +197,7 @@ Product::Count Product::for_each(const std::function<void(std::uint64_t cell, Ru
     check(run.config);
     std::erase_if(without_effect, [&](const RunOption* option) {
       if (!option->applies_to(run.config)) return false;
-      count.effective.insert(option->name);
+      part.effective.insert(option->name);
       return true;
     });
     try {
@@ -200,11 +206,12 @@ Product::Count Product::for_each(const std::function<void(std::uint64_t cell, Ru
       throw InputError(study_.label("dt") + ": " + std::string(error.what()));
     }
   }
-  if (count.left_out == count.cells) {
-    throw InputError(fmt::format("{}: it leaves out all {}; widen it, or the axes", conditions_.front().label(),
-                                 study::count(count.cells, "cell")));
-  }
-  return count;
+  return part;
+}
+
+void Product::refuse_empty() const {
+  throw InputError(fmt::format("{}: it leaves out all {}; widen it, or the axes", conditions_.front().label(),
+                               count(cells(), "cell")));
 }
 
 Product::Run Product::run(std::uint64_t cell, std::shared_ptr<const Scenario> scenario) const {

@@ -38,7 +38,7 @@ class Product {
     std::shared_ptr<const Scenario> scenario;
     BoundConditions conditions;
   };
-  /// The scenarios in their order. Valid after open().
+  /// The scenarios in their order.
   const std::vector<std::unique_ptr<Opened>>& opened() const { return opened_; }
   std::set<std::string> varied_keys() const;
   const StudyAxes& study() const { return study_; }
@@ -47,16 +47,24 @@ class Product {
     RunConfig config;
     std::shared_ptr<const Scenario> scenario;
   };
-  /// What for_each() found.
-  struct Count {
-    std::size_t cells = 0, left_out = 0;
-    std::vector<std::string> tables;  ///< in words
+  /// Makes the cells, each of which can then be made from its number. Throws InputError for invalid values.
+  void open();
+  std::uint64_t cells() const;              ///< their number; valid after open(), as are all members below
+  std::vector<std::string> tables() const;  ///< the tables of points, in words
+
+  /// What was found in a part of the cells.
+  struct Part {
+    std::size_t left_out = 0;         ///< number of cells that the conditions leave out
     std::set<std::string> effective;  ///< names of options of the study that affect a run
   };
-  /// Calls use(cell, run) for each cell that the conditions do not leave out, in ascending order. Throws InputError for
-  /// a value that a run cannot have, and if all cells are left out. `use` may throw std::invalid_argument for an
-  /// impossible step, which becomes an InputError.
-  Count for_each(const std::function<void(std::uint64_t cell, Run&& run)>& use);
+  /// Calls use(cell, run) for each cell from `first` to `end` - 1 that the conditions do not leave out, in ascending
+  /// order. Throws InputError for a value that a run cannot have. `use` may throw std::invalid_argument for an
+  /// impossible step, which becomes an InputError. Thread-safe.
+  Part for_each(std::uint64_t first, std::uint64_t end,
+                const std::function<void(std::uint64_t cell, Run&& run)>& use) const;
+
+  /// Throws InputError, which says that the conditions leave out all cells.
+  [[noreturn]] void refuse_empty() const;
 
   /// The run of a cell that for_each() gave. `scenario`: that of the run, if it is known. Thread-safe.
   Run run(std::uint64_t cell, std::shared_ptr<const Scenario> scenario) const;
@@ -67,7 +75,9 @@ class Product {
   RunConfig start_of(const Opened& opened, const Scenario& scenario) const;
   RunConfig configured(const Cell& cell, const Opened& opened, const Scenario& scenario) const;
   Run made(const Cell& cell, const Opened& opened, std::shared_ptr<const Scenario> scenario) const;
-  bool holds(const Cells::Place& place);
+  /// Conditions of each scenario, with what they keep from cell to cell.
+  using Conditions = std::map<const Opened*, BoundConditions>;
+  bool holds(const Cells::Place& place, Conditions& conditions) const;
   void check(const RunConfig& config) const;
 
   Experiment experiment_;

@@ -143,32 +143,32 @@ RunsCsv::RunsCsv(const StudyView& study)
   file_.add(csv_row(header));
 }
 
-void RunsCsv::add(const RunRecord& run, const std::vector<std::string>& cells) {
+std::string RunsCsv::row(const RunRecord& run, const std::vector<std::string>& cells) const {
   std::vector<std::string> row = {run.id};
   add_to(row, cells);
   for (const Metric* metric : metrics_) add_to(row, csv_cells(*metric, run.result, invariants_));
-  file_.add(csv_row(row));
+  return csv_row(row);
 }
 
 TimingsCsv::TimingsCsv(const StudyView& study) : file_(study.folder / "timings.csv") {
   file_.add("run,wall_s,steps,wall_per_step_s\n");
 }
 
-void TimingsCsv::add(const RunRecord& run) {
+std::string TimingsCsv::row(const RunRecord& run) {
   const RunResult& r = run.result;
-  file_.add(fmt::format("{},{},{},{}\n", run.id, exact(r.seconds), r.steps,
-                        r.steps > 0 ? exact(r.seconds / static_cast<double>(r.steps)) : ""));
+  return fmt::format("{},{},{},{}\n", run.id, exact(r.seconds), r.steps,
+                     r.steps > 0 ? exact(r.seconds / static_cast<double>(r.steps)) : "");
 }
 
 void write_runs_csv(const StudyView& study) {
   RunsCsv file(study);
-  for (const RunRecord& run : study.runs) file.add(run, config_cells(run.config, study.named));
+  for (const RunRecord& run : study.runs) file.add(file.row(run, config_cells(run.config, study.named)));
   file.finish();
 }
 
 void write_timings_csv(const StudyView& study) {
   TimingsCsv file(study);
-  for (const RunRecord& run : study.runs) file.add(run);
+  for (const RunRecord& run : study.runs) file.add(TimingsCsv::row(run));
   file.finish();
 }
 

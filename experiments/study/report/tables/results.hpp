@@ -13,13 +13,14 @@
 
 namespace polhode::study::inline report::inline tables {
 
-/// Writes runs.csv one run at a time.
+/// Writes runs.csv, some rows at a time.
 class RunsCsv {
  public:
   /// `study`: all of it, or a sample of its runs. Throws WriteError, as the other members do.
   explicit RunsCsv(const StudyView& study);
-  /// `cells`: those of the run below config_columns().
-  void add(const RunRecord& run, const std::vector<std::string>& cells);
+  /// The row of a run. `cells`: those of the run below config_columns(). Thread-safe.
+  std::string row(const RunRecord& run, const std::vector<std::string>& cells) const;
+  void add(const std::string& rows) { file_.add(rows); }
   void finish() { file_.finish(); }
 
  private:
@@ -28,11 +29,12 @@ class RunsCsv {
   TextFile file_;
 };
 
-/// Writes timings.csv one run at a time.
+/// Writes timings.csv, some rows at a time.
 class TimingsCsv {
  public:
   explicit TimingsCsv(const StudyView& study);
-  void add(const RunRecord& run);
+  static std::string row(const RunRecord& run);
+  void add(const std::string& rows) { file_.add(rows); }
   void finish() { file_.finish(); }
 
  private:
