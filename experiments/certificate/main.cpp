@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
                               {"tolerance", "1e-8"},
                               {"t-end", "200"}}}},
        .analysis_alone = true,
-       .analysis = polhode::study::certificate::certificates},
+       .analysis = polhode::study::certificate::certificates,
+       .needs = {.analysis = 1.3}},
       argc, argv);
 }

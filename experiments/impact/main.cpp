@@ -15,8 +15,8 @@ int main(int argc, char** argv) {
                     {"response", "single_impulse,sequential_impulses,simultaneous"},
                     {"impact-timing", "time_stepping,time_stepping_free_end,event_located"}},
        .refine = polhode::study::impact::exact_impacts,
-       .analysis_figures = 2,
        .analysis_alone = true,
-       .analysis = polhode::study::impact::errors_of_impacts},
+       .analysis = polhode::study::impact::errors_of_impacts,
+       .needs = {.figures = 2}},
       argc, argv);
 }

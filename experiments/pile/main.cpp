@@ -13,8 +13,8 @@ int main(int argc, char** argv) {
                                                       {"response", "sequential_impulses"}},
                                          .best_times = true,
                                          .fixed_steps_only = true,
-                                         .analysis_figures = 2,
                                          .analysis_alone = true,
-                                         .analysis = polhode::study::pile::what_piles_cost},
+                                         .analysis = polhode::study::pile::what_piles_cost,
+                                         .needs = {.figures = 2}},
                                         argc, argv);
 }

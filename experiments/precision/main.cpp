@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
                     {"samples", "128"}},
        .vary = {{"body.0.angular_velocity.2", "0.5:0.84375:12"}},
        .curves_are_results = true,
-       .analysis_figures = 2,
-       .analysis = polhode::study::precision::rounding_and_truncation},
+       .analysis = polhode::study::precision::rounding_and_truncation,
+       .needs = {.figures = 2}},
       argc, argv);
 }

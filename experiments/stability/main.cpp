@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
                                          .curves_are_results = true,
                                          .duration = polhode::study::stability::whole_steps,
                                          .refine = polhode::study::stability::bisection,
-                                         .analysis_figures = 3,
-                                         .analysis = polhode::study::stability::stability},
+                                         .analysis = polhode::study::stability::stability,
+                                         .needs = {.refined = 0.34, .analysis = 0.5, .figures = 3}},
                                         argc, argv);
 }

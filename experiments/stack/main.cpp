@@ -17,8 +17,8 @@ int main(int argc, char** argv) {
        .more = {{.defaults = {{"response", "simultaneous"}},
                  .vary = {{"body.box.repeat", "[1,1,2];[1,1,3]"}},
                  .by_default_only = true}},
-       .analysis_figures = 1,
        .analysis_alone = true,
-       .analysis = polhode::study::stack::how_stacks_stand},
+       .analysis = polhode::study::stack::how_stacks_stand,
+       .needs = {.figures = 1}},
       argc, argv);
 }

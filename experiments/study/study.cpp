@@ -194,8 +194,8 @@ int run_study(const Experiment& experiment, const Options& options) {
     }
   } while (runs.widen());
   interruption.study_is_stored();
-  const bool fits = plan.size() <= most_table_rows || experiment.analysis || experiment.refine;
-  return fits ? write_study(experiment, options, plan, runs) : write_large_study(experiment, options, plan, runs);
+  return is_held(experiment, plan.size()) ? write_study(experiment, options, plan, runs)
+                                          : write_large_study(experiment, options, plan, runs);
 }
 
 }  // namespace

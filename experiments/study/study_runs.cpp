@@ -31,15 +31,13 @@ std::filesystem::path trajectory_folder(const Experiment& experiment, const std:
   return experiment.one_run ? folder : folder / "trajectories" / id;
 }
 
-/// Carries out one run. If the experiment requires best times, a run shorter than 0.04 s is repeated and the least time
-/// kept, since disturbances by other programs only increase it.
+/// Carries out one run, repeatedly if it is short and the experiment requires best times.
 RunResult carry_out_alone(const Experiment& experiment, const PlannedRun& run, const TrajectoryRequest& trajectory,
                           References& references, Interruption& interruption, std::atomic<double>& share) {
-  constexpr double long_enough = 0.04;  // s
-  constexpr int most_times = 5;
   const std::atomic<bool>* stop = &interruption.stop();
   RunResult result = carry_out(run.config, *run.scenario, trajectory, stop, &references, &share);
-  for (int k = 1; k < most_times && experiment.best_times && result.seconds < long_enough && !*stop; ++k) {
+  for (int k = 1;
+       k < BestTime::repetitions && experiment.best_times && result.seconds < BestTime::repeated_below && !*stop; ++k) {
     const RunResult again = carry_out(run.config, *run.scenario, {}, stop, &references);
     if (again.status == result.status) result.seconds = std::min(result.seconds, again.seconds);
   }

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -19,6 +22,7 @@
 #include "experiments/study/run_times.hpp"
 #include "experiments/study/store/store.hpp"
 #include "experiments/study/text/in_order.hpp"
+#include "experiments/study/text/value_lists.hpp"
 
 namespace polhode::study {
 namespace {
@@ -27,17 +31,38 @@ constexpr std::size_t most_looked_up = 500;  // stored wall times that are read
 constexpr std::size_t most_drawn = 5000;     // runs that are taken for the figures
 constexpr std::size_t most_timed = 10'000;   // runs whose times are summed up; others take as long in the mean
 
-// Measured on a processor of 2.5 GHz, s.
-constexpr double fixed_work = 0.06;        // store, summary, page
-constexpr double work_of_a_run = 2.5e-4;   // its rows in the store, in tables and in the page
-constexpr double work_of_a_figure = 0.03;  // a start of gnuplot
-constexpr double work_of_a_panel = 0.003;
-constexpr double work_of_a_point = 3e-5;
+// Times measured where a number is written in `usual_number`, s.
+constexpr double usual_number = 4.4e-8;
+constexpr double fixed_work = 0.02;             // store, summary, page
+constexpr double work_of_a_run = 8e-5;          // its rows in the store, in tables and in the page
+constexpr double work_of_a_run_of_many = 2e-5;  // the same where runs are too many to be held, on all threads
+constexpr double work_of_a_figure = 0.03;       // a start of gnuplot
+constexpr double work_of_a_panel = 0.0035;
+constexpr double work_of_a_point = 2e-5;
 constexpr double figures_at_a_time = 2;
 
-/// Short times with a tenth of a second.
+/// Time in which this machine writes a number as text, s.
+double time_of_a_number() {
+  constexpr int trials = 5, numbers = 2000;
+  double least = std::numeric_limits<double>::infinity();
+  std::string text;
+  for (int trial = 0; trial < trials; ++trial) {
+    text.clear();
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 1; i <= numbers; ++i) text += exact(std::sqrt(i));
+    least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return text.empty() ? usual_number : least / numbers;
+}
+
+/// Short times with two digits.
 std::string text_of_time(double seconds) {
-  return seconds < 9.95 ? fmt::format("{:.1f} s", std::max(seconds, 0.1)) : duration_text(seconds);
+  return seconds < 9.95 ? fmt::format("{:.{}f} s", std::max(seconds, 0.01), seconds < 1 ? 2 : 1)
+                        : duration_text(seconds);
+}
+
+double mean(const std::vector<double>& values) {
+  return values.empty() ? 0 : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 /// A result with everything that figures may show.
@@ -50,7 +75,9 @@ RunResult full_result(const PlannedRun& run, bool known_motion, bool keeps_curve
   if (known_motion) result.attitude_error_max = result.position_error_max = 1e-3;
   for (const std::string& name : run.scenario->invariants) result.invariant_drift_max_rel[name] = 1e-3;
   constexpr double most_points = 256;
-  const double steps = run.config.dt ? run.config.t_end / *run.config.dt : most_points;
+  const double steps = run.config.samples ? static_cast<double>(*run.config.samples)
+                       : run.config.dt    ? run.config.t_end / *run.config.dt
+                                          : most_points;
   const auto points = static_cast<std::size_t>(std::clamp(steps, 1.0, most_points));
   if (keeps_curves) result.series.assign(points, {1, 1e-3, 1e-3, 1e-3, 1e-3});
   return result;
@@ -76,8 +103,8 @@ FigureSet usual_figures(const Plan& plan) {
   return figures_of(view, group(view));
 }
 
-double seconds_of_figures(const Experiment& experiment, const Plan& plan) {
-  double work = static_cast<double>(experiment.analysis_figures) * (work_of_a_figure + 4 * work_of_a_panel);
+double work_of_figures(const Experiment& experiment, const Plan& plan) {
+  double work = static_cast<double>(experiment.needs.figures) * (work_of_a_figure + 4 * work_of_a_panel);
   if (!experiment.analysis_alone) {
     for (const Figure& figure : usual_figures(plan).figures) {
       double points = 0;
@@ -88,6 +115,15 @@ double seconds_of_figures(const Experiment& experiment, const Plan& plan) {
     }
   }
   return work / std::clamp<double>(std::thread::hardware_concurrency(), 1, figures_at_a_time);
+}
+
+/// What is done after the runs, besides the analysis, s.
+double work_after_runs(const Experiment& experiment, const Options& options, const Plan& plan) {
+  const double runs = static_cast<double>(plan.size()) * (1 + experiment.needs.refined);
+  const double of_a_run = is_held(experiment, plan.size())
+                              ? work_of_a_run
+                              : work_of_a_run_of_many / static_cast<double>(number_of_threads(options.jobs));
+  return fixed_work + of_a_run * runs + (options.figures ? work_of_figures(experiment, plan) : 0);
 }
 
 /// Finished runs with their wall times, of an even choice of these.
@@ -141,16 +177,18 @@ std::string time_needed_text(const Experiment& experiment, const Options& option
   timing.workers = number_of_threads(options.jobs);
   const RunTimes times = run_times(timed, known, timing);
   const double of_all = runs.empty() ? 1 : static_cast<double>(missing.size()) / static_cast<double>(runs.size());
-  const double running = time_of_workers(times.seconds, timing.workers) * of_all;
-  const double after = fixed_work + work_of_a_run * static_cast<double>(plan.size()) +
-                       (options.figures ? seconds_of_figures(experiment, plan) : 0);
+  const double planned = time_of_workers(times.seconds, timing.workers) * of_all;
+  const double stored_times = mean(stored.seconds) * static_cast<double>(plan.size() - missing.size());
+  const Experiment::Needs& needs = experiment.needs;
+  const double running = planned * (1 + needs.refined);
+  const double analysis = needs.analysis * (running + stored_times / static_cast<double>(timing.workers));
+  const double after = analysis + work_after_runs(experiment, options, plan) * time_of_a_number() / usual_number;
   if (times.known == 0 && !missing.empty())
     return fmt::format("at least {} with {} job{}: no run came far enough in {} to tell its time\n",
                        text_of_time(running + after), timing.workers, timing.workers == 1 ? "" : "s",
                        text_of_time(timing.budget));
-  std::string text =
-      fmt::format("{} {} with {} job{}, of which {} after the runs", experiment.refine ? "at least" : "about",
-                  text_of_time(running + after), timing.workers, timing.workers == 1 ? "" : "s", text_of_time(after));
+  std::string text = fmt::format("about {} with {} job{}, of which {} after the runs", text_of_time(running + after),
+                                 timing.workers, timing.workers == 1 ? "" : "s", text_of_time(after));
   if (times.known < 0.995 && !missing.empty())
     text += fmt::format("; {:.0f} % of this is known from timed runs, and guessed from them for the rest",
                         100 * times.known);

@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
                     {"tolerance", "1e-2,1e-3,1e-4,1e-5,1e-6,1e-7,1e-8,1e-9,1e-10,1e-11,1e-12"},
                     {"samples", "1"}},
        .best_times = true,
-       .analysis_figures = 2,
-       .analysis = polhode::study::work_precision::work_against_error},
+       .analysis = polhode::study::work_precision::work_against_error,
+       .needs = {.figures = 2}},
       argc, argv);
 }

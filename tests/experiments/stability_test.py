@@ -135,7 +135,7 @@ class Stability(unittest.TestCase):
     def test_by_itself_it_makes_limits_of_all_methods_and_a_map_of_some(self):
         said = self.run_program("--dry-run", "--out", "never")
         self.assertIn("further runs follow from the results of these", said)
-        self.assertRegex(said, r"(?m)^at least .* with \d+ jobs?[,:] ")
+        self.assertRegex(said, r"(?m)^about .* with \d+ jobs?[,:] ")
         values = re.search(r"body\.0\.inertia\.1 +(.*)", said)[1].split(", ")
         self.assertEqual(len(values), 16)
         plain = self.run_program("--scenario", "oscillator,hairer_vilmart", "--dry-run", "--out", "never")

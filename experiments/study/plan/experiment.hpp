@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/study/record/shown_runs.hpp"
 #include "experiments/study/record/study_view.hpp"
 
 namespace polhode::study::inline plan {
@@ -20,6 +21,13 @@ struct FurtherAxes {
   std::vector<std::pair<std::string, std::string>> vary{};  ///< keys of the scenario and their values
   bool reference = false;                                   ///< as --reference
   bool by_default_only = false;                             ///< omitted if the user gives any axis
+};
+
+/// How the wall time of a run is taken if the experiment requires best times: a short run is repeated and the least
+/// time kept, since disturbances by other programs only increase it.
+struct BestTime {
+  static constexpr double repeated_below = 0.04;  ///< s
+  static constexpr int repetitions = 5;
 };
 
 struct Experiment {
@@ -34,7 +42,7 @@ struct Experiment {
   bool reference = false;             ///< as if --reference were given
   std::vector<FurtherAxes> more{};    ///< further products of axes
   bool one_run = false;               ///< exactly one run, whose trajectory is written to the results folder itself
-  bool best_times = false;            ///< short runs are repeated, and the least wall time is kept
+  bool best_times = false;            ///< wall times are taken as BestTime says
   bool fixed_steps_only = false;      ///< adaptive methods are not allowed
   bool failures_are_results = false;  ///< failed runs are results and do not change the exit status
   bool curves_are_results = false;    ///< the analysis uses the curves against time of all runs
@@ -45,10 +53,21 @@ struct Experiment {
   /// no new run. Must be deterministic: the same finished runs must yield the same requests, so that an interrupted
   /// study can be continued.
   std::function<std::vector<RunConfig>(const StudyView&)> refine{};
-  std::size_t analysis_figures = 0;  ///< number of figures that the analysis makes of the default study
-  bool analysis_alone = false;       ///< the analysis replaces the figures of every study (Analysis::alone)
+  bool analysis_alone = false;  ///< the analysis replaces the figures of every study (Analysis::alone)
   /// Analysis of the finished runs beyond that of every study; empty: none.
   std::function<Analysis(const StudyView&)> analysis{};
+  /// What the default study was measured to need besides its first runs, for the time that --dry-run says.
+  struct Needs {
+    double refined = 0;       ///< processor time of the runs that `refine` requests, over that of the others
+    double analysis = 0;      ///< processor time of the analysis, on all threads, over that of all runs
+    std::size_t figures = 0;  ///< number of figures that the analysis makes
+  };
+  Needs needs{};
 };
+
+/// True if all runs of a study are held when its files are written; else a few at a time are.
+inline bool is_held(const Experiment& experiment, std::size_t runs) {
+  return runs <= most_table_rows || experiment.analysis || experiment.refine;
+}
 
 }  // namespace polhode::study::plan
