@@ -250,15 +250,6 @@ std::vector<std::string> Store::ids_with(const std::string& beginning) const {
   return ids;
 }
 
-Store::Loaded Store::load() const {
-  Loaded loaded;
-  for_each(Curves::with, [&](StoredRun&& run) {
-    if (run.damage.empty()) loaded.runs.emplace(run.id, std::move(run.result));
-    else loaded.damaged.emplace(run.id, run.damage);
-  });
-  return loaded;
-}
-
 void Store::forget(const std::string& id) {
   const Value key = key_of(id);
   Transaction transaction(db_);

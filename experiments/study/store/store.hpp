@@ -65,12 +65,6 @@ class Store {
   /// Ids of the runs, damaged ones too, that begin with these 1 to 16 hexadecimal digits, in ascending order.
   std::vector<std::string> ids_with(const std::string& beginning) const;
 
-  struct Loaded {
-    std::map<std::string, RunResult> runs;       ///< valid results by run id
-    std::map<std::string, std::string> damaged;  ///< damaged runs: run id, and name of the invalid column
-  };
-  Loaded load() const;  ///< all runs, with curves
-
   /// Stores the runs in one transaction; replaces rows of the same id. A run without series and attitude errors is
   /// stored without curves. Throws std::logic_error for a value that could not be read back.
   void keep(std::span<const RunRecord> records);

@@ -26,6 +26,7 @@
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/scenario/scenario.hpp"
 #include "experiments/study/store/store.hpp"
+#include "tests/experiments/study/store/loaded.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace polhode::study {
@@ -98,7 +99,7 @@ TEST(MetricTable, OneMoreEntryIsFoundInStoreTablesHelpAndCsv) {
   ASSERT_EQ(study.runs[0].result.status, "ok") << study.runs[0].result.message;
 
   Store(folder.path(), metrics).keep(study.runs);
-  const Store::Loaded loaded = Store(folder.path(), metrics).load();
+  const Loaded loaded = load(Store(folder.path(), metrics));
   ASSERT_TRUE(loaded.runs.contains(study.runs[0].id));
   study.runs[0].result = loaded.runs.at(study.runs[0].id);
   ASSERT_TRUE(study.runs[0].result.further.contains("step_rate_per_s"));
@@ -187,7 +188,7 @@ TEST(MetricTable, EveryValueComesBackFromTheStore) {
   run.result.attitude_errors = {{0.1, 0.2}};
   const TemporaryFolder folder;
   Store(folder.path()).keep({&run, 1});
-  const Store::Loaded loaded = Store(folder.path()).load();
+  const Loaded loaded = load(Store(folder.path()));
   ASSERT_TRUE(loaded.damaged.empty()) << loaded.damaged.begin()->second;
   const RunResult& back = loaded.runs.at(run.id);
   for (const Metric& metric : metric_table()) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "experiments/study/store/store.hpp"
+#include "tests/experiments/study/store/loaded.hpp"
 #include "tests/experiments/study/store/stored_runs.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -120,7 +121,7 @@ Outcome outcome_of(const std::filesystem::path& folder, const std::map<std::stri
   Outcome outcome;
   try {
     Store::ids_in(folder);
-    const auto loaded = Store(folder).load();
+    const auto loaded = load(Store(folder));
     outcome.damaged = loaded.damaged.size();
     for (const auto& [id, result] : loaded.runs) {
       const auto known = whole.find(id);

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "experiments/study/store/store.hpp"
+#include "tests/experiments/study/store/loaded.hpp"
 #include "tests/experiments/study/store/stored_runs.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -75,7 +76,7 @@ TEST_P(Journals, WhatWasCommittedSurvivesAKill) {
     const std::chrono::microseconds time(std::uniform_int_distribution<>(0, 20'000)(random));
     committed += kept_until_killed(folder.path(), GetParam(), committed, time);
     const Store store(folder.path(), metric_table(), Access::write, GetParam());
-    const auto loaded = store.load();
+    const auto loaded = load(store);
     EXPECT_TRUE(loaded.damaged.empty());
     ASSERT_GE(loaded.runs.size(), committed);
     ASSERT_LE(loaded.runs.size(), committed + batch);  // the last commit was not said
@@ -109,7 +110,7 @@ TEST(Journal, AStoreThatIsMovedChangesItsJournal) {
   EXPECT_EQ(mode_of(folder.path()), 1);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "results.sqlite-wal"));
   const Store back(folder.path(), metric_table(), Access::write, Journal::write_ahead);
-  EXPECT_EQ(back.load().runs.size(), there);
+  EXPECT_EQ(load(back).runs.size(), there);
   EXPECT_EQ(mode_of(folder.path()), 2);
 }
 
@@ -118,9 +119,9 @@ TEST(Journal, AStoreCanBeReadWhileAnotherProgramWrites) {
   Store store(folder.path(), metric_table(), Access::create, Journal::write_ahead);
   store.keep(made_up_runs(3));
   const Store reader(folder.path(), metric_table(), Access::read, Journal::write_ahead);
-  EXPECT_EQ(reader.load().runs.size(), 3u);
+  EXPECT_EQ(load(reader).runs.size(), 3u);
   store.keep(made_up_runs(5));
-  EXPECT_EQ(reader.load().runs.size(), 5u);
+  EXPECT_EQ(load(reader).runs.size(), 5u);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/experiments/study/store/loaded.hpp"
 #include "tests/experiments/study/store/stored_runs.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -44,7 +45,7 @@ TEST(Store, EveryValueComesBackInEveryWayOfReading) {
   const auto runs = made_up_runs(20);
   Store(folder.path()).keep(runs);
   const Store store(folder.path());
-  const auto loaded = store.load();
+  const auto loaded = load(store);
   EXPECT_TRUE(loaded.damaged.empty());
   ASSERT_EQ(loaded.runs.size(), runs.size());
   std::vector<std::uint64_t> ids;
@@ -111,7 +112,7 @@ TEST(Store, ColumnsAreFoundByName) {
   change(folder.path(),
          "ALTER TABLE runs RENAME COLUMN status TO old; ALTER TABLE runs ADD COLUMN status TEXT;"
          "UPDATE runs SET status = old; ALTER TABLE runs DROP COLUMN old");
-  const auto loaded = Store(folder.path()).load();
+  const auto loaded = load(Store(folder.path()));
   EXPECT_TRUE(loaded.damaged.empty());
   for (const RunRecord& run : runs) EXPECT_EQ(text_of_result(loaded.runs.at(run.id)), text_of_result(run.result));
 }
@@ -181,7 +182,7 @@ TEST(Store, ConfigurationsStandOnceAndRunsReferToThem) {
     EXPECT_FALSE(found.contains("tolerance"));
   }
   EXPECT_EQ(varied_text(runs[4].config), "body.0.mass=4");
-  EXPECT_EQ(store.load().runs.size(), runs.size());
+  EXPECT_EQ(load(store).runs.size(), runs.size());
   change(folder.path(), "UPDATE configurations SET dt_s = 0.125 WHERE dt_s = 0.25");
   EXPECT_EQ(Store(folder.path()).configurations().size(), 2u) << "a damaged one is left out";
 }
