@@ -53,8 +53,8 @@ double least_time(Call&& call, double slice) {
   return least;
 }
 
-constexpr double shortest_slice = 3e-4;  // s
-constexpr std::size_t most_uses = 1000;  // of a true motion
+constexpr double shortest_slice = 3e-4;     // s
+constexpr std::size_t most_uses = 1000;     // of a true motion
 constexpr double seconds_of_reference = 2;  // if it takes longer than there is time
 // Part of a run that tells its rate. The first steps of an adaptive method are small.
 constexpr double least_share = 1e-4, least_adaptive_share = 0.05;

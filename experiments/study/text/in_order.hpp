@@ -13,9 +13,9 @@ std::size_t number_of_threads(int jobs);
 /// Uses what was made of a part.
 using UsePart = std::function<void()>;
 
-/// Calls make(part) for each part from 0 to parts - 1 on `threads` threads, and what it returns on one thread at a time,
-/// in ascending order of the parts. At most two parts a thread are made and not yet used. If make or a use throws, the
-/// exception of the first such part is rethrown after all parts before it were used.
+/// Calls make(part) for each part from 0 to parts - 1 on `threads` threads, and what it returns on one thread at a
+/// time, in ascending order of the parts. At most two parts a thread are made and not yet used. If make or a use
+/// throws, the exception of the first such part is rethrown after all parts before it were used.
 void in_order(std::size_t parts, std::size_t threads, const std::function<UsePart(std::size_t part)>& make);
 
 }  // namespace polhode::study::text
