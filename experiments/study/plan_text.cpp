@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -48,6 +49,17 @@ std::string studies_text(const Plan& plan) {
 }
 
 }  // namespace
+
+std::string glance_text(const Experiment& experiment, const Plan& chosen) {
+  double cost = 0;
+  std::size_t cells = 0;
+  for (const PlanRow& row : chosen.rows) cost += row.cost * chosen.runs_of_a_row;
+  for (const StudyCount& study : chosen.studies) cells += study.cells;
+  const double runs = static_cast<double>(chosen.size()) * chosen.runs_of_a_row;
+  const double digits = std::pow(10, std::floor(std::log10(runs)) - 2);  // three are known
+  return fmt::format("{}: {}; by {} of them about {:.0f} runs and {:.2g} right-hand sides\n", experiment.name,
+                     count(cells, "cell"), chosen.size(), std::round(runs / digits) * digits, cost);
+}
 
 std::string plan_text(const Experiment& experiment, const Plan& plan, const std::filesystem::path& folder,
                       const std::vector<std::uint64_t>& done) {

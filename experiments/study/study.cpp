@@ -165,6 +165,13 @@ int write_large_study(const Experiment& experiment, const Options& options, cons
 }
 
 int run_study(const Experiment& experiment, const Options& options) {
+  if (options.dry_run) {
+    if (auto chosen = glance_at_plan(experiment, options)) {
+      choose_curves(options, *chosen);
+      fmt::print("{}{}", glance_text(experiment, *chosen), time_needed_text(experiment, options, *chosen, {}, {}));
+      std::fflush(stdout);
+    }
+  }
   Plan plan = make_plan(experiment, options);
   choose_curves(options, plan);
   const std::filesystem::path folder = folder_of(experiment, options, plan);

@@ -119,8 +119,9 @@ double work_of_figures(const Experiment& experiment, const Plan& plan) {
 
 /// What is done after the runs, besides the analysis, s.
 double work_after_runs(const Experiment& experiment, const Options& options, const Plan& plan) {
-  const double runs = static_cast<double>(plan.size()) * (1 + experiment.needs.refined);
-  const double of_a_run = is_held(experiment, plan.size())
+  const double planned = static_cast<double>(plan.size()) * plan.runs_of_a_row;
+  const double runs = planned * (1 + experiment.needs.refined);
+  const double of_a_run = is_held(experiment, static_cast<std::size_t>(planned))
                               ? work_of_a_run
                               : work_of_a_run_of_many / static_cast<double>(number_of_threads(options.jobs));
   return fixed_work + of_a_run * runs + (options.figures ? work_of_figures(experiment, plan) : 0);
@@ -176,7 +177,8 @@ std::string time_needed_text(const Experiment& experiment, const Options& option
   timing.in_lanes = options.trajectory == TrajectoryFormat::none;
   timing.workers = number_of_threads(options.jobs);
   const RunTimes times = run_times(timed, known, timing);
-  const double of_all = runs.empty() ? 1 : static_cast<double>(missing.size()) / static_cast<double>(runs.size());
+  const double of_all =
+      runs.empty() ? 1 : static_cast<double>(missing.size()) / static_cast<double>(runs.size()) * plan.runs_of_a_row;
   const double planned = time_of_workers(times.seconds, timing.workers) * of_all;
   const double stored_times = mean(stored.seconds) * static_cast<double>(plan.size() - missing.size());
   const Experiment::Needs& needs = experiment.needs;

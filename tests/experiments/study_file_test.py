@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Study files from the command line to the results: tables of points, random points, conditions, several studies."""
 import json
+import re
 import unittest
 
 from programs import call, read, temporary_folder
@@ -74,6 +75,17 @@ class StudyFiles(unittest.TestCase):
         self.assertIn("energy_drift: 3 runs, ", text)
         self.assertIn("a: 3 cells, of which where leaves out 1\n", text)
         self.assertIn("b: 3 cells, of which where leaves out 2\n", text)
+
+    def test_a_large_study_is_told_from_a_choice_of_its_cells_before_all_are_planned(self):
+        text = self.drift("--integrator", "rk4,heun", "--t-end", "1", "--random", "n=60000 dt=uniform(0.1,0.2) body.0.mass=uniform(1,2)",
+                          "--where", "dt < 0.15", "--out", "out", "--dry-run").stdout
+        first = re.match(r"energy_drift: 120000 cells; by \d+ of them about (\d+) runs and (\S+) right-hand sides\nabout ", text)
+        all_of_them = re.search(r"^energy_drift: (\d+) runs, about (\S+) right-hand sides, into out$", text, re.MULTILINE)
+        self.assertTrue(first and all_of_them, text)
+        for k in (1, 2):
+            self.assertAlmostEqual(float(first[k]) / float(all_of_them[k]), 1, delta=0.05)
+        few = self.drift("--integrator", "rk4", "--t-end", "1", "--dt", "0.1:0.2:1000", "--out", "out", "--dry-run").stdout
+        self.assertNotIn("cells; by", few)
 
     def test_more_points_use_the_results_that_are_there(self):
         few = ["--integrator", "rk4", "--dt", "0.1", "--t-end", "1", "--random"]

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numbers>
 #include <numeric>
 #include <set>
 #include <stdexcept>
@@ -98,6 +100,8 @@ class Rows {
     rows_.reserve(expected);
     motions_.reserve(expected);
   }
+
+  bool empty() const { return rows_.empty(); }
 
   void add(const Draft& draft) {
     rows_.push_back(draft.row);
@@ -213,40 +217,60 @@ bool with_conditions(const Options& options) {
                      [](const StudyAxes& study) { return !study.where.empty(); });
 }
 
-/// Adds the runs of all cells of a product, made on several threads. `number`: that of the product. `effective`: the
-/// options that affect a run of it are added.
-StudyCount add_cells(Product& product, std::uint16_t number, const Plan& plan, Rows& rows, int jobs,
-                     std::set<std::string>& effective) {
-  constexpr std::uint64_t at_a_time = 1024;
-  product.open();
-  StudyCount count{product.study().name, product.cells(), 0, product.tables()};
-  in_order((count.cells + at_a_time - 1) / at_a_time, number_of_threads(jobs), [&](std::size_t k) -> UsePart {
+/// The products of axes of each study.
+using Products = std::vector<std::vector<std::shared_ptr<Product>>>;
+
+/// Adds the runs of these cells of a product, made on several threads. `number`: that of the product. `cell`: gives
+/// the k-th of `count` cells. `effective`: the options that affect a run of it are added. Returns the number of cells
+/// that the conditions leave out.
+std::size_t add_cells(const Product& product, std::uint16_t number, std::size_t count,
+                      const std::function<std::uint64_t(std::size_t k)>& cell, const Plan& plan, Rows& rows, int jobs,
+                      std::set<std::string>& effective) {
+  constexpr std::size_t at_a_time = 1024;
+  std::size_t left_out = 0;
+  in_order((count + at_a_time - 1) / at_a_time, number_of_threads(jobs), [&](std::size_t part) -> UsePart {
     struct Made {
       std::vector<Draft> drafts;
       Product::Part part;
     };
     const auto made = std::make_shared<Made>();
-    const std::uint64_t first = k * at_a_time, end = std::min<std::uint64_t>(first + at_a_time, count.cells);
-    made->part = product.for_each(first, end, [&](std::uint64_t cell, Product::Run&& run) {
+    std::vector<std::uint64_t> cells;
+    for (std::size_t k = part * at_a_time; k < std::min((part + 1) * at_a_time, count); ++k) cells.push_back(cell(k));
+    made->part = product.for_each(cells, [&](std::uint64_t at, Product::Run&& run) {
       fill_varied(run.config, plan.varied_keys);
       made->drafts.push_back(draft_of(run.config, *run.scenario));
       made->drafts.back().row.product = number;
-      made->drafts.back().row.cell = cell;
+      made->drafts.back().row.cell = at;
     });
     return [&, made] {
       for (const Draft& draft : made->drafts) rows.add(draft);
-      count.left_out += made->part.left_out;
+      left_out += made->part.left_out;
       effective.merge(made->part.effective);
     };
   });
-  if (count.left_out == count.cells) product.refuse_empty();
-  return count;
+  return left_out;
 }
 
 void refuse_too_many(double cells) {
   if (cells <= static_cast<double>(most_runs)) return;
   throw InputError(fmt::format("{} runs are more than the 10 million that a study may have; make the axes shorter",
                                cells < 1e15 ? fmt::format("{:.0f}", cells) : fmt::format("{:.2g}", cells)));
+}
+
+Products open_products(const Experiment& experiment, const Options& options, Plan& plan) {
+  Products products;
+  double cells = 0;
+  for (const StudyAxes& study : options.studies) {
+    products.push_back(products_of(experiment, options, study, plan));
+    for (const auto& product : products.back()) cells += product->most_cells();
+  }
+  refuse_too_many(cells);
+  for (const auto& of_study : products) {
+    for (const auto& product : of_study) add_product(plan, *product);
+  }
+  sort_without_duplicates(plan.varied_keys);
+  sort_without_duplicates(plan.invariants);
+  return products;
 }
 
 }  // namespace
@@ -284,26 +308,23 @@ std::optional<std::size_t> Plan::find(std::uint64_t id) const {
 
 Plan make_plan(const Experiment& experiment, const Options& options) {
   Plan plan;
+  const Products products = open_products(experiment, options, plan);
   double cells = 0;
-  std::vector<std::vector<std::shared_ptr<Product>>> products;
-  for (const StudyAxes& study : options.studies) {
-    products.push_back(products_of(experiment, options, study, plan));
-    for (const auto& product : products.back()) cells += product->most_cells();
-  }
-  refuse_too_many(cells);
   for (const auto& of_study : products) {
-    for (const auto& product : of_study) add_product(plan, *product);
+    for (const auto& product : of_study) cells += product->most_cells();
   }
-  sort_without_duplicates(plan.varied_keys);
-  sort_without_duplicates(plan.invariants);
   std::set<std::string> effective;
   Rows rows(with_conditions(options) ? 0 : static_cast<std::size_t>(cells));
   for (std::size_t i = 0; i < products.size(); ++i) {
     const StudyAxes& study = options.studies[i];
     std::set<std::string> own;
     for (const auto& product : products[i]) {
-      const auto number = static_cast<std::uint16_t>(plan.products_.size());
-      plan.studies.push_back(add_cells(*product, number, plan, rows, options.jobs, own));
+      product->open();
+      StudyCount count{study.name, product->cells(), 0, product->tables()};
+      count.left_out = add_cells(*product, static_cast<std::uint16_t>(plan.products_.size()), count.cells,
+                                 std::identity(), plan, rows, options.jobs, own);
+      if (count.left_out == count.cells) product->refuse_empty();
+      plan.studies.push_back(std::move(count));
       plan.products_.push_back(product);
     }
     refuse_without_effect(study, study.said, own);
@@ -323,6 +344,44 @@ Plan make_plan(const Experiment& experiment, const Options& options) {
   std::string all;
   for (const PlanRow& row : plan.rows) all += id_of_number(row.id);
   plan.identity = text_hash(all);
+  return plan;
+}
+
+std::optional<Plan> glance_at_plan(const Experiment& experiment, const Options& options) {
+  constexpr double most_cells = 100'000, wanted = 10'000;
+  Plan plan;
+  const Products products = open_products(experiment, options, plan);
+  double all = 0;
+  for (const auto& of_study : products) {
+    for (const auto& product : of_study) all += product->most_cells();
+  }
+  if (all <= most_cells) return std::nullopt;
+  Rows rows(0);
+  std::set<std::string> effective;
+  std::size_t looked_at = 0;
+  for (std::size_t i = 0; i < products.size(); ++i) {
+    for (const auto& product : products[i]) {
+      product->open();
+      const std::uint64_t cells = product->cells();
+      // One cell of each stretch, at a place of its own, so that no axis is in step with the choice.
+      const auto count = static_cast<std::size_t>(
+          std::clamp(std::ceil(static_cast<double>(cells) * wanted / all), 1.0, static_cast<double>(cells)));
+      const double stretch = static_cast<double>(cells) / static_cast<double>(count);
+      const auto cell = [&](std::size_t k) {
+        const double place = static_cast<double>(k + 1) * std::numbers::phi;
+        return static_cast<std::uint64_t>((static_cast<double>(k) + place - std::floor(place)) * stretch);
+      };
+      add_cells(*product, static_cast<std::uint16_t>(plan.products_.size()), count, cell, plan, rows, options.jobs,
+                effective);
+      plan.studies.push_back({options.studies[i].name, cells, 0, {}});
+      plan.products_.push_back(product);
+      looked_at += count;
+    }
+  }
+  if (rows.empty()) return std::nullopt;  // the conditions leave few cells
+  std::move(rows).move_into(plan);
+  plan.by_id_ = numbers_by_id(plan.rows);
+  plan.runs_of_a_row = all / static_cast<double>(looked_at);
   return plan;
 }
 

@@ -83,6 +83,7 @@ class Plan {
   };
   std::map<std::string, Values> values;
   std::vector<StudyCount> studies;
+  double runs_of_a_row = 1;  ///< above 1: the rows are a choice of so many times as many runs (glance_at_plan)
   /// Axes of each further product of the experiment (Experiment::more), in the syntax of the command line.
   std::vector<std::map<std::string, std::string>> further_axes;
   std::string identity;  ///< hash of the ids of all runs
@@ -99,6 +100,7 @@ class Plan {
 
  private:
   friend Plan make_plan(const Experiment& experiment, const Options& options);
+  friend std::optional<Plan> glance_at_plan(const Experiment& experiment, const Options& options);
   friend std::size_t widen(Plan& plan, const std::vector<RunConfig>& configs);
   struct Further {
     RunConfig config;
@@ -111,6 +113,10 @@ class Plan {
 
 /// Makes the plan. Throws InputError for invalid input, and if no run of the plan can be carried out.
 Plan make_plan(const Experiment& experiment, const Options& options);
+
+/// A plan with some 10 000 runs of a study of more than 100 000 cells, evenly chosen, for what --dry-run says before it
+/// has planned all of them. Absent if the study has no more cells, or its conditions leave out all that were chosen.
+std::optional<Plan> glance_at_plan(const Experiment& experiment, const Options& options);
 
 /// Adds runs that the plan does not contain yet; leaves the plan's identity unchanged. Each must have the scenario and
 /// the varied values of a run of the plan. Returns the number of runs added. Throws std::logic_error for a run of

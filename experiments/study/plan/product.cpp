@@ -169,7 +169,7 @@ void Product::open() { cells_.emplace(make_cells(false)); }
 std::uint64_t Product::cells() const { return static_cast<std::uint64_t>(cells_->count()); }
 std::vector<std::string> Product::tables() const { return cells_->tables(); }
 
-Product::Part Product::for_each(std::uint64_t first, std::uint64_t end,
+Product::Part Product::for_each(std::span<const std::uint64_t> cells,
                                 const std::function<void(std::uint64_t cell, Run&& run)>& use) const {
   Part part;
   Conditions conditions;
@@ -181,7 +181,7 @@ Product::Part Product::for_each(std::uint64_t first, std::uint64_t end,
   const Opened* variant_of = nullptr;
   std::vector<Override> variant_keys;
   Cells::Place place;
-  for (std::uint64_t k = first; k < end; ++k) {
+  for (const std::uint64_t k : cells) {
     cells_->find(k, place);
     if (!holds(place, conditions)) {
       ++part.left_out;

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -57,10 +58,10 @@ class Product {
     std::size_t left_out = 0;         ///< number of cells that the conditions leave out
     std::set<std::string> effective;  ///< names of options of the study that affect a run
   };
-  /// Calls use(cell, run) for each cell from `first` to `end` - 1 that the conditions do not leave out, in ascending
-  /// order. Throws InputError for a value that a run cannot have. `use` may throw std::invalid_argument for an
-  /// impossible step, which becomes an InputError. Thread-safe.
-  Part for_each(std::uint64_t first, std::uint64_t end,
+  /// Calls use(cell, run) for each of these cells that the conditions do not leave out, in their order. Throws
+  /// InputError for a value that a run cannot have. `use` may throw std::invalid_argument for an impossible step, which
+  /// becomes an InputError. Thread-safe.
+  Part for_each(std::span<const std::uint64_t> cells,
                 const std::function<void(std::uint64_t cell, Run&& run)>& use) const;
 
   /// Throws InputError, which says that the conditions leave out all cells.
