@@ -11,99 +11,18 @@
 #include <utility>
 
 #include "experiments/study/curves/curves.hpp"
-#include "experiments/study/curves/declared_order.hpp"
-#include "experiments/study/curves/error_ladder.hpp"
+#include "experiments/study/curves/work.hpp"
 #include "experiments/study/plot/axis.hpp"
 #include "experiments/study/plot/figure_layout.hpp"
 #include "experiments/study/plot/figure_style.hpp"
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
-#include "experiments/work_precision/envelope.hpp"
-#include "integrators/catalogue.hpp"
 
 namespace polhode::study::work_precision {
 namespace {
 
 constexpr std::size_t most_coloured = 8;  ///< if there are more methods, those off the envelope are grey
 constexpr std::size_t most_panels = 6;
-
-/// A measure of the cost of a run.
-struct Cost {
-  std::string column, words, axis, unit;  ///< "wall_s", "wall time", "wall time (s)", " s"
-  double (*of)(const RunResult&);
-};
-const Cost right_hand_sides = {"rhs_evaluations", "right-hand sides", "right-hand sides", " right-hand sides",
-                               [](const RunResult& r) { return static_cast<double>(r.evaluations); }};
-const Cost wall_time = {"wall_s", "wall time", "wall time (s)", " s", [](const RunResult& r) { return r.seconds; }};
-
-/// Curves of one motion in all formulations, with its lower envelope.
-struct Motion {
-  std::size_t case_index = 0;
-  Quantity quantity;
-  std::vector<const Curve*> curves;  ///< curves that compete
-  /// Curves of methods that solve the motion exactly; curves without a measured cost.
-  std::vector<const Curve*> exact, without;
-  std::vector<EnvelopePoint> envelope;
-};
-
-/// True if the method solves this motion exactly, by its declaration or by errors at round-off at every step.
-bool is_exact(const StudyView& study, const Curve& curve, const Quantity& quantity) {
-  const auto& config = curve.runs.front()->config;
-  const auto* entry = find_integrator(config.integrator);
-  const auto scenario = std::find_if(study.scenarios.begin(), study.scenarios.end(),
-                                     [&](const auto& s) { return s.name == config.scenario; });
-  if (entry != nullptr && scenario != study.scenarios.end() && !curve.adaptive &&
-      !declared_order(entry->declaration, *scenario, quantity.unit == " rad")) {
-    return true;
-  }
-  constexpr double near = 10;
-  return curve.runs.size() > 1 && std::all_of(curve.runs.begin(), curve.runs.end(), [&](const auto* run) {
-           const auto error = value(*run, quantity);
-           return !completed(*run) || (error && *error <= near * round_off_level(*run, quantity));
-         });
-}
-
-/// Error and cost of the runs below the smallest step that does not follow the motion; larger steps agree with it only
-/// by chance. Errors below the round-off level of the run, or below the floor at which the errors of the curve no
-/// longer decrease, are raised to it.
-std::vector<WorkPoint> work_points(const Curve& curve, const Quantity& quantity, const Cost& cost) {
-  std::vector<WorkPoint> points;
-  const double floor = observed_order(curve, quantity).floor;
-  for (auto run = curve.runs.rbegin(); run != curve.runs.rend(); ++run) {  // from the smallest step
-    const std::string& status = (*run)->result.status;
-    if (status == "refused" || status == "failed" || (completed(**run) && !value(**run, quantity))) continue;
-    if (!follows(**run, curve, quantity)) break;
-    points.push_back(
-        {std::max({*value(**run, quantity), round_off_level(**run, quantity), floor}), cost.of((*run)->result)});
-  }
-  return points;
-}
-
-std::vector<Motion> motions_of(const StudyView& study, const Grouping& grouping, const Cost& cost) {
-  std::vector<Motion> motions;
-  for (std::size_t c = 0; c < grouping.cases.size(); ++c) {
-    for (const auto& quantity : {quantity::attitude_error(), quantity::position_error()}) {
-      Motion motion{.case_index = c, .quantity = quantity, .curves = {}, .exact = {}, .without = {}, .envelope = {}};
-      std::vector<std::vector<WorkPoint>> points;
-      for (const auto& curve : grouping.curves) {
-        // Runs without the gyroscopic term solve another equation.
-        const bool same_equation = curve.runs.front()->config.formulation.gyroscopic;
-        if (curve.case_index != c || !same_equation || !is_measured(curve, quantity)) continue;
-        auto work = work_points(curve, quantity, cost);
-        const bool costs = std::any_of(curve.runs.begin(), curve.runs.end(),
-                                       [&](const auto* run) { return cost.of(run->result) > 0; });
-        if (!costs) motion.without.push_back(&curve);
-        else if (is_exact(study, curve, quantity)) motion.exact.push_back(&curve);
-        else motion.curves.push_back(&curve), points.push_back(std::move(work));
-      }
-      if (motion.curves.empty()) continue;
-      motion.envelope = lower_envelope(points, lost_level(*motion.curves.front(), quantity));
-      motions.push_back(std::move(motion));
-      break;
-    }
-  }
-  return motions;
-}
 
 std::string error_text(int decade) { return fmt::format("1e{}", decade); }
 
@@ -122,19 +41,19 @@ std::vector<Reign> reigns(const std::vector<EnvelopePoint>& envelope) {
 }
 
 /// The analysis for one measure of cost:
-/// 1. motions_of(): for each motion the curves that compete, their points of error and cost, and the lower envelope.
+/// 1. work_of_motions(): for each motion the curves that compete, and their lower envelope.
 /// 2. sentences(), outside(): the cheapest methods down to each error; methods that do not compete.
 /// 3. table(), figure(), csv(): the envelope at each decade of error.
 class Work {
  public:
-  Work(const StudyView& study, const Grouping& grouping, const Cost& cost)
-      : grouping_(grouping), cost_(cost), motions_(motions_of(study, grouping, cost)) {}
+  Work(const StudyView& study, const Grouping& grouping, const RunCost& cost)
+      : grouping_(grouping), cost_(cost), motions_(work_of_motions(study, grouping, cost)) {}
 
   bool empty() const { return motions_.empty(); }
 
   std::vector<std::string> sentences() const {
     std::vector<std::string> all;
-    for (const Motion& motion : motions_) {
+    for (const MotionWork& motion : motions_) {
       if (auto text = sentence(motion); !text.empty()) all.push_back(std::move(text));
     }
     return all;
@@ -145,7 +64,7 @@ class Work {
     std::vector<std::string> all;
     std::map<std::vector<std::string>, std::vector<std::string>> exact;
     std::set<std::string> without;
-    for (const Motion& motion : motions_) {
+    for (const MotionWork& motion : motions_) {
       std::vector<std::string> labels;
       for (const auto* curve : motion.exact) labels.push_back(grouping_.label(*curve));
       if (!labels.empty()) exact[labels].push_back(grouping_.cases[motion.case_index].label());
@@ -175,7 +94,7 @@ class Work {
                             {"next", "", Kind::text},
                             {"times as much"}},
                 .rows = {}};
-    for (const Motion& motion : motions_) {
+    for (const MotionWork& motion : motions_) {
       for (const auto& p : motion.envelope) {
         table.rows.push_back({grouping_.cases[motion.case_index].label(), error_text(p.decade), label(motion, p.curve),
                               number(p.cost), p.at_most ? "at most" : "", p.next ? label(motion, *p.next) : "",
@@ -189,7 +108,7 @@ class Work {
     std::string text =
         csv_row({"scenario", "motion", "error_of", "error_at_most_rad", "error_at_most_m", "method", "formulation",
                  cost_.column, "is_upper_bound", "next_method", "next_formulation", "next_" + cost_.column});
-    for (const Motion& motion : motions_) {
+    for (const MotionWork& motion : motions_) {
       const Case& of = grouping_.cases[motion.case_index];
       const bool rad = motion.quantity.unit == " rad";
       for (const auto& p : motion.envelope) {
@@ -207,13 +126,13 @@ class Work {
   Figure figure(const std::string& name, const std::string& title, const std::string& caption) const {
     Figure figure{.name = name, .title = title, .caption = caption};
     std::set<std::size_t> all, on_envelope;
-    for (const Motion& motion : motions_) {
+    for (const MotionWork& motion : motions_) {
       for (const auto* curve : drawn_of(motion)) all.insert(curve->method_index);
       for (const auto& p : motion.envelope) on_envelope.insert(motion.curves[p.curve]->method_index);
     }
     const auto& coloured = all.size() <= most_coloured ? all : on_envelope;
     std::vector<Panel> panels;
-    for (const Motion& motion : motions_) {
+    for (const MotionWork& motion : motions_) {
       if (panels.size() < most_panels) panels.push_back(panel(motion, coloured));
     }
     share_y_axis(panels, y_axis(panels));
@@ -228,16 +147,16 @@ class Work {
   }
 
  private:
-  std::string label(const Motion& motion, std::size_t i) const { return grouping_.label(*motion.curves[i]); }
+  std::string label(const MotionWork& motion, std::size_t i) const { return grouping_.label(*motion.curves[i]); }
 
-  static std::vector<const Curve*> drawn_of(const Motion& motion) {
+  static std::vector<const Curve*> drawn_of(const MotionWork& motion) {
     auto all = motion.curves;
     all.insert(all.end(), motion.exact.begin(), motion.exact.end());
     return all;
   }
 
   /// "On hairer_vilmart: explicit_midpoint down to 1e-2 rad, then rk4 to 1e-10 rad (1230 right-hand sides at 1e-6 …)".
-  std::string sentence(const Motion& motion) const {
+  std::string sentence(const MotionWork& motion) const {
     if (motion.envelope.empty()) {
       return fmt::format("No run follows {}: {} at every step and tolerance, or the run did not end.",
                          grouping_.cases[motion.case_index].label(),
@@ -257,7 +176,7 @@ class Work {
                        grouping_.cases[motion.case_index].label(), fmt::format("{}", fmt::join(parts, "; then ")));
   }
 
-  Panel panel(const Motion& motion, const std::set<std::size_t>& coloured) const {
+  Panel panel(const MotionWork& motion, const std::set<std::size_t>& coloured) const {
     Panel panel{.title = {grouping_.cases[motion.case_index].label()},
                 .x_column = cost_.column,
                 .y_column = motion.quantity.column};
@@ -309,15 +228,15 @@ class Work {
         for (const auto& point : curve.points) errors.push_back(point.value);
       }
     }
-    for (const Motion& motion : motions_) {
+    for (const MotionWork& motion : motions_) {
       labels.insert(motion.quantity.unit == " rad" ? "attitude error (rad)" : "position error (m)");
     }
     return log_axis(fmt::format("{}", fmt::join(labels, " or ")), errors, {});
   }
 
   const Grouping& grouping_;
-  const Cost& cost_;
-  std::vector<Motion> motions_;
+  RunCost cost_;
+  std::vector<MotionWork> motions_;
 };
 
 constexpr const char* reading =
@@ -330,7 +249,7 @@ constexpr const char* reading =
 Analysis work_against_error(const StudyView& study) {
   const Grouping grouping = group(study);
   Analysis found{.heading = "The cheapest method for an error"};
-  const Work by_evaluations(study, grouping, right_hand_sides), by_time(study, grouping, wall_time);
+  const Work by_evaluations(study, grouping, cost_in_right_hand_sides()), by_time(study, grouping, cost_in_time());
   found.sentences = by_evaluations.sentences();
   for (auto& text : by_evaluations.outside()) found.sentences.push_back(std::move(text));
   found.files.push_back({"envelope.csv", by_evaluations.csv()});

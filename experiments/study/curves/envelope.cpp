@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/work_precision/envelope.hpp"
+#include "experiments/study/curves/envelope.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace polhode::study::work_precision {
+namespace polhode::study::inline curves {
 namespace {
 
 bool usable(const WorkPoint& p) { return std::isfinite(p.error) && p.error > 0 && std::isfinite(p.cost) && p.cost > 0; }
@@ -59,4 +59,4 @@ std::vector<EnvelopePoint> lower_envelope(const std::vector<std::vector<WorkPoin
   return envelope;
 }
 
-}  // namespace polhode::study::work_precision
+}  // namespace polhode::study::curves

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lower envelopes of made-up work-precision curves.
-#include "experiments/work_precision/envelope.hpp"
+#include "experiments/study/curves/envelope.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-namespace polhode::study::work_precision {
+namespace polhode::study {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -94,4 +94,4 @@ TEST(LowerEnvelope, OfEqualsNamesTheFirst) {
 }
 
 }  // namespace
-}  // namespace polhode::study::work_precision
+}  // namespace polhode::study

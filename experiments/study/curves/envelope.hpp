@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace polhode::study::work_precision {
+namespace polhode::study::inline curves {
 
 struct WorkPoint {
   double error = 0;  ///< a point whose error is not positive and finite is ignored
@@ -30,4 +30,4 @@ struct EnvelopePoint {
 /// above `lost` are ignored, as the motion is lost.
 std::vector<EnvelopePoint> lower_envelope(const std::vector<std::vector<WorkPoint>>& curves, double lost);
 
-}  // namespace polhode::study::work_precision
+}  // namespace polhode::study::curves

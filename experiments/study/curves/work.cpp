@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/curves/work.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "experiments/study/curves/declared_order.hpp"
+#include "experiments/study/curves/error_ladder.hpp"
+#include "integrators/catalogue.hpp"
+
+namespace polhode::study::inline curves {
+namespace {
+
+/// True if the method solves this motion exactly, by its declaration or by errors at round-off at every step.
+bool is_exact(const StudyView& study, const Curve& curve, const Quantity& quantity) {
+  const auto& config = curve.runs.front()->config;
+  const auto* entry = find_integrator(config.integrator);
+  const auto scenario = std::find_if(study.scenarios.begin(), study.scenarios.end(),
+                                     [&](const auto& s) { return s.name == config.scenario; });
+  if (entry != nullptr && scenario != study.scenarios.end() && !curve.adaptive &&
+      !declared_order(entry->declaration, *scenario, quantity.unit == " rad")) {
+    return true;
+  }
+  constexpr double near = 10;
+  return curve.runs.size() > 1 && std::all_of(curve.runs.begin(), curve.runs.end(), [&](const auto* run) {
+           const auto error = value(*run, quantity);
+           return !completed(*run) || (error && *error <= near * round_off_level(*run, quantity));
+         });
+}
+
+}  // namespace
+
+RunCost cost_in_right_hand_sides() {
+  return {"rhs_evaluations", "right-hand sides", "right-hand sides", " right-hand sides",
+          [](const RunResult& r) { return static_cast<double>(r.evaluations); }};
+}
+
+RunCost cost_in_time() {
+  return {"wall_s", "wall time", "wall time (s)", " s", [](const RunResult& r) { return r.seconds; }};
+}
+
+std::vector<WorkPoint> work_points(const Curve& curve, const Quantity& quantity, const RunCost& cost) {
+  std::vector<WorkPoint> points;
+  const double floor = observed_order(curve, quantity).floor;
+  for (auto run = curve.runs.rbegin(); run != curve.runs.rend(); ++run) {  // from the smallest step
+    const std::string& status = (*run)->result.status;
+    if (status == "refused" || status == "failed" || (completed(**run) && !value(**run, quantity))) continue;
+    if (!follows(**run, curve, quantity)) break;
+    points.push_back(
+        {std::max({*value(**run, quantity), round_off_level(**run, quantity), floor}), cost.of((*run)->result)});
+  }
+  return points;
+}
+
+std::vector<MotionWork> work_of_motions(const StudyView& study, const Grouping& grouping, const RunCost& cost) {
+  std::vector<MotionWork> motions;
+  for (std::size_t c = 0; c < grouping.cases.size(); ++c) {
+    for (const auto& quantity : {quantity::attitude_error(), quantity::position_error()}) {
+      MotionWork motion{.case_index = c,
+                        .quantity = quantity,
+                        .curves = {},
+                        .points = {},
+                        .exact = {},
+                        .without = {},
+                        .envelope = {}};
+      for (const auto& curve : grouping.curves) {
+        // Runs without the gyroscopic term solve another equation.
+        const bool same_equation = curve.runs.front()->config.formulation.gyroscopic;
+        if (curve.case_index != c || !same_equation || !is_measured(curve, quantity)) continue;
+        auto work = work_points(curve, quantity, cost);
+        const bool costs = std::any_of(curve.runs.begin(), curve.runs.end(),
+                                       [&](const auto* run) { return cost.of(run->result) > 0; });
+        if (!costs) motion.without.push_back(&curve);
+        else if (is_exact(study, curve, quantity)) motion.exact.push_back(&curve);
+        else motion.curves.push_back(&curve), motion.points.push_back(std::move(work));
+      }
+      if (motion.curves.empty()) continue;
+      motion.envelope = lower_envelope(motion.points, lost_level(*motion.curves.front(), quantity));
+      motions.push_back(std::move(motion));
+      break;
+    }
+  }
+  return motions;
+}
+
+}  // namespace polhode::study::curves
