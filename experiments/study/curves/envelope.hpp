@@ -6,11 +6,14 @@
 #include <optional>
 #include <vector>
 
+#include "experiments/study/record/run_record.hpp"
+
 namespace polhode::study::inline curves {
 
 struct WorkPoint {
-  double error = 0;  ///< a point whose error is not positive and finite is ignored
-  double cost = 0;   ///< evaluations of the right-hand side or s; ignored likewise
+  double error = 0;                ///< a point whose error is not positive and finite is ignored
+  double cost = 0;                 ///< evaluations of the right-hand side or s; ignored likewise
+  const RunRecord* run = nullptr;  ///< the run that is this point, if it is known
 };
 
 /// Least cost at which a curve reaches `error`: interpolated linearly in the logarithms between two runs. Not

@@ -47,7 +47,7 @@ std::vector<WorkPoint> work_points(const Curve& curve, const Quantity& quantity,
     if (status == "refused" || status == "failed" || (completed(**run) && !value(**run, quantity))) continue;
     if (!follows(**run, curve, quantity)) break;
     points.push_back(
-        {std::max({*value(**run, quantity), round_off_level(**run, quantity), floor}), cost.of((*run)->result)});
+        {std::max({*value(**run, quantity), round_off_level(**run, quantity), floor}), cost.of((*run)->result), *run});
   }
   return points;
 }
