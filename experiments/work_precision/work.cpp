@@ -39,8 +39,8 @@ std::vector<Reign> reigns(const std::vector<EnvelopePoint>& envelope) {
 /// 3. table(), figure(), csv(): the envelope at each decade of error.
 class Work {
  public:
-  Work(const StudyView& study, const Grouping& grouping, const RunCost& cost)
-      : grouping_(grouping), cost_(cost), motions_(work_of_motions(study, grouping, cost)) {}
+  Work(const Grouping& grouping, const RunCost& cost)
+      : grouping_(grouping), cost_(cost), motions_(work_of_motions(grouping, cost)) {}
 
   bool empty() const { return motions_.empty(); }
 
@@ -159,7 +159,7 @@ constexpr const char* reading =
 Analysis work_against_error(const StudyView& study) {
   const Grouping grouping = group(study);
   Analysis found{.heading = "The cheapest method for an error"};
-  const Work by_evaluations(study, grouping, cost_in_right_hand_sides()), by_time(study, grouping, cost_in_time());
+  const Work by_evaluations(grouping, cost_in_right_hand_sides()), by_time(grouping, cost_in_time());
   found.sentences = by_evaluations.sentences();
   for (auto& text : by_evaluations.outside()) found.sentences.push_back(std::move(text));
   found.files.push_back({"envelope.csv", by_evaluations.csv()});

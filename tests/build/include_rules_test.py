@@ -62,13 +62,16 @@ MAY_INCLUDE = {
                                          " experiments/study/plot experiments/study/record experiments/study/curves",
     "experiments/study/report/population": "experiments/study/text experiments/study/statistics experiments/study/plot"
                                            " experiments/study/record",
+    "experiments/study/report/answer": "integrators experiments/study/text experiments/study/plot experiments/study/record"
+                                       " experiments/study/curves experiments/study/report/findings",
     "experiments/study/report/figures": "experiments/study/text experiments/study/plot experiments/study/record"
                                         " experiments/study/curves",
     "experiments/study/report/tables": "experiments/study/text experiments/study/plot experiments/study/record"
                                        " experiments/study/curves experiments/study/plan experiments/study/report/findings",
     "experiments/study/report/page": "integrators experiments/study/text experiments/study/plot experiments/study/record"
                                      " experiments/study/curves experiments/study/report/findings"
-                                     " experiments/study/report/figures experiments/study/report/tables",
+                                     " experiments/study/report/answer experiments/study/report/figures"
+                                     " experiments/study/report/tables",
     "experiments/study": "core/* integrators collision experiments/study/*",
     "experiments/scene": "core/problem collision collision/shapes experiments/study/scenario",
 

@@ -12,20 +12,25 @@ namespace polhode::study::inline curves {
 namespace {
 
 /// True if the method solves this motion exactly, by its declaration or by errors at round-off at every step.
-bool is_exact(const StudyView& study, const Curve& curve, const Quantity& quantity) {
-  const auto& config = curve.runs.front()->config;
-  const auto* entry = find_integrator(config.integrator);
-  const auto scenario = std::find_if(study.scenarios.begin(), study.scenarios.end(),
-                                     [&](const auto& s) { return s.name == config.scenario; });
-  if (entry != nullptr && scenario != study.scenarios.end() && !curve.adaptive &&
-      !declared_order(entry->declaration, *scenario, quantity.unit == " rad")) {
+bool is_exact(const Curve& curve, const Quantity& quantity) {
+  const RunRecord& first = *curve.runs.front();
+  const auto* entry = find_integrator(first.config.integrator);
+  if (entry != nullptr && !curve.adaptive && !declared_order(entry->declaration, first, quantity.unit == " rad"))
     return true;
-  }
   constexpr double near = 10;
   return curve.runs.size() > 1 && std::all_of(curve.runs.begin(), curve.runs.end(), [&](const auto* run) {
            const auto error = value(*run, quantity);
            return !completed(*run) || (error && *error <= near * round_off_level(*run, quantity));
          });
+}
+
+/// True if an error is clear of rounding: the attitude of a body that does not turn is exact with every method.
+bool is_above_round_off(const Curve& curve, const Quantity& quantity) {
+  constexpr double clear = 10;
+  return std::any_of(curve.runs.begin(), curve.runs.end(), [&](const auto* run) {
+    const auto error = value(*run, quantity);
+    return ended_early(*run) || (error && *error > clear * round_off_level(*run, quantity));
+  });
 }
 
 }  // namespace
@@ -52,7 +57,7 @@ std::vector<WorkPoint> work_points(const Curve& curve, const Quantity& quantity,
   return points;
 }
 
-std::vector<MotionWork> work_of_motions(const StudyView& study, const Grouping& grouping, const RunCost& cost) {
+std::vector<MotionWork> work_of_motions(const Grouping& grouping, const RunCost& cost) {
   std::vector<MotionWork> motions;
   for (std::size_t c = 0; c < grouping.cases.size(); ++c) {
     for (const auto& quantity : {quantity::attitude_error(), quantity::position_error()}) {
@@ -71,10 +76,12 @@ std::vector<MotionWork> work_of_motions(const StudyView& study, const Grouping& 
         const bool costs = std::any_of(curve.runs.begin(), curve.runs.end(),
                                        [&](const auto* run) { return cost.of(run->result) > 0; });
         if (!costs) motion.without.push_back(&curve);
-        else if (is_exact(study, curve, quantity)) motion.exact.push_back(&curve);
+        else if (is_exact(curve, quantity)) motion.exact.push_back(&curve);
         else motion.curves.push_back(&curve), motion.points.push_back(std::move(work));
       }
-      if (motion.curves.empty()) continue;
+      if (std::none_of(motion.curves.begin(), motion.curves.end(),
+                       [&](const Curve* curve) { return is_above_round_off(*curve, quantity); }))
+        continue;
       motion.envelope = lower_envelope(motion.points, lost_level(*motion.curves.front(), quantity));
       motions.push_back(std::move(motion));
       break;

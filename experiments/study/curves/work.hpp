@@ -35,8 +35,8 @@ struct MotionWork {
 /// longer decrease, are raised to it.
 std::vector<WorkPoint> work_points(const Curve& curve, const Quantity& quantity, const RunCost& cost);
 
-/// The motions for which an error was measured. Runs without the gyroscopic term solve another equation and do not
-/// compete.
-std::vector<MotionWork> work_of_motions(const StudyView& study, const Grouping& grouping, const RunCost& cost);
+/// The motions for which an error above rounding was measured. Runs without the gyroscopic term solve another equation
+/// and do not compete.
+std::vector<MotionWork> work_of_motions(const Grouping& grouping, const RunCost& cost);
 
 }  // namespace polhode::study::curves

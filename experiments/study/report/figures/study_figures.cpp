@@ -14,11 +14,14 @@
 #include "experiments/study/plot/figure_layout.hpp"
 #include "experiments/study/report/figures/step_panels.hpp"
 #include "experiments/study/report/figures/time_panels.hpp"
+#include "experiments/study/report/figures/work_figure.hpp"
 #include "experiments/study/text/notation.hpp"
 
 namespace polhode::study::inline report::inline figures {
 
 namespace {
+
+constexpr double panel_height_of_the_answer = 170;  // pixels: text, table and figure fit on a screen
 
 /// Adds rows of panels to the figure; if each row has a single panel, two are put side by side.
 void add_time_rows(Figure& figure, std::vector<std::vector<Panel>> rows) {
@@ -63,6 +66,7 @@ class Figures {
     orientation_defect();
     invariants();
     error_against_step();
+    error_against_cost();
     return std::move(set_);
   }
 
@@ -228,6 +232,25 @@ class Figures {
     }
     if (!several_steps_) return absent(figure, "the study has one step size only; the table of runs has the errors");
     against_step(std::move(figure), quantities, true);
+  }
+
+  /// The figure beside the answer; an experiment with an analysis has its own.
+  void error_against_cost() {
+    if (study_.analysis) return;
+    const RunCost cost = cost_in_right_hand_sides();
+    auto motions = work_of_motions(grouping_, cost);
+    std::erase_if(motions, [](const MotionWork& motion) { return motion.envelope.empty(); });
+    Figure figure{.name = figure_of_the_answer,
+                  .title = "Error against cost",
+                  .caption =
+                      "The error of each run against the right-hand sides that it evaluated. Lower left is "
+                      "better. The broad pale line is the lower envelope: the least cost that reaches an error, "
+                      "with the name of the method where another one takes over.",
+                  .panel_height = panel_height_of_the_answer};
+    if (motions.empty()) return;
+    if (motions.size() > 1) figure.caption += fmt::format(" The first of {} motions.", motions.size());
+    motions.resize(1);
+    set_.figures.push_back(work_figure(grouping_, motions, cost, std::move(figure)));
   }
 
   const StudyView& study_;

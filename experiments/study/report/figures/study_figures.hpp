@@ -9,6 +9,9 @@
 
 namespace polhode::study::inline report::inline figures {
 
+/// Name of the figure that shows the answer of a study without an analysis.
+inline constexpr const char* figure_of_the_answer = "error_against_cost";
+
 /// The figures: first those of the analysis, then each figure for which the study has data. Curves and panels beyond a
 /// readable number are left out, which the caption states.
 FigureSet figures_of(const StudyView& study, const Grouping& grouping);

@@ -37,6 +37,12 @@ ul { padding-left: 1.3rem; }
 li { margin: .3rem 0; overflow-wrap: anywhere; }
 a { color: var(--accent); }
 .question { font-size: 1.15rem; color: var(--soft); margin: 0 0 1rem; }
+.answer { margin: .35rem 0; }
+.answer.first { font-size: 1.12rem; font-weight: 600; }
+#answer { margin-top: 1.2rem; }
+#answer .wide { margin: .5rem 0; }
+.spoken { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
+#answer figure { margin: .6rem 0 1rem; }
 .outcome { font-weight: 600; }
 nav ul { list-style: none; display: flex; flex-wrap: wrap; gap: .3rem 1.2rem; padding: 0; margin: 1rem 0 0; }
 .caution {

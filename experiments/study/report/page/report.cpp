@@ -14,6 +14,7 @@
 
 #include "experiments/study/plot/gnuplot_figure.hpp"
 #include "experiments/study/record/run_options.hpp"
+#include "experiments/study/report/answer/answer.hpp"
 #include "experiments/study/report/figures/study_figures.hpp"
 #include "experiments/study/report/findings/findings.hpp"
 #include "experiments/study/report/findings/method_table.hpp"
@@ -77,8 +78,10 @@ std::string head(const StudyView& study, std::string_view contents) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{} – "
       "polhode</title>\n<style>{}</style>\n"
       "</head>\n<body>\n<header>\n<h1>{}</h1>\n<p class=\"question\">{}</p>\n"
-      "<nav aria-label=\"Contents\"><ul><li><a href=\"#seen\">What is seen</a></li>{}</ul></nav>\n</header>\n<main>\n",
-      html(title_of(study)), page_style, html(title_of(study)), html(study.question), contents);
+      "<nav aria-label=\"Contents\"><ul>{}<li><a href=\"#seen\">What is "
+      "seen</a></li>{}</ul></nav>\n</header>\n<main>\n",
+      html(title_of(study)), page_style, html(title_of(study)), html(study.question),
+      study.analysis ? "" : "<li><a href=\"#answer\">The answer</a></li>", contents);
 }
 
 std::string head(const StudyView& study) {
@@ -103,26 +106,6 @@ std::string analysis_html(const Analysis& analysis) {
   for (const auto& file : analysis.files) links.push_back(fmt::format("<a href=\"{0}\">{0}</a>", file.name.string()));
   if (!links.empty()) out += fmt::format("<p>All digits: {}.</p>\n", fmt::join(links, ", "));
   return out;
-}
-
-std::string what_is_seen(const StudyView& study, const Findings& findings) {
-  std::string out = fmt::format("<section id=\"seen\">\n<h2>What is seen</h2>\n<p class=\"outcome\">{}</p>\n",
-                                html(findings.outcome));
-  out += replay_line(study.folder);
-  if (alone(study)) return out + analysis_html(*study.analysis) + "</section>\n";
-  for (const auto& caution : findings.cautions) {
-    out += fmt::format("<div class=\"caution\" role=\"note\"><strong>Caution</strong> {}</div>\n", prose(caution));
-  }
-  if (study.analysis) out += analysis_html(*study.analysis);
-  for (const auto& topic : findings.topics) {
-    out += fmt::format("<h3>{}</h3>\n", html(topic.heading));
-    if (!topic.sentences.empty()) out += list(topic.sentences);
-    for (const auto& table : topic.tables) {
-      out += table.rows.size() > most_open_rows_in_text ? folded(table.caption, html(table, Caption::spoken), false)
-                                                        : html(table);
-    }
-  }
-  return out + "</section>\n";
 }
 
 /// The picture of a figure, if it was drawn from the present data; an older one in the folder may show another study.
@@ -155,6 +138,42 @@ std::string figure_html(const StudyView& study, const Figure& figure) {
                      svg ? fmt::format(" Files: {}.", file_links(figure)) : "");
 }
 
+/// What the page is opened for: the answer, the table and the figure that show it, and what it depends on.
+std::string answer_html(const StudyView& study, const Grouping& grouping, const FigureSet& set) {
+  if (study.analysis) return {};  // it answers the experiment's own question
+  const Answer answer = answer_of(study, grouping);
+  std::string out = "<section id=\"answer\">\n<h2 class=\"spoken\">The answer</h2>\n";
+  for (std::size_t i = 0; i < answer.sentences.size(); ++i) {
+    out += fmt::format("<p class=\"{}\">{}</p>\n", i == 0 ? "answer first" : "answer", prose(answer.sentences[i]));
+  }
+  if (answer.table) out += html(*answer.table);
+  for (const auto& figure : set.figures) {
+    if (figure.name == figure_of_the_answer) out += figure_html(study, figure);
+  }
+  if (!answer.depends.empty()) out += folded("What the answer depends on", list(answer.depends), false);
+  return out + "</section>\n";
+}
+
+std::string what_is_seen(const StudyView& study, const Findings& findings) {
+  std::string out = fmt::format("<section id=\"seen\">\n<h2>What is seen</h2>\n<p class=\"outcome\">{}</p>\n",
+                                html(findings.outcome));
+  out += replay_line(study.folder);
+  if (alone(study)) return out + analysis_html(*study.analysis) + "</section>\n";
+  for (const auto& caution : findings.cautions) {
+    out += fmt::format("<div class=\"caution\" role=\"note\"><strong>Caution</strong> {}</div>\n", prose(caution));
+  }
+  if (study.analysis) out += analysis_html(*study.analysis);
+  for (const auto& topic : findings.topics) {
+    out += fmt::format("<h3>{}</h3>\n", html(topic.heading));
+    if (!topic.sentences.empty()) out += list(topic.sentences);
+    for (const auto& table : topic.tables) {
+      out += table.rows.size() > most_open_rows_in_text ? folded(table.caption, html(table, Caption::spoken), false)
+                                                        : html(table);
+    }
+  }
+  return out + "</section>\n";
+}
+
 /// The figures of wall times, included by reference: wall times differ from call to call, the bytes of this page must
 /// not.
 std::string timed_figures(const StudyView& study) {
@@ -185,7 +204,7 @@ std::string figures(const StudyView& study, const FigureSet& set) {
   const std::size_t own = study.analysis ? study.analysis->figures.size() : 0;
   for (std::size_t i = 0; i < set.figures.size(); ++i) {
     if (i == own) out += timed_figures(study);
-    out += figure_html(study, set.figures[i]);
+    if (set.figures[i].name != figure_of_the_answer) out += figure_html(study, set.figures[i]);
   }
   if (own >= set.figures.size()) out += timed_figures(study);
   for (const auto& absent : set.absent)
@@ -369,7 +388,8 @@ void write_report(const StudyView& study) {
     return;
   }
   const auto set = figures_of(study, grouping);
-  write_text(study.folder / "report.html", head(study) + what_is_seen(study, findings_of(study, grouping)) +
+  write_text(study.folder / "report.html", head(study) + answer_html(study, grouping, set) +
+                                               what_is_seen(study, findings_of(study, grouping)) +
                                                std::string(how_to_read) + figures(study, set) + methods(grouping) +
                                                what_was_run(study, grouping) + all_runs(study) + foot());
 }
