@@ -75,6 +75,9 @@ class Report {
   Analysis analysis() const {
     Analysis found{.alone = true, .heading = "Declared and measured"};
     found.sentences = sentences();
+    found.answer.sentences = {found.sentences.front()};
+    if (const auto items = of_verdict(TraitVerdict::does_not_hold, Share::any); !items.empty())
+      found.answer.sentences.push_back("Declared, and measured not to hold: " + joined(items) + ".");
     found.tables.push_back({"certificate", overview()});
     if (several_variants()) found.tables.push_back({"certificate_by_formulation", by_formulation()});
     found.method = method();

@@ -51,6 +51,7 @@ class Orders {
 
   Analysis analysis() const {
     Analysis found{.heading = "Observed order"};
+    found.answer.sentences = answer();
     found.sentences = sentences();
     found.method = {
         "Order: p in error ∝ step^p, a straight line fitted by least squares to the logarithms of the largest error of "
@@ -158,6 +159,21 @@ class Orders {
       if (good.contains(name) && !bad.contains(name)) names.push_back(name);
     }
     return {names, all.size()};
+  }
+
+  std::vector<std::string> answer() const {
+    std::vector<std::string> all;
+    if (const auto [names, n] = as_declared(true); n > 0) {
+      all.push_back(fmt::format("{} of {} with a declared order {} at it wherever an order is seen.", names.size(),
+                                count(n, "method"), names.size() == 1 ? "converges" : "converge"));
+      const std::string higher = listed(OrderVerdict::higher, true), lower = listed(OrderVerdict::lower, true);
+      if (!lower.empty()) all.push_back("Lower than declared: " + lower + ".");
+      else if (!higher.empty()) all.push_back("Higher than declared: " + higher + ".");
+    }
+    if (const auto [names, n] = as_declared(false); n > 0)
+      all.push_back(fmt::format("{} of {} with a tolerance {} the error in proportion to it.", names.size(),
+                                count(n, "method"), names.size() == 1 ? "keeps" : "keep"));
+    return all;
   }
 
   std::vector<std::string> sentences() const {

@@ -108,6 +108,7 @@ class Impacts {
 
   Analysis analysis() const {
     Analysis found{.alone = true, .heading = "Errors of impacts"};
+    found.answer.sentences = answer();
     found.sentences = sentences();
     found.method = {
         fmt::format(
@@ -160,6 +161,33 @@ class Impacts {
   static std::string cell(const std::optional<double>& x) { return x ? number(*x) : std::string(); }
   static std::string order_text(const std::optional<double>& p) {
     return p ? fmt::format("{:.2f}", *p) : std::string();
+  }
+
+  /// Least and largest error at the smallest step over all motions and methods, by timing: "1e-9 to 2e-4 s with …".
+  std::vector<std::string> ranges(std::optional<double> Errors::*error, const char* unit) const {
+    std::vector<std::string> all;
+    for (const std::string& timing : timings_) {
+      std::optional<double> least, most;
+      for (const auto& [key, errors] : curves_) {
+        const auto& found = errors.front().*error;
+        if (std::get<3>(key) != timing || !found) continue;
+        least = least ? std::min(*least, *found) : *found;
+        most = most ? std::max(*most, *found) : *found;
+      }
+      if (least)
+        all.push_back(fmt::format("by {} to {}{} with {}", number(*least), number(*most), unit,
+                                  timing.empty() ? "forces" : timing));
+    }
+    return all;
+  }
+
+  std::vector<std::string> answer() const {
+    std::vector<std::string> all;
+    if (const auto times = ranges(&Errors::time, " s"); !times.empty())
+      all.push_back(fmt::format("At the smallest step the time of the first impact is wrong {}.", words(times)));
+    if (const auto energies = ranges(&Errors::energy, ""); !energies.empty())
+      all.push_back(fmt::format("The energy is wrong, over its size, {}.", words(energies)));
+    return all;
   }
 
   std::vector<std::string> sentences() const {

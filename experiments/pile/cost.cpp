@@ -64,6 +64,7 @@ class Piles {
 
   Analysis analysis() const {
     Analysis found{.alone = true, .heading = "Piles"};
+    found.answer.sentences = answer();
     found.sentences = sentences();
     found.method = {
         "The rise is that of kinetic and potential energy above an earlier value, over the energy at the start. Depths "
@@ -92,6 +93,30 @@ class Piles {
   }
   std::size_t place(const Key& key) const {
     return std::size_t(std::find(labels_.begin(), labels_.end(), label(key)) - labels_.begin());
+  }
+
+  std::vector<std::string> answer() const {
+    const Pile *most = nullptr, *deepest = nullptr;
+    std::size_t least_bodies = 0, most_bodies = 0;
+    for (const auto& [key, piles] : curves_) {
+      for (const Pile& p : piles) {
+        least_bodies = most ? std::min(least_bodies, p.bodies) : p.bodies;
+        most_bodies = std::max(most_bodies, p.bodies);
+        if (!most || p.rise() > most->rise()) most = &p;
+        if (!deepest || p.found().penetration_max > deepest->found().penetration_max) deepest = &p;
+      }
+    }
+    if (!most) return {"No pile was carried out to its end."};
+    const std::string range = least_bodies == most_bodies
+                                  ? fmt::format("a pile of {} bodies", most_bodies)
+                                  : fmt::format("piles of {} to {} bodies", least_bodies, most_bodies);
+    const auto which = [&](const Pile& p) {
+      return fmt::format("{} bodies, {}", p.bodies, label(key_of(p.run->config)));
+    };
+    return {fmt::format("In {} the energy never rises by more than {} % of what it was at the start ({}).", range,
+                        number(100 * most->rise()), which(*most)),
+            fmt::format("Bodies are at most {} m deep in each other ({}).",
+                        number(deepest->found().penetration_max.value_or(0)), which(*deepest))};
   }
 
   std::vector<std::string> sentences() const {

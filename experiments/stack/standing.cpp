@@ -62,6 +62,7 @@ class Standing {
 
   Analysis analysis() const {
     Analysis found{.alone = true, .heading = "How stacks stand"};
+    found.answer.sentences = answer();
     found.sentences = sentences();
     found.method = {fmt::format(
         "A stack stands until the centre of a box is further than a tenth of the box’s radius (half its diagonal) from "
@@ -93,6 +94,45 @@ class Standing {
     if (several_timings_) text += ", " + timing;
     if (several_scenarios_) text += ", " + scenario;
     return fmt::format("{}, {}", text, step(key));
+  }
+
+  /// The highest stack that stands to the end, below which all stand too; 0: none.
+  static std::size_t highest_standing(const std::vector<Stack>& stacks) {
+    std::size_t highest = 0;
+    for (const Stack& s : stacks) {
+      if (s.found().left_place) break;
+      highest = s.boxes;
+    }
+    return highest;
+  }
+
+  std::vector<std::string> answer() const {
+    struct Best {
+      std::string response;
+      std::size_t boxes = 0, tried = 0;
+      std::string step;
+    };
+    std::vector<Best> all;
+    for (const std::string& response : responses_) {
+      Best best{response, 0, 0, {}};
+      for (const auto& [key, stacks] : curves_) {
+        if (std::get<2>(key) != response) continue;
+        best.tried = std::max(best.tried, stacks.back().boxes);
+        if (const std::size_t boxes = highest_standing(stacks); boxes > best.boxes)
+          best.boxes = boxes, best.step = step(key);
+      }
+      all.push_back(best);
+    }
+    std::stable_sort(all.begin(), all.end(), [](const Best& a, const Best& b) { return a.boxes > b.boxes; });
+    if (all.empty()) return {"No stack was carried out to its end."};
+    std::vector<std::string> parts;
+    for (const Best& b : all) {
+      if (b.boxes == 0) parts.push_back(fmt::format("{} none", b.response));
+      else
+        parts.push_back(fmt::format("{} up to {} boxes ({}{})", b.response, b.boxes, b.step,
+                                    b.boxes == b.tried ? ", the highest that was tried" : ""));
+    }
+    return {fmt::format("Stacks stand to the end with {}.", words(parts))};
   }
 
   std::vector<std::string> sentences() const {

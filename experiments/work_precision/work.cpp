@@ -10,6 +10,7 @@
 
 #include "experiments/study/curves/curves.hpp"
 #include "experiments/study/curves/work.hpp"
+#include "experiments/study/report/answer/answer.hpp"
 #include "experiments/study/report/figures/work_figure.hpp"
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
@@ -160,6 +161,7 @@ Analysis work_against_error(const StudyView& study) {
   const Grouping grouping = group(study);
   Analysis found{.heading = "The cheapest method for an error"};
   const Work by_evaluations(grouping, cost_in_right_hand_sides()), by_time(grouping, cost_in_time());
+  found.answer = answer_of(study, grouping);
   found.sentences = by_evaluations.sentences();
   for (auto& text : by_evaluations.outside()) found.sentences.push_back(std::move(text));
   found.files.push_back({"envelope.csv", by_evaluations.csv()});

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,13 @@
 namespace polhode::study::inline record {
 
 inline constexpr const char* timings_folder = "timings";
+
+/// The answer to the question of a study, with which its report begins.
+struct Answer {
+  std::vector<std::string> sentences{};  ///< at most three
+  std::vector<std::string> depends{};    ///< what the answer depends on
+  std::optional<Table> table{};          ///< a few rows
+};
 
 struct Analysis {
   struct NamedTable {
@@ -28,7 +36,8 @@ struct Analysis {
 
   /// True: the report shows the analysis in place of the usual findings and figures of the runs.
   bool alone = false;
-  std::string heading{};                 ///< heading of its section of the report: "Observed order"
+  Answer answer{};        ///< the first figure stands beside it; without sentences: those below are the answer
+  std::string heading{};  ///< heading of its section of the report: "Observed order"
   std::vector<std::string> sentences{};  ///< findings
   std::vector<std::string> method{};     ///< method by which the numbers were computed; printed below the tables
   std::vector<NamedTable> tables{};      ///< the first one is also printed on the terminal

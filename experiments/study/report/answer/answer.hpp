@@ -3,20 +3,10 @@
 // number is computed from the runs.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "experiments/study/curves/curves.hpp"
-#include "experiments/study/plot/table.hpp"
+#include "experiments/study/record/analysis.hpp"
 
 namespace polhode::study::inline report::inline answer {
-
-struct Answer {
-  std::vector<std::string> sentences;  ///< at most three
-  std::vector<std::string> depends;    ///< what the answer depends on
-  std::optional<Table> table{};
-};
 
 /// The cheapest method for an error: of the attitude, or of the position for a motion without one. Where the runs do
 /// not decide, the sentences say so, and which runs would.

@@ -66,6 +66,7 @@ std::string folded(const std::string& summary, const std::string& content, bool 
 }
 
 bool alone(const StudyView& study) { return study.analysis && study.analysis->alone; }
+bool has_answer(const StudyView& study) { return !study.analysis || !study.analysis->answer.sentences.empty(); }
 
 std::string command_html(const StudyView& study) {
   return fmt::format("<h3>The command that makes this again</h3>\n<pre><code>{}</code></pre>\n", html(study.command));
@@ -81,7 +82,7 @@ std::string head(const StudyView& study, std::string_view contents) {
       "<nav aria-label=\"Contents\"><ul>{}<li><a href=\"#seen\">What is "
       "seen</a></li>{}</ul></nav>\n</header>\n<main>\n",
       html(title_of(study)), page_style, html(title_of(study)), html(study.question),
-      study.analysis ? "" : "<li><a href=\"#answer\">The answer</a></li>", contents);
+      has_answer(study) ? "<li><a href=\"#answer\">The answer</a></li>" : "", contents);
 }
 
 std::string head(const StudyView& study) {
@@ -138,17 +139,29 @@ std::string figure_html(const StudyView& study, const Figure& figure) {
                      svg ? fmt::format(" Files: {}.", file_links(figure)) : "");
 }
 
+/// The answer's sentences; the first one stands out.
+std::string answer_sentences(const std::vector<std::string>& sentences) {
+  std::string out;
+  for (const std::string& sentence : sentences)
+    out += fmt::format("<p class=\"{}\">{}</p>\n", out.empty() ? "answer first" : "answer", prose(sentence));
+  return out;
+}
+
+/// Name of the figure that stands beside the answer.
+std::string figure_beside_answer(const StudyView& study) {
+  if (!study.analysis) return figure_of_the_answer;
+  return has_answer(study) && !study.analysis->figures.empty() ? study.analysis->figures.front().name : "";
+}
+
 /// What the page is opened for: the answer, the table and the figure that show it, and what it depends on.
 std::string answer_html(const StudyView& study, const Grouping& grouping, const FigureSet& set) {
-  if (study.analysis) return {};  // it answers the experiment's own question
-  const Answer answer = answer_of(study, grouping);
+  if (!has_answer(study)) return {};
   std::string out = "<section id=\"answer\">\n<h2 class=\"spoken\">The answer</h2>\n";
-  for (std::size_t i = 0; i < answer.sentences.size(); ++i) {
-    out += fmt::format("<p class=\"{}\">{}</p>\n", i == 0 ? "answer first" : "answer", prose(answer.sentences[i]));
-  }
+  const Answer answer = study.analysis ? study.analysis->answer : answer_of(study, grouping);
+  out += answer_sentences(answer.sentences);
   if (answer.table) out += html(*answer.table);
   for (const auto& figure : set.figures) {
-    if (figure.name == figure_of_the_answer) out += figure_html(study, figure);
+    if (figure.name == figure_beside_answer(study)) out += figure_html(study, figure);
   }
   if (!answer.depends.empty()) out += folded("What the answer depends on", list(answer.depends), false);
   return out + "</section>\n";
@@ -204,7 +217,7 @@ std::string figures(const StudyView& study, const FigureSet& set) {
   const std::size_t own = study.analysis ? study.analysis->figures.size() : 0;
   for (std::size_t i = 0; i < set.figures.size(); ++i) {
     if (i == own) out += timed_figures(study);
-    if (set.figures[i].name != figure_of_the_answer) out += figure_html(study, set.figures[i]);
+    if (set.figures[i].name != figure_beside_answer(study)) out += figure_html(study, set.figures[i]);
   }
   if (own >= set.figures.size()) out += timed_figures(study);
   for (const auto& absent : set.absent)
@@ -381,8 +394,10 @@ void write_report(const StudyView& study) {
   }
   const auto grouping = group(study);
   if (alone(study)) {
-    const bool drawn = !study.analysis->figures.empty() || !study.analysis->timed.figures.empty();
-    write_text(study.folder / "report.html", head(study) + what_is_seen(study, findings_of(study, grouping)) +
+    const std::size_t beside_answer = figure_beside_answer(study).empty() ? 0 : 1;
+    const bool drawn = study.analysis->figures.size() > beside_answer || !study.analysis->timed.figures.empty();
+    write_text(study.folder / "report.html", head(study) + answer_html(study, grouping, {study.analysis->figures, {}}) +
+                                                 what_is_seen(study, findings_of(study, grouping)) +
                                                  (drawn ? figures(study, {study.analysis->figures, {}}) : "") +
                                                  what_was_run(study, grouping) + all_runs(study) + foot());
     return;
