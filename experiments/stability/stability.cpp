@@ -51,6 +51,7 @@ class Stability {
 
   Analysis analysis() const {
     Analysis all{.heading = "Stability"};
+    all.answer.sentences = answer();
     all.sentences = sentences();
     all.method = method();
     for (const bool varied : {false, true}) {
@@ -263,6 +264,48 @@ class Stability {
     std::vector<std::string> items;
     for (const auto& [limit, names] : by_limit) items.push_back(fmt::format("{} ({})", limit, words(names)));
     return fmt::format("{}", fmt::join(items, ", "));
+  }
+
+  /// For each scenario the methods that follow its motion up to the largest steps.
+  std::vector<std::string> answer() const {
+    constexpr std::size_t most_sentences = 3, most_named = 4;
+    std::vector<std::string> all;
+    for (const auto& scenario : study_.scenarios) {
+      std::vector<const StabilityFinding*> followed;
+      std::vector<std::string> at_all_steps;
+      for (const StabilityFinding& f : found_) {
+        if (motion(f) != scenario.name || is_varied(f) || !f.ladder.measured) continue;
+        if (f.motion.kind == Kind::none) at_all_steps.push_back(label(f));
+        if (f.motion.kind == Kind::found) followed.push_back(&f);
+      }
+      std::stable_sort(followed.begin(), followed.end(),
+                       [](const auto* a, const auto* b) { return a->motion.holds > b->motion.holds; });
+      std::vector<std::string> parts;
+      if (!at_all_steps.empty())
+        parts.push_back("at all steps tried by " + words(first_items(std::move(at_all_steps), most_named)));
+      const StabilityFinding* next = nullptr;
+      if (!followed.empty()) {
+        const StabilityFinding& best = *followed.front();
+        std::vector<std::string> names;
+        for (const StabilityFinding* f : followed) {
+          if (in_units(*f, f->motion.holds, rough) == in_units(best, best.motion.holds, rough))
+            names.push_back(label(*f));
+          else if (!next) next = f;
+        }
+        parts.push_back(fmt::format("up to {} {} by {}", symbol(), in_units(best, best.motion.holds, rough),
+                                    words(first_items(std::move(names), most_named))));
+      }
+      if (parts.empty()) continue;
+      std::string text = fmt::format("On {} the motion is followed {}", scenario.name, words(parts));
+      if (next) text += fmt::format("; next is {} ({})", label(*next), in_units(*next, next->motion.holds, rough));
+      all.push_back(text + ".");
+    }
+    if (all.size() > most_sentences) {
+      const std::size_t left = all.size() - (most_sentences - 1);
+      all.resize(most_sentences - 1);
+      all.push_back(fmt::format("{} more below.", count(left, "motion")));
+    }
+    return all;
   }
 
   std::vector<std::string> sentences() const {

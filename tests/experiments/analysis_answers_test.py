@@ -61,6 +61,16 @@ class AnalysisAnswers(unittest.TestCase):
                 self.same(low, min(errors))
                 self.same(high, max(errors))
 
+    def test_the_methods_that_follow_the_motion_at_the_largest_steps(self):
+        sentences, rows = self.study("stability", "--scenario", "oscillator", "--integrator", "rk4,gauss4,semi_implicit_euler,explicit_euler",
+                                     "--dt", "0.02:10:16:log", rows="critical_steps.csv")
+        found = re.fullmatch(r"On oscillator the motion is followed up to h\|ω\| (\S+) by (.*); next is (\S+) \((\S+)\)\.", sentences[0])
+        limits = sorted(((float(row["largest_following_step_s"]) * float(row["characteristic_rate_rad_per_s"]), row["integrator"])
+                         for row in rows), reverse=True)
+        self.assertEqual((found[2], found[3]), (limits[0][1], limits[1][1]), sentences)
+        self.same(found[1], limits[0][0])
+        self.same(found[4], limits[1][0])
+
     def test_the_methods_that_converge_as_declared(self):
         sentences, rows = self.study("convergence", "--scenario", "free_symmetric_top", "--integrator",
                                      "heun,rk4,lie_midpoint,odeint_dopri5,explicit_euler", rows="orders.csv")
