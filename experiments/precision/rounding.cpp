@@ -85,6 +85,7 @@ class Rounding {
 
   Analysis analysis() const {
     Analysis found{.heading = "Rounding and truncation"};
+    found.answer.sentences = answer();
     for (auto part : {&Rounding::takes_over, &Rounding::saved, &Rounding::growth, &Rounding::not_told}) {
       for (auto& text : (this->*part)()) found.sentences.push_back(std::move(text));
     }
@@ -128,6 +129,48 @@ class Rounding {
   }
 
   /// "rk4, attitude: in float below dt = 0.0625 s (least error 2e-5 rad at 0.03125 s); …"
+  /// For each arithmetic without compensation: from which steps down rounding takes over, and the least error.
+  std::vector<std::string> answer() const {
+    struct Over {
+      std::string arithmetic;
+      std::size_t ladders = 0, reached = 0;
+      double smallest = 0, largest = 0;  // steps from which it takes over
+      const Ladder* least = nullptr;
+    };
+    std::vector<Over> all;
+    for (const Ladder& l : ladders_) {
+      if (l.family->compensated || l.family->adaptive() || !l.split.has_yardstick || is_second(l)) continue;
+      const std::string arithmetic = l.family->arithmetic();
+      auto at = std::find_if(all.begin(), all.end(), [&](const Over& o) { return o.arithmetic == arithmetic; });
+      if (at == all.end()) at = all.insert(all.end(), Over{arithmetic});
+      ++at->ladders;
+      if (!l.split.takes_over) continue;
+      const double step = *l.split.takes_over;
+      at->smallest = at->reached == 0 ? step : std::min(at->smallest, step);
+      at->largest = std::max(at->largest, step);
+      ++at->reached;
+      if (!at->least || l.split.least_error < at->least->split.least_error) at->least = &l;
+    }
+    constexpr std::size_t most_sentences = 3;
+    std::vector<std::string> sentences;
+    for (const Over& o : all) {
+      if (sentences.size() == most_sentences) break;
+      if (o.reached == 0) {
+        sentences.push_back(fmt::format("In {} rounding takes over at none of these steps.", o.arithmetic));
+        continue;
+      }
+      const std::string steps = o.smallest == o.largest
+                                    ? rounded(o.smallest)
+                                    : fmt::format("{} to {}", rounded(o.smallest), rounded(o.largest));
+      sentences.push_back(fmt::format(
+          "In {} rounding takes over from dt = {} s down, with {} of {} methods and motions; the least {} of these is "
+          "{}{}, with {} at {}.",
+          o.arithmetic, steps, o.reached, o.ladders, o.least->quantity.words, number(o.least->split.least_error),
+          o.least->quantity.unit, o.least->problem->label(), step_text(*o.least->family, o.least->split.at_step)));
+    }
+    return sentences;
+  }
+
   std::vector<std::string> takes_over() const {
     std::vector<std::string> all;
     for (const RoundingProblem& problem : problems_) {

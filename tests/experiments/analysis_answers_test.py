@@ -71,6 +71,22 @@ class AnalysisAnswers(unittest.TestCase):
         self.same(found[1], limits[0][0])
         self.same(found[4], limits[1][0])
 
+    def test_the_steps_at_which_rounding_takes_over(self):
+        sentences, rows = self.study("precision", "--integrator", "rk4,explicit_midpoint", "--dt", "0.125,0.0625,0.03125,0.015625,0.0078125",
+                                     "--t-end", "32", rows="rounding.csv")
+        own = [row for row in rows if row["precision"] == "float" and row["summation"] == "plain" and row["error_of"] == "attitude_error_max_rad"]
+        reached = [row for row in own if row["rounding_takes_over_at"]]
+        self.assertTrue(reached, "the study is too short to test anything")
+        found = re.match(r"In float rounding takes over from dt = (\S+?)(?: to (\S+))? s down, with (\d+) of (\d+) methods and motions; "
+                         r"the least attitude error of these is (\S+) rad, with (\S+) at ", sentences[0])
+        steps = [float(row["rounding_takes_over_at"]) for row in reached]
+        self.same(found[1], min(steps))
+        self.same(found[2] or found[1], max(steps))
+        self.assertEqual((int(found[3]), int(found[4])), (len(reached), len(own)))
+        least = min(reached, key=lambda row: float(row["least_error"]))
+        self.same(found[5], float(least["least_error"]))
+        self.assertEqual(found[6], least["integrator"])
+
     def test_the_methods_that_converge_as_declared(self):
         sentences, rows = self.study("convergence", "--scenario", "free_symmetric_top", "--integrator",
                                      "heun,rk4,lie_midpoint,odeint_dopri5,explicit_euler", rows="orders.csv")
