@@ -177,9 +177,18 @@ class Answers(unittest.TestCase):
         self.assertEqual(sentences, ["No run came to its end, so that the study recommends no method."])
 
     def test_one_run_is_no_comparison(self):
-        sentences, _ = self.study("--scenario", "peters_hsu", "--integrator", "rk4", "--dt", "0.005", "--t-end", "2")
-        self.assertIn("the cheapest of these runs is rk4 at dt = 0.005 s", sentences[0])
-        self.assertIn("Larger steps of rk4 would decide", sentences[1])
+        sentences, rows = self.study("--scenario", "peters_hsu", "--integrator", "rk4", "--dt", "0.005", "--t-end", "2")
+        found = re.fullmatch(r"On peters_hsu over 2 s the attitude is off by at most (\S+) rad and the position by at most (\S+) m "
+                             r"with rk4 at dt = 0.005 s\.", sentences[0])
+        for text, column in zip(found.groups(), COLUMN.values()):
+            self.assertAlmostEqual(float(text) / number(rows[0][column]), 1, delta=ROUNDED)
+        drift, round_off = number(rows[0]["energy_drift_max_J"]), number(rows[0]["energy_round_off_J"])
+        self.assertEqual("kept to round-off" in sentences[1], drift <= round_off, sentences)
+        self.assertIn("several runs tell", sentences[2])
+
+    def test_one_run_without_an_exact_motion_says_so(self):
+        sentences, _ = self.study("--scenario", "spring_box", "--integrator", "rk4", "--dt", "0.01", "--t-end", "1")
+        self.assertIn("no exact motion is known; --reference makes one", sentences[0])
 
 
 if __name__ == "__main__":

@@ -101,6 +101,7 @@ class General {
       : study_(study), grouping_(grouping), motions_(work_of_motions(grouping, cost_)) {}
 
   Answer answer() {
+    if (study_.size() == 1) return one_run();
     if (std::none_of(study_.runs.begin(), study_.runs.end(), [](const auto& run) { return completed(run); })) {
       answer_.sentences.push_back("No run came to its end, so that the study recommends no method.");
       return std::move(answer_);
@@ -146,6 +147,37 @@ class General {
   /// "1.4 times as many": how much dearer the next one is.
   std::string times(const Candidate& first, const Candidate& next) const {
     return fmt::format("{} times as many", number(next.cost / first.cost));
+  }
+
+  /// One run is no comparison: the answer is how far it is off.
+  Answer one_run() {
+    const RunRecord& run = study_.runs.front();
+    const Curve& curve = grouping_.curves.front();
+    const std::string label = run_label(grouping_, curve, run);
+    if (!completed(run)) {
+      answer_.sentences.push_back(fmt::format("{} did not come to its end: {}.", label, one_line(run.result.message)));
+      return std::move(answer_);
+    }
+    std::vector<std::string> errors;
+    for (const auto& [quantity, what] :
+         {std::pair(quantity::attitude_error(), "attitude"), std::pair(quantity::position_error(), "position")}) {
+      if (const auto error = value(run, quantity))
+        errors.push_back(fmt::format("the {} {}by at most {}{}", what, errors.empty() ? "is off " : "", number(*error),
+                                     quantity.unit));
+    }
+    const std::string where = fmt::format("On {} over {} s", run.config.scenario, exact_number(run.config.t_end));
+    if (!errors.empty()) answer_.sentences.push_back(fmt::format("{} {} with {}.", where, words(errors), label));
+    else
+      answer_.sentences.push_back(
+          fmt::format("{} these data do not tell how far {} is off: no exact motion is known{}.", where, label,
+                      run.config.contact || run.config.reference ? "" : "; --reference makes one to compare with"));
+    if (const auto drift = value(run, quantity::energy_drift()))
+      answer_.sentences.push_back(*drift <= round_off_level(run, quantity::energy_drift())
+                                      ? fmt::format("The energy is kept to round-off (a drift of {}).", number(*drift))
+                                      : fmt::format("The energy drifts by up to {} of its scale.", number(*drift)));
+    answer_.sentences.push_back(fmt::format(
+        "Which method is the cheapest, several runs tell: ./run energy_drift --scenario {}.", run.config.scenario));
+    return std::move(answer_);
   }
 
   Answer without_errors() {
