@@ -15,7 +15,7 @@ namespace polhode::study::inline plot {
 
 namespace {
 
-constexpr double text_width_cm = 16;
+constexpr double text_width_cm = 12.5;  // just below that of an article of 11 pt on A4, 360 pt
 constexpr std::array<double, 3> panel_height_cm = {8, 6.5, 5.5};  // with 1, 2, 3 panels in a row
 
 template <class... T>
@@ -135,11 +135,12 @@ bool carries_legend(const Figure& figure, const Panel& panel) {
 }
 
 std::size_t legend_columns(const Figure& figure) {
+  constexpr std::size_t characters_in_line = 66;  // of a footnote, with the marks
   std::size_t longest = figure.has_edge_marks ? 21 : 12;
   for (const auto m : figure.used_methods) longest = std::max(longest, length(figure.methods[m]));
   for (const auto& variant : figure.variants) longest = std::max(longest, length(variant));
   for (const auto& shade : figure.shades) longest = std::max(longest, length(shade.label));
-  return std::max<std::size_t>(1, 90 / (longest + 6));
+  return std::max<std::size_t>(1, characters_in_line / (longest + 6));
 }
 
 void write_panel(std::string& out, const Figure& figure, const Panel& panel) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <string>
+#include <utility>
 
 namespace polhode::study::inline text {
 
@@ -119,8 +120,36 @@ std::string markdown(std::string_view text) {
   });
 }
 
+namespace {
+
+/// LaTeX of the characters beyond ASCII that sentences and captions use; pdfTeX knows the others, such as ½ and ²,
+/// by inputenc and textcomp.
+std::string_view tex_of_character(std::string_view character) {
+  constexpr std::pair<std::string_view, std::string_view> known[] = {
+      {"α", "\\alpha"}, {"β", "\\beta"},   {"γ", "\\gamma"},    {"δ", "\\delta"},  {"ε", "\\varepsilon"},
+      {"θ", "\\theta"}, {"λ", "\\lambda"}, {"μ", "\\mu"},       {"ξ", "\\xi"},     {"π", "\\pi"},
+      {"ρ", "\\rho"},   {"σ", "\\sigma"},  {"τ", "\\tau"},      {"φ", "\\varphi"}, {"ψ", "\\psi"},
+      {"ω", "\\omega"}, {"Δ", "\\Delta"},  {"Φ", "\\Phi"},      {"Σ", "\\Sigma"},  {"Ω", "\\Omega"},
+      {"√", "\\surd"},  {"∝", "\\propto"}, {"≤", "\\leq"},      {"≥", "\\geq"},    {"≈", "\\approx"},
+      {"→", "\\to"},    {"−", "-"},        {"′", "^{\\prime}"}, {"ᵀ", "^{T}"},     {"⁻", "^{-}"},
+      {"₋", "_{-}"},    {"ₕ", "_{h}"},     {"‖", "\\|"},        {"⟨", "\\langle"}, {"⟩", "\\rangle"},
+      {"∞", "\\infty"}, {"∂", "\\partial"}};
+  for (const auto& [one, command] : known) {
+    if (one == character) return command;
+  }
+  return {};
+}
+
+/// Number of bytes of the UTF-8 character that begins with this byte.
+std::size_t bytes_of_character(char first) {
+  const auto byte = static_cast<unsigned char>(first);
+  return byte >= 0xF0 ? 4 : byte >= 0xE0 ? 3 : byte >= 0xC0 ? 2 : 1;
+}
+
+}  // namespace
+
 std::string tex(std::string_view text) {
-  return escaped(text, [](char c) -> std::string_view {
+  const std::string ascii = escaped(text, [](char c) -> std::string_view {
     switch (c) {
       case '\\': return "\\textbackslash{}";
       case '{': return "\\{";
@@ -138,6 +167,15 @@ std::string tex(std::string_view text) {
       default: return {};
     }
   });
+  std::string out;
+  for (std::size_t i = 0; i < ascii.size();) {
+    const std::string_view character = std::string_view(ascii).substr(i, bytes_of_character(ascii[i]));
+    const std::string_view command = character.size() > 1 ? tex_of_character(character) : std::string_view();
+    if (command.empty()) out += character;
+    else out += fmt::format("${}$", command);
+    i += character.size();
+  }
+  return out;
 }
 
 std::string tex_number(std::string_view printed) {

@@ -26,6 +26,7 @@ TEST(ReportNotation, PrintsNumbersShortly) {
 TEST(ReportNotation, EscapesWhatEachFormatWouldRead) {
   EXPECT_EQ(html("a & b < \"c\""), "a &amp; b &lt; &quot;c&quot;");
   EXPECT_EQ(tex("a_b & 50% {x} ^2 \\y"), "a\\_b \\& 50\\% \\{x\\} \\textasciicircum{}2 \\textbackslash{}y");
+  EXPECT_EQ(tex("h|ω| ≤ ½, ∝ t²"), "h|$\\omega$| $\\leq$ ½, $\\propto$ t²");
   EXPECT_EQ(gnuplot("it's `date`\n"), "'it''s `date` '");
   EXPECT_EQ(markdown("a|b_c"), "a\\|b\\_c");
   EXPECT_EQ(shortened("größe", 5), "größe");
