@@ -80,6 +80,7 @@ td.number, .name, .short, .nowrap { white-space: nowrap; }
 td.text { min-width: 14rem; }
 .none { color: var(--soft); }
 summary { cursor: pointer; margin: .8rem 0; }
+#seen > details > summary { font-weight: 600; }
 footer { margin-top: 3rem; color: var(--soft); font-size: .88rem; }
 @media (max-width: 40rem) {
   body { padding: 1.2rem .9rem 3rem; }

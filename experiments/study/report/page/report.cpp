@@ -92,10 +92,19 @@ std::string head(const StudyView& study) {
   return head(study, std::string(alone(study) ? "" : of_curves) + of_runs);
 }
 
+/// Statements under their heading, and what belongs to them. `below_answer`: many are folded.
+std::string statements(const std::string& heading, const std::vector<std::string>& sentences, const std::string& more,
+                       bool below_answer) {
+  constexpr std::size_t most_open = 2;
+  const std::string content = (sentences.empty() ? "" : list(sentences)) + more;
+  if (below_answer && sentences.size() > most_open)
+    return folded(fmt::format("{}: {}", heading, count(sentences.size(), "statement")), content, false);
+  return fmt::format("<h3>{}</h3>\n{}", html(heading), content);
+}
+
 /// The analysis of the experiment, which answers its question and therefore comes first.
 std::string analysis_html(const Analysis& analysis) {
-  std::string out = fmt::format("<h3>{}</h3>\n", html(analysis.heading));
-  if (!analysis.sentences.empty()) out += list(analysis.sentences);
+  std::string out = statements(analysis.heading, analysis.sentences, "", !analysis.answer.sentences.empty());
   for (const auto& [name, table] : analysis.tables) {
     out += table.rows.size() > open_rows_of_analysis ? folded(table.caption, html(table, Caption::spoken), false)
                                                      : html(table);
@@ -177,12 +186,12 @@ std::string what_is_seen(const StudyView& study, const Findings& findings) {
   }
   if (study.analysis) out += analysis_html(*study.analysis);
   for (const auto& topic : findings.topics) {
-    out += fmt::format("<h3>{}</h3>\n", html(topic.heading));
-    if (!topic.sentences.empty()) out += list(topic.sentences);
+    std::string tables;
     for (const auto& table : topic.tables) {
-      out += table.rows.size() > most_open_rows_in_text ? folded(table.caption, html(table, Caption::spoken), false)
-                                                        : html(table);
+      tables += table.rows.size() > most_open_rows_in_text ? folded(table.caption, html(table, Caption::spoken), false)
+                                                           : html(table);
     }
+    out += statements(topic.heading, topic.sentences, tables, has_answer(study));
   }
   return out + "</section>\n";
 }
