@@ -163,19 +163,25 @@ class Impacts {
     return p ? fmt::format("{:.2f}", *p) : std::string();
   }
 
-  /// Least and largest error at the smallest step over all motions and methods, by timing: "1e-9 to 2e-4 s with …".
+  /// Least and largest error at the smallest step over all motions, methods and responses, with their methods, by
+  /// timing: "by 1e-9 s (rk4) to 2e-4 s (heun) with event_located".
   std::vector<std::string> ranges(std::optional<double> Errors::*error, const char* unit) const {
+    struct Of {
+      double size;
+      std::string method;
+      std::string text(const char* unit_of) const { return fmt::format("{}{} ({})", number(size), unit_of, method); }
+    };
     std::vector<std::string> all;
     for (const std::string& timing : timings_) {
-      std::optional<double> least, most;
+      std::optional<Of> least, most;
       for (const auto& [key, errors] : curves_) {
         const auto& found = errors.front().*error;
         if (std::get<3>(key) != timing || !found) continue;
-        least = least ? std::min(*least, *found) : *found;
-        most = most ? std::max(*most, *found) : *found;
+        if (!least || *found < least->size) least = Of{*found, std::get<1>(key)};
+        if (!most || *found > most->size) most = Of{*found, std::get<1>(key)};
       }
       if (least)
-        all.push_back(fmt::format("by {} to {}{} with {}", number(*least), number(*most), unit,
+        all.push_back(fmt::format("by {} to {} with {}", least->text(unit), most->text(unit),
                                   timing.empty() ? "forces" : timing));
     }
     return all;

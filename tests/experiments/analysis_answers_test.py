@@ -51,15 +51,19 @@ class AnalysisAnswers(unittest.TestCase):
     def test_the_ranges_of_errors_of_impacts(self):
         sentences, rows = self.study("impact", rows="impacts.csv")
         for sentence, column in zip(sentences, ("event_time_error_s", "energy_error_rel")):
-            for low, high, timing in re.findall(r"by (\S+) to (\S+?)(?: s)? with (\w+)", sentence):
+            ranges = re.findall(r"by (\S+)(?: s)? \((\w+)\) to (\S+)(?: s)? \((\w+)\) with (\w+)", sentence)
+            self.assertEqual(len(ranges), 3, sentence)
+            for low, best, high, worst, timing in ranges:
                 smallest = {}
                 for row in rows:
                     key = (row["motion"], row["integrator"], row["response"])
                     if row["impact_timing"] == timing and (key not in smallest or float(row["dt_s"]) < float(smallest[key]["dt_s"])):
                         smallest[key] = row
-                errors = [float(row[column]) for row in smallest.values() if row[column]]
-                self.same(low, min(errors))
-                self.same(high, max(errors))
+                errors = sorted((float(row[column]), row["integrator"]) for row in smallest.values() if row[column])
+                self.same(low, errors[0][0])
+                self.same(high, errors[-1][0])
+                self.assertIn(best, [method for error, method in errors if error == errors[0][0]])
+                self.assertIn(worst, [method for error, method in errors if error == errors[-1][0]])
 
     def test_the_methods_that_follow_the_motion_at_the_largest_steps(self):
         sentences, rows = self.study("stability", "--scenario", "oscillator", "--integrator", "rk4,gauss4,semi_implicit_euler,explicit_euler",
