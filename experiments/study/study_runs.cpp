@@ -279,15 +279,18 @@ bool StudyRuns::widen() {
   return true;
 }
 
-/// Reads the results that are not held yet.
+/// Reads the results that are not held yet: those of the plan, and in a study that is refined all others, which it may
+/// come to have.
 void StudyRuns::hold_results() {
   if (held_.empty()) {
+    const auto is_wanted = [&](std::uint64_t id) { return experiment_.refine || plan_.contains(id); };
     store_.for_each(Curves::with, [&](StoredRun&& run) {
-      if (run.damage.empty()) held_[number_of_id(run.id)] = std::move(run.result);
+      const std::uint64_t id = number_of_id(run.id);
+      if (run.damage.empty() && is_wanted(id)) held_[id] = std::move(run.result);
     });
     for (const auto& other : others_) {
       for_each_result(other, [&](std::uint64_t id, RunResult&& result) {
-        if (held_.try_emplace(id, std::move(result)).second) elsewhere_.insert(id);
+        if (is_wanted(id) && held_.try_emplace(id, std::move(result)).second) elsewhere_.insert(id);
       });
     }
     return;

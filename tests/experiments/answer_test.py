@@ -127,6 +127,7 @@ class Answers(unittest.TestCase):
         if found := CHEAPEST.fullmatch(sentences[0]):
             self.check_cheapest(found, sentences, rows)
             return "cheapest"
+        self.assertRegex(sentences[0], r"\A(These runs do not |No run |On \S+ over |\S+ at \S+ = .* did not come to its end)")
         return "none"
 
     def check_energy(self, sentences, rows):

@@ -251,6 +251,14 @@ std::size_t add_cells(const Product& product, std::uint16_t number, std::size_t 
   return left_out;
 }
 
+double most_cells(const Products& products) {
+  double cells = 0;
+  for (const auto& of_study : products) {
+    for (const auto& product : of_study) cells += product->most_cells();
+  }
+  return cells;
+}
+
 void refuse_too_many(double cells) {
   if (cells <= static_cast<double>(most_runs)) return;
   throw InputError(fmt::format("{} runs are more than the 10 million that a study may have; make the axes shorter",
@@ -259,12 +267,8 @@ void refuse_too_many(double cells) {
 
 Products open_products(const Experiment& experiment, const Options& options, Plan& plan) {
   Products products;
-  double cells = 0;
-  for (const StudyAxes& study : options.studies) {
-    products.push_back(products_of(experiment, options, study, plan));
-    for (const auto& product : products.back()) cells += product->most_cells();
-  }
-  refuse_too_many(cells);
+  for (const StudyAxes& study : options.studies) products.push_back(products_of(experiment, options, study, plan));
+  refuse_too_many(most_cells(products));
   for (const auto& of_study : products) {
     for (const auto& product : of_study) add_product(plan, *product);
   }
@@ -309,12 +313,8 @@ std::optional<std::size_t> Plan::find(std::uint64_t id) const {
 Plan make_plan(const Experiment& experiment, const Options& options) {
   Plan plan;
   const Products products = open_products(experiment, options, plan);
-  double cells = 0;
-  for (const auto& of_study : products) {
-    for (const auto& product : of_study) cells += product->most_cells();
-  }
   std::set<std::string> effective;
-  Rows rows(with_conditions(options) ? 0 : static_cast<std::size_t>(cells));
+  Rows rows(with_conditions(options) ? 0 : static_cast<std::size_t>(most_cells(products)));
   for (std::size_t i = 0; i < products.size(); ++i) {
     const StudyAxes& study = options.studies[i];
     std::set<std::string> own;
@@ -348,24 +348,21 @@ Plan make_plan(const Experiment& experiment, const Options& options) {
 }
 
 std::optional<Plan> glance_at_plan(const Experiment& experiment, const Options& options) {
-  constexpr double most_cells = 100'000, wanted = 10'000;
+  constexpr double few = 100'000, wanted = 10'000;
   Plan plan;
   const Products products = open_products(experiment, options, plan);
-  double all = 0;
-  for (const auto& of_study : products) {
-    for (const auto& product : of_study) all += product->most_cells();
-  }
-  if (all <= most_cells) return std::nullopt;
+  const double counted = most_cells(products);
+  if (counted <= few) return std::nullopt;
   Rows rows(0);
   std::set<std::string> effective;
-  std::size_t looked_at = 0;
+  double all = 0, looked_at = 0;
   for (std::size_t i = 0; i < products.size(); ++i) {
     for (const auto& product : products[i]) {
       product->open();
       const std::uint64_t cells = product->cells();
       // One cell of each stretch, at a place of its own, so that no axis is in step with the choice.
       const auto count = static_cast<std::size_t>(
-          std::clamp(std::ceil(static_cast<double>(cells) * wanted / all), 1.0, static_cast<double>(cells)));
+          std::clamp(std::ceil(static_cast<double>(cells) * wanted / counted), 1.0, static_cast<double>(cells)));
       const double stretch = static_cast<double>(cells) / static_cast<double>(count);
       const auto cell = [&](std::size_t k) {
         const double place = static_cast<double>(k + 1) * std::numbers::phi;
@@ -375,13 +372,14 @@ std::optional<Plan> glance_at_plan(const Experiment& experiment, const Options& 
                 effective);
       plan.studies.push_back({options.studies[i].name, cells, 0, {}});
       plan.products_.push_back(product);
-      looked_at += count;
+      all += static_cast<double>(cells);
+      looked_at += static_cast<double>(count);
     }
   }
   if (rows.empty()) return std::nullopt;  // the conditions leave few cells
   std::move(rows).move_into(plan);
   plan.by_id_ = numbers_by_id(plan.rows);
-  plan.runs_of_a_row = all / static_cast<double>(looked_at);
+  plan.runs_of_a_row = all / looked_at;
   return plan;
 }
 

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "experiments/study/curves/work.hpp"
-#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/report/findings/method_table.hpp"
 #include "experiments/study/text/notation.hpp"
 #include "integrators/catalogue.hpp"
@@ -213,9 +212,11 @@ class General {
   }
 
   void none_reaches() {
-    answer_.sentences.push_back(fmt::format(
-        "No run follows {} well enough to be recommended: none has an error of at most 0.1{}.",
-        motions_.size() == 1 ? motion_label(motions_.front()) : "any of the motions", motions_.front().quantity.unit));
+    const bool one = motions_.size() == 1;
+    answer_.sentences.push_back(
+        fmt::format("No run follows {} well enough to be recommended: none has an error of at most 0.1{}.",
+                    one ? motion_label(motions_.front()) : "any of the motions",
+                    one ? motions_.front().quantity.unit : " rad (or m, where no attitude is compared)"));
     answer_.sentences.push_back("Smaller steps or tolerances would decide.");
   }
 
@@ -381,8 +382,8 @@ class General {
       if (table.rows.size() == most_rows) break;
       table.rows.push_back({label(*c.curve), step_label(*c.run), printed(*c.run, motion.quantity),
                             std::to_string(c.run->result.evaluations), (c.at_most ? "≤ " : "") + rounded_count(c.cost),
-                            number(c.cost / of.candidates.front().cost), printed(*c.run, quantity::energy_drift()),
-                            energy_trend(*c.run), conserved(*c.run)});
+                            of.decided ? number(c.cost / of.candidates.front().cost) : std::string(),
+                            printed(*c.run, quantity::energy_drift()), energy_trend(*c.run), conserved(*c.run)});
     }
     if (of.candidates.size() > most_rows)
       table.caption += fmt::format(". Not shown: {}", count(of.candidates.size() - most_rows, "method"));
