@@ -9,8 +9,9 @@ PAPER_DIR that makes a table of what the others left. All run in PAPER_DIR, one 
 the folder of its name; {out} is the folder of them all.
 
 Each row of expected.csv picks one row of a table by the columns that it fills in, and names a quantity, its value, how
-near ours must be, and where the value comes from. `of` is the experiment, empty for study.toml, and `table` the file,
-where it is not runs.csv. A quantity is a column of the table, or one of those of paper_quantities.py that are made from the
+near ours must be, where the value comes from, and the claim of ../claims.csv that it belongs to. The kind `measured` is for what
+differs from run to run, such as a time: ours is written beside theirs, and no verdict is given. `of` is the experiment, empty for
+study.toml, and `table` the file, where it is not runs.csv. A quantity is a column of the table, or one of those of paper_quantities.py that are made from the
 motion of a run, of its body number `body` (default 0).
 Exit status: 0 all within their tolerances, 2 bad input, 3 not all.
 """
@@ -25,9 +26,9 @@ import tomllib
 
 import paper_quantities
 
-OWN_COLUMNS = ["of", "table", "body", "quantity", "scale", "value", "allowed", "kind", "source"]
-NAMED_BY_VALUE = ("broad_phase", "narrow_phase", "response", "impact_timing", "trajectory", "class")
-KINDS = ("relative", "absolute", "at_most", "at_least")
+OWN_COLUMNS = ["claim", "of", "table", "body", "quantity", "scale", "value", "allowed", "kind", "source"]
+NAMED_BY_VALUE = ("scenario", "broad_phase", "narrow_phase", "response", "impact_timing", "trajectory", "class")
+KINDS = ("relative", "absolute", "at_most", "at_least", "measured")
 
 
 class BadInput(Exception):
@@ -133,16 +134,18 @@ class Paper:
             raise BadInput(f"{where}: {quantity} is not there")
         ours = float(values[quantity]) * float(wanted["scale"])
         value, tolerance = float(wanted["value"]), float(wanted["allowed"])
-        if wanted["kind"] == "at_most":
+        if wanted["kind"] == "measured":
+            within = None
+        elif wanted["kind"] == "at_most":
             within = ours <= value
         elif wanted["kind"] == "at_least":
             within = ours >= value
         else:
             within = abs(ours - value) <= tolerance * (abs(value) if wanted["kind"] == "relative" else 1)
         label = quantity + (f" of body {wanted['body']}" if wanted.get("body") else "")
-        return {"of": wanted.get("of") or "", "picked": said_of(chosen), "quantity": label, "ours": repr(ours),
-                "theirs": wanted["value"], "kind": wanted["kind"], "allowed": wanted["allowed"],
-                "source": wanted["source"], "verdict": "as given" if within else "not"}
+        return {"claim": wanted.get("claim") or "", "of": wanted.get("of") or "", "picked": said_of(chosen), "quantity": label,
+                "ours": repr(ours), "theirs": wanted["value"], "kind": wanted["kind"], "allowed": wanted["allowed"],
+                "source": wanted["source"], "verdict": {None: "measured", True: "as given", False: "not"}[within]}
 
 
 def said_of(chosen):
@@ -169,6 +172,7 @@ def write_comparison(rows, out):
 def draw(name, rows, out):
     """comparison.svg: how far each of our numbers is from theirs, in parts of what is allowed."""
     places, labels, values = [], [], []
+    rows = [row for row in rows if row["verdict"] != "measured"]
     for i, row in enumerate(rows, start=1):
         theirs, ours = float(row["theirs"]), float(row["ours"])
         if row["kind"] == "at_most":
@@ -179,7 +183,7 @@ def draw(name, rows, out):
             allowed = float(row["allowed"]) * (abs(theirs) if row["kind"] == "relative" else 1)
             place = (ours - theirs) / allowed if allowed else 2 * (ours - theirs)
         labels.append(f'"{", ".join(w for w in (row["of"], row["picked"]) if w)}: {row["quantity"]}" {i}')
-        values.append(f'set label "{ours:.6g}" at graph 1.02,first {i}')
+        values.append(f'set label "{ours:.10g}" at graph 1.02,first {i}')
         places.append(f"{max(-1.45, min(1.45, place)):.6g} {i}")
     left = max(470, 20 + 7 * max(len(label) for label in labels))  # pixels
     script = [f"set terminal svg size {left + 530},{130 + 21 * len(rows)} font 'sans,12' background 'white'",
@@ -189,7 +193,7 @@ def draw(name, rows, out):
               f"set ytics noenhanced ({', '.join(labels)})", f"set lmargin at screen {left / (left + 530):.6g}",
               f"set rmargin at screen {(left + 410) / (left + 530):.6g}",
               "set arrow from -1,graph 0 to -1,graph 1 nohead dt 2", "set arrow from 1,graph 0 to 1,graph 1 nohead dt 2",
-              "set label 'ours' at graph 1.02,graph 1.02", *values,
+              "set label 'ours' at graph 1.02,first 0", *values,
               "plot '-' using 1:2 with points pt 7 ps 0.6 lc rgb '#1f5fa8'", *places, "e"]
     if not shutil.which("gnuplot"):
         return "no comparison.svg, because gnuplot is not installed"
@@ -222,8 +226,9 @@ def main():
         bound = {"at_most": "at most", "at_least": "at least"}.get(row["kind"], "theirs")
         print(f"{row['verdict']:8}  {who:{widths[0]}} {row['quantity']:{widths[1]}}  "
               f"ours {float(row['ours']):.10g}, {bound} {row['theirs']} ({row['source']})")
-    wrong = sum(row["verdict"] != "as given" for row in rows)
-    print(f"{len(rows) - wrong} of {len(rows)} numbers as given; {out / 'comparison.csv'}")
+    wrong = sum(row["verdict"] == "not" for row in rows)
+    judged = sum(row["verdict"] != "measured" for row in rows)
+    print(f"{judged - wrong} of {judged} numbers as given; {out / 'comparison.csv'}")
     if said:
         print(f"paper: {said}", file=sys.stderr)
     return 3 if wrong else 0

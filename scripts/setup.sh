@@ -4,12 +4,14 @@
 
 say() { printf '%s: %s\n' "${0##*/}" "$*" >&2; }
 
-# install_packages [PROGRAM]: what is missing of packages.txt, and of the program's own list where it has one; touches apt
-# only if something is.
+# install_packages [PROGRAM]: what is missing of packages.txt, and of the own list of the program, or of the guide, where it
+# has one; touches apt only if something is.
 install_packages() {
   command -v dpkg-query >/dev/null || return 0 # not a Debian: CMake will name what it cannot find
-  local wanted have missing as_root started=$SECONDS lists=("$root/packages.txt") own="$root/experiments/${1:-}/packages.txt"
-  [ -z "${1:-}" ] || [ ! -f "$own" ] || lists+=("$own")
+  local wanted have missing as_root started=$SECONDS lists=("$root/packages.txt") own
+  for own in "$root/experiments/${1:-}/packages.txt" "$root/${1:-}/packages.txt"; do
+    [ -z "${1:-}" ] || [ ! -f "$own" ] || lists+=("$own")
+  done
   wanted=$(sed 's/#.*//' "${lists[@]}" | tr -s '[:space:]' '\n')
   have=$(dpkg-query -W -f '${db:Status-Abbrev} ${Package}\n' $wanted 2>/dev/null | sed -n 's/^.i *//p') || true
   missing=$(printf '%s\n' $wanted | grep -vxF "$have" | tr '\n' ' ') || true

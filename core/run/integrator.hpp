@@ -23,15 +23,19 @@ struct StepResult {
 
 /// Declared properties of a method. The conformance tests verify each of them by measurement.
 struct Declaration {
-  std::string name;              ///< name in the catalogue
-  std::string family;            ///< for example textbook, SUNDIALS, Boost.Odeint
-  std::string summary;           ///< formula or principle in one line
-  int order = 0;                 ///< order of the global error under forces; 0: variable
-  int free_order = 0;            ///< order for bodies without forces; exact_order: exact; 0: same as `order`
-  bool adaptive = false;         ///< controls its step size by a tolerance; false: fixed step h
-  bool implicit = false;         ///< solves equations in each step
-  int evaluations_per_step = 0;  ///< right-hand sides per step; 0: not constant, counted by the method
-  bool multi_step = false;       ///< uses past steps, which an impact or a projection invalidates
+  std::string name;     ///< name in the catalogue
+  std::string family;   ///< for example textbook, SUNDIALS, Boost.Odeint
+  std::string summary;  ///< formula or principle in one line
+  /// The scheme as it is coded, in LaTeX with amsmath: the rows of an `aligned` environment. Its symbols are those of
+  /// guide/methods/notation.md.
+  std::string equation{};
+  std::vector<std::string> sources{};  ///< keys of papers/references.bib, the source of the scheme first
+  int order = 0;                       ///< order of the global error under forces; 0: variable
+  int free_order = 0;                  ///< order for bodies without forces; exact_order: exact; 0: same as `order`
+  bool adaptive = false;               ///< controls its step size by a tolerance; false: fixed step h
+  bool implicit = false;               ///< solves equations in each step
+  int evaluations_per_step = 0;        ///< right-hand sides per step; 0: not constant, counted by the method
+  bool multi_step = false;             ///< uses past steps, which an impact or a projection invalidates
   /// The step adds an increment to the flat state, y' = y + Δ(t, h, y), so that the sum can be compensated.
   bool additive = false;
   bool lie_group = false;   ///< updates orientations by group elements, so that they stay on their manifold

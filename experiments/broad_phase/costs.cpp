@@ -20,6 +20,7 @@
 #include "experiments/study/plot/figure_layout.hpp"
 #include "experiments/study/plot/table.hpp"
 #include "experiments/study/record/study_view.hpp"
+#include "experiments/study/report/article/article.hpp"
 #include "experiments/study/report/figures/study_figures.hpp"
 #include "experiments/study/report/page/report.hpp"
 #include "experiments/study/report/tables/summary.hpp"
@@ -72,18 +73,21 @@ class Measurement {
     view.command = options_.command;
     view.folder = options_.out.empty() ? "results/broad_phase" : options_.out;
     view.analysis = Analysis{.alone = true, .heading = "Cost of a step", .sentences = notes_};
-    view.analysis->sentences.push_back(
-        differences_.empty() ? fmt::format("All report the same pairs, at each of {}.", count(steps_compared_, "step"))
-                             : "They do not all report the same pairs: " + differences_.front() + ".");
+    view.analysis->answer = answer();
     view.analysis->tables.push_back({"cost", cost_table()});
     view.analysis->files.push_back({"cost.csv", csv()});
     if (options_.figures) view.analysis->figures.push_back(figure());
+    view.figure_choice.look = options_.look;
+    choose_figures(view.figure_choice, view.analysis->figures);
     std::error_code error;
     std::filesystem::create_directories(view.folder, error);
     if (error) throw InputError("--out: cannot create " + view.folder.string() + ": " + error.message());
     write_tables(view);
     if (const std::string said = write_figures(view); !said.empty()) fmt::print(stderr, "broad_phase: {}\n", said);
     write_report(view);
+    if (options_.article) {
+      if (const std::string said = write_article(view); !said.empty()) fmt::print(stderr, "broad_phase: {}\n", said);
+    }
     fmt::print("{}\n{}\n", summary_table(view), (view.folder / "report.html").string());
     for (const std::string& d : differences_) fmt::print(stderr, "broad_phase: {}\n", d);
     return differences_.empty() ? 0 : 1;
@@ -196,12 +200,69 @@ class Measurement {
     return number(fit_line(std::span(points).last(upper)).slope, 3);
   }
 
+  /// The broad phases that were measured at n boxes with their ns for each box, the cheapest first.
+  std::vector<std::pair<double, std::string>> order_at(std::size_t n) const {
+    std::vector<std::pair<double, std::string>> order;
+    for (const BroadPhaseEntry* entry : options_.phases) {
+      const auto known = costs_.find(entry);
+      if (known == costs_.end()) continue;
+      if (const auto at = known->second.find(n); at != known->second.end())
+        order.emplace_back(at->second.ns_per_box, entry->name);
+    }
+    std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    return order;
+  }
+
+  /// Which broad phase is the cheapest for how many boxes, and whether all report the same pairs.
+  Answer answer() const {
+    struct Stretch {
+      std::string name;
+      std::size_t first = 0, last = 0;
+    };
+    std::vector<Stretch> stretches;
+    std::size_t largest = 0;
+    for (const std::size_t n : options_.bodies) {
+      const auto order = order_at(n);
+      if (order.empty()) continue;
+      largest = n;
+      const std::string& name = order.front().second;
+      if (stretches.empty() || stretches.back().name != name) stretches.push_back({name, n, n});
+      stretches.back().last = n;
+    }
+    Answer answer;
+    if (stretches.empty()) {
+      answer.sentences.emplace_back("No broad phase was measured; a larger --patience would decide.");
+      return answer;
+    }
+    std::vector<std::string> parts;
+    for (const Stretch& s : stretches)
+      parts.push_back(s.first == s.last ? fmt::format("{} for {} boxes", s.name, s.first)
+                                        : fmt::format("{} for {} to {} boxes", s.name, s.first, s.last));
+    answer.sentences.push_back(fmt::format("A step costs the least with {}.", words(first_items(parts, 5))));
+    const auto order = order_at(largest);
+    const double ratio = order.size() > 1 ? order[1].first / order[0].first : 0;
+    answer.sentences.push_back(
+        fmt::format("At {} boxes {} takes {} ns for each box; {}.", largest, order[0].second, number(order[0].first),
+                    order.size() < 2 ? std::string("no other was measured there")
+                                     : fmt::format("{} {} with {} times as much", order[1].second,
+                                                   ratio <= 1.2 ? "ties within 20 %" : "is next", number(ratio))));
+    answer.sentences.push_back(
+        differences_.empty() ? fmt::format("All report the same pairs, at each of {}.", count(steps_compared_, "step"))
+                             : "They do not all report the same pairs: " + differences_.front() + ".");
+    answer.depends = {
+        fmt::format("Boxes fly about and fill {} of the space; a step's path is {} of an edge. --filling and "
+                    "--motion change both.",
+                    number(options_.filling), number(options_.motion)),
+        "Wall times are those of this machine in this call."};
+    return answer;
+  }
+
   Table cost_table() const {
     Table table{"Cost of a step, ns per box (mean), and p of a step's cost ∝ nᵖ over the upper half of n.",
                 {{"broad phase", "", Column::Kind::name}},
                 {}};
     for (const std::size_t n : options_.bodies)
-      table.columns.push_back({fmt::format("n = {}", n), "", Column::Kind::number});
+      table.columns.push_back({.header = fmt::format("n = {}", n), .best = Column::Best::least});
     table.columns.push_back({"p", "", Column::Kind::number});
     for (const BroadPhaseEntry* entry : options_.phases) {
       const auto known = costs_.find(entry);

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
+#include "experiments/study/plan/figure_options.hpp"
 #include "experiments/study/text/command_line.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/suggestion.hpp"
@@ -79,7 +80,9 @@ BroadPhaseOptions parse_broad_phase_options(int argc, const char* const* argv) {
                      "leave out what is expected to take longer for a step, in s (default: 0.5)")
           ->type_name("S"),
       app.add_option("--seed", options.seed, "of the random boxes (default: 1)")->type_name("N"),
-      add_no_figures(app, options.figures)};
+      add_no_figures(app, options.figures),
+      add_article(app, options.article)};
+  add_look_options(app, options.look);
   const CLI::Option* list_option =
       app.add_option("--list", list, "print the catalogue: broad-phases, or what else the experiments list")
           ->type_name("[WHAT]")

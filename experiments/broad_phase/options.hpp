@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "collision/broad_phase.hpp"
+#include "experiments/study/plot/figure.hpp"
 
 namespace polhode::study::broad_phase {
 
@@ -25,6 +26,8 @@ struct BroadPhaseOptions {
   double patience = 0.5;  ///< longest wall time of a step to measure, s
   std::uint64_t seed = 1;
   bool figures = true;
+  Look look{};  ///< of the figures
+  bool article = false;
   std::string command;
   std::optional<std::string> list;
   std::optional<int> exit_status;  ///< set if the program must end at once (--help)

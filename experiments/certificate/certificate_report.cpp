@@ -199,7 +199,7 @@ class Report {
   Table overview() const {
     Table table{.caption = several_variants() ? "Declared and measured, the worst over the formulations"
                                               : "Declared and measured",
-                .columns = {{"method", "", Column::Kind::name}},
+                .columns = {{.header = "method", .kind = Column::Kind::name, .key = true}},
                 .rows = {}};
     for (const TraitColumn& column : trait_columns()) table.columns.push_back({column.heading, "", Column::Kind::text});
     for (const std::string& method : methods()) {
@@ -220,7 +220,8 @@ class Report {
 
   Table by_formulation() const {
     Table table{.caption = "Declared and measured, formulation by formulation",
-                .columns = {{"method", "", Column::Kind::name}, {"formulation", "", Column::Kind::text}},
+                .columns = {{.header = "method", .kind = Column::Kind::name, .key = true},
+                            {.header = "formulation", .kind = Column::Kind::text, .key = true}},
                 .rows = {}};
     for (const TraitColumn& column : trait_columns()) table.columns.push_back({column.heading, "", Column::Kind::text});
     for (const Certificate& c : certificates_) {

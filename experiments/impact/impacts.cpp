@@ -271,16 +271,16 @@ class Impacts {
   Table table() const {
     Table table{.caption = "Errors of impacts at the smallest step, and the order at which they fall",
                 .columns = {{"method", "", Column::Kind::name},
-                            {"motion", "", Column::Kind::text},
+                            {.header = "motion", .kind = Column::Kind::text, .apart = true},
                             {"timing", "", Column::Kind::text},
                             {"response", "", Column::Kind::text},
                             {"smallest step", "s"},
-                            {"time", "s"},
+                            {.header = "time", .unit = "s", .best = Column::Best::least},
                             {"order"},
-                            {"energy"},
+                            {.header = "energy", .best = Column::Best::least},
                             {"order of it"},
-                            {"momentum"},
-                            {"angular momentum"}},
+                            {.header = "momentum", .best = Column::Best::least},
+                            {.header = "angular momentum", .best = Column::Best::least}},
                 .rows = {}};
     for (const auto& [key, errors] : curves_) {
       const auto& [where, method, response, timing] = key;

@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -166,10 +167,89 @@ std::vector<std::string> sentences_of(const std::vector<Judged>& judged) {
   return sentences;
 }
 
+/// "the attitude is off by at most 0.02 rad and the position by at most 1e-3 m"; empty without an error.
+std::string errors_of(const RunResult& r) {
+  std::vector<std::string> parts;
+  for (const auto& [error, what, unit] :
+       {std::tuple(r.attitude_error_max, "attitude", "rad"), std::tuple(r.position_error_max, "position", "m")}) {
+    if (error && std::isfinite(*error))
+      parts.push_back(
+          fmt::format("the {} {}by at most {} {}", what, parts.empty() ? "is off " : "", number(*error), unit));
+  }
+  return words(parts);
+}
+
+/// What a trajectory is most like.
+std::string likeness(const Diagnosis& d) {
+  if (d.name.empty())
+    return "what it is like the rows do not tell" + (d.untried.empty() ? std::string() : ": " + d.untried);
+  if (d.name == "none") return "it follows the scenario’s equations: no wrong equation or convention was found";
+  if (d.name == "unexplained") return "no cause that was tried explains it";
+  return fmt::format("most like it: {}", d.words);
+}
+
+/// How far the trajectories are from the exact motion, which is the nearest, and what they are most like.
+Answer answer_of(const StudyView& study, const std::vector<Judged>& judged) {
+  Answer answer;
+  const std::string scenario = study.scenarios.front().name;
+  const auto result = [](const Judged& one) -> const RunResult& { return one.score.record.result; };
+  const auto error = [&](const Judged& one) -> Value {
+    const Value& e = result(one).attitude_error_max ? result(one).attitude_error_max : result(one).position_error_max;
+    return e && std::isfinite(*e) ? e : std::nullopt;
+  };
+  std::vector<const Judged*> order;
+  for (const Judged& one : judged) {
+    if (error(one)) order.push_back(&one);
+  }
+  // Errors of attitude and position have no order between them.
+  const bool comparable = std::all_of(order.begin(), order.end(), [&](const Judged* one) {
+    return result(*one).attitude_error_max.has_value() == result(*order.front()).attitude_error_max.has_value();
+  });
+  std::stable_sort(order.begin(), order.end(), [&](auto* a, auto* b) { return comparable && *error(*a) < *error(*b); });
+  const auto name = [](const Judged& one) { return one.score.record.config.integrator; };
+  const auto told = [&](const Judged& one) {
+    return fmt::format("over {} s {}", rounded(one.score.record.config.t_end), errors_of(result(one)));
+  };
+  const bool reference = judged.front().score.record.config.reference;
+  if (order.empty()) {
+    answer.sentences.push_back(
+        fmt::format("These rows do not tell how far {} from the motion of {}: {}.",
+                    judged.size() == 1 ? name(judged.front()) + " is" : "the trajectories are", scenario,
+                    reference ? "the reference proves too few digits"
+                              : "no exact motion of it is known, and --reference makes one to compare with"));
+  } else if (judged.size() == 1) {
+    answer.sentences.push_back(fmt::format("{} on {}: {}.", name(*order[0]), scenario, told(*order[0])));
+  } else if (comparable && order.size() > 1) {
+    const std::string ratio =
+        *error(*order[0]) > 0 ? fmt::format(" ({} times as far)", number(*error(*order[1]) / *error(*order[0]))) : "";
+    answer.sentences.push_back(fmt::format("Of {} trajectories of {} the nearest is {}: {}; next is {}{}.",
+                                           judged.size(), scenario, name(*order[0]), told(*order[0]), name(*order[1]),
+                                           ratio));
+  } else {
+    answer.sentences.push_back(fmt::format("Of {} trajectories of {} only some can be compared; of {}: {}.",
+                                           judged.size(), scenario, name(*order[0]), told(*order[0])));
+  }
+  std::vector<std::string> likenesses;
+  for (const Judged& one : judged)
+    likenesses.push_back(judged.size() == 1 ? likeness(one.diagnosis)
+                                            : fmt::format("{}: {}", name(one), likeness(one.diagnosis)));
+  std::string text = fmt::format("{}", fmt::join(first_items(likenesses, 3), "; "));
+  if (judged.size() == 1 && text.front() >= 'a' && text.front() <= 'z') text.front() = char(text.front() - 'a' + 'A');
+  answer.sentences.push_back(text + ".");
+  if (const auto& drift = result(judged.front()).energy_drift_max_rel; judged.size() == 1 && drift)
+    answer.sentences.push_back(fmt::format("Its energy drifts by up to {} of its scale.", number(*drift)));
+  answer.depends = {
+      "Errors are measured at the instants of the rows, against the motion that starts as the scenario says.",
+      "A cause is named if the motion that it gives fits ten times better than the scenario’s own; causes "
+      "that were not tried are not named."};
+  return answer;
+}
+
 }  // namespace
 
 Analysis judgement(const StudyView& study, const std::vector<Judged>& judged) {
-  Analysis analysis{.heading = "Scores",
+  Analysis analysis{.answer = answer_of(study, judged),
+                    .heading = "Scores",
                     .sentences = sentences_of(judged),
                     .method = {"Energy, momenta and invariants are computed from the states in the file with the "
                                "scenario's inertia and forces; drifts are against the first row, errors against the "

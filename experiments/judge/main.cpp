@@ -91,7 +91,9 @@ int judge(const JudgeOptions& options) {
   const ResultFolder held(
       view.folder, [&](std::uint64_t id) { return ids.contains(id); }, options.force);
   Store(view.folder).keep(view.runs);
+  view.figure_choice.look = options.look;
   view.analysis = judgement(view, judged);
+  choose_figures(view.figure_choice, view.analysis->figures);
   write_runs_csv(view);
   write_timings_csv(view);
   Options written;

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "experiments/study/plan/figure_options.hpp"
 #include "experiments/study/text/command_line.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/value_lists.hpp"
@@ -34,6 +35,7 @@ JudgeOptions parse_judge_options(int argc, const char* const* argv) {
       ->type_name("FOLDER");
   app.add_flag("--force", options.force, "overwrite other results in that folder");
   add_no_figures(app, options.figures);
+  add_look_options(app, options.look);
   options.exit_status = parse_command_line(app, argc, argv);
   if (options.exit_status) return options;
   options.rotation_from = rotation == "stored" ? RotationFrom::stored : RotationFrom::normalized;

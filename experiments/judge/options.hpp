@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/system/formulation.hpp"
+#include "experiments/study/plot/figure.hpp"
 
 namespace polhode::study::judge {
 
@@ -17,6 +18,7 @@ struct JudgeOptions {
   RotationFrom rotation_from = RotationFrom::normalized;
   std::string out;  ///< empty: results/judge-<scenario>-<hash>
   bool force = false, figures = true;
+  Look look{};                     ///< of the figures
   std::string command;             ///< the command line, quoted for a shell
   std::optional<int> exit_status;  ///< set if the program must end at once (--help)
 };

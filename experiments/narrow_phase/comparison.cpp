@@ -10,10 +10,13 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <tuple>
 
 #include "collision/shapes/box.hpp"
 #include "experiments/narrow_phase/box_pairs.hpp"
 #include "experiments/study/plot/axis.hpp"
+#include "experiments/study/plot/figure_layout.hpp"
+#include "experiments/study/plot/latex_table.hpp"
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
 
@@ -56,6 +59,77 @@ double cost_ns(const std::vector<std::unique_ptr<Placed>>& pairs, const Ask& ask
   return least / static_cast<double>(pairs.size());
 }
 
+/// How far the answers of one narrow phase are from those of sat, over all classes.
+struct Agreement {
+  std::string name;
+  std::size_t pairs = 0, wrong = 0, missed = 0;
+  double difference = 0;  ///< largest, of the signed distance, in units of the smaller box
+};
+
+/// Whether the narrow phases agree with sat.
+Answer answer_of(const std::vector<Agreement>& all) {
+  std::vector<std::string> agree, differ;
+  double most = 0;
+  std::size_t pairs = 0;
+  for (const Agreement& a : all) {
+    if (a.name == "sat") continue;  // the others are compared with it
+    pairs = a.pairs;
+    if (a.wrong + a.missed > 0) {
+      differ.push_back(fmt::format("{} reports {} overlaps that are none and misses {}", a.name, a.wrong, a.missed));
+      continue;
+    }
+    agree.push_back(a.name);
+    most = std::max(most, a.difference);
+  }
+  Answer answer;
+  if (!agree.empty())
+    answer.sentences.push_back(fmt::format(
+        "{} and sat agree on whether two boxes overlap, in each of {} pairs; their distances differ by at most "
+        "{} of the smaller box.",
+        fmt::format("{}", fmt::join(agree, ", ")), pairs, number(most, 2)));
+  if (!differ.empty()) answer.sentences.push_back(fmt::format("Of {} pairs {}.", pairs, words(differ)));
+  if (agree.empty() && differ.empty())
+    answer.sentences.emplace_back("sat alone was asked; without --narrow-phase all are compared with it.");
+  answer.sentences.emplace_back(
+      "Which costs less is measured as wall time, which differs from call to call: the figure of costs shows it, and "
+      "timings/costs.md has the numbers.");
+  answer.depends = {"The pairs are random boxes of the classes in the table below.",
+                    "Overlaps within the round-off of the poses are not counted as wrong."};
+  return answer;
+}
+
+/// Time of each question by class of pair.
+Figure cost_figure(const std::vector<std::vector<std::array<double, 3>>>& costs,
+                   const std::vector<const NarrowPhaseEntry*>& entries) {
+  Figure figure{.name = "cost_of_questions", .title = "Cost of a question, by narrow phase and class of pair"};
+  std::vector<std::string> classes;
+  for (const std::string& name : box_pair_classes()) classes.push_back(fmt::format("{} {}", classes.size() + 1, name));
+  figure.caption = fmt::format("The best of five rounds over all pairs of a class. Classes: {}.", words(classes));
+  std::vector<Panel> panels;
+  for (const auto& [k, column, label] :
+       {std::tuple(0U, "overlap_ns", "overlap (ns)"), std::tuple(1U, "distance_ns", "distance (ns)"),
+        std::tuple(2U, "manifold_ns", "contacts (ns)")}) {
+    Panel panel{.x = linear_axis("class of pair", 1, double(classes.size())), .x_column = "class", .y_column = column};
+    std::vector<double> ys;
+    for (std::size_t e = 0; e < entries.size(); ++e) {
+      PlottedCurve curve{.label = entries[e]->name, .method = e};
+      for (std::size_t c = 0; c < costs[e].size(); ++c) {
+        curve.points.push_back({double(c + 1), costs[e][c][k], costs[e][c][k]});
+        ys.push_back(costs[e][c][k]);
+      }
+      panel.curves.push_back(std::move(curve));
+    }
+    panel.y = log_axis(label, ys, {});
+    panels.push_back(std::move(panel));
+  }
+  add_rows(figure, std::move(panels), 3);
+  for (Panel& panel : figure.panels) panel.y.labelled = true;  // each has its own axis
+  for (const NarrowPhaseEntry* entry : entries) figure.methods.push_back(entry->name);
+  figure.variants = {""};
+  note_marks(figure);
+  return figure;
+}
+
 }  // namespace
 
 void compare_narrow_phases(const std::vector<const NarrowPhaseEntry*>& entries, std::size_t count, std::uint64_t seed,
@@ -70,22 +144,25 @@ void compare_narrow_phases(const std::vector<const NarrowPhaseEntry*>& entries, 
   Table table{
       "Agreement with sat: overlaps that are none, overlaps that are missed, and the largest difference of the "
       "signed distance, in units of the smaller box.",
-      {{"class", "", Column::Kind::text},
+      {{.header = "class", .kind = Column::Kind::text, .apart = true},
        {"narrow phase", "", Column::Kind::name},
        {"pairs"},
-       {"wrong"},
-       {"missed"},
-       {"difference"}},
+       {.header = "wrong", .best = Column::Best::least},
+       {.header = "missed", .best = Column::Best::least},
+       {.header = "difference", .best = Column::Best::least}},
       {}};
   Table cost_table{"Cost of one question, the best of five rounds over all pairs of the class.",
-                   {{"class", "", Column::Kind::text},
+                   {{.header = "class", .kind = Column::Kind::text, .apart = true},
                     {"narrow phase", "", Column::Kind::name},
-                    {"overlap", "ns"},
-                    {"distance", "ns"},
-                    {"contacts", "ns"}},
+                    {.header = "overlap", .unit = "ns", .best = Column::Best::least},
+                    {.header = "distance", .unit = "ns", .best = Column::Best::least},
+                    {.header = "contacts", .unit = "ns", .best = Column::Best::least}},
                    {}};
   // 1. For each class of pairs: errors and cost of each narrow phase.
   std::map<std::string, std::array<Range, 3>> ranges;
+  std::vector<std::vector<std::array<double, 3>>> costs_by_class(entries.size());  // by narrow phase, then by class
+  std::vector<Agreement> agreements;
+  for (const NarrowPhaseEntry* entry : entries) agreements.push_back({entry->name});
   BoxPairs make(seed);
   const std::size_t classes = box_pair_classes().size();
   for (std::size_t k = 0; k < classes; ++k) {
@@ -96,7 +173,8 @@ void compare_narrow_phases(const std::vector<const NarrowPhaseEntry*>& entries, 
       pairs.push_back(std::make_unique<Placed>(make(i * classes + k), *judge));
       overlapping += pairs.back()->sat.distance <= 0;
     }
-    for (const NarrowPhaseEntry* entry : entries) {
+    for (std::size_t e = 0; e < entries.size(); ++e) {
+      const NarrowPhaseEntry* entry = entries[e];
       const auto phase = entry->make();
       std::size_t wrong = 0, missed = 0;
       double most = 0;
@@ -107,6 +185,10 @@ void compare_narrow_phases(const std::vector<const NarrowPhaseEntry*>& entries, 
         missed += !overlap && p->sat.distance < -decided * p->larger;
         most = std::max(most, std::abs(distance - p->sat.distance) / p->smaller);
       }
+      agreements[e].pairs += count;
+      agreements[e].wrong += wrong;
+      agreements[e].missed += missed;
+      agreements[e].difference = std::max(agreements[e].difference, most);
       csv += csv_row({name, entry->name, std::to_string(count), std::to_string(overlapping), std::to_string(wrong),
                       std::to_string(missed), exact(most)});
       table.rows.push_back(
@@ -117,11 +199,14 @@ void compare_narrow_phases(const std::vector<const NarrowPhaseEntry*>& entries, 
       costs += csv_row({name, entry->name, number(overlap_ns, 4), number(distance_ns, 4), number(manifold_ns, 4)});
       cost_table.rows.push_back(
           {name, entry->name, number(overlap_ns, 3), number(distance_ns, 3), number(manifold_ns, 3)});
+      costs_by_class[e].push_back({overlap_ns, distance_ns, manifold_ns});
       auto& range = ranges[entry->name];
       range[0].take(overlap_ns), range[1].take(distance_ns), range[2].take(manifold_ns);
     }
   }
-  // 2. Sentences, tables and files.
+  // 2. Sentences, tables, files and the figure of costs.
+  analysis.answer = answer_of(agreements);
+  analysis.timed.figures.push_back(cost_figure(costs_by_class, entries));
   for (const NarrowPhaseEntry* entry : entries) {
     const auto& [overlap, distance, manifold] = ranges[entry->name];
     analysis.timed.sentences.push_back(
@@ -137,7 +222,7 @@ void compare_narrow_phases(const std::vector<const NarrowPhaseEntry*>& entries, 
   analysis.files.push_back({"comparison.csv", csv});
   analysis.timed.files.push_back({"costs.csv", costs});
   analysis.timed.files.push_back({"costs.md", markdown(cost_table)});
-  analysis.timed.files.push_back({"costs.tex", latex(cost_table)});
+  analysis.timed.files.push_back({"costs.tex", latex_table(cost_table).text});
 }
 
 void measure_course_report(std::size_t count, std::uint64_t seed, Analysis& analysis) {

@@ -9,6 +9,7 @@
 #include "experiments/narrow_phase/pairs.hpp"
 #include "experiments/study/plan/listing.hpp"
 #include "experiments/study/record/study_view.hpp"
+#include "experiments/study/report/article/article.hpp"
 #include "experiments/study/report/figures/study_figures.hpp"
 #include "experiments/study/report/page/report.hpp"
 #include "experiments/study/report/tables/summary.hpp"
@@ -51,6 +52,8 @@ void compare(const NarrowPhaseOptions& options, const std::string& question, con
   Analysis analysis{.alone = true, .heading = "Narrow phases side by side"};
   compare_narrow_phases(entries, options.count, options.seed, analysis);
   measure_course_report(10 * options.count, options.seed, analysis);
+  view.figure_choice.look = options.look;
+  choose_figures(view.figure_choice, analysis.figures);
   view.analysis = std::move(analysis);
   std::filesystem::create_directories(view.folder);
   write_tables(view);
@@ -59,6 +62,10 @@ void compare(const NarrowPhaseOptions& options, const std::string& question, con
     if (!skipped.empty()) fmt::print(stderr, "narrow_phase: {}\n", skipped);
   }
   write_report(view);
+  if (options.article) {
+    const std::string skipped = write_article(view);
+    if (!skipped.empty()) fmt::print(stderr, "narrow_phase: {}\n", skipped);
+  }
   fmt::print("{}\n{}\n", summary_table(view), (view.folder / "report.html").string());
 }
 

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "experiments/study/plan/figure_options.hpp"
 #include "experiments/study/text/command_line.hpp"
 
 namespace polhode::study::narrow_phase {
@@ -27,6 +28,8 @@ NarrowPhaseOptions parse_narrow_phase_options(const std::string& question, int a
       ->check(CLI::Range(std::size_t{1}, std::size_t{10000000}).description(""));
   app.add_option("--seed", options.seed, "of the random pairs (default: 1)")->type_name("N");
   add_no_figures(app, options.figures);
+  add_article(app, options.article);
+  add_look_options(app, options.look);
   std::string list;
   CLI::Option* list_option =
       app.add_option("--list", list, "print the catalogue, for example narrow-phases (default: all)")

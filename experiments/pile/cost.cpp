@@ -137,15 +137,15 @@ class Piles {
 
   Table table() const {
     Table table{.caption = "Piles: what contact takes from the energy, its rise, and depths",
-                .columns = {{"scenario", "", Column::Kind::name},
+                .columns = {{.header = "scenario", .kind = Column::Kind::name, .apart = true},
                             {"answer", "", Column::Kind::text},
                             {"bodies"},
-                            {"energy rises by", "%"},
+                            {.header = "energy rises by", .unit = "%", .best = Column::Best::least},
                             {"lost to impacts", "J"},
                             {"to friction", "J"},
                             {"put in by undoing depth", "J"},
-                            {"deepest", "m"},
-                            {"depth at the end", "m"}},
+                            {.header = "deepest", .unit = "m", .best = Column::Best::least},
+                            {.header = "depth at the end", .unit = "m", .best = Column::Best::least}},
                 .rows = {}};
     const auto cell = [](const std::optional<double>& x) { return x ? number(*x) : std::string(); };
     for (const auto& [key, piles] : curves_) {

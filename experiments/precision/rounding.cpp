@@ -266,15 +266,15 @@ class Rounding {
     using Kind = Column::Kind;
     Table table{.caption = "Where truncation ends and rounding begins",
                 .columns = {{"method", "", Kind::name},
-                            {"motion", "", Kind::text},
+                            {.header = "motion", .kind = Kind::text, .apart = true},
                             {"formulation", "", Kind::text},
                             {"arithmetic", "", Kind::text},
-                            {"error of", "", Kind::text},
+                            {.header = "error of", .kind = Kind::text, .apart = true},
                             {"order"},
                             {"±"},
                             {"truncation alone", "", Kind::text},
                             {"rounding takes over at"},
-                            {"least error"},
+                            {.header = "least error", .best = Column::Best::least},
                             {"at"},
                             {"rounding ∝ step to the"}},
                 .rows = {}};

@@ -32,17 +32,15 @@ PlottedCurve curve_of(const Family& family) {
 /// One axis for all panels of a row; headroom: factor between its end and the largest value, for guides.
 Axis shared_axis(const std::string& label, const std::vector<Panel>& panels, double headroom = 1) {
   std::vector<double> values;
-  Needs needs;
   for (const auto& panel : panels) {
     for (const auto& curve : panel.curves) {
       for (const auto& point : curve.points) {
         if (point.mark == Mark::value) values.push_back(point.value);
-        needs.edge = needs.edge || point.mark == Mark::edge;
       }
     }
   }
   if (!values.empty()) values.push_back(headroom * *std::max_element(values.begin(), values.end()));
-  return log_axis(label, values, needs);
+  return log_axis(label, values, needs_of(panels));
 }
 
 /// A line of slope `power` from the point (x, y) to the abscissa `to`.

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <functional>
 
+#include "experiments/replay/energy_answer.hpp"
 #include "experiments/replay/options.hpp"
 #include "experiments/replay/page.hpp"
 #include "experiments/replay/recorder.hpp"
 #include "experiments/replay/study_reader.hpp"
 #include "experiments/study/plan/listing.hpp"
 #include "experiments/study/plan/plan.hpp"
+#include "experiments/study/report/page/kept_answer.hpp"
 #include "experiments/study/report/page/replay_link.hpp"
 #include "experiments/study/text/build_info.hpp"
 #include "experiments/study/text/input_error.hpp"
@@ -59,6 +61,7 @@ Motion carried_out(const ReplayOptions& options) {
     const double fit = options.limit_bytes / (26 * double(run.scenario->problem.moving()) + 12);
     motion.recordings.push_back(record(run, std::size_t(4 * fit) + 16));
   }
+  motion.words.answer = energy_answer(motion.recordings);
   return motion;
 }
 
@@ -66,6 +69,8 @@ Motion kept(const ReplayOptions& options) {
   KeptStudy study = read_study(options.results, options.runs, options.scenario, most_runs);
   Motion motion{words_of(study.scenario), std::move(study.recordings)};
   motion.words.paragraphs.push_back(fmt::format("Recorded by {} with: {}", study.made_by, study.command));
+  motion.words.answer = kept_answer(options.results);
+  if (motion.words.answer.empty()) motion.words.answer = energy_answer(motion.recordings);
   return motion;
 }
 

@@ -25,8 +25,9 @@ ReplayOptions parse_replay_options(int argc, const char* const* argv) {
   std::string out, results, runs, three = "/usr/share/javascript/three";
   double megabytes = 3;
   const auto own = [&](CLI::App& app) {
-    for (const char* name : {"--out", "--force", "--trajectory", "--reference", "--curves", "--no-figures", "--jobs",
-                             "--seed", "--shard", "--merge", "--slurm", "--submit", "--dry-run"}) {
+    for (const char* name : {"--out", "--force", "--trajectory", "--reference", "--curves", "--no-figures", "--figure",
+                             "--figure-width", "--figure-font", "--figure-title", "--jobs", "--seed", "--shard",
+                             "--merge", "--slurm", "--submit", "--dry-run"}) {
       app.remove_option(app.get_option(name));
     }
     app.add_option("--results", results,

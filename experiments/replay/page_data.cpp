@@ -5,9 +5,10 @@
 #include <bit>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string_view>
 
-#include "experiments/study/plot/figure_style.hpp"
+#include "experiments/study/plot/method_style.hpp"
 #include "experiments/study/text/notation.hpp"
 
 namespace polhode::study::replay {
@@ -101,6 +102,33 @@ std::string detail_of(const Recording& r, const std::vector<Recording>& all) {
   return detail;
 }
 
+/// The dash of a curve as lengths in pixels: gnuplot's "(10,5)"; none for a solid line.
+Json dash_json(std::size_t dash) {
+  Json lengths = Json::array();
+  std::string text(style::dashes[dash % style::dashes.size()].gnuplot);
+  if (!text.starts_with('(')) return lengths;
+  std::replace(text.begin(), text.end(), ',', ' ');
+  std::istringstream numbers(text.substr(1));
+  for (double x; numbers >> x;) lengths.push_back(x);
+  return lengths;
+}
+
+/// The colour and the dash of each run: those of its method in the figures. Further runs of a method have other dashes.
+void add_styles(const std::vector<Recording>& recordings, Json& runs) {
+  std::vector<std::string> methods;
+  for (const Recording& r : recordings) methods.push_back(r.config.integrator);
+  std::sort(methods.begin(), methods.end());
+  methods.erase(std::unique(methods.begin(), methods.end()), methods.end());
+  const std::vector<MethodStyle> styles = styles_of(methods);
+  std::vector<std::size_t> met(methods.size(), 0);
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    const auto m = std::size_t(std::lower_bound(methods.begin(), methods.end(), recordings[i].config.integrator) -
+                               methods.begin());
+    runs[i]["colour"] = html_colour(styles[m]);
+    runs[i]["dash"] = dash_json(styles[m].dash + met[m]++);
+  }
+}
+
 Json run_json(const Recording& r, const std::vector<Recording>& all) {
   std::vector<float> positions;
   std::vector<std::int16_t> orientations, rates;
@@ -150,8 +178,7 @@ double bytes_of_instant(const Recording& r) {
 }
 
 std::string page_data(const PageWords& words, const std::vector<Recording>& recordings) {
-  Json scenes = Json::array(), runs = Json::array(), colours = Json::array();
-  for (const std::string_view colour : style::colours) colours.push_back("#" + std::string(colour));
+  Json scenes = Json::array(), runs = Json::array();
   for (const Recording& r : recordings) {
     Json scene = scene_json(r.scene);
     const auto known = std::find(scenes.begin(), scenes.end(), scene);
@@ -159,12 +186,13 @@ std::string page_data(const PageWords& words, const std::vector<Recording>& reco
     runs.back()["scene"] = known - scenes.begin();
     if (known == scenes.end()) scenes.push_back(std::move(scene));
   }
+  add_styles(recordings, runs);
   const Json data = {{"scenario", words.scenario},
                      {"title", words.title},
                      {"description", words.description},
+                     {"answer", words.answer},
                      {"paragraphs", words.paragraphs},
                      {"madeBy", words.made_by},
-                     {"colours", colours},
                      {"scenes", scenes},
                      {"runs", runs}};
   std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace), safe;

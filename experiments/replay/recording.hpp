@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/run/contact_model.hpp"
-#include "experiments/scene/scene.hpp"
 #include "experiments/study/metrics/drift_meter.hpp"
 #include "experiments/study/record/run_options.hpp"
+#include "experiments/study/scene/scene.hpp"
 
 namespace polhode::study::replay {
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "experiments/study/plot/latex_table.hpp"
 #include "experiments/study/plot/table.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/text/aligned.hpp"
@@ -79,7 +80,7 @@ void Output::finish() {
       table.columns.push_back({.header = names_[k], .kind = kind});
     }
     table.rows = std::move(rows_);
-    write(format_ == Format::markdown ? markdown(table) : latex(table));
+    write(format_ == Format::markdown ? markdown(table) : latex_table(table).text);
   }
   if (file_) file_->finish();
 }

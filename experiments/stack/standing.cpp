@@ -174,12 +174,12 @@ class Standing {
   Table table() const {
     Table table{.caption = "Stacks of boxes: how long they stand, what moves and sinks, and the energy",
                 .columns = {{"response and step", "", Column::Kind::name},
-                            {"boxes"},
-                            {"stands", "s"},
-                            {"moved after 2 s", "m"},
-                            {"deepest", "m"},
-                            {"depth at the end", "m"},
-                            {"energy rises by", "J"},
+                            {.header = "boxes", .apart = true, .key = true},
+                            {.header = "stands", .unit = "s", .best = Column::Best::greatest},
+                            {.header = "moved after 2 s", .unit = "m", .best = Column::Best::least},
+                            {.header = "deepest", .unit = "m", .best = Column::Best::least},
+                            {.header = "depth at the end", .unit = "m", .best = Column::Best::least},
+                            {.header = "energy rises by", .unit = "J", .best = Column::Best::least},
                             {"put in by undoing depth", "J"}},
                 .rows = {}};
     const auto cell = [](const std::optional<double>& x) { return x ? number(*x) : std::string(); };

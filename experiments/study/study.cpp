@@ -19,6 +19,7 @@
 #include "experiments/study/plan_text.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/record/shown_runs.hpp"
+#include "experiments/study/report/article/article.hpp"
 #include "experiments/study/report/figures/study_figures.hpp"
 #include "experiments/study/report/page/report.hpp"
 #include "experiments/study/report/population/population.hpp"
@@ -56,6 +57,10 @@ void write_reports(const StudyView& view, const Options& options, const Plan& pl
     if (!skipped.empty()) fmt::print(stderr, "{}: {}\n", view.experiment, skipped);
   }
   write_report(view);
+  if (options.article) {
+    const std::string skipped = write_article(view);
+    if (!skipped.empty()) fmt::print(stderr, "{}: {}\n", view.experiment, skipped);
+  }
   runs.store().keep_study(view.experiment, view.command, read_file(view.folder / "manifest.json").value_or(""));
   fmt::print("{}\n{}\n", summary_table(view), (view.folder / "report.html").string());
 }
@@ -116,7 +121,12 @@ int status_of(const Experiment& experiment, bool answers_refusals,
 /// Writes all files of the study from all its runs.
 int write_study(const Experiment& experiment, const Options& options, const Plan& plan, StudyRuns& runs) {
   StudyView view = runs.view();
-  if (experiment.analysis) view.analysis = experiment.analysis(view);
+  view.figure_choice = options.figure_choice;
+  if (experiment.analysis) {
+    view.analysis = experiment.analysis(view);
+    choose_figures(view.figure_choice, view.analysis->figures);
+    choose_figures(view.figure_choice, view.analysis->timed.figures);
+  }
   write_runs_csv(view);
   write_timings_csv(view);
   write_reports(view, options, plan, runs);
@@ -159,7 +169,9 @@ int write_large_study(const Experiment& experiment, const Options& options, cons
   results.finish();
   timings.finish();
   for (const auto& [status, outcome] : population.outcomes()) sample.all_runs[status] = outcome.runs;
+  sample.figure_choice = options.figure_choice;
   sample.analysis = population.analysis();
+  choose_figures(sample.figure_choice, sample.analysis->figures);
   write_reports(sample, options, plan, runs);
   return status_of(experiment, false, population.outcomes());
 }

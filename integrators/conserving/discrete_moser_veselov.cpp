@@ -95,17 +95,23 @@ template <class System>
 using Dmv = RotorSplitting<System, MoserVeselov<2>>;
 
 IntegratorEntry dmv() {
-  return rotor_method<Dmv>({.name = "dmv",
-                            .family = "conserving",
-                            .summary = "kick, h m* = R D - D R^T and m' = R^T m (discrete Moser-Veselov), kick",
-                            .order = 2,
-                            .implicit = true,
-                            .lie_group = true,
-                            .symplectic = true,
-                            .symmetric = true,
-                            .conserves_energy = true,
-                            .conserves_momentum = true,
-                            .conserves_casimir = true});
+  return rotor_method<Dmv>(
+      {.name = "dmv",
+       .family = "conserving",
+       .summary = "kick, h m* = R D - D R^T and m' = R^T m (discrete Moser-Veselov), kick",
+       .equation = kick_flow_kick(
+           R"(\rho_h:\ & h\,\hat m = S D - D S^{\mathsf T}, \quad m \leftarrow S^{\mathsf T} m, \quad R \leftarrow R\,S,
+  \quad S \in \mathrm{SO}(3) \\
+& D = \operatorname{diag}(d_1, d_2, d_3), \quad I_i = d_j + d_k \text{ for } \{i, j, k\} = \{1, 2, 3\})"),
+       .sources = {"moserVeselov1991", "mclachlanZanna2005", "hairerVilmart2006"},
+       .order = 2,
+       .implicit = true,
+       .lie_group = true,
+       .symplectic = true,
+       .symmetric = true,
+       .conserves_energy = true,
+       .conserves_momentum = true,
+       .conserves_casimir = true});
 }
 
 // Moments of inertia modified up to h²: order 4 for free bodies.
@@ -113,17 +119,27 @@ template <class System>
 using Dmv4 = RotorSplitting<System, MoserVeselov<4>>;
 
 IntegratorEntry dmv4() {
-  return rotor_method<Dmv4>({.name = "dmv4",
-                             .family = "conserving",
-                             .summary = "kick, discrete Moser-Veselov with moments prepared to h^2, kick",
-                             .order = 2,
-                             .free_order = 4,
-                             .implicit = true,
-                             .lie_group = true,
-                             .symmetric = true,
-                             .conserves_energy = true,
-                             .conserves_momentum = true,
-                             .conserves_casimir = true});
+  return rotor_method<Dmv4>(
+      {.name = "dmv4",
+       .family = "conserving",
+       .summary = "kick, discrete Moser-Veselov with moments prepared to h^2, kick",
+       .equation = kick_flow_kick(
+           R"(\rho_h:\ & h\,\hat m = S D - D S^{\mathsf T}, \quad m \leftarrow S^{\mathsf T} m, \quad R \leftarrow R\,S,
+  \quad S \in \mathrm{SO}(3) \\
+& D = \operatorname{diag}(d_1, d_2, d_3), \quad \tilde I_i = d_j + d_k \text{ for } \{i, j, k\} = \{1, 2, 3\} \\
+& H = \tfrac12\,m \cdot I^{-1} m, \quad C = \tfrac12\,m \cdot m, \quad e_1 = I_1 + I_2 + I_3 \\
+& e_2 = I_1 I_2 + I_2 I_3 + I_3 I_1, \quad e_3 = I_1 I_2 I_3 \\
+& 1/\tilde I_i = (1 + h^2 \sigma_3)/I_i + h^2 \delta_3 \\
+& \sigma_3 = (e_1 C - 2 e_2 H)/(6 e_3), \quad \delta_3 = (e_1 H - 2 C)/(6 e_3))"),
+       .sources = {"hairerVilmart2006", "mclachlanZanna2005", "moserVeselov1991"},
+       .order = 2,
+       .free_order = 4,
+       .implicit = true,
+       .lie_group = true,
+       .symmetric = true,
+       .conserves_energy = true,
+       .conserves_momentum = true,
+       .conserves_casimir = true});
 }
 
 // Moments of inertia modified up to h⁴: order 6 for free bodies.
@@ -131,17 +147,29 @@ template <class System>
 using Dmv6 = RotorSplitting<System, MoserVeselov<6>>;
 
 IntegratorEntry dmv6() {
-  return rotor_method<Dmv6>({.name = "dmv6",
-                             .family = "conserving",
-                             .summary = "kick, discrete Moser-Veselov with moments prepared to h^4, kick",
-                             .order = 2,
-                             .free_order = 6,
-                             .implicit = true,
-                             .lie_group = true,
-                             .symmetric = true,
-                             .conserves_energy = true,
-                             .conserves_momentum = true,
-                             .conserves_casimir = true});
+  return rotor_method<Dmv6>(
+      {.name = "dmv6",
+       .family = "conserving",
+       .summary = "kick, discrete Moser-Veselov with moments prepared to h^4, kick",
+       .equation = kick_flow_kick(
+           R"(\rho_h:\ & h\,\hat m = S D - D S^{\mathsf T}, \quad m \leftarrow S^{\mathsf T} m, \quad R \leftarrow R\,S,
+  \quad S \in \mathrm{SO}(3) \\
+& D = \operatorname{diag}(d_1, d_2, d_3), \quad \tilde I_i = d_j + d_k \text{ for } \{i, j, k\} = \{1, 2, 3\} \\
+& H = \tfrac12\,m \cdot I^{-1} m, \quad C = \tfrac12\,m \cdot m, \quad e_1 = I_1 + I_2 + I_3 \\
+& e_2 = I_1 I_2 + I_2 I_3 + I_3 I_1, \quad e_3 = I_1 I_2 I_3 \\
+& 1/\tilde I_i = (1 + h^2 \sigma_3 + h^4 \sigma_5)/I_i + h^2 \delta_3 + h^4 \delta_5 \\
+& \sigma_3 = (e_1 C - 2 e_2 H)/(6 e_3), \quad \delta_3 = (e_1 H - 2 C)/(6 e_3) \\
+& 60 e_3^2\,\sigma_5 = (2 e_2^2 - e_1 e_3) H^2 + (8 e_3 - 2 e_1 e_2) H C + (2 e_1^2 - 6 e_2) C^2 \\
+& 60 e_3^2\,\delta_5 = -(e_1 e_2 + 6 e_3) H^2 + (8 e_2 - e_1^2) H C - e_1 C^2)"),
+       .sources = {"hairerVilmart2006", "mclachlanZanna2005", "moserVeselov1991"},
+       .order = 2,
+       .free_order = 6,
+       .implicit = true,
+       .lie_group = true,
+       .symmetric = true,
+       .conserves_energy = true,
+       .conserves_momentum = true,
+       .conserves_casimir = true});
 }
 
 }  // namespace polhode::integrators

@@ -48,17 +48,21 @@ IntegratorEntry exact_rotor_method(Declaration declaration) {
 }
 
 IntegratorEntry exact_rotor() {
-  return exact_rotor_method<ExactRotorMethod>({.name = "exact_rotor",
-                                               .family = "conserving",
-                                               .summary = "kick, the exact torque-free motion, kick",
-                                               .order = 2,
-                                               .free_order = Declaration::exact_order,
-                                               .lie_group = true,
-                                               .symplectic = true,
-                                               .symmetric = true,
-                                               .conserves_energy = true,
-                                               .conserves_momentum = true,
-                                               .conserves_casimir = true});
+  return exact_rotor_method<ExactRotorMethod>(
+      {.name = "exact_rotor",
+       .family = "conserving",
+       .summary = "kick, the exact torque-free motion, kick",
+       .equation = kick_flow_kick(R"(\rho_h:\ & \text{the exact solution over } h \text{ of }
+  \dot m = m \times I^{-1} m, \quad \dot R = R\,\widehat{I^{-1} m})"),
+       .sources = {"celledoni2008"},
+       .order = 2,
+       .free_order = Declaration::exact_order,
+       .lie_group = true,
+       .symplectic = true,
+       .symmetric = true,
+       .conserves_energy = true,
+       .conserves_momentum = true,
+       .conserves_casimir = true});
 }
 
 // Yoshida's triple jump. Source: Yoshida, Phys. Lett. A 150 (1990) 262.
@@ -66,8 +70,8 @@ template <class System>
 using ExactRotorYoshida4 = Composition<System, ExactRotorMethod, Yoshida4>;
 
 IntegratorEntry exact_rotor_yoshida4() {
-  return exact_rotor_method<ExactRotorYoshida4>(
-      composition_of(exact_rotor().declaration, "exact_rotor_yoshida4", "the triple jump (Yoshida) of exact_rotor", 4));
+  return exact_rotor_method<ExactRotorYoshida4>(composition_of<Yoshida4>(
+      exact_rotor().declaration, "exact_rotor_yoshida4", "the triple jump (Yoshida) of exact_rotor"));
 }
 
 // Suzuki's composition of five parts. Source: Suzuki, Phys. Lett. A 146 (1990) 319.
@@ -75,8 +79,8 @@ template <class System>
 using ExactRotorSuzuki4 = Composition<System, ExactRotorMethod, Suzuki4>;
 
 IntegratorEntry exact_rotor_suzuki4() {
-  return exact_rotor_method<ExactRotorSuzuki4>(composition_of(exact_rotor().declaration, "exact_rotor_suzuki4",
-                                                              "Suzuki's composition of five parts of exact_rotor", 4));
+  return exact_rotor_method<ExactRotorSuzuki4>(composition_of<Suzuki4>(
+      exact_rotor().declaration, "exact_rotor_suzuki4", "Suzuki's composition of five parts of exact_rotor"));
 }
 
 // Kahan and Li's composition of nine parts. Source: Kahan & Li, Math. Comp. 66 (1997) 1089.
@@ -84,9 +88,8 @@ template <class System>
 using ExactRotorKahanLi6 = Composition<System, ExactRotorMethod, KahanLi6>;
 
 IntegratorEntry exact_rotor_kahan_li6() {
-  return exact_rotor_method<ExactRotorKahanLi6>(
-      composition_of(exact_rotor().declaration, "exact_rotor_kahan_li6",
-                     "Kahan and Li's composition of nine parts of exact_rotor", 6));
+  return exact_rotor_method<ExactRotorKahanLi6>(composition_of<KahanLi6>(
+      exact_rotor().declaration, "exact_rotor_kahan_li6", "Kahan and Li's composition of nine parts of exact_rotor"));
 }
 
 }  // namespace polhode::integrators

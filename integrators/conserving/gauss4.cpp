@@ -9,13 +9,19 @@ template <class System>
 using Gauss4 = GaussMethod<System, 2>;
 
 IntegratorEntry gauss4() {
-  return additive_step<Gauss4>({.name = "gauss4",
-                                .family = "conserving",
-                                .summary = "the implicit Runge-Kutta method of Gauss with two stages",
-                                .order = 4,
-                                .implicit = true,
-                                .conserves_quadratics = true,
-                                .symmetric = true});
+  return additive_step<Gauss4>(
+      {.name = "gauss4",
+       .family = "conserving",
+       .summary = "the implicit Runge-Kutta method of Gauss with two stages",
+       .equation = R"(Z_i &= h \textstyle\sum_{j=1}^{2} a_{ij}\,f(t_n + c_j h,\; y_n + Z_j), \quad i = 1, 2 \\
+y_{n+1} &= y_n + \sqrt3\,(Z_2 - Z_1), \quad c = \bigl(\tfrac12 - \tfrac{\sqrt3}6,\; \tfrac12 + \tfrac{\sqrt3}6\bigr) \\
+(a_{ij}) &= \begin{pmatrix} \tfrac14 & \tfrac14 - \tfrac{\sqrt3}6 \\[3pt]
+  \tfrac14 + \tfrac{\sqrt3}6 & \tfrac14 \end{pmatrix})",
+       .sources = {"hammerHollingsworth1955", "hairerLubichWanner2006", "hairerWanner1996"},
+       .order = 4,
+       .implicit = true,
+       .conserves_quadratics = true,
+       .symmetric = true});
 }
 
 }  // namespace polhode::integrators

@@ -9,13 +9,17 @@ template <class System>
 using ImplicitMidpoint = GaussMethod<System, 1>;
 
 IntegratorEntry implicit_midpoint() {
-  return additive_step<ImplicitMidpoint>({.name = "implicit_midpoint",
-                                          .family = "conserving",
-                                          .summary = "y' = y + h f(t + h/2, (y + y')/2)",
-                                          .order = 2,
-                                          .implicit = true,
-                                          .conserves_quadratics = true,
-                                          .symmetric = true});
+  return additive_step<ImplicitMidpoint>(
+      {.name = "implicit_midpoint",
+       .family = "conserving",
+       .summary = "y' = y + h f(t + h/2, (y + y')/2)",
+       .equation = R"(Z &= \tfrac12 h\,f\bigl(t_n + \tfrac12 h,\; y_n + Z\bigr), \quad y_{n+1} = y_n + 2 Z \\
+\text{that is,}\quad y_{n+1} &= y_n + h\,f\bigl(t_n + \tfrac12 h,\; \tfrac12 (y_n + y_{n+1})\bigr))",
+       .sources = {"hairerLubichWanner2006", "hairerWanner1996"},
+       .order = 2,
+       .implicit = true,
+       .conserves_quadratics = true,
+       .symmetric = true});
 }
 
 }  // namespace polhode::integrators

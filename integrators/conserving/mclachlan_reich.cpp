@@ -26,15 +26,21 @@ template <class System>
 using MclachlanReich = RotorSplitting<System, ThreeRotations>;
 
 IntegratorEntry mclachlan_reich() {
-  return rotor_method<MclachlanReich>({.name = "mclachlan_reich",
-                                       .family = "conserving",
-                                       .summary = "kick, rotations about the axes 1 2 3 2 1, kick",
-                                       .order = 2,
-                                       .lie_group = true,
-                                       .symplectic = true,
-                                       .symmetric = true,
-                                       .conserves_momentum = true,
-                                       .conserves_casimir = true});
+  return rotor_method<MclachlanReich>(
+      {.name = "mclachlan_reich",
+       .family = "conserving",
+       .summary = "kick, rotations about the axes 1 2 3 2 1, kick",
+       .equation = kick_flow_kick(
+           R"(\rho_h &= \rho^1_{h/2} \circ \rho^2_{h/2} \circ \rho^3_h \circ \rho^2_{h/2} \circ \rho^1_{h/2} \\
+\rho^k_h:\ & m \leftarrow \exp(-\varphi\,e_k)\,m, \quad R \leftarrow R\,\exp(\varphi\,e_k), \quad
+  \varphi = h\,m_k/I_k)"),
+       .sources = {"mclachlan1993", "reich1994"},
+       .order = 2,
+       .lie_group = true,
+       .symplectic = true,
+       .symmetric = true,
+       .conserves_momentum = true,
+       .conserves_casimir = true});
 }
 
 // Yoshida's triple jump. Source: Yoshida, Phys. Lett. A 150 (1990) 262.
@@ -42,8 +48,8 @@ template <class System>
 using MclachlanReichYoshida4 = Composition<System, MclachlanReich, Yoshida4>;
 
 IntegratorEntry mclachlan_reich_yoshida4() {
-  return rotor_method<MclachlanReichYoshida4>(composition_of(mclachlan_reich().declaration, "mclachlan_reich_yoshida4",
-                                                             "the triple jump (Yoshida) of mclachlan_reich", 4));
+  return rotor_method<MclachlanReichYoshida4>(composition_of<Yoshida4>(
+      mclachlan_reich().declaration, "mclachlan_reich_yoshida4", "the triple jump (Yoshida) of mclachlan_reich"));
 }
 
 // Suzuki's composition of five parts. Source: Suzuki, Phys. Lett. A 146 (1990) 319.
@@ -51,9 +57,9 @@ template <class System>
 using MclachlanReichSuzuki4 = Composition<System, MclachlanReich, Suzuki4>;
 
 IntegratorEntry mclachlan_reich_suzuki4() {
-  return rotor_method<MclachlanReichSuzuki4>(composition_of(mclachlan_reich().declaration, "mclachlan_reich_suzuki4",
-                                                            "Suzuki's composition of five parts of mclachlan_reich",
-                                                            4));
+  return rotor_method<MclachlanReichSuzuki4>(
+      composition_of<Suzuki4>(mclachlan_reich().declaration, "mclachlan_reich_suzuki4",
+                              "Suzuki's composition of five parts of mclachlan_reich"));
 }
 
 // Kahan and Li's composition of nine parts. Source: Kahan & Li, Math. Comp. 66 (1997) 1089.
@@ -62,8 +68,8 @@ using MclachlanReichKahanLi6 = Composition<System, MclachlanReich, KahanLi6>;
 
 IntegratorEntry mclachlan_reich_kahan_li6() {
   return rotor_method<MclachlanReichKahanLi6>(
-      composition_of(mclachlan_reich().declaration, "mclachlan_reich_kahan_li6",
-                     "Kahan and Li's composition of nine parts of mclachlan_reich", 6));
+      composition_of<KahanLi6>(mclachlan_reich().declaration, "mclachlan_reich_kahan_li6",
+                               "Kahan and Li's composition of nine parts of mclachlan_reich"));
 }
 
 }  // namespace polhode::integrators

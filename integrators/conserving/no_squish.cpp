@@ -52,15 +52,25 @@ template <class System>
 using NoSquish = RotorSplitting<System, QuaternionRotations>;
 
 IntegratorEntry no_squish() {
-  return rotor_method<NoSquish>({.name = "no_squish",
-                                 .family = "conserving",
-                                 .summary = "kick, rotations in quaternion space in the order 3 2 1 2 3, kick",
-                                 .order = 2,
-                                 .lie_group = true,
-                                 .symplectic = true,
-                                 .symmetric = true,
-                                 .conserves_momentum = true,
-                                 .conserves_casimir = true});
+  return rotor_method<NoSquish>(
+      {.name = "no_squish",
+       .family = "conserving",
+       .summary = "kick, rotations in quaternion space in the order 3 2 1 2 3, kick",
+       .equation =
+           kick_flow_kick(R"(\rho_h &= P^3_{h/2} \circ P^2_{h/2} \circ P^1_h \circ P^2_{h/2} \circ P^3_{h/2}, \quad
+  (\mathsf q, \mathsf p) = \bigl(1, 2\,(0, m)\bigr) \text{ at its start} \\
+P^k_h:\ & \mathsf q \leftarrow \cos\zeta\,\mathsf q + \sin\zeta\,\mathsf q e_k, \quad
+  \mathsf p \leftarrow \cos\zeta\,\mathsf p + \sin\zeta\,\mathsf p e_k \\
+& \zeta = h\,(\mathsf p \cdot \mathsf q e_k)/(4 I_k) \\
+& m \leftarrow \tfrac12 \operatorname{Im}(\bar{\mathsf q}\,\mathsf p), \quad
+  R \leftarrow R\,R(\mathsf q) \text{ at its end})"),
+       .sources = {"miller2002"},
+       .order = 2,
+       .lie_group = true,
+       .symplectic = true,
+       .symmetric = true,
+       .conserves_momentum = true,
+       .conserves_casimir = true});
 }
 
 }  // namespace polhode::integrators

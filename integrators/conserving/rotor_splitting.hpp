@@ -53,6 +53,14 @@ class RotorSplitting {
   KickFlowKick<System> splitting_;
 };
 
+/// Equation of a splitting (Declaration::equation): kicks and free flow, with the rows that define the rotor ρ_h.
+inline std::string kick_flow_kick(const std::string& rotor) {
+  return R"(\Phi_h &= K_{h/2} \circ F_h \circ K_{h/2} \\
+K_h:\ & v \leftarrow v', \quad v' = v + h\,M^{-1} f\bigl(t, q, \tfrac12 (v + v')\bigr) \\
+F_h:\ & t \leftarrow t + h, \quad x \leftarrow x + h\,\dot x, \quad (m, R) \leftarrow \rho_h(m, R) \\
+)" + rotor;
+}
+
 /// Refuses formulations without the gyroscopic term, which the true motion of a rotor contains.
 inline std::string refuse_without_gyroscopic_term(const Problem&, const Formulation& formulation) {
   return formulation.gyroscopic ? "" : "its free flow is the true motion, which has the gyroscopic term";

@@ -25,16 +25,31 @@ template <class System>
 using SymmetricRotor4 = RotorSplitting<System, SymmetricRotor<BlanesMoanScheme>>;
 
 IntegratorEntry symmetric_rotor4() {
-  return rotor_method<SymmetricRotor4>({.name = "symmetric_rotor4",
-                                        .family = "conserving",
-                                        .summary = "kick, Blanes and Moan's S6 of a rotation and a symmetric top, kick",
-                                        .order = 2,
-                                        .free_order = 4,
-                                        .lie_group = true,
-                                        .symplectic = true,
-                                        .symmetric = true,
-                                        .conserves_momentum = true,
-                                        .conserves_casimir = true});
+  return rotor_method<SymmetricRotor4>(
+      {.name = "symmetric_rotor4",
+       .family = "conserving",
+       .summary = "kick, Blanes and Moan's S6 of a rotation and a symmetric top, kick",
+       .equation = kick_flow_kick(
+           R"(\rho_h &= A_{a_1 h} \circ C_{b_1 h} \circ A_{a_2 h} \circ C_{b_2 h} \circ A_{a_3 h} \circ C_{b_3 h} \\
+& \circ A_{a_4 h} \circ C_{b_3 h} \circ A_{a_3 h} \circ C_{b_2 h} \circ A_{a_2 h} \circ C_{b_1 h} \\
+& \circ A_{a_1 h} \circ B_h \\
+& a_1 = 0.0792036964311957, \quad a_2 = 0.353172906049774 \\
+& a_3 = -0.0420650803577195 \\
+& b_1 = 0.209515106613362, \quad b_2 = -0.143851773179818 \\
+& a_4 = 1 - 2 (a_1 + a_2 + a_3), \quad b_3 = \tfrac12 - (b_1 + b_2) \\
+B_h:\ & R \leftarrow R\,\exp(h\,m/I_b), \quad I_a \le I_b \le I_c \\
+A_h:\ & m \leftarrow \exp(-\alpha\,e_a)\,m, \quad R \leftarrow R\,\exp(\alpha\,e_a), \quad
+  \alpha = h\,(1/I_a - 1/I_b)\,m_a \\
+C_h:\ & m \leftarrow \exp(-\gamma\,e_c)\,m, \quad R \leftarrow R\,\exp(\gamma\,e_c), \quad
+  \gamma = h\,(1/I_c - 1/I_b)\,m_c)"),
+       .sources = {"blanesMoan2002", "fasso2003", "toumaWisdom1994", "dullweber1997"},
+       .order = 2,
+       .free_order = 4,
+       .lie_group = true,
+       .symplectic = true,
+       .symmetric = true,
+       .conserves_momentum = true,
+       .conserves_casimir = true});
 }
 
 }  // namespace polhode::integrators

@@ -64,6 +64,16 @@ IntegratorEntry commutator_free4() {
       {.name = "commutator_free4",
        .family = "Lie group",
        .summary = "Celledoni, Marthinsen & Owren: the classical tableau by exponentials without commutators",
+       .equation = R"(\xi_i &= \xi(q_i, v_i), \quad \dot v_i = \dot v(t_n + c_i h, q_i, v_i), \quad
+  c = \bigl(0, \tfrac12, \tfrac12, 1\bigr) \\
+q_1 &= q_n, \quad q_2 = q_n \oplus \tfrac12 h\,\xi_1, \quad q_3 = q_n \oplus \tfrac12 h\,\xi_2, \quad
+  q_4 = q_2 \oplus h\,\bigl(\xi_3 - \tfrac12 \xi_1\bigr) \\
+v_1 &= v_n, \quad v_2 = v_n + \tfrac12 h\,\dot v_1, \quad v_3 = v_n + \tfrac12 h\,\dot v_2, \quad
+  v_4 = v_n + h\,\dot v_3 \\
+q_{n+1} &= q_n \oplus \tfrac1{12} h\,(3 \xi_1 + 2 \xi_2 + 2 \xi_3 - \xi_4)
+  \oplus \tfrac1{12} h\,(-\xi_1 + 2 \xi_2 + 2 \xi_3 + 3 \xi_4) \\
+v_{n+1} &= v_n + \tfrac16 h\,(\dot v_1 + 2 \dot v_2 + 2 \dot v_3 + \dot v_4))",
+       .sources = {"celledoni2003"},
        .order = 4,
        .evaluations_per_step = 4,
        .lie_group = true});

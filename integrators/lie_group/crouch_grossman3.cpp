@@ -50,6 +50,15 @@ IntegratorEntry crouch_grossman3() {
       {.name = "crouch_grossman3",
        .family = "Lie group",
        .summary = "Crouch-Grossman: a product of exponentials in every stage, Owren & Marthinsen's coefficients",
+       .equation = R"(\xi_i &= \xi(q_i, v_i), \quad \dot v_i = \dot v(t_n + c_i h, q_i, v_i), \quad i = 1, 2, 3 \\
+q_1 &= q_n, \quad q_2 = q_n \oplus \tfrac34 h\,\xi_1, \quad
+  q_3 = q_n \oplus \tfrac{119}{216} h\,\xi_1 \oplus \tfrac{17}{108} h\,\xi_2 \\
+v_1 &= v_n, \quad v_2 = v_n + \tfrac34 h\,\dot v_1, \quad
+  v_3 = v_n + \tfrac{119}{216} h\,\dot v_1 + \tfrac{17}{108} h\,\dot v_2 \\
+q_{n+1} &= q_n \oplus \tfrac{13}{51} h\,\xi_1 \oplus \bigl(-\tfrac23 h\,\xi_2\bigr) \oplus \tfrac{24}{17} h\,\xi_3 \\
+v_{n+1} &= v_n + h\,\bigl(\tfrac{13}{51} \dot v_1 - \tfrac23 \dot v_2 + \tfrac{24}{17} \dot v_3\bigr),
+  \quad c = \bigl(0, \tfrac34, \tfrac{17}{24}\bigr))",
+       .sources = {"crouchGrossman1993", "owrenMarthinsen1999"},
        .order = 3,
        .evaluations_per_step = 3,
        .lie_group = true});

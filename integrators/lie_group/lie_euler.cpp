@@ -32,6 +32,9 @@ IntegratorEntry lie_euler() {
   return fixed_step<LieEuler>({.name = "lie_euler",
                                .family = "Lie group",
                                .summary = "q' = q exp(h w), v' = v + h a(t, q, v), all from the old state",
+                               .equation = R"(q_{n+1} &= q_n \oplus h\,\xi(q_n, v_n) \\
+v_{n+1} &= v_n + h\,\dot v(t_n, q_n, v_n))",
+                               .sources = {"iserles2000"},
                                .order = 1,
                                .evaluations_per_step = 1,
                                .lie_group = true});

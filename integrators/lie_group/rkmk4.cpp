@@ -60,6 +60,16 @@ IntegratorEntry rkmk4() {
       {.name = "rkmk4",
        .family = "Lie group",
        .summary = "Runge-Kutta-Munthe-Kaas: the classical tableau in the algebra, with the inverse of dexp",
+       .equation =
+           R"(\theta_1 &= 0, \quad \theta_2 = \tfrac12 h\,k_1, \quad \theta_3 = \tfrac12 h\,k_2, \quad
+  \theta_4 = h\,k_3 \\
+v_1 &= v_n, \quad v_2 = v_n + \tfrac12 h\,\dot v_1, \quad v_3 = v_n + \tfrac12 h\,\dot v_2, \quad
+  v_4 = v_n + h\,\dot v_3 \\
+k_i &= \operatorname{dexp}^{-1}_{\theta_i} \xi(q_n \oplus \theta_i, v_i), \quad
+  \dot v_i = \dot v(t_n + c_i h,\; q_n \oplus \theta_i,\; v_i) \\
+q_{n+1} &= q_n \oplus \tfrac16 h\,(k_1 + 2 k_2 + 2 k_3 + k_4), \quad c = \bigl(0, \tfrac12, \tfrac12, 1\bigr) \\
+v_{n+1} &= v_n + \tfrac16 h\,(\dot v_1 + 2 \dot v_2 + 2 \dot v_3 + \dot v_4))",
+       .sources = {"muntheKaas1999", "iserles2000"},
        .order = 4,
        .evaluations_per_step = 4,
        .lie_group = true});

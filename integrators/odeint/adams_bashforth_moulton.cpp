@@ -21,6 +21,10 @@ IntegratorEntry odeint_adams_bashforth_moulton() {
       {.name = "odeint_adams_bashforth_moulton",
        .family = "Boost.Odeint",
        .summary = "Adams-Bashforth-Moulton of four steps, PECE, started by Runge-Kutta 4",
+       .equation =
+           R"(p &= y_n + \tfrac1{24} h\,(55 f_n - 59 f_{n-1} + 37 f_{n-2} - 9 f_{n-3}), \quad f_k = f(t_k, y_k) \\
+y_{n+1} &= y_n + \tfrac1{24} h\,\bigl(9 f(t_n + h, p) + 19 f_n - 5 f_{n-1} + f_{n-2}\bigr))",
+       .sources = {"hairerNorsettWanner1993", "ahnertMulansky2011"},
        .order = 4,
        .multi_step = true});
 }

@@ -34,10 +34,16 @@ class BulirschStoer {
 }  // namespace
 
 IntegratorEntry odeint_bulirsch_stoer() {
-  return odeint_controlled<BulirschStoer>(
-      {.name = "odeint_bulirsch_stoer",
-       .family = "Boost.Odeint",
-       .summary = "Bulirsch-Stoer, the midpoint rule extrapolated to a variable order, error control per step"});
+  return odeint_controlled<BulirschStoer>({
+      .name = "odeint_bulirsch_stoer",
+      .family = "Boost.Odeint",
+      .summary = "Bulirsch-Stoer, the midpoint rule extrapolated to a variable order, error control per step",
+      .equation = R"(z_0 &= y_n, \quad z_1 = z_0 + \eta f(t_n, z_0), \quad \eta = h/n_j, \quad n_j = 2, 4, 6, \dots \\
+z_{m+1} &= z_{m-1} + 2 \eta f(t_n + m \eta, z_m), \quad m = 1, \dots, n_j - 1 \\
+T_{j,0} &= \tfrac12 \bigl(z_{n_j - 1} + z_{n_j} + \eta f(t_n + h, z_{n_j})\bigr) \\
+T_{j,k} &= T_{j,k-1} + \frac{T_{j,k-1} - T_{j-1,k-1}}{(n_j/n_{j-k})^2 - 1}, \quad y_{n+1} = T_{k,k})",
+      .sources = {"hairerNorsettWanner1993", "ahnertMulansky2011"},
+  });
 }
 
 }  // namespace polhode::integrators

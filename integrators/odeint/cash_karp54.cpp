@@ -36,10 +36,19 @@ class CashKarp54 {
 }  // namespace
 
 IntegratorEntry odeint_cash_karp54() {
-  return odeint_controlled<CashKarp54>({.name = "odeint_cash_karp54",
-                                        .family = "Boost.Odeint",
-                                        .summary = "Cash-Karp 5(4), error control per step",
-                                        .order = 5});
+  return odeint_controlled<CashKarp54>(
+      {.name = "odeint_cash_karp54",
+       .family = "Boost.Odeint",
+       .summary = "Cash-Karp 5(4), error control per step",
+       .equation =
+           R"(k_i &= f\bigl(t_n + c_i h,\; y_n + h \textstyle\sum_{j<i} a_{ij} k_j\bigr), \quad i = 1, \dots, 6 \\
+y_{n+1} &= y_n + h\,\bigl(\tfrac{37}{378} k_1 + \tfrac{250}{621} k_3 + \tfrac{125}{594} k_4
+  + \tfrac{512}{1771} k_6\bigr) \\
+e &= h \textstyle\sum_i (b_i - \tilde b_i)\,k_i, \quad \tilde b = \bigl(\tfrac{2825}{27648}, 0,
+  \tfrac{18575}{48384}, \tfrac{13525}{55296}, \tfrac{277}{14336}, \tfrac14\bigr) \\
+\text{accepted if}\quad & \max_i \frac{|e_i|}{\mathrm{tol}\,\bigl(1 + |y_{n,i}| + h\,|f_i(t_n, y_n)|\bigr)} \le 1)",
+       .sources = {"cashKarp1990", "ahnertMulansky2011"},
+       .order = 5});
 }
 
 }  // namespace polhode::integrators

@@ -42,10 +42,20 @@ class Dopri5 {
 }  // namespace
 
 IntegratorEntry odeint_dopri5() {
-  return odeint_controlled<Dopri5>({.name = "odeint_dopri5",
-                                    .family = "Boost.Odeint",
-                                    .summary = "Dormand-Prince 5(4), error control per step, dense output",
-                                    .order = 5});
+  return odeint_controlled<Dopri5>(
+      {.name = "odeint_dopri5",
+       .family = "Boost.Odeint",
+       .summary = "Dormand-Prince 5(4), error control per step, dense output",
+       .equation =
+           R"(k_i &= f\bigl(t_n + c_i h,\; y_n + h \textstyle\sum_{j<i} a_{ij} k_j\bigr), \quad i = 1, \dots, 7 \\
+y_{n+1} &= y_n + h\,\bigl(\tfrac{35}{384} k_1 + \tfrac{500}{1113} k_3 + \tfrac{125}{192} k_4
+  - \tfrac{2187}{6784} k_5 + \tfrac{11}{84} k_6\bigr) \\
+k_7 &= f(t_n + h, y_{n+1}), \quad e = h \textstyle\sum_i (b_i - \tilde b_i)\,k_i \\
+\tilde b &= \bigl(\tfrac{5179}{57600}, 0, \tfrac{7571}{16695}, \tfrac{393}{640}, -\tfrac{92097}{339200},
+  \tfrac{187}{2100}, \tfrac1{40}\bigr) \\
+\text{accepted if}\quad & \max_i \frac{|e_i|}{\mathrm{tol}\,\bigl(1 + |y_{n,i}| + h\,|f_i(t_n, y_n)|\bigr)} \le 1)",
+       .sources = {"dormandPrince1980", "ahnertMulansky2011"},
+       .order = 5});
 }
 
 }  // namespace polhode::integrators

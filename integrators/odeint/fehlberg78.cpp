@@ -36,10 +36,18 @@ class Fehlberg78 {
 }  // namespace
 
 IntegratorEntry odeint_fehlberg78() {
-  return odeint_controlled<Fehlberg78>({.name = "odeint_fehlberg78",
-                                        .family = "Boost.Odeint",
-                                        .summary = "Fehlberg 7(8), the eighth order carried on, error control per step",
-                                        .order = 8});
+  return odeint_controlled<Fehlberg78>(
+      {.name = "odeint_fehlberg78",
+       .family = "Boost.Odeint",
+       .summary = "Fehlberg 7(8), the eighth order carried on, error control per step",
+       .equation =
+           R"(k_i &= f\bigl(t_n + c_i h,\; y_n + h \textstyle\sum_{j<i} a_{ij} k_j\bigr), \quad i = 1, \dots, 13 \\
+y_{n+1} &= y_n + h\,\bigl(\tfrac{34}{105} k_6 + \tfrac9{35} (k_7 + k_8) \\
+&\qquad + \tfrac9{280} (k_9 + k_{10}) + \tfrac{41}{840} (k_{12} + k_{13})\bigr) \\
+e &= \tfrac{41}{840} h\,(k_{12} + k_{13} - k_1 - k_{11}) \\
+\text{accepted if}\quad & \max_i \frac{|e_i|}{\mathrm{tol}\,\bigl(1 + |y_{n,i}| + h\,|f_i(t_n, y_n)|\bigr)} \le 1)",
+       .sources = {"fehlberg1968", "ahnertMulansky2011"},
+       .order = 8});
 }
 
 }  // namespace polhode::integrators

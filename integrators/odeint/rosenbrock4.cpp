@@ -38,6 +38,14 @@ IntegratorEntry odeint_rosenbrock4() {
       {.name = "odeint_rosenbrock4",
        .family = "Boost.Odeint",
        .summary = "Rosenbrock 4(3), L-stable, Jacobian by difference quotients, error control per step, dense output",
+       .equation =
+           R"(\bigl(\tfrac1{\gamma h} - J\bigr) u_i &= f\bigl(t_n + c_i h,\; y_n + \textstyle\sum_{j<i} a_{ij} u_j\bigr)
+  + \tfrac1h \sum_{j<i} c_{ij} u_j + d_i h\,\partial_t f \\
+y_{n+1} &= y_n + \textstyle\sum_{j<5} a_{5j} u_j + u_5 + u_6, \quad e = u_6, \quad \gamma = \tfrac14, \quad i = 1, \dots, 6 \\
+J &= \partial_y f(t_n, y_n), \quad \text{accepted if }
+  \Bigl(\tfrac1N \textstyle\sum_i (e_i/w_i)^2\Bigr)^{1/2} \le 1 \\
+w_i &= \mathrm{tol}\,\bigl(1 + \max(|y_{n,i}|, |y_{n+1,i}|)\bigr))",
+       .sources = {"hairerWanner1996", "ahnertMulansky2011"},
        .order = 4,
        .implicit = true});
 }

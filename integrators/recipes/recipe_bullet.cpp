@@ -53,6 +53,13 @@ IntegratorEntry recipe_bullet() {
       {.name = "recipe_bullet",
        .family = "engine recipe",
        .summary = "Bullet: one Newton step of the implicit gyroscopic equation, then q' = exp(h w') q, normalized",
+       .equation =
+           R"(\bigl(I + h\,(\hat\Omega_n I - \widehat{I \Omega_n})\bigr)\,\Delta\Omega
+  &= -h\,\Omega_n \times I \Omega_n \\
+\omega_{n+1} &= \omega_n + R_n\,\Delta\Omega + h\,R_n I^{-1} R_n^{\mathsf T}\,\tau(t_n, q_n, v_n) \\
+\dot x_{n+1} &= \dot x_n + h\,f(t_n, q_n, v_n)/m, \quad x_{n+1} = x_n + h\,\dot x_{n+1} \\
+\mathsf q_{n+1} &= \exp(h\,\omega_{n+1})\,\mathsf q_n, \text{ divided by its length})",
+       .sources = {"bullet", "catto2015", "petersHsu2015"},
        .order = 1,
        .evaluations_per_step = 1,
        .lie_group = true,

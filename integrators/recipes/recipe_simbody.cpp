@@ -28,6 +28,11 @@ IntegratorEntry recipe_simbody() {
   return engine_recipe<SimbodyStep>({.name = "recipe_simbody",
                                      .family = "engine recipe",
                                      .summary = "Simbody: ODE's recipe in two half steps",
+                                     .equation = R"(y_{n+1} &= \Psi_{h/2} \circ \Psi_{h/2}\,(y_n), \quad \Psi_h: \\
+v_{n+1} &= v_n + h\,\dot v(t_n, q_n, v_n), \quad x_{n+1} = x_n + h\,\dot x_{n+1} \\
+\mathsf q_{n+1} &= \frac{\mathsf q_n + \tfrac12 h\,(0, \omega_{n+1})\,\mathsf q_n}
+  {\bigl|\mathsf q_n + \tfrac12 h\,(0, \omega_{n+1})\,\mathsf q_n\bigr|})",
+                                     .sources = {"petersHsu2015"},
                                      .order = 1,
                                      .evaluations_per_step = 2,
                                      .normalizes = true});

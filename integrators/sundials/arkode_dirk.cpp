@@ -75,6 +75,12 @@ IntegratorEntry arkode_dirk() {
   return {{.name = "arkode_dirk",
            .family = "SUNDIALS",
            .summary = "ARKODE, embedded diagonally implicit Runge-Kutta of order 4",
+           .equation = R"(Y_i &= y_n + h \textstyle\sum_{j \le i} a_{ij}\,f(t_n + c_j h, Y_j), \quad
+  y_{n+1} = y_n + h \sum_i b_i\,f(t_n + c_i h, Y_i) \\
+e &= h \textstyle\sum_i (b_i - \tilde b_i)\,f(t_n + c_i h, Y_i), \quad
+  \text{accepted if } \Bigl(\tfrac1N \textstyle\sum_i (e_i/w_i)^2\Bigr)^{1/2} \le 1 \\
+  & w_i = \mathrm{tol}\,(|y_i| + 1))",
+           .sources = {"reynolds2023", "hairerWanner1996"},
            .order = 4,
            .adaptive = true,
            .implicit = true,

@@ -119,6 +119,12 @@ IntegratorEntry cvode_adams() {
   return entry({.name = "cvode_adams",
                 .family = "SUNDIALS",
                 .summary = "CVODE, Adams-Moulton of orders 1 to 12, fixed-point iteration, variable step",
+                .equation =
+                    R"(y_n &= y_{n-1} + h_n \textstyle\sum_{i=0}^{q-1} \beta_{n,i}\,f(t_{n-i}, y_{n-i}), \quad
+  q = 1, \dots, 12 \\
+\text{accepted if}\quad & \Bigl(\tfrac1N \textstyle\sum_i (e_i/w_i)^2\Bigr)^{1/2} \le 1, \quad
+  w_i = \mathrm{tol}\,(|y_i| + 1))",
+                .sources = {"hindmarsh2005", "hairerNorsettWanner1993"},
                 .adaptive = true,
                 .implicit = true,
                 .multi_step = true},
@@ -126,13 +132,19 @@ IntegratorEntry cvode_adams() {
 }
 
 IntegratorEntry cvode_bdf() {
-  return entry({.name = "cvode_bdf",
-                .family = "SUNDIALS",
-                .summary = "CVODE, backward differentiation of orders 1 to 5, Newton iteration, variable step",
-                .adaptive = true,
-                .implicit = true,
-                .multi_step = true},
-               CV_BDF);
+  return entry(
+      {.name = "cvode_bdf",
+       .family = "SUNDIALS",
+       .summary = "CVODE, backward differentiation of orders 1 to 5, Newton iteration, variable step",
+       .equation =
+           R"(\textstyle\sum_{i=0}^{q} \alpha_{n,i}\,y_{n-i} &= h_n\,\beta_{n,0}\,f(t_n, y_n), \quad q = 1, \dots, 5 \\
+\text{accepted if}\quad & \Bigl(\tfrac1N \textstyle\sum_i (e_i/w_i)^2\Bigr)^{1/2} \le 1, \quad
+  w_i = \mathrm{tol}\,(|y_i| + 1))",
+       .sources = {"hindmarsh2005", "eich1993", "hairerWanner1996"},
+       .adaptive = true,
+       .implicit = true,
+       .multi_step = true},
+      CV_BDF);
 }
 
 }  // namespace polhode::integrators

@@ -29,6 +29,8 @@ IntegratorEntry explicit_euler() {
       {.name = "explicit_euler",
        .family = "textbook",
        .summary = "y' = y + h f(t, y), all from the old state, as the slides write it",
+       .equation = R"(y_{n+1} &= y_n + h\,f(t_n, y_n))",
+       .sources = {"engineSlides", "hairerNorsettWanner1993"},
        .order = 1,
        .evaluations_per_step = 1});
 }

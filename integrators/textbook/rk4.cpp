@@ -37,6 +37,10 @@ IntegratorEntry rk4() {
       {.name = "rk4",
        .family = "textbook",
        .summary = "the classical Runge-Kutta method, y' = y + h/6 (k1 + 2 k2 + 2 k3 + k4)",
+       .equation = R"(k_1 &= f(t_n, y_n), \quad k_2 = f\bigl(t_n + \tfrac12 h,\; y_n + \tfrac12 h\,k_1\bigr) \\
+k_3 &= f\bigl(t_n + \tfrac12 h,\; y_n + \tfrac12 h\,k_2\bigr), \quad k_4 = f(t_n + h,\; y_n + h\,k_3) \\
+y_{n+1} &= y_n + \tfrac16 h\,(k_1 + 2 k_2 + 2 k_3 + k_4))",
+       .sources = {"kutta1901", "hairerNorsettWanner1993"},
        .order = 4,
        .evaluations_per_step = 4});
 }

@@ -34,6 +34,9 @@ IntegratorEntry semi_implicit_euler() {
       {.name = "semi_implicit_euler",
        .family = "textbook",
        .summary = "v' = v + h a(t, q, v), then q' = q + h N(q) v', as the report updates",
+       .equation = R"(v_{n+1} &= v_n + h\,\dot v(t_n, q_n, v_n) \\
+q_{n+1} &= q_n + h\,N(q_n)\,v_{n+1})",
+       .sources = {"courseReport", "hairerLubichWanner2006"},
        .order = 1,
        .evaluations_per_step = 1});
 }

@@ -36,6 +36,9 @@ IntegratorEntry semi_implicit_euler_exp() {
   return fixed_step<SemiImplicitEulerExp>({.name = "semi_implicit_euler_exp",
                                            .family = "textbook",
                                            .summary = "v' = v + h a(t, q, v), then q' = q exp(h w')",
+                                           .equation = R"(v_{n+1} &= v_n + h\,\dot v(t_n, q_n, v_n) \\
+q_{n+1} &= q_n \oplus h\,\xi(q_n, v_{n+1}))",
+                                           .sources = {"courseReport", "iserles2000"},
                                            .order = 1,
                                            .evaluations_per_step = 1,
                                            .lie_group = true});

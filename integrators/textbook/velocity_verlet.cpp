@@ -56,6 +56,11 @@ IntegratorEntry velocity_verlet() {
   return fixed_step<VelocityVerlet>({.name = "velocity_verlet",
                                      .family = "textbook",
                                      .summary = "half kick, drift q' = q exp(h w), half kick at the predicted velocity",
+                                     .equation = R"(k &= \dot v(t_n, q_n, v_n), \quad v_{n+1/2} = v_n + \tfrac12 h\,k \\
+q_{n+1/2} &= q_n \oplus \tfrac12 h\,\xi(q_n, v_{n+1/2}) \\
+q_{n+1} &= q_n \oplus h\,\xi(q_{n+1/2}, v_{n+1/2}) \\
+v_{n+1} &= v_{n+1/2} + \tfrac12 h\,\dot v\bigl(t_n + h,\; q_{n+1},\; v_{n+1/2} + \tfrac12 h\,k\bigr))",
+                                     .sources = {"swope1982", "grootWarren1997"},
                                      .order = 2,
                                      .evaluations_per_step = 2,
                                      .lie_group = true});

@@ -39,6 +39,7 @@ MAY_INCLUDE = {
     "experiments/study/text": "core/problem",
     "experiments/study/statistics": "experiments/study/text",
     "experiments/study/scenario": "core/* collision collision/shapes collision/contact experiments/study/text",
+    "experiments/study/scene": "core/problem collision collision/shapes experiments/study/scenario",
     "experiments/study/plot": "experiments/study/text",
     "experiments/study/trajectory": "core/* experiments/study/text",
     "experiments/study/record": "core/run core/system integrators collision collision/contact experiments/study/text"
@@ -54,8 +55,8 @@ MAY_INCLUDE = {
                              " experiments/study/trajectory experiments/study/record experiments/study/setup"
                              " experiments/study/metrics",
     "experiments/study/plan": "core/* integrators collision collision/contact collision/shapes experiments/study/text"
-                              " experiments/study/scenario experiments/study/trajectory experiments/study/record"
-                              " experiments/study/run",
+                              " experiments/study/scenario experiments/study/plot experiments/study/trajectory"
+                              " experiments/study/record experiments/study/run",
     "experiments/study/query": "experiments/study/text experiments/study/scenario experiments/study/record"
                                " experiments/study/store experiments/study/plan",
     "experiments/study/report/findings": "integrators experiments/study/text experiments/study/statistics"
@@ -64,16 +65,23 @@ MAY_INCLUDE = {
                                            " experiments/study/record",
     "experiments/study/report/answer": "integrators experiments/study/text experiments/study/plot experiments/study/record"
                                        " experiments/study/curves experiments/study/report/findings",
+    "experiments/study/report/drawing": "core/math core/problem core/forces collision collision/shapes experiments/study/text"
+                                        " experiments/study/scenario experiments/study/scene",
     "experiments/study/report/figures": "experiments/study/text experiments/study/plot experiments/study/record"
                                         " experiments/study/curves",
+    "experiments/study/report/article": "core/problem core/forces collision integrators experiments/study/text"
+                                        " experiments/study/scenario experiments/study/plot experiments/study/record"
+                                        " experiments/study/curves experiments/study/report/findings"
+                                        " experiments/study/report/answer experiments/study/report/figures"
+                                        " experiments/study/report/tables",
     "experiments/study/report/tables": "experiments/study/text experiments/study/plot experiments/study/record"
-                                       " experiments/study/curves experiments/study/plan experiments/study/report/findings",
+                                       " experiments/study/curves experiments/study/plan experiments/study/report/findings"
+                                       " experiments/study/report/answer",
     "experiments/study/report/page": "integrators experiments/study/text experiments/study/plot experiments/study/record"
                                      " experiments/study/curves experiments/study/report/findings"
-                                     " experiments/study/report/answer experiments/study/report/figures"
-                                     " experiments/study/report/tables",
+                                     " experiments/study/report/answer experiments/study/report/drawing"
+                                     " experiments/study/report/figures experiments/study/report/tables",
     "experiments/study": "core/* integrators collision experiments/study/*",
-    "experiments/scene": "core/problem collision collision/shapes experiments/study/scenario",
 
     "experiments/archive": "experiments/study/*",
     "experiments/broad_phase": "core/* integrators collision/* experiments/study/*",
@@ -81,12 +89,15 @@ MAY_INCLUDE = {
     "experiments/convergence": "core/* integrators collision/* experiments/study/*",
     "experiments/energy_drift": "experiments/study/*",
     "experiments/explain": "experiments/study/*",
+    "experiments/figures": "experiments/study/*",
     "experiments/impact": "core/* integrators collision/* experiments/study/*",
     "experiments/judge": "core/* integrators collision/* experiments/study/*",
+    "experiments/methods": "core/* integrators collision/* experiments/study/*",
     "experiments/narrow_phase": "core/* integrators collision/* experiments/study/*",
     "experiments/pile": "core/* integrators collision/* experiments/study/*",
+    "experiments/plot": "core/* integrators experiments/study/*",
     "experiments/precision": "core/* integrators collision/* experiments/study/*",
-    "experiments/replay": "core/* integrators collision/* experiments/study/* experiments/scene",
+    "experiments/replay": "core/* integrators collision/* experiments/study/*",
     "experiments/rerun": "experiments/study/*",
     "experiments/results": "experiments/study/*",
     "experiments/simulate": "experiments/study/*",
@@ -97,11 +108,11 @@ MAY_INCLUDE = {
     "experiments/viewer/frame": "core/problem collision",
     "experiments/viewer/session": "core/* integrators collision collision/contact experiments/study/*"
                                   " experiments/viewer/frame",
-    "experiments/viewer/drawing": "core/math core/problem experiments/scene experiments/viewer/frame",
+    "experiments/viewer/drawing": "core/math core/problem experiments/study/scene experiments/viewer/frame",
     "experiments/viewer/stage": "experiments/study/text experiments/viewer/frame experiments/viewer/session"
                                 " experiments/viewer/drawing",
-    "experiments/viewer/overlay": "experiments/study/text experiments/study/scenario experiments/study/record"
-                                  " experiments/viewer/stage",
+    "experiments/viewer/overlay": "experiments/study/text experiments/study/plot experiments/study/scenario"
+                                  " experiments/study/record experiments/viewer/stage",
     "experiments/viewer/pictures": "experiments/study/text experiments/viewer/stage experiments/viewer/overlay",
     "experiments/viewer/window": "experiments/study/text experiments/viewer/stage experiments/viewer/overlay"
                                  " experiments/viewer/pictures",

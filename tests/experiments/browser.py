@@ -64,13 +64,13 @@ class Browser:
             raise AssertionError(f"{script}: {answer['exceptionDetails']}")
         return answer["result"].get("value")
 
-    def open(self, path, width=1280, height=720, dark=False):
-        """Opens a file and waits until the page has said two frames."""
+    def open(self, path, width=1280, height=720, dark=False, ready="!!window.replay", media=""):
+        """Opens a file and waits until it is ready and has drawn two frames. media: "print" for the page on paper."""
         self.do("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
-        self.do("Emulation.setEmulatedMedia",
+        self.do("Emulation.setEmulatedMedia", media=media,
                 features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
         self.do("Page.navigate", url=path.resolve().as_uri())
-        self.wait_for("document.readyState === 'complete' && !!window.replay")
+        self.wait_for(f"document.readyState === 'complete' && location.href !== 'about:blank' && {ready}")
         self.frames(2)
 
     def frames(self, count):

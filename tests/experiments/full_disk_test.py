@@ -9,7 +9,8 @@ from programs import BIN, PATIENCE, temporary_folder
 
 EXPERIMENTS = pathlib.Path(__file__).resolve().parents[2] / "experiments"
 PROGRAMS = sorted(main.parent.name for main in EXPERIMENTS.glob("*/main.cpp") if (BIN / main.parent.name).exists())
-NO_STUDIES = ("archive", "broad_phase", "explain", "judge", "narrow_phase", "replay", "rerun", "results", "viewer")
+NO_STUDIES = ("archive", "broad_phase", "explain", "figures", "judge", "narrow_phase", "plot", "replay", "rerun", "results",
+              "viewer")
 STUDIES = [name for name in PROGRAMS if name not in NO_STUDIES]
 PAIRS = ("id,class,ahx,ahy,ahz,apx,apy,apz,aqw,aqx,aqy,aqz,bhx,bhy,bhz,bpx,bpy,bpz,bqw,bqx,bqy,bqz\n"
          "7,kissing,1,1,1,0,0,0,1,0,0,0,1,1,1,3,0,0,2,0,0,0\n")
@@ -34,7 +35,7 @@ class FullDisk(unittest.TestCase):
         for program in PROGRAMS:
             with self.subTest(program):
                 self.refused(program, "--help")
-                if program not in ("archive", "explain", "judge", "rerun", "results"):
+                if program not in ("archive", "explain", "figures", "judge", "rerun", "results"):
                     self.refused(program, "--list")
                     self.refused(program, "--list", "shapes")
         for program in STUDIES:

@@ -17,10 +17,10 @@ def temporary_folder(add_cleanup):
     return pathlib.Path(holder.name)
 
 
-def call(program, *arguments, folder, status=0):
+def call(program, *arguments, folder, status=0, patience=PATIENCE):
     """Runs a program in a folder; raises AssertionError where its exit status is another one."""
     done = subprocess.run([str(BIN / program), *map(str, arguments)], cwd=folder, capture_output=True, text=True,
-                          timeout=PATIENCE, stdin=subprocess.DEVNULL)
+                          timeout=patience, stdin=subprocess.DEVNULL)
     if done.returncode != status:
         raise AssertionError(f"exit status {done.returncode}, not {status}: {done.stderr[-1500:]}")
     return done

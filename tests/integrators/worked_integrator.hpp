@@ -26,11 +26,15 @@ class Ralston {
 };
 
 IntegratorEntry ralston() {
-  return fixed_step<Ralston>({.name = "ralston",
-                              .family = "textbook",
-                              .summary = "y' = y + h/4 (k1 + 3 k2), k2 = f(t + 2h/3, y + 2h/3 k1)",
-                              .order = 2,
-                              .evaluations_per_step = 2});
+  return fixed_step<Ralston>(
+      {.name = "ralston",
+       .family = "textbook",
+       .summary = "y' = y + h/4 (k1 + 3 k2), k2 = f(t + 2h/3, y + 2h/3 k1)",
+       .equation = R"(k_1 &= f(t_n, y_n), \quad k_2 = f(t_n + \tfrac23 h, y_n + \tfrac23 h\,k_1) \\
+y_{n+1} &= y_n + \tfrac14 h\,(k_1 + 3 k_2))",
+       .sources = {"ralston1962"},
+       .order = 2,
+       .evaluations_per_step = 2});
 }
 
 }  // namespace polhode::integrators

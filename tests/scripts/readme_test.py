@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every README.md of the checkout: its links and paths lead somewhere, its C++ and its commands are those of the code.
+"""Every README.md of the checkout: its links and paths lead somewhere, its C++ and its commands are those of the code. So are
+those of the pages of the guide, whose links Sphinx checks (tests/guide).
 
 POLHODE_BIN_DIR is the folder of the programs; commands of programs that are not there are skipped.
 """
@@ -15,18 +16,20 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BIN = pathlib.Path(os.environ.get("POLHODE_BIN_DIR", "."))
 READMES = sorted(path for path in ROOT.rglob("README.md") if path.relative_to(ROOT).parts[0] not in ("build", "results"))
+PAGES = sorted(page for page in (ROOT / "guide").rglob("*.md") if page.name != "README.md")
 SOURCE_FOLDERS = ("core", "integrators", "collision", "experiments", "tests", "papers", "scripts")
 SOURCE_SUFFIXES = (".hpp", ".cpp", ".py", ".sh", "README.md")
 # Files that commands of READMEs name as the reader's, made here.
 SCENARIO = "t_end = 1\n[[body]]\nmass = 1\ninertia = [1, 2, 3]\nangular_velocity = [0.01, 1, 0.01]\n"
 STACK = "t_end = 1\ncontact = true\n" + "[[body]]\nmass = 1\nshape = { kind = 'sphere', radius = 1 }\n" * 2
-OWN_FILES = {"my_top.toml": SCENARIO, "my_stack.toml": STACK}
+OWN_FILES = {"my_top.toml": SCENARIO, "my_stack.toml": STACK, "my_robot_arm.toml": SCENARIO}
 # Commands that need more than the checkout has, and why.
 NOT_RUN = {
     "certificate --integrator my_method": "the method is the reader's",
 }
 # Of these the options alone are looked up in --help.
-WITHOUT_DRY_RUN = {"archive", "broad_phase", "explain", "narrow_phase", "judge", "replay", "rerun", "results", "viewer"}
+WITHOUT_DRY_RUN = {"archive", "broad_phase", "explain", "figures", "narrow_phase", "judge", "plot", "replay", "rerun", "results",
+                   "viewer"}
 
 
 def name(readme):
@@ -39,6 +42,11 @@ def text_of(readme):
 
 def blocks(text, language):
     return re.findall(rf"^```{language}\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
+
+
+def saved_files(text):
+    """The files that a document tells its reader to save: "Save this as `NAME`:" and a block."""
+    return dict(re.findall(r"Save\s+this\s+as\s+`([^`]+)`:\n\n```\w+\n(.*?)^```$", text, re.DOTALL | re.MULTILINE))
 
 
 def anchors(text):
@@ -107,6 +115,12 @@ def long_options(words):
     return [word for word in words if re.fullmatch(r"--[a-z][a-z-]*", word)]
 
 
+def unknown_options(words, help_text):
+    """What is wrong with the options, or an empty text."""
+    unknown = [option for option in long_options(words) if not re.search(rf"(?<![\w-]){option}(?![\w-])", help_text)]
+    return "no such option: " + ", ".join(unknown) if unknown else ""
+
+
 def call(words, folder):
     done = subprocess.run([str(BIN / words[0]), *words[1:]], cwd=folder, capture_output=True, text=True, timeout=120,
                           stdin=subprocess.DEVNULL, check=False)
@@ -116,9 +130,13 @@ def call(words, folder):
 def wrong_command(words, folder):
     """Why a command of a README cannot be right, or an empty text. words: ["./run", EXPERIMENT, OPTIONS...]."""
     words = words[1:] or ["energy_drift"]
-    if words[0] == "paper":
-        return "" if words[1:] and (words[1] == "NAME" or (ROOT / "papers" / words[1] / "study.toml").exists()) else "no such paper"
-    if words[0] == "--help" or "EXPERIMENT" in words[0] or "NAME" in words:
+    if words[0] == "paper" and not (words[1:] and (words[1] == "NAME" or (ROOT / "papers" / words[1] / "study.toml").exists())):
+        return "no such paper"
+    if words[0] in ("paper", "papers"):
+        done = subprocess.run(["/usr/bin/python3", "-B", str(ROOT / f"scripts/{words[0]}.py"), "--help"], capture_output=True,
+                              text=True, check=True)
+        return unknown_options(words, done.stdout)
+    if words[0] in ("--help", "guide") or "EXPERIMENT" in words[0] or "NAME" in words:
         return ""
     if not (ROOT / "experiments" / words[0] / "main.cpp").exists():
         return "no such experiment"
@@ -126,8 +144,7 @@ def wrong_command(words, folder):
         return ""
     if words[0] in WITHOUT_DRY_RUN:
         status, help_text, said = call([words[0], "--help"], folder)
-        unknown = [option for option in long_options(words) if not re.search(rf"(?<![\w-]){option}(?![\w-])", help_text)]
-        return said if status else "no such option: " + ", ".join(unknown) if unknown else ""
+        return said if status else unknown_options(words, help_text)
     shown_only = {"--help", "--list"} & set(words)
     status, _, said = call(words + ([] if shown_only else ["--dry-run"]), folder)
     return said or f"exit status {status}" if status else ""
@@ -154,7 +171,7 @@ class Readmes(unittest.TestCase):
     def test_cpp_stands_in_a_source(self):
         """The root's recipes are compiled by tests/recipes and tests/integrators; elsewhere a block quotes a file."""
         code = sources()
-        for readme in READMES:
+        for readme in READMES + PAGES:
             if readme.parent == ROOT:
                 continue
             for block in blocks(text_of(readme), "cpp"):
@@ -177,10 +194,13 @@ class Commands(unittest.TestCase):
         self.folder = pathlib.Path(holder.name)
         for file, content in OWN_FILES.items():
             (self.folder / file).write_text(content, encoding="utf-8")
+        for page in READMES + PAGES:
+            for file, content in saved_files(text_of(page)).items():
+                (self.folder / file).write_text(content, encoding="utf-8")
 
     def test_commands_are_taken(self):
         """Planned with --dry-run, which checks options, names, values and scenarios, and runs nothing."""
-        named = sorted({(name(readme), tuple(words)) for readme in READMES for words in commands(text_of(readme))})
+        named = sorted({(name(readme), tuple(words)) for readme in READMES + PAGES for words in commands(text_of(readme))})
         self.assertGreaterEqual(len(named), 60)
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
             faults = pool.map(lambda one: wrong_command(list(one[1]), self.folder), named)
@@ -190,7 +210,7 @@ class Commands(unittest.TestCase):
     def test_scenarios_and_studies_in_readmes_are_read(self):
         if not (BIN / "simulate").exists() or not (BIN / "energy_drift").exists():
             self.skipTest("skipped, because there is no simulate or no energy_drift")
-        texts = [block for readme in READMES for block in blocks(text_of(readme), "toml")]
+        texts = [block for readme in READMES + PAGES for block in blocks(text_of(readme), "toml")]
         self.assertGreaterEqual(len(texts), 2)
         for text in texts:
             (self.folder / "block.toml").write_text(text, encoding="utf-8")

@@ -15,7 +15,7 @@ function readTheme() {
 readTheme();
 
 /// Black in a dark page is the ink.
-const colourOf = (i) => { const c = data.colours[i % data.colours.length]; return c === "#000000" ? theme.ink : c; };
+const colourOf = (i) => { const c = data.runs[i].colour; return c === "#000000" ? theme.ink : c; };
 let colours = motions.map((_, i) => colourOf(i));
 
 const anyMoves = (f) => data.scenes.some((s) => f(s));
@@ -61,6 +61,7 @@ function make(tag, properties, ...children) {
 function writeWords() {
   element("title").textContent = data.title;
   element("description").textContent = data.description;
+  element("answer").append(...data.answer.map((text) => make("p", { textContent: text })));
   element("paragraphs").append(...data.paragraphs.map((text) => make("p", { textContent: text })));
   if (views.length && views[0].tile) element("paragraphs").append(make("p", { textContent: `A tile of the floor is ${number(views[0].tile)} m wide.` }));
   const names = [...new Set(data.runs.flatMap((r) => r.facts.map((f) => f[0])))];
@@ -84,7 +85,10 @@ function makePanels() {
 }
 
 function paintSwatches() {
-  panels.forEach((p, i) => p.swatches.forEach((s) => { s.style.background = colours[i]; }));
+  panels.forEach((p, i) => p.swatches.forEach((s) => {
+    s.style.boxShadow = `inset 0 0 0 3px ${colours[i]}`;  // a ring stands for a dashed curve
+    s.style.background = data.runs[i].dash.length ? "transparent" : colours[i];
+  }));
 }
 
 // Pictures.

@@ -100,7 +100,7 @@ class Plot {
   drawCurve(pen, motion, colour, number) {
     pen.strokeStyle = colour;
     pen.lineWidth = Math.max(1.2, 2.2 - 0.15 * number);
-    pen.setLineDash(number < 8 ? [] : [7, 4]);
+    pen.setLineDash(motion.run.dash);
     pen.lineJoin = "round";
     pen.beginPath();
     let column = null, low = 0, high = 0, last = 0, started = false;

@@ -14,23 +14,24 @@ namespace polhode::study::inline curves {
 
 namespace {
 
-constexpr std::size_t max_methods_in_panel = 8;
+constexpr std::size_t max_methods_in_panel = 10;
 constexpr std::size_t max_variants = 4;
 
 bool contains(const std::vector<std::size_t>& all, std::size_t one) {
   return std::find(all.begin(), all.end(), one) != all.end();
 }
 
-/// Too many methods for one panel stand in several, in the catalogue's order.
+/// Too many methods for one panel stand in several, in the catalogue's order, nearly as many in each.
 void split_by_method(const Grouping& grouping, const std::vector<const Curve*>& together,
                      const std::vector<std::string>& title, std::vector<Block>& found) {
   std::set<std::size_t> methods;
   for (const auto* curve : together) methods.insert(curve->method_index);
   const std::vector<std::size_t> order(methods.begin(), methods.end());
-  for (std::size_t first = 0; first < order.size(); first += max_methods_in_panel) {
-    const std::size_t last = std::min(first + max_methods_in_panel, order.size()) - 1;
+  const std::size_t panels = (order.size() + max_methods_in_panel - 1) / max_methods_in_panel;
+  for (std::size_t panel = 0; panel < panels; ++panel) {
+    const std::size_t first = panel * order.size() / panels, last = (panel + 1) * order.size() / panels - 1;
     Block block{.curves = {}, .title = title};
-    if (order.size() > max_methods_in_panel) {
+    if (panels > 1) {
       block.title.push_back("from " + grouping.methods[order[first]]);
       block.title.push_back("to " + grouping.methods[order[last]]);
     }

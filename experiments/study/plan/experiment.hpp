@@ -19,7 +19,7 @@ namespace polhode::study::inline plan {
 struct FurtherAxes {
   std::map<std::string, std::string> defaults{};
   std::vector<std::pair<std::string, std::string>> vary{};  ///< keys of the scenario and their values
-  bool reference = false;                                   ///< as --reference
+  bool reference = false;                                   ///< as --reference, for motions without contact
   bool by_default_only = false;                             ///< omitted if the user gives any axis
 };
 
@@ -39,7 +39,7 @@ struct Experiment {
   /// Defaults of --vary: keys of the scenario and their values. Used only if the user gives neither a scenario nor a
   /// study file; --vary replaces a default for the same key.
   std::vector<std::pair<std::string, std::string>> vary{};
-  bool reference = false;             ///< as if --reference were given
+  bool reference = false;             ///< as if --reference were given, for motions without contact
   std::vector<FurtherAxes> more{};    ///< further products of axes
   bool one_run = false;               ///< exactly one run, whose trajectory is written to the results folder itself
   bool best_times = false;            ///< wall times are taken as BestTime says

@@ -15,6 +15,8 @@
 #include "collision/shapes/shape_catalogue.hpp"
 #include "core/forces/catalogue.hpp"
 #include "core/system/invariants.hpp"
+#include "experiments/study/plan/figure_options.hpp"
+#include "experiments/study/plan/json_listing.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/scenario/builtin_scenarios.hpp"
 #include "experiments/study/scenario/scenario.hpp"
@@ -104,6 +106,12 @@ std::string impact_timings() {
   return text;
 }
 
+std::string figures() {
+  std::string text;
+  for (const FigureName& figure : figure_names()) text += line(std::string(figure.name), std::string(figure.shows));
+  return text;
+}
+
 std::string metrics_text(std::span<const Metric> table) {
   std::vector<const Metric*> listed;
   for (const Metric& metric : table) {
@@ -127,19 +135,20 @@ std::string metrics_text(std::span<const Metric> table) {
 }  // namespace
 
 std::string listing(const std::string& what, std::span<const Metric> metrics) {
-  const std::pair<const char*, std::function<std::string()>> sections[] = {
-      {"integrators", integrators},
-      {"scenarios", scenarios},
-      {"forces", forces},
-      {"shapes", shapes},
-      {"invariants", invariants},
-      {"metrics", [&] { return metrics_text(metrics); }},
-      {"broad-phases", broad_phases},
-      {"narrow-phases", narrow_phases},
-      {"responses", responses},
-      {"impact-timings", impact_timings}};
+  const std::pair<const char*, std::function<std::string()>> sections[] = {{"integrators", integrators},
+                                                                           {"scenarios", scenarios},
+                                                                           {"forces", forces},
+                                                                           {"shapes", shapes},
+                                                                           {"invariants", invariants},
+                                                                           {"metrics", [&] { return metrics_text(metrics); }},
+                                                                           {"figures", figures},
+                                                                           {"broad-phases", broad_phases},
+                                                                           {"narrow-phases", narrow_phases},
+                                                                           {"responses", responses},
+                                                                           {"impact-timings", impact_timings}};
+  if (what == "json") return json_listing(metrics);
   std::string text;
-  std::vector<std::string_view> known;
+  std::vector<std::string_view> known = {"json"};
   for (const auto& [name, section] : sections) {
     known.emplace_back(name);
     if (what.empty() || what == name) text += (what.empty() ? std::string(name) + "\n" : "") + section();

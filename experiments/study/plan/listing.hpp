@@ -9,8 +9,8 @@
 
 namespace polhode::study::inline plan {
 
-/// The text of a catalogue; `what` is an argument of --list, "" for all catalogues. Throws InputError for an unknown
-/// catalogue.
+/// The text of a catalogue; `what` is an argument of --list, "" for all catalogues, "json" for all of them in JSON.
+/// Throws InputError for an unknown catalogue.
 std::string listing(const std::string& what, std::span<const Metric> metrics = metric_table());
 
 }  // namespace polhode::study::plan

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "experiments/study/plan/assignments.hpp"
+#include "experiments/study/plan/figure_options.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/record/shown_runs.hpp"
 #include "experiments/study/text/command_line.hpp"
@@ -212,7 +213,9 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
                      (experiment.curves_are_results ? "all" : std::to_string(most_curves)) + ")")
       ->type_name("all|none|N")
       ->group("Results");
-  add_no_figures(app, options.figures)->group("Results");
+  add_article(app, options.article)->group("Results");
+  CLI::Option* no_figures = add_no_figures(app, options.figures)->group("Figures");
+  add_figure_options(app, options.figure_choice, !experiment.analysis, no_figures);
   app.add_option("--jobs", options.jobs, "runs at a time (default: one for each core)")
       ->type_name("N")
       ->check(CLI::Range(1, 4096).description(""))
@@ -239,13 +242,13 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   app.add_flag("--submit", options.submit, "submit the scripts of --slurm")->group("Running");
   app.add_flag("--dry-run", options.dry_run, "print the plan and write nothing")->group("Running");
   std::string list;
-  CLI::Option* list_option =
-      app.add_option("--list", list,
-                     "print the catalogue: integrators, scenarios, forces, shapes, invariants, "
-                     "broad-phases, narrow-phases, responses, impact-timings or metrics (default: all)")
-          ->type_name("[WHAT]")
-          ->expected(0, 1)
-          ->group("Running");
+  CLI::Option* list_option = app.add_option("--list", list,
+                                            "print the catalogue: integrators, scenarios, forces, shapes, invariants, "
+                                            "broad-phases, narrow-phases, responses, impact-timings, figures or "
+                                            "metrics (default: all), or all of it as json")
+                                 ->type_name("[WHAT]")
+                                 ->expected(0, 1)
+                                 ->group("Running");
   if (more) more(app);
   parsed.exit_status = parse_command_line(app, argc, argv);
   if (parsed.exit_status) return parsed;

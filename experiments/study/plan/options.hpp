@@ -13,6 +13,7 @@
 #include "experiments/study/plan/experiment.hpp"
 #include "experiments/study/plan/shard.hpp"
 #include "experiments/study/plan/study_axes.hpp"
+#include "experiments/study/plot/figure_choice.hpp"
 #include "experiments/study/trajectory/trajectory.hpp"
 
 namespace CLI {
@@ -35,6 +36,8 @@ struct Options {
   TrajectoryFormat trajectory = TrajectoryFormat::none;
   std::optional<std::size_t> curves;  ///< largest number of runs whose curves against time are kept; absent: all
   bool figures = true;
+  FigureChoice figure_choice{};
+  bool article = false;  ///< write the article of the study and its PDF
   bool dry_run = false;
   std::optional<Shard> shard;        ///< the part of the study that is carried out; absent: all of it
   std::optional<std::string> slurm;  ///< what --slurm says of the jobs; absent: no job scripts

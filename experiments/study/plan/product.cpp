@@ -46,7 +46,7 @@ void check_durations(const Experiment& experiment, const StudyAxes& study) {
 
 }  // namespace
 
-Product::Product(const Experiment& experiment, const StudyAxes& study, const Options& options, bool reference)
+Product::Product(const Experiment& experiment, const StudyAxes& study, const Options& options, WithReference reference)
     : experiment_(experiment),
       study_(with_fitting_methods(experiment, study)),
       max_steps_(options.max_steps),
@@ -108,8 +108,9 @@ void Product::open_scenarios(const std::vector<Dimension>& dimensions) {
 RunConfig Product::start_of(const Opened& opened, const Scenario& scenario) const {
   RunConfig config;
   config.scenario = opened.source.name();
-  config.reference = reference_;
-  if (!scenario.colliders.empty()) config.contact.emplace();
+  const bool contact = !scenario.colliders.empty();
+  config.reference = contact ? reference_ == WithReference::all : reference_ != WithReference::none;
+  if (contact) config.contact.emplace();
   return config;
 }
 

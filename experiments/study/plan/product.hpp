@@ -22,10 +22,17 @@
 
 namespace polhode::study::inline plan {
 
+/// Which motions without a known exact solution are compared with a reference.
+enum class WithReference {
+  none,
+  without_contact,  ///< all for which a reference can be made
+  all               ///< with contact too: such a run is refused
+};
+
 class Product {
  public:
   /// Throws InputError for invalid axes.
-  Product(const Experiment& experiment, const StudyAxes& study, const Options& options, bool reference);
+  Product(const Experiment& experiment, const StudyAxes& study, const Options& options, WithReference reference);
   Product(const Product&) = delete;
   Product& operator=(const Product&) = delete;
 
@@ -84,7 +91,7 @@ class Product {
   Experiment experiment_;
   StudyAxes study_;
   std::optional<std::int64_t> max_steps_;
-  bool reference_;
+  WithReference reference_;
   std::vector<const RunOption*> needed_;
   std::vector<Where> conditions_;
   std::vector<std::unique_ptr<Opened>> opened_;

@@ -15,7 +15,9 @@ namespace polhode::study::inline plot {
 namespace {
 
 constexpr int max_ticks = 7;
-constexpr double all_zero_floor = 1e-17;  // under round-off, where nothing else sets the scale
+constexpr double first_lane = 0.035, lane_height = 0.04;  // of the height of a panel
+constexpr std::size_t most_lanes = 10;                    // further curves share them
+constexpr double all_zero_floor = 1e-17;                  // under round-off, where nothing else sets the scale
 
 int floor_decade(double value) { return static_cast<int>(std::floor(std::log10(value) + 1e-9)); }
 int ceil_decade(double value) { return static_cast<int>(std::ceil(std::log10(value) - 1e-9)); }
@@ -97,6 +99,22 @@ Axis step_axis(std::string label, const std::vector<double>& values) {
   return axis;
 }
 
+Needs needs_of(const std::vector<Panel>& panels) {
+  Needs needs;
+  for (const auto& panel : panels) {
+    std::size_t crosses = 0;
+    for (const auto& curve : panel.curves) {
+      const auto has = [&](Mark mark) {
+        return std::any_of(curve.points.begin(), curve.points.end(), [&](const auto& p) { return p.mark == mark; });
+      };
+      needs.floor = needs.floor || has(Mark::zero);
+      crosses += has(Mark::edge);
+    }
+    needs.crosses = std::max(needs.crosses, crosses);
+  }
+  return needs;
+}
+
 Axis log_axis(std::string label, const std::vector<double>& values, Needs needs) {
   int first = floor_decade(all_zero_floor) + 1, last = first + 2;
   if (!values.empty()) {
@@ -108,7 +126,9 @@ Axis log_axis(std::string label, const std::vector<double>& values, Needs needs)
   // A zero stands further below the lowest decade the more decades there are, so that it is seen to stand apart.
   const double gap = std::max(0.5, 0.08 * (last - first)), margin = 0.025 * (last - first);
   axis.low = std::pow(10.0, first - (needs.floor ? 2 * gap : margin));
-  axis.high = std::pow(10.0, last + (needs.edge ? gap : margin));
+  const double lanes = first_lane + lane_height * static_cast<double>(std::min(needs.crosses, most_lanes));
+  const double room_for_crosses = lanes / (1 - lanes) * (last - floor_decade(axis.low));
+  axis.high = std::pow(10.0, last + (needs.crosses > 0 ? std::max(gap, room_for_crosses) : margin));
   if (needs.floor) {
     axis.ticks.insert(axis.ticks.begin(), Tick{std::pow(10.0, first - gap), "0"});
   }
@@ -121,8 +141,9 @@ double floor_of(const Axis& axis) {
   return zero == axis.ticks.end() ? axis.low : zero->at;
 }
 
-double edge_of(const Axis& axis, bool up) {
-  const double low = axis.place(axis.low), high = axis.place(axis.high), inside = 0.035 * (high - low);
+double edge_of(const Axis& axis, bool up, std::size_t lane) {
+  const double low = axis.place(axis.low), high = axis.place(axis.high);
+  const double inside = (first_lane + lane_height * static_cast<double>(lane % most_lanes)) * (high - low);
   return axis.value_at(up ? high - inside : low + inside);
 }
 
@@ -152,12 +173,17 @@ Axis symlog_axis(std::string label, double lowest, double highest, double smalle
 void share_y_axis(std::vector<Panel>& panels, const Axis& axis) {
   for (auto& panel : panels) {
     panel.y = axis;
+    std::size_t lanes[2] = {0, 0};  // in use at the bottom and at the top
     for (auto& curve : panel.curves) {
+      bool crosses[2] = {false, false};
       for (auto& point : curve.points) {
+        const bool up = !(point.value < 0);
         point.drawn = point.mark == Mark::value  ? point.value
                       : point.mark == Mark::zero ? floor_of(axis)
-                                                 : edge_of(axis, !(point.value < 0));
+                                                 : edge_of(axis, up, lanes[up]);
+        if (point.mark == Mark::edge) crosses[up] = true;
       }
+      for (const bool up : {false, true}) lanes[up] += crosses[up];
     }
   }
 }

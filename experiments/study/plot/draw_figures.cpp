@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <deque>
 #include <filesystem>
 #include <stdexcept>
@@ -25,18 +26,12 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t children = 2;
 
-/// A picture of an earlier study must not stand among those of this one. Ours are known by their script, which begins
-/// with its name.
+/// A picture of an earlier study must not stand among those of this one.
 void remove_old_figures(const fs::path& folder) {
-  if (!fs::exists(folder)) return;
-  std::vector<std::string> names;
-  for (const auto& file : fs::directory_iterator(folder)) {
-    const std::string name = file.path().stem().string();
-    if (file.path().extension() != ".gp") continue;
-    if (read_file(file.path()).value_or("").starts_with(fmt::format("# {}: ", name))) names.push_back(name);
-  }
-  for (const auto& name : names) {
+  for (const auto& name : figures_in(folder)) {
     for (const auto* ending : {".gp", ".dat", ".svg", ".pdf", ".tex"}) fs::remove(folder / (name + ending));
+    for (std::size_t page = 1; fs::remove(folder / pgfplots_file(name, page)); ++page) {
+    }
   }
 }
 
@@ -45,7 +40,9 @@ void write_sources(const FigureSet& set, const fs::path& folder) {
   for (const auto& figure : set.figures) {
     write_text(folder / (figure.name + ".gp"), gnuplot_script(figure));
     write_text(folder / (figure.name + ".dat"), gnuplot_data(figure));
-    write_text(folder / (figure.name + ".tex"), pgfplots(figure));
+    const auto pages = pgfplots(figure);
+    for (std::size_t page = 0; page < pages.size(); ++page)
+      write_text(folder / pgfplots_file(figure.name, page), pages[page]);
   }
 }
 
@@ -91,38 +88,70 @@ void finish_gnuplot(ChildProcess& child, const std::string& name, const fs::path
   fix_date(file.string() + ".pdf");
 }
 
-std::string not_installed(const FigureSet& set, const std::string& where) {
+std::string not_installed(const std::vector<std::string>& figures, const std::string& where) {
   std::vector<std::string> names;
-  for (const auto& figure : set.figures) names.push_back(figure.name + ".gp");
+  for (const auto& figure : figures) names.push_back(figure + ".gp");
   return fmt::format(
       "gnuplot is not installed: {0}/ has scripts, data and LaTeX, but no SVG and PDF. Install it (Debian: apt-get "
       "install gnuplot-nox) and repeat the command, or run gnuplot in {0}/ on {1}.",
       where, words(names));
 }
 
-}  // namespace
-
-std::string draw_figures(const FigureSet& set, const fs::path& study_folder, const std::string& where) {
-  const auto folder = study_folder / where;
-  remove_old_figures(folder);
-  if (set.figures.empty()) return "";
-  fs::create_directories(folder);
-  write_sources(set, folder);
-
+/// Lets gnuplot draw the scripts of these figures. Returns a message if it is not installed.
+std::string draw_scripts(const std::vector<std::string>& figures, const fs::path& folder, const std::string& where) {
   std::deque<std::pair<std::string, ChildProcess>> running;
   const auto finish_oldest = [&] {
     auto [name, child] = std::move(running.front());
     running.pop_front();
     finish_gnuplot(child, name, folder);
   };
-  for (const auto& figure : set.figures) {
+  for (const auto& figure : figures) {
     if (running.size() == children) finish_oldest();
-    auto child = start_gnuplot(figure.name, folder);
-    if (!child) return not_installed(set, where);
-    running.emplace_back(figure.name, std::move(*child));
+    auto child = start_gnuplot(figure, folder);
+    if (!child) return not_installed(figures, where);
+    running.emplace_back(figure, std::move(*child));
   }
   while (!running.empty()) finish_oldest();
   return "";
+}
+
+}  // namespace
+
+std::vector<std::string> figures_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  if (!fs::exists(folder)) return names;
+  for (const auto& file : fs::directory_iterator(folder)) {
+    const std::string name = file.path().stem().string();
+    if (file.path().extension() != ".gp") continue;  // ours are known by their script, which begins with its name
+    if (read_file(file.path()).value_or("").starts_with(fmt::format("# {}: ", name))) names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string draw_figures(const FigureSet& set, const fs::path& study_folder, const std::string& where, Others others) {
+  const auto folder = study_folder / where;
+  if (others == Others::remove) remove_old_figures(folder);
+  if (set.figures.empty()) return "";
+  fs::create_directories(folder);
+  write_sources(set, folder);
+  std::vector<std::string> names;
+  for (const auto& figure : set.figures) names.push_back(figure.name);
+  return draw_scripts(names, folder, where);
+}
+
+std::string draw_space_figures(const std::vector<SpaceFigure>& figures, const fs::path& study_folder,
+                               const std::string& where) {
+  const auto folder = study_folder / where;
+  if (figures.empty()) return "";
+  fs::create_directories(folder);
+  std::vector<std::string> names;
+  for (const auto& figure : figures) {
+    write_text(folder / (figure.name + ".gp"), space_script(figure));
+    write_text(folder / (figure.name + ".dat"), space_data(figure));
+    names.push_back(figure.name);
+  }
+  return draw_scripts(names, folder, where);
 }
 
 }  // namespace polhode::study::plot

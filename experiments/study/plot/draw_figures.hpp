@@ -4,13 +4,26 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "experiments/study/plot/figure.hpp"
+#include "experiments/study/plot/space_figure.hpp"
 
 namespace polhode::study::inline plot {
 
-/// Draws into a subfolder of a study's folder; figures of an earlier study there are removed. Returns a message for the
-/// user if gnuplot is not installed. Throws std::runtime_error if gnuplot fails.
-std::string draw_figures(const FigureSet& set, const std::filesystem::path& study_folder, const std::string& where);
+/// What becomes of figures that are in the folder and not drawn.
+enum class Others { remove, keep };
+
+/// Draws into a subfolder of a study's folder. Returns a message for the user if gnuplot is not installed. Throws
+/// std::runtime_error if gnuplot fails.
+std::string draw_figures(const FigureSet& set, const std::filesystem::path& study_folder, const std::string& where,
+                         Others others = Others::remove);
+
+/// The same for figures in three dimensions, as SVG and PDF.
+std::string draw_space_figures(const std::vector<SpaceFigure>& figures, const std::filesystem::path& study_folder,
+                               const std::string& where);
+
+/// Names of the figures in a folder, sorted.
+std::vector<std::string> figures_in(const std::filesystem::path& folder);
 
 }  // namespace polhode::study::plot

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,8 +54,8 @@ struct Point {
 
 struct PlottedCurve {
   std::string label{};
-  std::size_t method = 0;   ///< index of the method in the study; determines colour and marker
-  std::size_t variant = 0;  ///< index of the variant in the figure; determines the dashes
+  std::size_t method = 0;   ///< index in the figure's methods; its name determines colour, marker and dash
+  std::size_t variant = 0;  ///< index in the figure's variants; with several of them it determines the dash
   std::vector<Point> points{};
   bool muted = false;  ///< one of many "other methods": a thin grey line without a name
 };
@@ -63,6 +64,15 @@ struct PlottedCurve {
 struct EnvelopeMark {
   double x = 0, y = 0;
   std::string label{};
+};
+
+/// A method's name beside a point, in its colour: whose a cross is, or a curve.
+struct NameMark {
+  double x = 0, y = 0;
+  std::string name{};
+  std::size_t method = 0;
+  bool left = true;    ///< of the point; false: right of it
+  bool above = false;  ///< a little above the point
 };
 
 /// A straight line in log–log that shows a slope.
@@ -92,7 +102,19 @@ struct Panel {
   std::vector<PlottedCurve> curves{};
   std::vector<Guide> guides{};
   std::vector<EnvelopeMark> envelope{};  ///< drawn as a broad pale line behind the curves
-  std::vector<MapCell> cells{};          ///< drawn behind everything
+  std::vector<NameMark> names{};
+  std::vector<MapCell> cells{};  ///< drawn behind everything
+};
+
+/// Size and letters of a figure.
+struct Look {
+  std::optional<double> width_cm{};  ///< absent: 17 of pictures, the line of an article on A4 of PGFPlots
+  std::string font = "sans-serif";   ///< family, of pictures; PGFPlots takes that of the document
+  double font_size = 9;              ///< pt
+  bool title = false;                ///< the figure has its title above it
+
+  /// Width of pictures in pixels; 96 are an inch.
+  double width() const { return width_cm.value_or(17) * 96 / 2.54; }
 };
 
 struct Figure {
@@ -101,11 +123,12 @@ struct Figure {
   std::string caption{};  ///< contents of the figure, what was left out, meaning of the marks
   std::size_t rows = 1, columns = 1;
   std::vector<Panel> panels{};
-  std::vector<std::string> methods{};  ///< all methods of the study
+  std::vector<std::string> methods{};  ///< of the study
   std::vector<std::size_t> used_methods{};
   std::vector<std::string> variants{};  ///< distinguished by dashes; one entry if there is only one
   std::vector<Shade> shades{};          ///< kinds of the cells
-  double panel_height = 0;              ///< pixels; 0: by the number of panels in a row
+  Look look{};
+  double panel_height = 0;  ///< pixels; 0: by the number of panels in a row
   bool has_zero_marks = false, has_edge_marks = false, has_envelope = false, has_muted = false;
 };
 

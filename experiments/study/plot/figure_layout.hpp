@@ -13,7 +13,8 @@ namespace polhode::study::inline plot {
 /// Appends panels that share a y axis as rows; only the leftmost panel of a row labels that axis.
 void add_rows(Figure& figure, std::vector<Panel> panels, std::size_t columns);
 
-/// Sets the contents of the legend: the methods that are used and the kinds of marks.
+/// Sets the contents of the legend: the methods that are used and the kinds of marks; and the names beside crosses.
+/// Call after the figure has its methods, and its panels their axes.
 void note_marks(Figure& figure);
 
 /// The marks in words, for the caption; call after note_marks().

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "experiments/study/plot/figure_choice.hpp"
 #include "experiments/study/plot/figure_style.hpp"
+#include "experiments/study/plot/method_style.hpp"
 #include "experiments/study/text/notation.hpp"
 
 namespace polhode::study::inline plot {
@@ -20,27 +22,31 @@ void line(std::string& out, fmt::format_string<T...> format, T&&... values) {
   out += '\n';
 }
 
-int style_number(std::size_t method, std::size_t variant) { return static_cast<int>(100 * variant + method + 1); }
+/// Line styles: 1, 2, … of methods with their own dash; 1001, … of those with the dash of variant 0, 2001, … 1.
+int style_number(const Figure& figure, std::size_t method, std::size_t variant) {
+  return static_cast<int>((figure.variants.size() > 1 ? 1000 * (variant + 1) : 0) + method + 1);
+}
 
 /// Positions of all parts of the figure, in pixels from the top left corner.
 class Layout {
  public:
   explicit Layout(const Figure& figure) : figure_(figure) {
     for (const auto& panel : figure.panels) title_lines_ = std::max(title_lines_, panel.title.size());
-    double y = style::legend_gap;
+    double y = (style::legend_gap + (figure.look.title ? style::title_line : 0)) * scale_;
     for (std::size_t row = 0; row < figure.rows; ++row) {
-      tops_.push_back(y + style::title_gap + static_cast<double>(title_lines_) * style::title_line);
-      y = tops_.back() + plot_height() + style::bottom_margin;
+      tops_.push_back(y + (style::title_gap + static_cast<double>(title_lines_) * style::title_line) * scale_);
+      y = tops_.back() + plot_height() + style::bottom_margin * scale_;
     }
     legend_top_ = y;
-    height_ = y + static_cast<double>(legend_rows()) * style::legend_line + 2 * style::legend_gap;
+    height_ = y + (static_cast<double>(legend_rows()) * style::legend_line + 2 * style::legend_gap) * scale_;
   }
 
-  double width() const { return style::figure_width; }
+  double width() const { return figure_.look.width(); }
   double height() const { return height_; }
   double plot_height() const {
     if (figure_.panel_height > 0) return figure_.panel_height;
-    return style::panel_height[std::min<std::size_t>(figure_.columns, 3) - 1];
+    const double height = style::panel_height[std::min<std::size_t>(figure_.columns, 3) - 1];
+    return figure_.columns == 1 ? std::min(height, 0.9 * plot_width()) : height;  // in one column no tower
   }
 
   // Edges of a panel as gnuplot's screen coordinates, from the bottom left.
@@ -48,14 +54,17 @@ class Layout {
   double right(const Panel& panel) const { return (x(panel.column) + plot_width()) / width(); }
   double top(const Panel& panel) const { return 1 - tops_[panel.row] / height_; }
   double bottom(const Panel& panel) const { return 1 - (tops_[panel.row] + plot_height()) / height_; }
-  double legend_top() const { return 1 - (legend_top_ + style::legend_gap) / height_; }
+  double title_line() const { return 1 - (style::legend_gap + style::title_line / 2) * scale_ / height_; }
+  double legend_top() const { return 1 - (legend_top_ + style::legend_gap * scale_) / height_; }
 
-  std::size_t title_characters() const { return static_cast<std::size_t>(plot_width() / style::character_width); }
+  std::size_t title_characters() const {
+    return static_cast<std::size_t>(plot_width() / (style::character_width * scale_));
+  }
 
   std::size_t legend_columns() const {
     std::size_t longest = 1;
     for (const auto& text : legend_texts()) longest = std::max(longest, length(text));
-    const double entry = static_cast<double>(longest) * style::character_width + 60;
+    const double entry = (static_cast<double>(longest) * style::character_width + 60) * scale_;
     return std::max<std::size_t>(1, static_cast<std::size_t>((width() - 20) / entry));
   }
 
@@ -80,7 +89,7 @@ class Layout {
     for (const auto& panel : figure_.panels) {
       for (const auto& tick : panel.y.ticks) longest = std::max(longest, panel.y.named ? length(tick.label) : 0);
     }
-    return std::max(style::left_margin, 20 + style::character_width * static_cast<double>(longest));
+    return std::max(style::left_margin, 20 + style::character_width * static_cast<double>(longest)) * scale_;
   }
 
   /// Columns without labels on their y axis stand close to the one on their left.
@@ -88,10 +97,10 @@ class Layout {
     if (column == 0) return left_margin();
     const bool labelled = std::any_of(figure_.panels.begin(), figure_.panels.end(),
                                       [&](const auto& p) { return p.column == column && p.y.labelled; });
-    return labelled ? style::left_margin : style::inner_margin;
+    return (labelled ? style::left_margin : style::inner_margin) * scale_;
   }
   double plot_width() const {
-    double free = width() - style::right_margin;
+    double free = width() - style::right_margin * scale_;
     for (std::size_t c = 0; c < figure_.columns; ++c) free -= gap(c);
     return free / static_cast<double>(figure_.columns);
   }
@@ -102,6 +111,7 @@ class Layout {
   }
 
   const Figure& figure_;
+  double scale_ = figure_.look.font_size / style::font_size;
   std::size_t title_lines_ = 0;
   std::vector<double> tops_;
   double legend_top_ = 0, height_ = 0;
@@ -159,6 +169,14 @@ void write_envelope(std::string& out, const Panel& panel) {
   }
 }
 
+void write_names(std::string& out, const Panel& panel, const std::vector<MethodStyle>& styles) {
+  for (const auto& mark : panel.names) {
+    line(out, "  set label {} at first {},{} {} offset character {},{} front noenhanced font small textcolor rgb '{}'",
+         gnuplot(mark.name), mark.x, mark.y, mark.left ? "right" : "left", mark.left ? "-1" : "1",
+         mark.above ? "0.5" : "0", html_colour(styles[mark.method]));
+  }
+}
+
 bool has(const PlottedCurve& curve, Mark mark) {
   return std::any_of(curve.points.begin(), curve.points.end(), [&](const auto& point) { return point.mark == mark; });
 }
@@ -171,21 +189,21 @@ std::vector<MapCell> cells_of(const Panel& panel, std::size_t shade) {
 }
 
 /// The plot command of a panel; `block` counts the blocks of the data file.
-void write_plot(std::string& out, const Panel& panel, const std::vector<Shade>& shades, int& block) {
+void write_plot(std::string& out, const Figure& figure, const Panel& panel, int& block) {
   const bool over_time = panel.x.scale == Scale::linear;
   std::vector<std::string> items;
-  for (std::size_t s = 0; s < shades.size(); ++s) {
+  for (std::size_t s = 0; s < figure.shades.size(); ++s) {
     if (cells_of(panel, s).empty()) continue;
     items.push_back(fmt::format(
         "data index {} using 1:3:1:2:3:4 with boxxyerror fillstyle solid 1 noborder linecolor rgb '#{}' notitle",
-        block++, shades[s].colour));
+        block++, figure.shades[s].colour));
   }
   for (const auto& curve : panel.curves) {
     const auto item = [&](Mark mark, const std::string& with) {
       if (!has(curve, mark)) return;
       items.push_back(fmt::format("data index {} using 1:(drawn('{}')) with {} notitle", block, name(mark), with));
     };
-    const int number = curve.muted ? 9003 : style_number(curve.method, curve.variant);
+    const int number = curve.muted ? 9003 : style_number(figure, curve.method, curve.variant);
     const bool line_alone = curve.muted && curve.points.size() > 1;
     item(Mark::value, fmt::format("{} linestyle {}{}", line_alone ? "lines" : "linespoints", number,
                                   over_time ? " pointnumber 6" : ""));
@@ -197,8 +215,8 @@ void write_plot(std::string& out, const Panel& panel, const std::vector<Shade>& 
   line(out, "  plot {}", fmt::join(items, ", \\\n       "));
 }
 
-void write_panel(std::string& out, const Panel& panel, const std::vector<Shade>& shades, const Layout& layout,
-                 int& block) {
+void write_panel(std::string& out, const Figure& figure, const Panel& panel, const std::vector<MethodStyle>& styles,
+                 const Layout& layout, int& block) {
   line(out, "\n  # panel {},{}", panel.row + 1, panel.column + 1);
   line(out, "  unset logscale\n  unset nonlinear y");
   line(out, "  set lmargin at screen {:.5f}; set rmargin at screen {:.5f}", layout.left(panel), layout.right(panel));
@@ -208,15 +226,16 @@ void write_panel(std::string& out, const Panel& panel, const std::vector<Shade>&
   write_axis(out, 'y', panel.y);
   write_guides(out, panel);
   write_envelope(out, panel);
-  write_plot(out, panel, shades, block);
+  write_names(out, panel, styles);
+  write_plot(out, figure, panel, block);
 }
 
 /// The legend is a plot of its own with nothing but its key, so that it covers no data.
 void write_legend(std::string& out, const Figure& figure, const Layout& layout) {
   std::vector<std::string> entries;
   for (const auto m : figure.used_methods) {
-    entries.push_back(
-        fmt::format("keyentry with linespoints linestyle {} title {}", style_number(m, 0), gnuplot(figure.methods[m])));
+    entries.push_back(fmt::format("keyentry with linespoints linestyle {} title {}", style_number(figure, m, 0),
+                                  gnuplot(figure.methods[m])));
   }
   for (std::size_t v = 0; v < figure.variants.size() && figure.variants.size() > 1; ++v) {
     entries.push_back(fmt::format("keyentry with lines linestyle {} title {}", 9010 + v, gnuplot(figure.variants[v])));
@@ -243,6 +262,9 @@ void write_legend(std::string& out, const Figure& figure, const Layout& layout) 
   line(out, "  set lmargin at screen 0.01; set rmargin at screen 0.99");
   line(out, "  set bmargin at screen 0; set tmargin at screen {:.5f}", layout.legend_top());
   line(out, "  set xrange [0:1]; set yrange [0:1]");
+  if (figure.look.title)
+    line(out, "  set label {} at screen 0.5,{:.5f} center front noenhanced", gnuplot(figure.title),
+         layout.title_line());
   line(out, "  set key at screen 0.5,{:.5f} center top horizontal Left reverse noenhanced maxcols {} samplen 2.5",
        layout.legend_top(), layout.legend_columns());
   line(out, "  plot NaN notitle, \\\n       {}", fmt::join(entries, ", \\\n       "));
@@ -255,9 +277,14 @@ std::string gnuplot_style(const FigureSet& set) {
   line(
       out,
       "# How the figures of this folder look; every NAME.gp loads this file. Change it and run gnuplot NAME.gp again.");
-  line(out, "# A method has one colour and one marker in all figures; a variant of the formulation has its dashes.");
-  line(out, "font_face = 'sans-serif'");
-  line(out, "font_size = {}", style::font_size);
+  line(out,
+       "# A method has one colour, marker and dash in all studies; where there are variants of the formulation, they "
+       "have "
+       "the dashes.");
+  const Look look = set.figures.empty() ? Look{} : set.figures.front().look;
+  line(out, "font_face = '{}'", look.font);
+  line(out, "font_size = {:.4g}  # pixels, 96 to the inch", look.font_size * 96 / 72);
+  line(out, "small = sprintf('%s,%g', font_face, 0.85 * font_size)");
   line(out, "set encoding utf8\nset decimalsign '.'");
   line(out, "set border 31 linewidth 1 linecolor rgb '#333333'");
   line(out, "set grid xtics ytics linetype 1 linewidth 0.6 linecolor rgb '#e2e2e2'");
@@ -269,23 +296,30 @@ std::string gnuplot_style(const FigureSet& set) {
   std::vector<std::string> methods;
   for (const auto& figure : set.figures) {
     variants = std::max(variants, figure.variants.size());
-    methods = figure.methods;
+    if (figure.methods.size() > methods.size()) methods = figure.methods;
   }
   for (std::size_t v = 0; v < variants; ++v) {
-    line(out, "set style line {} linewidth 1.6 dashtype {} linecolor rgb '#555555'", 9010 + v, style::dash(v).gnuplot);
+    line(out, "set style line {} linewidth 1.6 dashtype {} linecolor rgb '#555555'", 9010 + v,
+         style::dashes[v % style::dashes.size()].gnuplot);
   }
+  const auto styles = styles_of(methods);
   for (std::size_t m = 0; m < methods.size(); ++m) {
     line(out, "\n# {}", one_line(methods[m]));
-    for (std::size_t v = 0; v < variants; ++v) {
-      line(out, "set style line {} linecolor rgb '#{}' linewidth {:.2f} dashtype {} pointtype {} pointsize {:.2f}",
-           style_number(m, v), style::colour(m), style::line_width(m), style::dash(v).gnuplot, style::point_type(m, v),
-           style::point_size(m));
+    const auto write_style = [&](std::size_t number, std::size_t dash) {
+      line(out, "set style line {} linecolor rgb '{}' linewidth {:.2f} dashtype {} pointtype {} pointsize {:.2f}",
+           number, html_colour(styles[m]), style::line_width(m), style::dashes[dash].gnuplot,
+           style::markers[styles[m].marker].gnuplot, style::point_size(m));
+    };
+    write_style(m + 1, styles[m].dash);
+    for (std::size_t v = 0; v < variants && variants > 1; ++v) {
+      write_style(1000 * (v + 1) + m + 1, v % style::dashes.size());
     }
   }
   return out;
 }
 
-std::string gnuplot_script(const Figure& figure) {
+std::string gnuplot_script(const Figure& given) {
+  const Figure figure = fitted(given);
   const Layout layout(figure);
   std::string out;
   line(out, "# {}: {}", figure.name, one_line(figure.title));
@@ -304,7 +338,7 @@ std::string gnuplot_script(const Figure& figure) {
   line(out, "  }} else {{");
   line(out,
        "    set terminal pdfcairo size {:.4f}in,{:.4f}in enhanced font sprintf('%s,%g', font_face, font_size) "
-       "fontscale 0.57 "
+       "fontscale 0.5625 "
        "linewidth 1.3",
        layout.width() / 96, layout.height() / 96);
   line(out, "  }}");
@@ -312,7 +346,8 @@ std::string gnuplot_script(const Figure& figure) {
   line(out, "  set multiplot");
   line(out, "  unset key");
   int block = 0;
-  for (const auto& panel : figure.panels) write_panel(out, panel, figure.shades, layout, block);
+  const auto styles = styles_of(figure.methods);
+  for (const auto& panel : figure.panels) write_panel(out, figure, panel, styles, layout, block);
   write_legend(out, figure, layout);
   line(out, "\n  unset multiplot\n  unset output\n}}");
   return out;

@@ -8,15 +8,23 @@
 #include <cmath>
 #include <iterator>
 
+#include "experiments/study/plot/figure_choice.hpp"
 #include "experiments/study/plot/figure_style.hpp"
+#include "experiments/study/plot/latex_table.hpp"
+#include "experiments/study/plot/method_style.hpp"
+#include "experiments/study/plot/tex_width.hpp"
 #include "experiments/study/text/notation.hpp"
 
 namespace polhode::study::inline plot {
 
 namespace {
 
-constexpr double text_width_cm = 12.5;  // just below that of an article of 11 pt on A4, 360 pt
-constexpr std::array<double, 3> panel_height_cm = {8, 6.5, 5.5};  // with 1, 2, 3 panels in a row
+constexpr std::array<double, 3> panel_height_pt = {185, 142, 114};  // with 1, 2, 3 panels in a row
+constexpr double label_size = 9, tick_size = 8;                     // letters, pt
+constexpr double label_line = 11, tick_length = 24;                 // with the gaps around labels, pt
+constexpr double node_margin = 3.7;                                 // about the text of a node, pt
+constexpr double least_height = 130;                                // of a panel, pt
+constexpr double most_height = tex_page_height - 110;               // of what stands on a page, without the caption, pt
 
 template <class... T>
 void tex_line(std::string& out, fmt::format_string<T...> format, T&&... values) {
@@ -31,9 +39,7 @@ std::string tick_label(std::string label) {
   return "$" + label + "$";
 }
 
-std::string colour_name(std::size_t method) {
-  return fmt::format("polhode{}", static_cast<char>('a' + method % style::colours.size()));
-}
+std::string colour_name(std::size_t colour) { return fmt::format("polhode{}", static_cast<char>('a' + colour)); }
 
 /// Values are written as their place on the axis (decades on logarithmic ones), which spares TeX the arithmetic.
 void write_tex_axis(std::string& out, char name, const Axis& axis) {
@@ -44,7 +50,7 @@ void write_tex_axis(std::string& out, char name, const Axis& axis) {
   }
   tex_line(out, "  {0}min={1:.6g}, {0}max={2:.6g},", name, axis.place(axis.low), axis.place(axis.high));
   tex_line(out, "  {0}tick={{{1}}}, {0}ticklabels={{{2}}},", name, fmt::join(at, ","), fmt::join(labels, ","));
-  if (axis.labelled && !axis.label.empty()) tex_line(out, "  {}label={{{}}},", name, tex(axis.label));
+  if (axis.labelled && !axis.label.empty()) tex_line(out, "  {}label={{{}}},", name, tex_breakable(axis.label));
 }
 
 std::string shade_name(std::size_t shade) { return fmt::format("polhodeshade{}", static_cast<char>('a' + shade)); }
@@ -60,8 +66,8 @@ void write_tex_guides(std::string& out, const Panel& panel) {
   for (const auto& guide : panel.guides) {
     tex_line(out, "\\addplot[gray, dashed, no marks, forget plot] coordinates {{({:.5g},{:.5g}) ({:.5g},{:.5g})}};",
              panel.x.place(guide.x0), panel.y.place(guide.y0), panel.x.place(guide.x1), panel.y.place(guide.y1));
-    tex_line(out, "\\node[right, gray, font=\\scriptsize] at (axis cs:{:.5g},{:.5g}) {{${}$}};",
-             panel.x.place(guide.x1), panel.y.place(guide.label_y), guide.label);
+    tex_line(out, "\\node[right, gray, font=\\scriptsize] at (axis cs:{:.5g},{:.5g}) {{{}}};", panel.x.place(guide.x1),
+             panel.y.place(guide.label_y), tick_label(guide.label));
   }
 }
 
@@ -91,8 +97,17 @@ void write_points(std::string& out, const Panel& panel, const PlottedCurve& curv
   if (!points.empty()) tex_line(out, "\\addplot[{}, forget plot] coordinates {{{}\n}};", options, points);
 }
 
-void write_curve(std::string& out, const Panel& panel, const PlottedCurve& curve) {
-  const auto colour = colour_name(curve.method);
+void write_tex_names(std::string& out, const Panel& panel, const std::vector<MethodStyle>& styles) {
+  for (const auto& mark : panel.names) {
+    tex_line(out, "\\node[overlay, {}, {}, font=\\scriptsize] at (axis cs:{:.5g},{:.5g}) {{{}}};",
+             mark.left ? "left" : "right", colour_name(styles[mark.method].colour), panel.x.place(mark.x),
+             panel.y.place(mark.y), tex(mark.name));
+  }
+}
+
+void write_curve(std::string& out, const Figure& figure, const Panel& panel, const PlottedCurve& curve,
+                 const MethodStyle& method) {
+  const auto colour = colour_name(method.colour);
   const bool over_time = panel.x.scale == Scale::linear;
   const std::size_t repeat = over_time ? std::max<std::size_t>(1, curve.points.size() / 6) : 1;
   const double size = style::mark_size(curve.method);
@@ -101,8 +116,10 @@ void write_curve(std::string& out, const Panel& panel, const PlottedCurve& curve
   write_points(
       out, panel, curve, Mark::value,
       fmt::format("{}, {}, line width={:.2f}pt, mark={}, mark size={:.2f}pt, mark options=solid, mark repeat={}",
-                  colour, style::dash(curve.variant).pgf, 0.45 * style::line_width(curve.method),
-                  style::pgf_mark(curve.method, curve.variant), 2 * style::point_size(curve.method), repeat));
+                  colour,
+                  style::dashes[figure.variants.size() > 1 ? curve.variant % style::dashes.size() : method.dash].pgf,
+                  0.45 * style::line_width(curve.method), style::markers[method.marker].pgf,
+                  2 * style::point_size(curve.method), repeat));
   write_points(
       out, panel, curve, Mark::zero,
       fmt::format("{}, only marks, mark=triangle, mark size={:.2f}pt, mark options={{rotate=180}}", colour, 2 * size));
@@ -110,15 +127,18 @@ void write_curve(std::string& out, const Panel& panel, const PlottedCurve& curve
                fmt::format("{}, only marks, mark=x, mark size={:.2f}pt, thick", colour, 2 * size));
 }
 
-void write_legend(std::string& out, const Figure& figure) {
+void write_legend(std::string& out, const Figure& figure, const std::vector<MethodStyle>& styles) {
   const auto entry = [&](const std::string& options, const std::string& text) {
     tex_line(out, "\\addlegendimage{{{}}}\\addlegendentry{{{}}}", options, tex(text));
   };
   for (const auto m : figure.used_methods) {
-    entry(fmt::format("{}, mark={}, mark size=1.5pt", colour_name(m), style::pgf_mark(m, 0)), figure.methods[m]);
+    const auto dash = figure.variants.size() > 1 ? "solid" : style::dashes[styles[m].dash].pgf;
+    entry(fmt::format("{}, {}, mark={}, mark size=1.5pt, mark options=solid", colour_name(styles[m].colour), dash,
+                      style::markers[styles[m].marker].pgf),
+          figure.methods[m]);
   }
   for (std::size_t v = 0; v < figure.variants.size() && figure.variants.size() > 1; ++v) {
-    entry(fmt::format("gray, {}, no marks", style::dash(v).pgf), figure.variants[v]);
+    entry(fmt::format("gray, {}, no marks", style::dashes[v % style::dashes.size()].pgf), figure.variants[v]);
   }
   for (std::size_t s = 0; s < figure.shades.size(); ++s) {
     entry(fmt::format("area legend, draw=gray, fill={}", shade_name(s)), figure.shades[s].label);
@@ -129,53 +149,134 @@ void write_legend(std::string& out, const Figure& figure) {
   if (figure.has_edge_marks) entry("gray, only marks, mark=x, thick", "diverged or off scale");
 }
 
+/// The rows of the figure that stand on one page.
+struct Page {
+  std::size_t first = 0, end = 0;  ///< rows
+};
+
 /// The legend stands below the first panel of the last row, the width of the figure.
-bool carries_legend(const Figure& figure, const Panel& panel) {
-  return panel.row + 1 == figure.rows && panel.column == 0;
+bool carries_legend(const Page& page, const Panel& panel) { return panel.row + 1 == page.end && panel.column == 0; }
+
+/// Width of the whole figure, pt.
+double line_width(const Figure& figure) {
+  constexpr double points_in_cm = 28.45;
+  return figure.look.width_cm ? *figure.look.width_cm * points_in_cm : tex_line_width;
+}
+
+/// Width of the widest entry of the legend, pt.
+double legend_entry_width(const Figure& figure) {
+  constexpr double mark = 36;  // with the room between columns
+  double widest = tex_width(figure.has_edge_marks ? "diverged or off scale" : "lower envelope", label_size);
+  const auto take = [&](const std::string& text) { widest = std::max(widest, tex_width(text, label_size)); };
+  for (const auto m : figure.used_methods) take(figure.methods[m]);
+  for (const auto& variant : figure.variants) take(variant);
+  for (const auto& shade : figure.shades) take(shade.label);
+  return widest + mark;
 }
 
 std::size_t legend_columns(const Figure& figure) {
-  constexpr std::size_t characters_in_line = 66;  // of a footnote, with the marks
-  std::size_t longest = figure.has_edge_marks ? 21 : 12;
-  for (const auto m : figure.used_methods) longest = std::max(longest, length(figure.methods[m]));
-  for (const auto& variant : figure.variants) longest = std::max(longest, length(variant));
-  for (const auto& shade : figure.shades) longest = std::max(longest, length(shade.label));
-  return std::max<std::size_t>(1, characters_in_line / (longest + 6));
+  return std::max<std::size_t>(1, static_cast<std::size_t>(line_width(figure) / legend_entry_width(figure)));
 }
 
-void write_panel(std::string& out, const Figure& figure, const Panel& panel) {
+std::size_t legend_entries(const Figure& figure) {
+  return figure.used_methods.size() + (figure.variants.size() > 1 ? figure.variants.size() : 0) + figure.shades.size() +
+         figure.has_envelope + figure.has_muted + figure.has_zero_marks + figure.has_edge_marks;
+}
+
+void write_panel(std::string& out, const Figure& figure, const Page& page, double left, const Panel& panel,
+                 const std::vector<MethodStyle>& styles) {
   tex_line(out, "\\nextgroupplot[");
   if (!panel.title.empty()) {
     std::vector<std::string> lines;
-    for (const auto& text : panel.title) lines.push_back(tex(text));
+    for (const auto& text : panel.title) lines.push_back(tex_breakable(text));
     tex_line(out, "  title={{{}}},", fmt::join(lines, "\\\\"));
   }
   write_tex_axis(out, 'x', panel.x);
   write_tex_axis(out, 'y', panel.y);
-  if (carries_legend(figure, panel)) {
-    tex_line(
-        out,
-        "  legend style={{at={{(0,-0.28)}}, anchor=north west, draw=none, font=\\footnotesize, cells={{anchor=west}}, "
-        "/tikz/every even column/.append style={{column sep=8pt}}}},\n  legend columns={},",
-        legend_columns(figure));
+  if (carries_legend(page, panel)) {
+    tex_line(out,
+             "  legend style={{at={{(0,0)}}, xshift=-{:.0f}pt, yshift=-{:.0f}pt, anchor=north west, draw=none, inner "
+             "xsep=0pt, font=\\footnotesize, cells={{anchor=west}}, /tikz/every even column/.append style={{column "
+             "sep=6pt}}}},\n  legend columns={},",
+             left, 2.7 * label_line, legend_columns(figure));
   }
   tex_line(out, "]");
   write_cells(out, panel);
   write_tex_guides(out, panel);
   write_tex_envelope(out, panel);
-  for (const auto& curve : panel.curves) write_curve(out, panel, curve);
-  if (carries_legend(figure, panel)) write_legend(out, figure);
+  write_tex_names(out, panel, styles);
+  for (const auto& curve : panel.curves) write_curve(out, figure, panel, curve, styles.at(curve.method));
+  if (carries_legend(page, panel)) write_legend(out, figure, styles);
 }
 
-/// The room on the left: names take more than numbers.
-double labels_width_cm(const Figure& figure) {
-  double width = 1.9;
+/// Width of the label of a tick, pt; "10^{-4}" has a small exponent.
+double tick_width(const Axis& axis, const Tick& tick) {
+  if (axis.named) return tex_width(tick.label, tick_size);
+  std::string plain = tick.label;
+  const auto power = plain.find("^{");
+  if (power == std::string::npos) return tex_width(plain, tick_size);
+  const std::string exponent = plain.substr(power + 2, plain.size() - power - 3);
+  return tex_width(plain.substr(0, power), tick_size) + tex_number_width(exponent, tick_size - 2);
+}
+
+double ticks_width(const Axis& axis) {
+  double widest = 0;
+  for (const auto& tick : axis.ticks) widest = std::max(widest, tick_width(axis, tick));
+  return widest;
+}
+
+/// What the panels of a figure leave free, and their size, pt.
+struct Frame {
+  double left = 0, gap = 0, right = 0, width = 0, height = 0;
+  double title_lines = 0;
+  double row = 0;  ///< from one row of panels to the next
+};
+
+/// Lines that a text takes in this width.
+double lines_in(const std::string& text, double width) {
+  return std::max(1.0, std::ceil(1.25 * tex_width(text, label_size) / width));
+}
+
+Frame frame_of(const Figure& figure) {
+  Frame f;
+  const auto columns = static_cast<double>(figure.columns);
+  f.height = figure.panel_height > 0 ? figure.panel_height * line_width(figure) / figure.look.width()
+                                     : panel_height_pt[std::min<std::size_t>(figure.columns, 3) - 1];
+  f.height = std::clamp(f.height, least_height, most_height - 4 * label_line);
+  f.gap = 2 * node_margin;
+  f.right = node_margin;
   for (const auto& panel : figure.panels) {
-    for (const auto& tick : panel.y.ticks) {
-      if (panel.y.named) width = std::max(width, 0.14 * static_cast<double>(length(tick.label)));
+    if (panel.y.labelled) {
+      const double label = panel.y.label.empty() ? 0 : label_line * lines_in(panel.y.label, f.height + label_line);
+      auto& room = panel.column == 0 ? f.left : f.gap;
+      room = std::max(room, label + ticks_width(panel.y) + tick_length + (panel.column == 0 ? 0 : f.right));
     }
+    double beside = panel.x.ticks.empty() ? 0 : tick_width(panel.x, panel.x.ticks.back()) / 2 + node_margin;
+    for (const auto& guide : panel.guides)
+      beside = std::max(beside, tex_width(guide.label, tick_size) + 2 * node_margin);
+    if (panel.column + 1 == figure.columns) f.right = std::max(f.right, beside);
+    else f.gap = std::max(f.gap, beside);
   }
-  return width;
+  f.width = (line_width(figure) - f.left - f.right - (columns - 1) * f.gap) / columns;
+  for (const auto& panel : figure.panels) {
+    double lines = 0;
+    for (const auto& text : panel.title) lines += lines_in(text, f.width);
+    f.title_lines = std::max(f.title_lines, lines);
+  }
+  f.row = f.height + (f.title_lines + 3.4) * label_line;
+  return f;
+}
+
+/// As many rows on each page as fit, the legend among them.
+std::vector<Page> pages_of(const Figure& figure, const Frame& frame) {
+  const auto legend_lines =
+      static_cast<double>((legend_entries(figure) + legend_columns(figure) - 1) / legend_columns(figure));
+  const double room = most_height - (legend_lines + 1) * label_line;
+  const auto rows = std::max<std::size_t>(1, static_cast<std::size_t>(std::max(0.0, room / frame.row)));
+  std::vector<Page> pages;
+  for (std::size_t first = 0; first < figure.rows; first += rows)
+    pages.push_back({first, std::min(figure.rows, first + rows)});
+  return pages;
 }
 
 const Panel* panel_at(const Figure& figure, std::size_t row, std::size_t column) {
@@ -186,17 +287,10 @@ const Panel* panel_at(const Figure& figure, std::size_t row, std::size_t column)
 
 }  // namespace
 
-std::string pgfplots(const Figure& figure) {
+namespace {
+
+std::string picture(const Figure& figure, const Frame& frame, const Page& page) {
   std::string out;
-  tex_line(out, "% {}: {}", figure.name, one_line(figure.title));
-  tex_line(out, "% {}", one_line(figure.caption));
-  tex_line(out, "% \\input this file inside a figure environment. The preamble needs:");
-  tex_line(out, "%   \\usepackage[utf8]{{inputenc}}\\usepackage[T1]{{fontenc}}\\usepackage{{pgfplots}}");
-  tex_line(out, "%   \\usepgfplotslibrary{{groupplots}}\\pgfplotsset{{compat=1.17}}");
-  tex_line(out,
-           "% Coordinates are places on the axes: decades on logarithmic ones; on an axis that is logarithmic on both "
-           "sides of");
-  tex_line(out, "% zero sgn(y) asinh(|y|/threshold)/ln 10. {}.dat has the numbers themselves.", figure.name);
   tex_line(out, "\\begin{{tikzpicture}}");
   for (std::size_t c = 0; c < style::colours.size(); ++c) {
     tex_line(out, "\\definecolor{{{}}}{{HTML}}{{{}}}", colour_name(c), style::colours[c]);
@@ -204,33 +298,60 @@ std::string pgfplots(const Figure& figure) {
   for (std::size_t s = 0; s < figure.shades.size(); ++s) {
     tex_line(out, "\\definecolor{{{}}}{{HTML}}{{{}}}", shade_name(s), figure.shades[s].colour);
   }
-  const auto columns = static_cast<double>(figure.columns);
-  const bool close = std::none_of(figure.panels.begin(), figure.panels.end(),
-                                  [](const auto& p) { return p.column > 0 && p.y.labelled; });
-  const double gap = close ? 0.4 : 1.9;
-  std::size_t title_lines = 0;
-  for (const auto& panel : figure.panels) title_lines = std::max(title_lines, panel.title.size());
+  const auto styles = styles_of(figure.methods);
   tex_line(out, "\\begin{{groupplot}}[");
-  tex_line(out, "  group style={{group size={} by {}, horizontal sep={}cm, vertical sep={}cm}},", figure.columns,
-           figure.rows, gap, 1.7 + 0.4 * static_cast<double>(title_lines));
-  const double height = figure.panel_height > 0 ? figure.panel_height * text_width_cm / style::figure_width
-                                                : panel_height_cm[std::min<std::size_t>(figure.columns, 3) - 1] - 1.5;
-  tex_line(out, "  scale only axis, width={:.2f}cm, height={:.4g}cm,",
-           (text_width_cm - labels_width_cm(figure) - (columns - 1) * gap) / columns, height);
+  tex_line(out, "  group style={{group size={} by {}, horizontal sep={:.1f}pt, vertical sep={:.1f}pt}},",
+           figure.columns, page.end - page.first, frame.gap, frame.row - frame.height);
+  tex_line(out, "  scale only axis, width={:.1f}pt, height={:.1f}pt,", frame.width, frame.height);
   tex_line(out,
            "  axis lines=left, grid=major, grid style={{gray!25}}, clip marker paths=false, clip mode=individual,");
   tex_line(out,
-           "  title style={{align=center, font=\\footnotesize}}, label style={{font=\\footnotesize}}, tick label "
-           "style={{font=\\scriptsize}},");
+           "  title style={{align=flush center, text width={0:.0f}pt, font=\\footnotesize}}, label "
+           "style={{font=\\footnotesize}},\n  xlabel style={{align=flush center, text width={0:.0f}pt}}, ylabel "
+           "style={{align=flush center, text width={1:.0f}pt}},\n  tick label style={{font=\\scriptsize}},",
+           frame.width, frame.height + label_line);
   tex_line(out, "]");
-  for (std::size_t row = 0; row < figure.rows; ++row) {
+  std::size_t skipped = 0;
+  for (std::size_t row = page.first; row < page.end; ++row) {
     for (std::size_t column = 0; column < figure.columns; ++column) {
-      if (const auto* panel = panel_at(figure, row, column)) write_panel(out, figure, *panel);
-      else tex_line(out, "\\nextgroupplot[group/empty plot]");
+      const auto* panel = panel_at(figure, row, column);
+      if (!panel) {
+        ++skipped;
+        continue;
+      }
+      for (; skipped > 0; --skipped) tex_line(out, "\\nextgroupplot[group/empty plot, xmin=0, xmax=1, ymin=0, ymax=1]");
+      write_panel(out, figure, page, frame.left, *panel, styles);
     }
   }
   tex_line(out, "\\end{{groupplot}}\n\\end{{tikzpicture}}");
   return out;
+}
+
+}  // namespace
+
+std::string pgfplots_file(const std::string& figure, std::size_t page) {
+  return page == 0 ? figure + ".tex" : fmt::format("{}_page_{}.tex", figure, page + 1);
+}
+
+std::vector<std::string> pgfplots(const Figure& given) {
+  const Figure figure = fitted(given);
+  const Frame frame = frame_of(figure);
+  const std::vector<Page> pages = pages_of(figure, frame);
+  std::vector<std::string> texts;
+  for (std::size_t p = 0; p < pages.size(); ++p) {
+    std::string out;
+    tex_line(out, "% {}: {}", figure.name, one_line(figure.title));
+    if (pages.size() > 1) tex_line(out, "% Page {} of {}.", p + 1, pages.size());
+    tex_line(out, "% {}", one_line(figure.caption));
+    tex_line(out, "% \\input this file inside a figure environment. The preamble needs:");
+    tex_line(out, "%   {}", packages_of_pgfplots);
+    tex_line(out,
+             "% Coordinates are places on the axes: decades on logarithmic ones; on an axis that is logarithmic on "
+             "both sides of");
+    tex_line(out, "% zero sgn(y) asinh(|y|/threshold)/ln 10. {}.dat has the numbers themselves.", figure.name);
+    texts.push_back(out + picture(figure, frame, pages[p]));
+  }
+  return texts;
 }
 
 }  // namespace polhode::study::plot

@@ -4,15 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <utility>
 
+#include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
 
 namespace polhode::study::inline plot {
 
 namespace {
-
-constexpr std::size_t most_rows_of_a_tabular = 40;
 
 std::string header_of(const Column& column) {
   return column.unit.empty() ? column.header : fmt::format("{} ({})", column.header, column.unit);
@@ -29,32 +31,13 @@ std::string html_cell(const Column& column, const std::string& cell, bool heads_
                      cell.empty() ? "<span class=\"none\" title=\"not defined\">–</span>" : text::html(cell), tag);
 }
 
-std::string latex_cell(const Column& column, const std::string& cell) {
-  if (cell.empty()) return "--";
-  switch (column.kind) {
-    case Column::Kind::number: return tex_number(cell);
-    case Column::Kind::name: return fmt::format("\\texttt{{{}}}", tex(cell));
-    default: return tex(cell);
+/// The number that a cell states: "2.3e-5", "≥ 60", "none to 317"; absent: none.
+std::optional<double> number_of_cell(std::string text) {
+  for (const std::string_view before : {"≥ ", "≤ ", "none to "}) {
+    if (text.starts_with(before)) text.erase(0, before.size());
   }
-}
-
-/// A long header in lines of a few words each, so that its column is no wider than its numbers.
-std::string latex_header(const Column& column) {
-  constexpr std::size_t line_length = 12;
-  std::vector<std::string> lines = {""};
-  std::istringstream text(header_of(column));
-  for (std::string word; text >> word;) {
-    if (!lines.back().empty() && length(lines.back()) + 1 + length(word) > line_length) lines.emplace_back();
-    lines.back() += (lines.back().empty() ? "" : " ") + word;
-  }
-  for (auto& line : lines) line = tex(line);
-  if (lines.size() == 1) return lines.front();
-  return fmt::format("\\shortstack[{}]{{{}}}", column.kind == Column::Kind::number ? "r" : "l",
-                     fmt::join(lines, "\\\\"));
-}
-
-std::string latex_row(const std::vector<std::string>& cells) {
-  return fmt::format("{} \\\\\n", fmt::join(cells, " & "));
+  if (!is_printed_number(text)) return std::nullopt;
+  return std::strtod(text.c_str(), nullptr);
 }
 
 }  // namespace
@@ -89,41 +72,80 @@ std::string html(const Table& table, Caption caption) {
   return out + "</tbody>\n</table>\n</div>\n";
 }
 
+std::vector<std::vector<bool>> best_cells(const Table& table) {
+  std::vector<std::vector<bool>> best(table.rows.size(), std::vector<bool>(table.columns.size(), false));
+  std::map<std::vector<std::string>, std::vector<std::size_t>> compared;
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    std::vector<std::string> group;
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      if (table.columns[c].apart) group.push_back(table.rows[r][c]);
+    }
+    compared[group].push_back(r);
+  }
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    if (table.columns[c].best == Column::Best::none) continue;
+    const double sign = table.columns[c].best == Column::Best::least ? 1 : -1;
+    for (const auto& [group, rows] : compared) {
+      std::vector<std::pair<double, std::size_t>> found;
+      for (const std::size_t r : rows) {
+        if (const auto x = number_of_cell(table.rows[r][c])) found.emplace_back(sign * *x, r);
+      }
+      if (found.empty()) continue;
+      const auto [low, high] = std::minmax_element(found.begin(), found.end());
+      if (low->first == high->first) continue;
+      for (const auto& [x, r] : found) best[r][c] = x == low->first;
+    }
+  }
+  return best;
+}
+
+std::string words_for_best(const Table& table) {
+  const auto best = best_cells(table);
+  const bool marked = std::any_of(best.begin(), best.end(),
+                                  [](const auto& row) { return std::find(row.begin(), row.end(), true) != row.end(); });
+  if (!marked) return {};
+  std::vector<std::string> within;
+  for (const Column& column : table.columns) {
+    if (column.apart) within.push_back(column.header);
+  }
+  return within.empty() ? "Bold: the best of its column"
+                        : fmt::format("Bold: the best of its column for each {}", words(within));
+}
+
 std::string markdown(const Table& table) {
+  const auto best = best_cells(table);
   std::string out = "|", rule = "|";
   for (const auto& column : table.columns) {
     out += fmt::format(" {} |", text::markdown(header_of(column)));
     rule += column.kind == Column::Kind::number ? " ---: |" : " --- |";
   }
   out += "\n" + rule + "\n";
-  for (const auto& row : table.rows) {
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
     out += "|";
-    for (const auto& cell : row) out += fmt::format(" {} |", text::markdown(cell));
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      const char* mark = best[r][c] ? "**" : "";
+      out += fmt::format(" {0}{1}{0} |", mark, text::markdown(table.rows[r][c]));
+    }
     out += "\n";
   }
   return out;
 }
 
-std::string latex(const Table& table) {
-  std::string alignment, body;
-  std::vector<std::string> headers;
-  for (const auto& column : table.columns) {
-    alignment += column.kind == Column::Kind::number ? 'r' : 'l';
-    headers.push_back(latex_header(column));
+std::string csv(const Table& table) {
+  const auto best = best_cells(table);
+  std::vector<std::string> header;
+  for (const Column& column : table.columns) header.push_back(header_of(column));
+  header.emplace_back("best");
+  std::string out = csv_row(header);
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    std::vector<std::string> row = table.rows[r], of;
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      if (best[r][c]) of.push_back(table.columns[c].header);
+    }
+    row.push_back(fmt::format("{}", fmt::join(of, "; ")));
+    out += csv_row(row);
   }
-  for (const auto& row : table.rows) {
-    std::vector<std::string> cells;
-    for (std::size_t c = 0; c < row.size(); ++c) cells.push_back(latex_cell(table.columns[c], row[c]));
-    body += latex_row(cells);
-  }
-  const auto head = latex_row(headers);
-  if (table.rows.size() <= most_rows_of_a_tabular) {
-    return fmt::format("\\begin{{tabular}}{{{}}}\n\\toprule\n{}\\midrule\n{}\\bottomrule\n\\end{{tabular}}\n",
-                       alignment, head, body);
-  }
-  return fmt::format(
-      "\\begin{{longtable}}{{{}}}\n\\toprule\n{}\\midrule\n\\endhead\n\\bottomrule\n\\endfoot\n{}\\end{{longtable}}\n",
-      alignment, head, body);
+  return out;
 }
 
 }  // namespace polhode::study::plot

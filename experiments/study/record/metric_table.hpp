@@ -49,6 +49,7 @@ struct Metric {
   /// Heading of its column in the tables of runs; empty: no column.
   std::string label{};
   std::string unit{};                               ///< unit in those tables
+  bool least_is_best = false;                       ///< an error or a drift: tables mark its least value
   bool in_summary = false;                          ///< also in the narrow table (tables/summary.md and .tex)
   std::string (*cell)(const RunResult&) = nullptr;  ///< text of the table's cell; null: the number
   int table_rank = 5;                               ///< as list_rank, for the tables of runs and the LaTeX values

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/study/plot/figure_choice.hpp"
 #include "experiments/study/record/analysis.hpp"
 #include "experiments/study/record/metric_table.hpp"
 #include "experiments/study/record/run_record.hpp"
@@ -29,7 +30,8 @@ struct StudyView {
   std::map<std::string, std::size_t> all_runs{};
   std::filesystem::path folder;         ///< results folder (--out)
   bool durations_follow_steps = false;  ///< the duration of a run depends on its step
-  std::optional<Analysis> analysis{};   ///< results of the experiment's own analysis
+  FigureChoice figure_choice{};
+  std::optional<Analysis> analysis{};  ///< results of the experiment's own analysis
   std::span<const Metric> metrics = metric_table();
 
   /// Number of all runs.

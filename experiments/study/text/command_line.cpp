@@ -31,6 +31,13 @@ CLI::Option* add_no_figures(CLI::App& app, bool& figures) {
       "--no-figures", [&figures] { figures = false; }, "no figures");
 }
 
+CLI::Option* add_article(CLI::App& app, bool& article) {
+  return app.add_flag_callback(
+      "--article", [&article] { article = true; },
+      "an article in LaTeX and its PDF, in the folder article (needs pdflatex); of a study that is done, the same "
+      "command with it carries out no run");
+}
+
 std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);

@@ -15,6 +15,9 @@ namespace polhode::study::inline text {
 /// Adds --no-figures, which makes `figures` false.
 CLI::Option* add_no_figures(CLI::App& app, bool& figures);
 
+/// Adds --article, which makes `article` true.
+CLI::Option* add_article(CLI::App& app, bool& article);
+
 /// Parses the command line into the options of `app`. Returns the exit status if help was asked for and printed; throws
 /// InputError (one line) for anything that is no option.
 std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const* argv);

@@ -126,18 +126,39 @@ namespace {
 /// by inputenc and textcomp.
 std::string_view tex_of_character(std::string_view character) {
   constexpr std::pair<std::string_view, std::string_view> known[] = {
-      {"α", "\\alpha"}, {"β", "\\beta"},   {"γ", "\\gamma"},    {"δ", "\\delta"},  {"ε", "\\varepsilon"},
-      {"θ", "\\theta"}, {"λ", "\\lambda"}, {"μ", "\\mu"},       {"ξ", "\\xi"},     {"π", "\\pi"},
-      {"ρ", "\\rho"},   {"σ", "\\sigma"},  {"τ", "\\tau"},      {"φ", "\\varphi"}, {"ψ", "\\psi"},
-      {"ω", "\\omega"}, {"Δ", "\\Delta"},  {"Φ", "\\Phi"},      {"Σ", "\\Sigma"},  {"Ω", "\\Omega"},
-      {"√", "\\surd"},  {"∝", "\\propto"}, {"≤", "\\leq"},      {"≥", "\\geq"},    {"≈", "\\approx"},
-      {"→", "\\to"},    {"−", "-"},        {"′", "^{\\prime}"}, {"ᵀ", "^{T}"},     {"⁻", "^{-}"},
-      {"₋", "_{-}"},    {"ₕ", "_{h}"},     {"‖", "\\|"},        {"⟨", "\\langle"}, {"⟩", "\\rangle"},
-      {"∞", "\\infty"}, {"∂", "\\partial"}};
+      {"α", "\\alpha"},  {"β", "\\beta"},    {"γ", "\\gamma"},    {"δ", "\\delta"},  {"ε", "\\varepsilon"},
+      {"θ", "\\theta"},  {"λ", "\\lambda"},  {"μ", "\\mu"},       {"ξ", "\\xi"},     {"π", "\\pi"},
+      {"ρ", "\\rho"},    {"σ", "\\sigma"},   {"τ", "\\tau"},      {"φ", "\\varphi"}, {"ψ", "\\psi"},
+      {"ω", "\\omega"},  {"Δ", "\\Delta"},   {"Φ", "\\Phi"},      {"Σ", "\\Sigma"},  {"Ω", "\\Omega"},
+      {"√", "\\surd"},   {"∝", "\\propto"},  {"≤", "\\leq"},      {"≥", "\\geq"},    {"≈", "\\approx"},
+      {"→", "\\to"},     {"−", "-"},         {"′", "^{\\prime}"}, {"ᵀ", "^{T}"},     {"⁻", "^{-}"},
+      {"₋", "_{-}"},     {"ₕ", "_{h}"},      {"‖", "\\|"},        {"⟨", "\\langle"}, {"⟩", "\\rangle"},
+      {"∞", "\\infty"},  {"∂", "\\partial"}, {"ᵖ", "^{p}"},       {"ⁿ", "^{n}"},     {"⁴", "^{4}"},
+      {"⁵", "^{5}"},     {"⁶", "^{6}"},      {"⁷", "^{7}"},       {"⁸", "^{8}"},     {"⁹", "^{9}"},
+      {"⁰", "^{0}"},     {"₀", "_{0}"},      {"₁", "_{1}"},       {"₂", "_{2}"},     {"₃", "_{3}"},
+      {"ẋ", "\\dot{x}"}, {"ẏ", "\\dot{y}"},  {"ż", "\\dot{z}"},   {"ḋ", "\\dot{d}"}, {"̇", "\\dot{}"},
+      {"≠", "\\neq"}};
   for (const auto& [one, command] : known) {
     if (one == character) return command;
   }
   return {};
+}
+
+/// True for a character beyond ASCII that pdfTeX sets by inputenc, the fonts of T1 and textcomp: Western letters, their
+/// signs, quotes and dashes.
+bool is_set_by_tex(std::string_view character) {
+  constexpr std::string_view punctuation[] = {"–", "—", "‘", "’", "‚", "“", "”", "„",
+                                              "†", "‡", "•", "…", "‰", "€", "™"};
+  const auto first = static_cast<unsigned char>(character.front());
+  if (first == 0xC2 || first == 0xC3) return true;  // U+00A0 … U+00FF
+  return std::find(std::begin(punctuation), std::end(punctuation), character) != std::end(punctuation);
+}
+
+/// "[U+4E2D]": what stands for a character that no font of the document has.
+std::string code_of(std::string_view character) {
+  unsigned code = static_cast<unsigned char>(character.front()) & (0xFFU >> (character.size() + 1));
+  for (const char c : character.substr(1)) code = code << 6U | (static_cast<unsigned char>(c) & 0x3FU);
+  return fmt::format("[U+{:04X}]", code);
 }
 
 /// Number of bytes of the UTF-8 character that begins with this byte.
@@ -171,16 +192,25 @@ std::string tex(std::string_view text) {
   for (std::size_t i = 0; i < ascii.size();) {
     const std::string_view character = std::string_view(ascii).substr(i, bytes_of_character(ascii[i]));
     const std::string_view command = character.size() > 1 ? tex_of_character(character) : std::string_view();
-    if (command.empty()) out += character;
-    else out += fmt::format("${}$", command);
+    if (!command.empty()) out += fmt::format("${}$", command);
+    else if (character.size() == 1 || is_set_by_tex(character)) out += character;
+    else out += code_of(character);
     i += character.size();
   }
   return out;
 }
 
+bool is_printed_number(std::string_view text) {
+  if (text.empty() || text.find_first_not_of("0123456789+-.e") != std::string_view::npos) return false;
+  const std::string copy(text);
+  char* end = nullptr;
+  std::strtod(copy.c_str(), &end);
+  return *end == '\0';
+}
+
 std::string tex_number(std::string_view printed) {
   const auto e = printed.find('e');
-  if (printed.empty() || printed.find_first_not_of("0123456789+-.e") != std::string_view::npos) return tex(printed);
+  if (!is_printed_number(printed)) return tex(printed);
   if (e == std::string_view::npos) return fmt::format("${}$", printed);
   const auto mantissa = printed.substr(0, e), exponent = printed.substr(e + 1);
   if (mantissa == "1") return fmt::format("$10^{{{}}}$", exponent);

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "experiments/scene/scene.hpp"
+#include "experiments/study/scene/scene.hpp"
 
 namespace polhode::viewer::inline drawing {
 

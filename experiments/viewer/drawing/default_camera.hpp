@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "experiments/scene/scene.hpp"
+#include "experiments/study/scene/scene.hpp"
 #include "experiments/viewer/drawing/camera.hpp"
 #include "experiments/viewer/drawing/look.hpp"
 #include "experiments/viewer/frame/frame.hpp"

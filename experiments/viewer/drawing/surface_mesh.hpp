@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "experiments/scene/scene.hpp"
+#include "experiments/study/scene/scene.hpp"
 
 namespace polhode::viewer::inline drawing {
 

@@ -7,15 +7,50 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
 #include <vector>
+
+#include "experiments/study/plot/method_style.hpp"
 
 namespace polhode::viewer::inline overlay {
 namespace {
 
-/// Colours by Okabe and Ito, as in the figures of a study.
-constexpr std::array<ImU32, 6> runs = {IM_COL32(0, 114, 178, 255), IM_COL32(213, 94, 0, 255),
-                                       IM_COL32(0, 158, 115, 255), IM_COL32(204, 121, 167, 255),
-                                       IM_COL32(230, 159, 0, 255), IM_COL32(0, 0, 0, 255)};
+/// The colour of each run: that of its method in the figures of a study; further runs of a method are paler.
+std::vector<ImU32> colours_of(const Stage& stage) {
+  std::vector<std::string> methods;
+  for (std::size_t k = 0; k < stage.views().size(); ++k) {
+    const View& view = *stage.views()[k];
+    methods.push_back(stage.live() ? view.configuration.run.integrator : stage.title(k, view));
+  }
+  const std::vector<study::MethodStyle> styles = study::styles_of(methods);
+  std::vector<ImU32> colours;
+  for (std::size_t k = 0; k < methods.size(); ++k) {
+    const auto met = std::count(methods.begin(), methods.begin() + std::ptrdiff_t(k), methods[k]);
+    const unsigned long rgb = std::stoul(study::html_colour(styles[k]).substr(1), nullptr, 16);
+    const auto part = [&](int shift) {
+      const double x = double((rgb >> shift) & 0xFF);
+      return int(x + (235 - x) * (1 - std::pow(0.6, double(met))));
+    };
+    colours.push_back(IM_COL32(part(16), part(8), part(0), 255));
+  }
+  return colours;
+}
+
+/// What the runs tell so far: "energy drift so far: least with rk4, dt = 0.01 s (1e-9 J), most with …".
+std::string answer_of(const Stage& stage) {
+  std::vector<std::pair<double, std::string>> drifts;
+  for (std::size_t k = 0; k < stage.views().size(); ++k) {
+    double most = 0;
+    for (const PlotPoint& p : stage.views()[k]->plot) most = std::max(most, std::abs(p.energy_drift));
+    if (std::isfinite(most)) drifts.emplace_back(most, stage.title(k, *stage.views()[k]));
+  }
+  if (drifts.size() < 2) return {};
+  const auto [least, most] = std::minmax_element(drifts.begin(), drifts.end());
+  return fmt::format("energy drift so far: least with {} ({:.2g} J), most with {} ({:.2g} J)", least->second,
+                     least->first, most->second, most->first);
+}
+
 constexpr ImU32 ink = IM_COL32(38, 44, 52, 255), pale = IM_COL32(200, 206, 214, 255);
 
 struct Quantity {
@@ -49,7 +84,7 @@ struct Range {
   }
 };
 
-void plot(Stage& stage, const Quantity& quantity, ImVec2 from, ImVec2 to) {
+void plot(Stage& stage, const std::vector<ImU32>& colours, const Quantity& quantity, ImVec2 from, ImVec2 to) {
   ImDrawList* list = ImGui::GetWindowDrawList();
   Range values, times;
   for (const auto& view : stage.views()) {
@@ -82,7 +117,7 @@ void plot(Stage& stage, const Quantity& quantity, ImVec2 from, ImVec2 to) {
   };
   for (std::size_t k = 0; k < stage.size(); ++k) {
     const View& view = *stage.views()[k];
-    const ImU32 colour = runs[k % runs.size()];
+    const ImU32 colour = colours[k];
     if (quantity.further)
       draw(
           view, [&](const PlotPoint& p) { return p.*quantity.further; }, colour, 1);
@@ -107,17 +142,22 @@ void draw_plots(Stage& stage, float left, float upper, float width, float height
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus);
   const float legend = stage.size() > 1 ? ImGui::GetTextLineHeight() + 4 : 0, margin = 12;
   const float each = (width - margin * float(quantities.size() + 1)) / float(quantities.size());
+  const std::vector<ImU32> colours = colours_of(stage);
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     const float x = left + margin + float(i) * (each + margin);
-    plot(stage, quantities[i], {x, upper + 6}, {x + each, upper + height - 6 - legend});
+    plot(stage, colours, quantities[i], {x, upper + 6}, {x + each, upper + height - 6 - legend});
   }
   float x = left + margin;
   for (std::size_t k = 0; k < stage.size() && legend > 0; ++k) {
     const std::string text = stage.title(k, *stage.views()[k]);
     const float y = upper + height - legend - 2;
-    ImGui::GetWindowDrawList()->AddLine({x, y + 8}, {x + 20, y + 8}, runs[k % runs.size()], 3);
+    ImGui::GetWindowDrawList()->AddLine({x, y + 8}, {x + 20, y + 8}, colours[k], 3);
     ImGui::GetWindowDrawList()->AddText({x + 26, y}, ink, text.c_str());
     x += 46 + ImGui::CalcTextSize(text.c_str()).x;
+  }
+  if (legend > 0) {
+    const std::string text = answer_of(stage);
+    ImGui::GetWindowDrawList()->AddText({x + 20, upper + height - legend - 2}, ink, text.c_str());
   }
   ImGui::End();
 }

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "collision/shapes/box.hpp"
-#include "experiments/scene/scene.hpp"
+#include "experiments/study/scene/scene.hpp"
 #include "experiments/viewer/drawing/renderer.hpp"
 #include "experiments/viewer/pictures/offscreen.hpp"
 

@@ -372,7 +372,7 @@ class General {
                     {"step or tolerance", "", Kind::text},
                     {"error", std::string(motion.quantity.unit.substr(1))},
                     {"right-hand sides"},
-                    {fmt::format("for {}{}", target_text_, motion.quantity.unit)},
+                    {"for that error"},
                     {"times as many"},
                     {"energy drift"},
                     {"energy", "", Kind::text},

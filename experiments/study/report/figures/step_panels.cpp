@@ -82,17 +82,14 @@ void drop_all_zero(std::vector<Panel>& panels) {
 
 Axis y_axis(const std::vector<Panel>& panels, const Quantity& quantity) {
   std::vector<double> values;
-  Needs needs;
   for (const auto& panel : panels) {
     for (const auto& curve : panel.curves) {
       for (const auto& point : curve.points) {
         if (point.mark == Mark::value) values.push_back(point.value);
-        needs.floor = needs.floor || point.mark == Mark::zero;
-        needs.edge = needs.edge || point.mark == Mark::edge;
       }
     }
   }
-  return log_axis(quantity.axis, values, needs);
+  return log_axis(quantity.axis, values, needs_of(panels));
 }
 
 /// Position of the lowest decade on the axis. If the axis has a place for zeros, it lies above that place.

@@ -67,6 +67,11 @@ class Figures {
     invariants();
     error_against_step();
     error_against_cost();
+    choose_figures(study_.figure_choice, set_.figures);
+    if (const auto& names = study_.figure_choice.names; !names.empty()) {
+      std::erase_if(set_.absent,
+                    [&](const auto& a) { return std::find(names.begin(), names.end(), a.name) == names.end(); });
+    }
     return std::move(set_);
   }
 
@@ -245,7 +250,9 @@ class Figures {
                   .caption =
                       "The error of each run against the right-hand sides that it evaluated. Lower left is "
                       "better. The broad pale line is the lower envelope: the least cost that reaches an error, "
-                      "with the name of the method where another one takes over.",
+                      "with the name of the method where another one takes over. A name in the colour of its "
+                      "curve is that of a method that comes next there.",
+                  .look = study_.figure_choice.look,
                   .panel_height = panel_height_of_the_answer};
     if (motions.empty()) return;
     if (motions.size() > 1) figure.caption += fmt::format(" The first of {} motions.", motions.size());
@@ -258,6 +265,20 @@ class Figures {
   bool several_steps_ = false;
   FigureSet set_;
 };
+
+/// What to say of chosen figures that the study does not have.
+std::string words_of_missing(const StudyView& study, const FigureSet& set, const FigureSet& timed) {
+  std::string said;
+  for (const std::string& name : study.figure_choice.names) {
+    const auto is_it = [&](const auto& figure) { return figure.name == name; };
+    if (std::any_of(set.figures.begin(), set.figures.end(), is_it)) continue;
+    if (std::any_of(timed.figures.begin(), timed.figures.end(), is_it)) continue;
+    const auto absent = std::find_if(set.absent.begin(), set.absent.end(), is_it);
+    said += fmt::format("{}--figure: this study has no figure '{}'{}", said.empty() ? "" : "; ", name,
+                        absent == set.absent.end() ? "" : ": " + absent->reason);
+  }
+  return said;
+}
 
 }  // namespace
 
@@ -272,12 +293,28 @@ FigureSet figures_of(const StudyView& study, const Grouping& grouping) {
 std::string write_figures(const StudyView& study) {
   const bool alone = study.analysis && study.analysis->alone;
   const auto grouping = group(study);
-  auto said = draw_figures(alone ? FigureSet{study.analysis->figures, {}} : figures_of(study, grouping), study.folder,
-                           "figures");
-  if (!study.analysis) return said;
-  const auto said_of_timed =
-      draw_figures({.figures = study.analysis->timed.figures, .absent = {}}, study.folder, timings_folder);
-  return said.empty() ? said_of_timed : said;
+  const FigureSet set = alone ? FigureSet{study.analysis->figures, {}} : figures_of(study, grouping);
+  const FigureSet timed{study.analysis ? study.analysis->timed.figures : std::vector<Figure>(), {}};
+  auto said = draw_figures(set, study.folder, "figures");
+  if (study.analysis) {
+    const auto said_of_timed = draw_figures(timed, study.folder, timings_folder);
+    if (said.empty()) said = said_of_timed;
+  }
+  const auto missing = words_of_missing(study, set, timed);
+  return said + (said.empty() || missing.empty() ? "" : "; ") + missing;
+}
+
+RedrawnFigures redraw_figures(const StudyView& study) {
+  const FigureSet set = figures_of(study, group(study));
+  RedrawnFigures redrawn;
+  for (const Figure& figure : set.figures) redrawn.names.push_back(figure.name);
+  redrawn.said = draw_figures(set, study.folder, "figures", Others::keep) + words_of_missing(study, set, {});
+  if (!study.figure_choice.names.empty()) return redrawn;
+  for (std::string& name : figures_in(study.folder / "figures")) {
+    if (std::find(redrawn.names.begin(), redrawn.names.end(), name) == redrawn.names.end())
+      redrawn.others.push_back(std::move(name));
+  }
+  return redrawn;
 }
 
 }  // namespace polhode::study::report::figures

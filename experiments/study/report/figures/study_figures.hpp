@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "experiments/study/curves/curves.hpp"
 #include "experiments/study/plot/figure.hpp"
@@ -18,8 +19,16 @@ FigureSet figures_of(const StudyView& study, const Grouping& grouping);
 
 /// Writes the folder figures/: for each figure SVG and PDF by gnuplot, the .gp script, the data and a PGFPlots .tex.
 /// Writes figures that the analysis made from wall times to timings/ in the same way. Throws std::runtime_error if
-/// gnuplot fails. If gnuplot is not installed, scripts and data are still written, and a message is returned (empty:
-/// all figures were made).
+/// gnuplot fails. If gnuplot is not installed, scripts and data are still written, and a message is returned, as
+/// of figures that were chosen and that the study does not have (empty: all figures were made).
 std::string write_figures(const StudyView& study);
+
+struct RedrawnFigures {
+  std::vector<std::string> names;   ///< figures that were drawn
+  std::vector<std::string> others;  ///< that are in the folder and were not drawn, unless --figure chose some
+  std::string said;                 ///< as write_figures() returns
+};
+/// Writes the figures of stored runs, without an analysis, among those that are in figures/.
+RedrawnFigures redraw_figures(const StudyView& study);
 
 }  // namespace polhode::study::report::figures

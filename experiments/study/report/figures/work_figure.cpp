@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -18,7 +19,7 @@
 namespace polhode::study::inline report::inline figures {
 namespace {
 
-constexpr std::size_t most_coloured = 8;
+constexpr std::size_t most_coloured = 10;
 constexpr std::size_t most_panels = 6;
 
 class WorkFigure {
@@ -27,15 +28,21 @@ class WorkFigure {
       : grouping_(grouping), motions_(motions), cost_(cost) {}
 
   Figure figure(Figure figure) const {
-    std::set<std::size_t> all, on_envelope;
+    std::set<std::size_t> all, on_envelope, with_next;
     for (const MotionWork& motion : motions_) {
       for (const auto* curve : drawn_of(motion)) all.insert(curve->method_index);
-      for (const auto& p : motion.envelope) on_envelope.insert(motion.curves[p.curve]->method_index);
+      for (const auto& p : motion.envelope) {
+        on_envelope.insert(motion.curves[p.curve]->method_index);
+        if (p.next) with_next.insert(motion.curves[*p.next]->method_index);
+      }
     }
-    const auto& coloured = all.size() <= most_coloured ? all : on_envelope;
+    with_next.insert(on_envelope.begin(), on_envelope.end());
+    const auto& coloured = all.size() <= most_coloured         ? all
+                           : with_next.size() <= most_coloured ? with_next
+                                                               : on_envelope;
     std::vector<Panel> panels;
     for (const MotionWork& motion : motions_) {
-      if (panels.size() < most_panels) panels.push_back(panel(motion, coloured));
+      if (panels.size() < most_panels) panels.push_back(panel(motion, coloured, figure.look));
     }
     share_y_axis(panels, y_axis(panels));
     add_rows(figure, std::move(panels), 1);  // names along the envelope require the whole width
@@ -55,7 +62,7 @@ class WorkFigure {
     return all;
   }
 
-  Panel panel(const MotionWork& motion, const std::set<std::size_t>& coloured) const {
+  Panel panel(const MotionWork& motion, const std::set<std::size_t>& coloured, const Look& look) const {
     Panel panel{.title = {grouping_.cases[motion.case_index].label()},
                 .x_column = cost_.column,
                 .y_column = motion.quantity.column};
@@ -81,23 +88,47 @@ class WorkFigure {
           {p.cost, std::pow(10.0, p.decade), p.curve == before ? "" : grouping_.label(*motion.curves[p.curve])});
       before = p.curve;
     }
-    costs.push_back(room_for_names(panel, costs));
+    name_the_next(panel, motion, coloured);
+    make_room_for_names(panel, costs, look);
     panel.x = step_axis(cost_.axis, costs);
     return panel;
   }
 
-  /// Lower end of the cost axis for which the names to the left of the envelope are inside the panel.
-  static double room_for_names(const Panel& panel, const std::vector<double>& costs) {
-    constexpr double panel_width = style::figure_width - style::left_margin - style::right_margin;
-    const auto [least, most] = std::minmax_element(costs.begin(), costs.end());
-    double low = std::log10(*least);
-    const double high = std::log10(*most);
-    for (const auto& mark : panel.envelope) {
-      const double share =
-          std::min(0.6, (static_cast<double>(length(mark.label)) + 2) * style::character_width / panel_width);
-      if (!mark.label.empty()) low = std::min(low, (std::log10(mark.x) - share * high) / (1 - share));
+  /// Writes the name of each method that is the next after the cheapest at some error and the cheapest at none, where
+  /// it is the next.
+  void name_the_next(Panel& panel, const MotionWork& motion, const std::set<std::size_t>& coloured) const {
+    std::map<std::size_t, std::vector<const EnvelopePoint*>> next;  // by curve
+    for (const auto& p : motion.envelope) {
+      if (p.next) next[*p.next].push_back(&p);
     }
-    return std::pow(10.0, low);
+    for (const auto& p : motion.envelope) next.erase(p.curve);
+    for (const auto& [curve, points] : next) {
+      const std::size_t method = motion.curves[curve]->method_index;
+      if (!coloured.contains(method)) continue;
+      const EnvelopePoint& p = *points[points.size() / 2];
+      panel.names.push_back(
+          {p.next_cost, std::pow(10.0, p.decade), grouping_.label(*motion.curves[curve]), method, false, true});
+    }
+  }
+
+  /// Adds the ends of a cost axis on which the names, left of the envelope and right of other curves, are inside the
+  /// panel.
+  static void make_room_for_names(const Panel& panel, std::vector<double>& costs, const Look& look) {
+    const double scale = look.font_size / style::font_size;
+    const double panel_width = look.width() - (style::left_margin + style::right_margin) * scale;
+    const auto share = [&](const std::string& name) {
+      return std::min(0.5, (static_cast<double>(length(name)) + 2) * style::character_width * scale / panel_width);
+    };
+    const auto [least, most] = std::minmax_element(costs.begin(), costs.end());
+    double low = std::log10(*least), high = std::log10(*most);
+    for (const auto& mark : panel.names)
+      high = std::max(high, (std::log10(mark.x) - share(mark.name) * low) / (1 - share(mark.name)));
+    for (const auto& mark : panel.envelope) {
+      if (mark.label.empty()) continue;
+      low = std::min(low, (std::log10(mark.x) - share(mark.label) * high) / (1 - share(mark.label)));
+    }
+    costs.push_back(std::pow(10.0, low));
+    costs.push_back(std::pow(10.0, high));
   }
 
   Axis y_axis(const std::vector<Panel>& panels) const {

@@ -10,7 +10,8 @@
 namespace polhode::study::inline report::inline figures {
 
 /// Adds to the figure, which has a name, a title and a caption, a panel for each of the first six motions: the error of
-/// each run against its cost, with the lower envelope. With more than eight methods, those off the envelopes are grey.
+/// each run against its cost, with the lower envelope. With more than ten methods, those are grey that are nowhere the
+/// cheapest nor the next.
 Figure work_figure(const Grouping& grouping, const std::vector<MotionWork>& motions, const RunCost& cost,
                    Figure figure);
 

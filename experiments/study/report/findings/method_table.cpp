@@ -96,17 +96,17 @@ Table method_table(const Grouping& grouping) {
           "run that did not end); uncertain, points on no line or too few of them. The energy column says what becomes "
           "of the energy",
       .columns = {{"method", "", Kind::name},
-                  {"motion", "", Kind::text},
+                  {.header = "motion", .kind = Kind::text, .apart = true},
                   {"formulation", "", Kind::text},
                   {"steps", "", Kind::text},
-                  {"energy drift, largest step"},
-                  {"energy drift, smallest step"},
+                  {.header = "energy drift, largest step", .best = Column::Best::least},
+                  {.header = "energy drift, smallest step", .best = Column::Best::least},
                   {"slope, energy drift"},
                   {"slope, attitude error"},
                   {"declared order"},
                   {"energy", "", Kind::text},
-                  {"angular momentum drift, largest"},
-                  {"orientation defect, largest"}},
+                  {.header = "angular momentum drift, largest", .best = Column::Best::least},
+                  {.header = "orientation defect, largest", .best = Column::Best::least}},
       .rows = {}};
   for (const auto& curve : grouping.curves) {
     const auto& method = grouping.methods[curve.method_index];

@@ -6,8 +6,8 @@
 
 namespace polhode::study::inline report::inline page {
 
-inline constexpr std::string_view how_to_read = R"html(<aside class="box" aria-labelledby="reading">
-<h2 id="reading">How to read this</h2>
+inline constexpr std::string_view how_to_read = R"html(<details class="box" id="reading">
+<summary>How to read this: what the numbers and figures are</summary>
 <dl>
 <dt>Energy drift</dt>
 <dd>Energy is a ledger: kinetic + potential − work of non-conservative forces + energy lost in contact − energy injected by projection.
@@ -50,7 +50,7 @@ precision). Of the energy, the same of the terms that were added, not of their d
 <dd>Not defined for that run: no exact solution is known and no reference proves digits enough, the forces do
 not conserve that momentum, or the run ended too early.</dd>
 </dl>
-</aside>
+</details>
 )html";
 
 }  // namespace polhode::study::report::page

@@ -51,7 +51,7 @@ nav ul { list-style: none; display: flex; flex-wrap: wrap; gap: .3rem 1.2rem; pa
 }
 .caution strong { display: block; }
 .box { background: var(--panel); border-radius: 6px; padding: .8rem 1.1rem 1rem; margin: 1.6rem 0; }
-.box h2 { border: 0; margin: 0 0 .4rem; padding: 0; font-size: 1.1rem; }
+.box summary { font-weight: 600; margin: .2rem 0; }
 .box dl { display: grid; grid-template-columns: 9.5rem 1fr; gap: .35rem 1rem; font-size: .94rem; }
 .box dt, .box dd { margin: 0; }
 dt { font-weight: 600; margin-top: .6rem; }
@@ -65,7 +65,12 @@ code, pre, .name {
 }
 figure { margin: 1.6rem 0 2.2rem; }
 .drawing { background: #ffffff; border: 1px solid var(--rule); border-radius: 6px; padding: .5rem; overflow-x: auto; }
-.drawing img { display: block; width: 100%; min-width: 40rem; height: auto; }
+.drawing img { display: block; margin: 0 auto; max-width: 100%; height: auto; }
+@media (max-width: 44rem) { .drawing img { max-width: none; } }
+.scene { display: block; width: 100%; height: auto; }
+.start { display: flex; flex-wrap: wrap; gap: .4rem 1.6rem; align-items: flex-start; }
+.start figure { flex: 1 1 20rem; max-width: 34rem; margin: .4rem 0; }
+.start ul { flex: 1 1 18rem; font-size: .94rem; }
 figcaption { font-size: .93rem; color: var(--soft); margin-top: .5rem; }
 figcaption b { color: var(--ink); }
 .wide { overflow-x: auto; margin: .8rem 0 1.2rem; }
@@ -97,7 +102,6 @@ footer { margin-top: 3rem; color: var(--soft); font-size: .88rem; }
   h2, h3 { break-after: avoid; }
   .wide, .drawing { overflow: visible; }
   .drawing { border: 0; padding: 0; }
-  .drawing img { min-width: 0; }
   table { font-size: 7.5pt; }
   th, td { padding: .15rem .3rem; }
   tbody th { position: static; }

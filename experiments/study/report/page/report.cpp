@@ -15,6 +15,8 @@
 #include "experiments/study/plot/gnuplot_figure.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/report/answer/answer.hpp"
+#include "experiments/study/report/drawing/scenario_drawing.hpp"
+#include "experiments/study/report/drawing/scenario_words.hpp"
 #include "experiments/study/report/figures/study_figures.hpp"
 #include "experiments/study/report/findings/findings.hpp"
 #include "experiments/study/report/findings/method_table.hpp"
@@ -82,7 +84,9 @@ std::string head(const StudyView& study, std::string_view contents) {
       "<nav aria-label=\"Contents\"><ul>{}<li><a href=\"#seen\">What is "
       "seen</a></li>{}</ul></nav>\n</header>\n<main>\n",
       html(title_of(study)), page_style, html(title_of(study)), html(study.question),
-      has_answer(study) ? "<li><a href=\"#answer\">The answer</a></li>" : "", contents);
+      std::string(has_answer(study) ? "<li><a href=\"#answer\">The answer</a></li>" : "") +
+          (study.scenarios.empty() ? "" : "<li><a href=\"#scenario\">The scenario</a></li>"),
+      contents);
 }
 
 std::string head(const StudyView& study) {
@@ -109,7 +113,9 @@ std::string analysis_html(const Analysis& analysis) {
     out += table.rows.size() > open_rows_of_analysis ? folded(table.caption, html(table, Caption::spoken), false)
                                                      : html(table);
     out += fmt::format(
-        "<p>For a text: <a href=\"tables/{0}.tex\">LaTeX</a>, <a href=\"tables/{0}.md\">Markdown</a>.</p>\n", name);
+        "<p>For a text: <a href=\"tables/{0}.tex\">LaTeX</a>, <a href=\"tables/{0}.md\">Markdown</a>, <a "
+        "href=\"tables/{0}.csv\">CSV</a>.</p>\n",
+        name);
   }
   for (const auto& sentence : analysis.method) out += paragraph(sentence);
   std::vector<std::string> links;
@@ -148,6 +154,24 @@ std::string figure_html(const StudyView& study, const Figure& figure) {
                      svg ? fmt::format(" Files: {}.", file_links(figure)) : "");
 }
 
+/// A figure of wall times, included by reference: wall times differ from call to call, the bytes of this page must not.
+std::string timed_figure(const StudyView& study, const Figure& figure) {
+  const bool drawn = std::filesystem::exists(study.folder / timings_folder / (figure.name + ".svg"));
+  const auto drawing = drawn ? fmt::format("<div class=\"drawing\"><img alt=\"{}\" src=\"{}/{}.svg\"></div>",
+                                           html(figure.title), timings_folder, figure.name)
+                             : std::string(not_drawn);
+  return fmt::format(
+      "<figure id=\"{}\">\n{}\n<figcaption><b>{}.</b> {} Wall times differ from call to call: this picture stays in "
+      "its own file, is no part of this page, and is gone where the page is moved alone.{}</figcaption>\n</figure>\n",
+      figure.name, drawing, html(figure.title), html(figure.caption),
+      drawn ? fmt::format(" Files: {}.", file_links(figure, timings_folder)) : "");
+}
+
+/// True for a page whose answer is about costs alone, so that a figure of wall times stands beside it.
+bool times_beside_answer(const StudyView& study) {
+  return study.runs.empty() && has_answer(study) && !study.analysis->timed.figures.empty();
+}
+
 /// The answer's sentences; the first one stands out.
 std::string answer_sentences(const std::vector<std::string>& sentences) {
   std::string out;
@@ -159,6 +183,7 @@ std::string answer_sentences(const std::vector<std::string>& sentences) {
 /// Name of the figure that stands beside the answer.
 std::string figure_beside_answer(const StudyView& study) {
   if (!study.analysis) return figure_of_the_answer;
+  if (times_beside_answer(study)) return "";
   return has_answer(study) && !study.analysis->figures.empty() ? study.analysis->figures.front().name : "";
 }
 
@@ -169,10 +194,40 @@ std::string answer_html(const StudyView& study, const Grouping& grouping, const 
   const Answer answer = study.analysis ? study.analysis->answer : answer_of(study, grouping);
   out += answer_sentences(answer.sentences);
   if (answer.table) out += html(*answer.table);
+  if (times_beside_answer(study)) out += timed_figure(study, study.analysis->timed.figures.front());
   for (const auto& figure : set.figures) {
     if (figure.name == figure_beside_answer(study)) out += figure_html(study, figure);
   }
   if (!answer.depends.empty()) out += folded("What the answer depends on", list(answer.depends), false);
+  return out + "</section>\n";
+}
+
+/// A scenario: what it is, how it starts, and its data in words.
+std::string scenario_html(const Scenario& scenario) {
+  const ScenarioDrawing drawing = drawing_of(scenario);
+  std::string out = fmt::format("<h3>{} <code>{}</code></h3>\n", html(scenario.title), html(scenario.name));
+  if (!scenario.description.empty()) out += paragraph(scenario.description);
+  if (drawing.svg.empty()) return out;
+  return out + fmt::format(
+                   "<div class=\"start\">\n<figure><div class=\"drawing\">{}</div>\n<figcaption>{}</figcaption>"
+                   "</figure>\n{}</div>\n",
+                   drawing.svg, html(drawing.reading), list(scenario_words(scenario)));
+}
+
+/// The scenarios as they start; many are folded.
+std::string scenarios(const StudyView& study) {
+  constexpr std::size_t most_open = 2, most_drawn = 20;
+  if (study.scenarios.empty()) return {};
+  std::string open, more;
+  const std::size_t drawn = std::min(study.scenarios.size(), most_drawn);
+  for (std::size_t k = 0; k < drawn; ++k) (k < most_open ? open : more) += scenario_html(study.scenarios[k]);
+  if (drawn < study.scenarios.size())
+    more += paragraph(fmt::format("{} more are not drawn.", count(study.scenarios.size() - drawn, "scenario")));
+  std::string out = fmt::format("<section id=\"scenario\">\n<h2>The scenario{} at the start</h2>\n{}",
+                                study.scenarios.size() == 1 ? "" : "s", open);
+  if (!more.empty()) out += folded(count(study.scenarios.size() - most_open, "more scenario"), more, false);
+  if (!study.varied_keys.empty())
+    out += paragraph(fmt::format("As the file gives it. The runs vary {}.", words(study.varied_keys)));
   return out + "</section>\n";
 }
 
@@ -196,23 +251,12 @@ std::string what_is_seen(const StudyView& study, const Findings& findings) {
   return out + "</section>\n";
 }
 
-/// The figures of wall times, included by reference: wall times differ from call to call, the bytes of this page must
-/// not.
 std::string timed_figures(const StudyView& study) {
   std::string out;
   if (!study.analysis) return out;
   const Analysis::Timed& timed = study.analysis->timed;
-  for (const auto& figure : timed.figures) {
-    const bool drawn = std::filesystem::exists(study.folder / timings_folder / (figure.name + ".svg"));
-    const auto drawing = drawn ? fmt::format("<div class=\"drawing\"><img alt=\"{}\" src=\"{}/{}.svg\"></div>",
-                                             html(figure.title), timings_folder, figure.name)
-                               : std::string(not_drawn);
-    out += fmt::format(
-        "<figure id=\"{}\">\n{}\n<figcaption><b>{}.</b> {} Wall times differ from call to call: this picture stays in "
-        "its own file, is no part of this page, and is gone where the page is moved alone.{}</figcaption>\n</figure>\n",
-        figure.name, drawing, html(figure.title), html(figure.caption),
-        drawn ? fmt::format(" Files: {}.", file_links(figure, timings_folder)) : "");
-  }
+  for (std::size_t k = times_beside_answer(study) ? 1 : 0; k < timed.figures.size(); ++k)
+    out += timed_figure(study, timed.figures[k]);
   std::vector<std::string> links;
   for (const auto& file : timed.files) {
     links.push_back(fmt::format("<a href=\"{0}/{1}\">{0}/{1}</a>", timings_folder, file.name.string()));
@@ -246,35 +290,9 @@ std::string methods(const Grouping& grouping) {
   } else {
     out += html(table);
   }
-  return out + "</section>\n";
-}
-
-/// Bodies of a scenario, "1 body (box, 10 kg)", and the forces on them.
-std::string bodies_and_forces(const Scenario& scenario) {
-  std::vector<std::string> bodies;
-  for (const auto& body : scenario.problem.bodies) {
-    if (bodies.size() == 6) {
-      bodies.push_back(fmt::format("{} more", scenario.problem.bodies.size() - 6));
-      break;
-    }
-    bodies.push_back(body.fixed
-                         ? fmt::format("{} (static)", body.name)
-                         : fmt::format("{} ({} kg{})", body.name, rounded(body.mass), body.pinned ? ", pinned" : ""));
-  }
-  std::set<std::string> forces;
-  for (const auto& force : scenario.problem.forces) forces.insert(force.kind);
-  return fmt::format("Bodies: {}. Forces: {}.", bodies.empty() ? "none" : words(bodies),
-                     forces.empty() ? "none" : words({forces.begin(), forces.end()}));
-}
-
-std::string scenarios(const StudyView& study) {
-  std::string out = "<h3>Scenarios</h3>\n<dl>\n";
-  for (const auto& scenario : study.scenarios) {
-    out += fmt::format("<dt>{} <code>{}</code></dt>\n<dd>{}{}{}</dd>\n", html(scenario.title), html(scenario.name),
-                       html(scenario.description), scenario.description.empty() ? "" : "<br>",
-                       html(bodies_and_forces(scenario)));
-  }
-  return out + "</dl>\n";
+  return out +
+         "<p>For a text: <a href=\"tables/methods.tex\">LaTeX</a>, <a href=\"tables/methods.md\">Markdown</a>, <a "
+         "href=\"tables/methods.csv\">CSV</a>.</p>\n</section>\n";
 }
 
 std::string catalogue_table(const Grouping& grouping) {
@@ -358,8 +376,8 @@ std::string options_html(const StudyView& study) {
 }
 
 std::string what_was_run(const StudyView& study, const Grouping& grouping) {
-  return fmt::format("<section id=\"run\">\n<h2>What was run</h2>\n{}<h3>Methods</h3>\n{}{}{}</section>\n",
-                     scenarios(study), catalogue_table(grouping), options_html(study), command_html(study));
+  return fmt::format("<section id=\"run\">\n<h2>What was run</h2>\n<h3>Methods</h3>\n{}{}{}</section>\n",
+                     catalogue_table(grouping), options_html(study), command_html(study));
 }
 
 std::string all_runs(const StudyView& study) {
@@ -371,7 +389,8 @@ std::string all_runs(const StudyView& study) {
   std::string out =
       "<section id=\"runs\">\n<h2>All runs</h2>\n<p>All digits and all options: <a href=\"runs.csv\">runs.csv</a>; for "
       "a text: "
-      "<a href=\"tables/summary.tex\">LaTeX</a>, <a href=\"tables/summary.md\">Markdown</a>, "
+      "<a href=\"tables/summary.tex\">LaTeX</a>, <a href=\"tables/summary.md\">Markdown</a>, <a "
+      "href=\"tables/summary.csv\">CSV</a>, "
       "<a href=\"tables/values.tex\">LaTeX commands</a>; what made them: <a "
       "href=\"manifest.json\">manifest.json</a>.</p>\n";
   std::string summary =
@@ -383,15 +402,17 @@ std::string all_runs(const StudyView& study) {
 std::string foot() {
   const auto& build = build_info();
   return fmt::format(
-      "</main>\n<footer><p>Made by polhode {}, commit {}. SI units throughout.</p></footer>\n</body>\n</html>\n",
+      "</main>\n<footer><p>Made by polhode {}, commit {}. SI units throughout. "
+      "<code>./run guide</code> makes the book about methods, figures and columns.</p></footer>\n</body>\n</html>\n",
       html(build.version), html(build.commit));
 }
 
 /// Page of an experiment without runs, which contains only its analysis.
 std::string report_without_runs(const StudyView& study) {
-  return head(study, "<li><a href=\"#figures\">Figures</a></li>") + "<section id=\"seen\">\n<h2>What is seen</h2>\n" +
-         analysis_html(*study.analysis) + command_html(study) + "</section>\n" +
-         figures(study, {study.analysis->figures, {}}) + foot();
+  const FigureSet set{study.analysis->figures, {}};
+  return head(study, "<li><a href=\"#figures\">Figures</a></li>") + answer_html(study, {}, set) +
+         "<section id=\"seen\">\n<h2>What is seen</h2>\n" + analysis_html(*study.analysis) + command_html(study) +
+         "</section>\n" + figures(study, set) + foot();
 }
 
 }  // namespace
@@ -406,16 +427,16 @@ void write_report(const StudyView& study) {
     const std::size_t beside_answer = figure_beside_answer(study).empty() ? 0 : 1;
     const bool drawn = study.analysis->figures.size() > beside_answer || !study.analysis->timed.figures.empty();
     write_text(study.folder / "report.html", head(study) + answer_html(study, grouping, {study.analysis->figures, {}}) +
-                                                 what_is_seen(study, findings_of(study, grouping)) +
+                                                 scenarios(study) + what_is_seen(study, findings_of(study, grouping)) +
                                                  (drawn ? figures(study, {study.analysis->figures, {}}) : "") +
                                                  what_was_run(study, grouping) + all_runs(study) + foot());
     return;
   }
   const auto set = figures_of(study, grouping);
-  write_text(study.folder / "report.html", head(study) + answer_html(study, grouping, set) +
-                                               what_is_seen(study, findings_of(study, grouping)) +
-                                               std::string(how_to_read) + figures(study, set) + methods(grouping) +
-                                               what_was_run(study, grouping) + all_runs(study) + foot());
+  write_text(study.folder / "report.html",
+             head(study) + answer_html(study, grouping, set) + scenarios(study) + std::string(how_to_read) +
+                 what_is_seen(study, findings_of(study, grouping)) + figures(study, set) + methods(grouping) +
+                 what_was_run(study, grouping) + all_runs(study) + foot());
 }
 
 }  // namespace polhode::study::report::page

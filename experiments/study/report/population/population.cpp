@@ -102,6 +102,7 @@ void Population::find_axes(const StudyView& sample) {
 
 void Population::add(const RunRecord& run, const std::vector<std::string>& cells) {
   ++runs_;
+  cheapest_.add(run);
   Outcome& outcome = outcomes_[run.result.status];
   if (++outcome.runs == 1) outcome.message = run.result.message;
   const auto method =
@@ -298,7 +299,7 @@ Figure Population::maps() const {
 }
 
 Analysis Population::analysis() const {
-  Analysis found{.alone = true, .heading = "Distributions over all runs"};
+  Analysis found{.alone = true, .answer = cheapest_.answer(), .heading = "Distributions over all runs"};
   found.tables.push_back({"distributions", table()});
   found.files.push_back({"distributions.csv", csv()});
   found.method = {

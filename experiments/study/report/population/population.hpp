@@ -12,6 +12,7 @@
 #include "experiments/study/record/analysis.hpp"
 #include "experiments/study/record/metric_table.hpp"
 #include "experiments/study/record/study_view.hpp"
+#include "experiments/study/report/population/cheapest_setting.hpp"
 #include "experiments/study/statistics/quantile_sketch.hpp"
 
 namespace polhode::study::inline report::inline population {
@@ -32,7 +33,7 @@ class Population {
   };
   const std::map<std::string, Outcome>& outcomes() const { return outcomes_; }
 
-  /// Table and file of distributions; figures of distributions, of quantiles against the axes, and maps.
+  /// The answer; table and file of distributions; figures of distributions, of quantiles against the axes, and maps.
   Analysis analysis() const;
 
  private:
@@ -72,6 +73,7 @@ class Population {
   std::vector<std::string> methods_;              // in the order in which they are met
   std::vector<std::vector<Distribution>> found_;  // by method, then by metric
   std::map<std::string, Outcome> outcomes_;
+  CheapestSetting cheapest_;
   std::size_t runs_ = 0;
 };
 

@@ -35,10 +35,13 @@ Field field_of(const RunOption& option) {
   using Role = RunOption::Role;
   const bool number = option.kind != RunOption::Kind::name;
   const bool name = option.role == Role::method || option.role == Role::scenario;
-  return {{option.header, option.unit,
-           number ? Kind::number
-           : name ? Kind::name
-                  : Kind::text},
+  return {{.header = option.header,
+           .unit = option.unit,
+           .kind = number ? Kind::number
+                   : name ? Kind::name
+                          : Kind::text,
+           .apart = option.role == Role::scenario || option.role == Role::duration,
+           .key = true},
           [&option](const RunRecord& run) {
             const OptionValue value = option.value(run.config);
             const auto* x = std::get_if<double>(&value);
@@ -57,7 +60,7 @@ std::vector<Field> configuration(const StudyView& study) {
   add(Role::scenario);
   for (std::size_t i = 0; i < study.varied_keys.size(); ++i) {
     const auto key = study.varied_keys[i];
-    fields.push_back({{key, "", Kind::text}, [key](const RunRecord& r) {
+    fields.push_back({{.header = key, .kind = Kind::text, .apart = true, .key = true}, [key](const RunRecord& r) {
                         const auto& all = r.config.varied;
                         const auto at =
                             std::find_if(all.begin(), all.end(), [&](const auto& o) { return o.key == key; });
@@ -69,6 +72,8 @@ std::vector<Field> configuration(const StudyView& study) {
   add(Role::size);
   return fields;
 }
+
+Column::Best best_of(const Metric& metric) { return metric.least_is_best ? Column::Best::least : Column::Best::none; }
 
 std::vector<Field> results(const StudyView& study) {
   std::vector<Field> fields;
@@ -82,12 +87,18 @@ std::vector<Field> results(const StudyView& study) {
           const auto at = (r.result.*drifts).find(name);
           return at == (r.result.*drifts).end() ? std::string() : measured(at->second);
         };
-        fields.push_back({{name + " " + metric->label, metric->unit}, text, false, metric->in_summary});
+        fields.push_back({{.header = name + " " + metric->label, .unit = metric->unit, .best = best_of(*metric)},
+                          text,
+                          false,
+                          metric->in_summary});
       }
       continue;
     }
     const bool idle = metric->column == "status" && all_ok;  // redundant in a summary
-    fields.push_back({{metric->label, metric->unit, is_text(*metric) ? Kind::text : Kind::number},
+    fields.push_back({{.header = metric->label,
+                       .unit = metric->unit,
+                       .kind = is_text(*metric) ? Kind::text : Kind::number,
+                       .best = best_of(*metric)},
                       [metric](const RunRecord& r) { return table_cell(*metric, r.result); },
                       false,
                       metric->in_summary && !idle});

@@ -9,6 +9,7 @@
 
 #include "experiments/study/record/metric_table.hpp"
 #include "experiments/study/record/run_options.hpp"
+#include "experiments/study/report/answer/answer.hpp"
 #include "experiments/study/text/aligned.hpp"
 #include "experiments/study/text/notation.hpp"
 #include "experiments/study/text/value_lists.hpp"
@@ -100,6 +101,12 @@ std::string reasons_of(const StudyView& study) {
   return text.empty() ? "" : "\n" + text;
 }
 
+std::string paragraphs(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& sentence : sentences) text += "\n" + sentence + "\n";
+  return text;
+}
+
 /// Summary of the analysis of the experiment, which replaces the table of runs.
 std::string analysis_summary(const Analysis& analysis) {
   std::string text;
@@ -108,9 +115,8 @@ std::string analysis_summary(const Analysis& analysis) {
     text += plain(table);
     text += left_out(table.rows.size(), "rows", "tables/" + analysis.tables.front().name + ".md");
   }
-  for (const auto* sentences : {&analysis.sentences, &analysis.timed.sentences}) {
-    for (const std::string& sentence : *sentences) text += "\n" + sentence + "\n";
-  }
+  for (const auto* sentences : {&analysis.sentences, &analysis.timed.sentences, &analysis.answer.sentences})
+    text += paragraphs(*sentences);
   return text;
 }
 
@@ -137,7 +143,8 @@ std::string summary_table(const StudyView& study) {
   for (const std::size_t k : columns) left.push_back(!has_role(names[k], RunOption::Role::size));
   for (const Metric* metric : metrics) left.push_back(is_text(*metric));
   std::string text = aligned(table, left);
-  return text + left_out(study.runs.size(), "runs", "runs.csv") + reasons_of(study);
+  return text + left_out(study.runs.size(), "runs", "runs.csv") + reasons_of(study) +
+         paragraphs(answer_of(study, group(study)).sentences);
 }
 
 std::string reasons(const std::vector<Unfinished>& runs) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Folder tables/ of a study: the table of runs in LaTeX and Markdown, and every number as a LaTeX command.
+// Folder tables/ of a study: the tables of runs and of methods in LaTeX, Markdown and CSV, and every number as a LaTeX
+// command.
 #include "experiments/study/report/tables/tables.hpp"
 
 #include <fmt/format.h>
@@ -9,7 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "experiments/study/curves/curves.hpp"
+#include "experiments/study/plot/latex_table.hpp"
 #include "experiments/study/record/shown_runs.hpp"
+#include "experiments/study/report/findings/method_table.hpp"
 #include "experiments/study/report/tables/run_table.hpp"
 #include "experiments/study/report/tables/tex_values.hpp"
 #include "experiments/study/text/notation.hpp"
@@ -32,22 +36,31 @@ std::vector<std::size_t> rows_of(const StudyView& study) {
   return shown_runs(motions, rows_of_large_tables);
 }
 
+void write_table(const StudyView& study, const std::filesystem::path& folder, const std::string& name,
+                 const std::string& heading, const Table& table) {
+  const std::string best = words_for_best(table);
+  const std::string caption = table.caption + (best.empty() ? "" : ". " + best);
+  write_text(folder / (name + ".tex"),
+             fmt::format("% {}\n% {}\n% The preamble needs {}\n{}", title_of(study), one_line(caption),
+                         packages_of_latex_tables, latex_table(table).text));
+  write_text(folder / (name + ".md"),
+             fmt::format("# {}\n\n{}\n\n{}", markdown(heading), markdown(caption), markdown(table)));
+  write_text(folder / (name + ".csv"), csv(table));
+}
+
 void write_tables_of_runs(const StudyView& study, const std::filesystem::path& folder) {
   const auto rows = rows_of(study);
-  const auto table = run_table(study, Extent::summary, rows);
   const std::string part = rows.size() == study.size()
                                ? ""
-                               : fmt::format("{} of {} runs, of evenly chosen motions; ", rows.size(), study.size());
-  write_text(folder / "summary.tex",
-             fmt::format("% {}\n% The preamble needs \\usepackage[T1]{{fontenc}}\\usepackage{{booktabs,longtable}}. "
-                         "A dash: not defined for that run.\n% {}runs.csv has all digits and all options.\n{}",
-                         title_of(study), part, latex(table)));
-  write_text(
-      folder / "summary.md",
-      fmt::format(
-          "# {}\n\n{}\n\nAn empty cell is not defined for that run; {}runs.csv has all digits and all options.\n\n{}",
-          markdown(study.experiment), markdown(study.question), part, markdown(table)));
-  write_text(folder / "values.tex", tex_values(study, rows));
+                               : fmt::format("{} of {} runs, of evenly chosen motions", rows.size(), study.size());
+  Table runs = run_table(study, Extent::summary, rows);
+  runs.caption = fmt::format("The runs{}. A dash: not defined for that run; runs.csv has all digits and all options",
+                             part.empty() ? "" : ": " + part);
+  write_table(study, folder, "summary", study.experiment, runs);
+  Table methods = method_table(group(study));
+  methods.caption = "Method by method. " + methods.caption;
+  write_table(study, folder, "methods", study.experiment, methods);
+  write_tex_values(study, rows, folder);
 }
 
 }  // namespace
@@ -57,14 +70,7 @@ void write_tables(const StudyView& study) {
   std::filesystem::create_directories(folder);
   if (!study.runs.empty()) write_tables_of_runs(study, folder);
   if (!study.analysis) return;
-  for (const auto& [name, own] : study.analysis->tables) {
-    write_text(
-        folder / (name + ".tex"),
-        fmt::format("% {}: {}\n% The preamble needs \\usepackage[T1]{{fontenc}}\\usepackage{{booktabs,longtable}}.\n{}",
-                    title_of(study), one_line(own.caption), latex(own)));
-    write_text(folder / (name + ".md"), fmt::format("# {}\n\n{}\n\n{}", markdown(study.analysis->heading),
-                                                    markdown(own.caption), markdown(own)));
-  }
+  for (const auto& [name, own] : study.analysis->tables) write_table(study, folder, name, study.analysis->heading, own);
   for (const auto& file : study.analysis->files) write_text(study.folder / file.name, file.text);
   if (study.analysis->timed.files.empty()) return;
   std::filesystem::create_directories(study.folder / timings_folder);

@@ -6,7 +6,7 @@
 
 namespace polhode::study::inline report::inline tables {
 
-/// Writes tables/: tables in LaTeX (booktabs) and Markdown, and \newcommand values. Writes the files of the analysis.
+/// Writes tables/: tables in LaTeX, Markdown and CSV, and \newcommand values. Writes the files of the analysis.
 void write_tables(const StudyView& study);
 
 }  // namespace polhode::study::report::tables

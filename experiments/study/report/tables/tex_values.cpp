@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -19,14 +20,16 @@
 #include "experiments/study/curves/error_ladder.hpp"
 #include "experiments/study/record/metric_table.hpp"
 #include "experiments/study/record/run_options.hpp"
+#include "experiments/study/record/shown_runs.hpp"
 #include "experiments/study/text/notation.hpp"
+#include "experiments/study/text/text_file.hpp"
 
 namespace polhode::study::inline report::inline tables {
 
 namespace {
 
 constexpr const char* explanation =
-    R"(% The numbers of this study, for use in a text: \input{{values.tex}}, then for example
+    R"(% The numbers of this study, for use in a text: \input{{{}}}, then for example
 % \{}
 % A name is \polhode, scenario, method, varied keys with their values, options that are not the default, step or
 % tolerance, quantity. Digits and signs are spelt, and numbers are written with an exponent: 0.001 = 1e-3 is
@@ -34,6 +37,8 @@ constexpr const char* explanation =
 % as a to p. Units: EnergyDriftRate W, EnergyInitial J, PositionErrorMax m, AttitudeErrorMax rad; drifts and
 % AngularVelocityErrorMax are relative. What is not defined for a run has no command.
 )";
+
+constexpr std::size_t most_runs_of_a_method = 1000;  // in its file
 
 constexpr std::array<std::string_view, 10> digits = {"Zero", "One", "Two",   "Three", "Four",
                                                      "Five", "Six", "Seven", "Eight", "Nine"};
@@ -183,26 +188,62 @@ std::vector<std::string> tex_names(const StudyView& study, std::span<const std::
   return names;
 }
 
-std::string tex_values(const StudyView& study, std::span<const std::size_t> shown) {
-  const auto names = tex_names(study, shown);
-  const auto done =
-      std::find_if(shown.begin(), shown.end(), [&](const std::size_t i) { return completed(study.runs[i]); });
-  const auto example =
-      done == shown.end() ? "polhodeRuns" : names[static_cast<std::size_t>(done - shown.begin())] + "EnergyDriftMax";
-  std::string out = fmt::format(explanation, example);
-  if (shown.size() < study.size()) {
-    out += fmt::format("% {} of {} runs, of evenly chosen motions; runs.csv has all of them.\n", shown.size(),
-                       study.size());
-  }
-  define_count(out, "polhodeRuns", static_cast<std::int64_t>(study.size()));
+namespace {
+
+/// Commands of the runs at these places of `shown`.
+std::string values_of(const StudyView& study, std::span<const std::size_t> shown, const std::vector<std::string>& names,
+                      const std::vector<std::size_t>& places) {
+  std::string out;
   const auto metrics = in_table_order(study.metrics);
-  for (std::size_t k = 0; k < shown.size(); ++k) {
+  for (const std::size_t k : places) {
     const RunRecord& run = study.runs[shown[k]];
     out += fmt::format("\n% {}{}\n", one_line(run.id), completed(run) ? "" : ", " + one_line(run.result.status));
     define_run(out, names[k], run.result, metrics);
   }
-  define_slopes(out, study, shown);
   return out;
+}
+
+/// The comment at the beginning of a file with the runs at these places, the first completed one as the example.
+std::string head(const StudyView& study, std::span<const std::size_t> shown, const std::vector<std::string>& names,
+                 const std::vector<std::size_t>& places, const std::string& file) {
+  const auto done =
+      std::find_if(places.begin(), places.end(), [&](const std::size_t k) { return completed(study.runs[shown[k]]); });
+  return fmt::format(explanation, file, done == places.end() ? "polhodeRuns" : names[*done] + "EnergyDriftMax");
+}
+
+}  // namespace
+
+void write_tex_values(const StudyView& study, std::span<const std::size_t> shown, const std::filesystem::path& folder) {
+  const auto names = tex_names(study, shown);
+  std::vector<std::size_t> all(shown.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const bool one_file = shown.size() <= most_runs_of_a_values_file;
+  std::map<std::string, std::vector<std::size_t>> places;  // by method
+  for (const std::size_t k : all) places[study.runs[shown[k]].config.integrator].push_back(k);
+  std::string out = head(study, shown, names, one_file ? all : std::vector<std::size_t>{}, "values.tex");
+  if (shown.size() < study.size()) {
+    out += fmt::format("% {} of {} runs, of evenly chosen motions; runs.csv has all of them.\n", shown.size(),
+                       study.size());
+  }
+  if (!one_file)
+    out +=
+        "% The runs of a method are in a file of their own, since TeX cannot hold all: \\input{values_METHOD.tex}.\n";
+  define_count(out, "polhodeRuns", static_cast<std::int64_t>(study.size()));
+  if (one_file) out += values_of(study, shown, names, all);
+  define_slopes(out, study, shown);
+  write_text(folder / "values.tex", out);
+  for (const auto& [method, all_of_method] : places) {
+    const std::string file = fmt::format("values_{}.tex", method);
+    std::filesystem::remove(folder / file);  // of an earlier call, with more runs
+    if (one_file) continue;
+    std::vector<std::size_t> those;
+    for (const std::size_t i : evenly_spread(all_of_method.size(), most_runs_of_a_method))
+      those.push_back(all_of_method[i]);
+    std::string text = head(study, shown, names, those, file);
+    if (those.size() < all_of_method.size())
+      text += fmt::format("% {} of {} runs; runs.csv has all of them.\n", those.size(), all_of_method.size());
+    write_text(folder / file, text + values_of(study, shown, names, those));
+  }
 }
 
 }  // namespace polhode::study::report::tables

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,7 +19,12 @@ namespace polhode::study::inline report::inline tables {
 /// id are appended, with 0 … f as a … p. One name for each of the runs with the indices `shown`.
 std::vector<std::string> tex_names(const StudyView& study, std::span<const std::size_t> shown);
 
-/// Text of the file of \newcommand lines for these runs. A comment at its beginning explains the names.
-std::string tex_values(const StudyView& study, std::span<const std::size_t> shown);
+/// Number of runs up to which one file has the commands of all of them. TeX's memory holds some 30 000 commands.
+inline constexpr std::size_t most_runs_of_a_values_file = 400;
+
+/// Writes values.tex into the folder: \newcommand lines of these runs. For more runs than that it has the slopes of
+/// the curves, and values_METHOD.tex the runs of one method each, of which a text loads those that it uses. A comment
+/// at the beginning of each explains the names.
+void write_tex_values(const StudyView& study, std::span<const std::size_t> shown, const std::filesystem::path& folder);
 
 }  // namespace polhode::study::report::tables

@@ -123,11 +123,10 @@ TEST_P(Origin, ChangesNothing) {
         ASSERT_TRUE(there.invariant_drift_max_rel.contains(name)) << name;
         agree(drift, there.invariant_drift_max_rel.at(name), small, name.c_str());
       }
-      // The drift of bodies that rest on each other is the solver's shaking, of which each rounding makes another one.
-      if (scenario.name == "stack") EXPECT_LE(*here.energy_drift_max_rel, shaking);
-      else
-        EXPECT_EQ(there.drift_class, here.drift_class)
-            << *here.energy_drift_max_rel << " " << *there.energy_drift_max_rel << ", rounding " << rounding;
+      // A drift that rounding explains, or the shaking of bodies that rest on each other, may have another class.
+      if (std::max(*here.energy_drift_max_rel, *there.energy_drift_max_rel) <= rounding) continue;
+      EXPECT_EQ(there.drift_class, here.drift_class)
+          << *here.energy_drift_max_rel << " " << *there.energy_drift_max_rel << ", rounding " << rounding;
     }
   }
 }

@@ -58,6 +58,7 @@ inline std::string unbalanced(const std::string& page) {
     }
     if (tag.empty()) return "a stray < at " + page.substr(at, 40);
     if (no_end.contains(tag)) continue;
+    if (const auto end = page.find('>', at); end != std::string::npos && page[end - 1] == '/') continue;
     if (!closes) {
       open.push_back(tag);
       if (tag == "style") at = page.find("</style>", at) - 1;

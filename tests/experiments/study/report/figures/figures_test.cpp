@@ -4,12 +4,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <regex>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -76,6 +78,74 @@ TEST(ReportFigures, ShowAMethodOfWhichEveryRunDiverged) {
   }
   const auto set = figures_of(study, group(study));
   EXPECT_EQ(points_with(*find_figure(set, "drift_against_step"), Mark::edge).size(), 7U);
+}
+
+TEST(ReportFigures, SayWhoseTheCrossesAre) {
+  auto study = power_laws("unused");
+  for (auto& run : study.runs) {
+    if (run.config.dt && *run.config.dt > 0.01) run.result.status = "diverged";
+  }
+  const auto set = figures_of(study, group(study));
+  const Figure& figure = *find_figure(set, "drift_against_step");
+  const Panel& panel = figure.panels.front();
+  ASSERT_EQ(panel.names.size(), 4U);  // the methods with a fixed step
+  std::set<double> lanes;
+  for (const NameMark& mark : panel.names) {
+    const auto curve = std::find_if(panel.curves.begin(), panel.curves.end(),
+                                    [&](const auto& c) { return figure.methods[c.method] == mark.name; });
+    ASSERT_NE(curve, panel.curves.end()) << mark.name;
+    EXPECT_EQ(curve->method, mark.method);
+    std::size_t crosses = 0;
+    for (const Point& point : curve->points) {
+      if (point.mark != Mark::edge) continue;
+      ++crosses;
+      EXPECT_EQ(point.drawn, mark.y) << mark.name;
+    }
+    EXPECT_EQ(crosses, 3U) << mark.name;
+    lanes.insert(mark.y);
+    EXPECT_NE(figure.caption.find(mark.name), std::string::npos) << figure.caption;
+  }
+  EXPECT_EQ(lanes.size(), 4U) << "crosses of two methods stand at the same height";
+  for (const Point& point : points_with(figure, Mark::value)) EXPECT_LT(point.drawn, *lanes.begin());
+}
+
+TEST(ReportFigures, PutUpToTenMethodsInOnePanelAndMoreInPanelsOfNearlyEqualNumbers) {
+  const auto methods_by_panel = [](std::size_t methods) {
+    auto study = empty_study("unused");
+    for (std::size_t m = 0; m < methods; ++m) {
+      for (const double step : {0.01, 0.001})
+        study.runs.push_back(fake_run({.method = "m" + std::to_string(10 + m), .p = 2}, "top", step));
+    }
+    const auto set = figures_of(study, group(study));
+    std::vector<std::size_t> numbers;
+    for (const Panel& panel : find_figure(set, "drift_against_step")->panels) numbers.push_back(panel.curves.size());
+    return numbers;
+  };
+  EXPECT_EQ(methods_by_panel(9), (std::vector<std::size_t>{9}));
+  EXPECT_EQ(methods_by_panel(10), (std::vector<std::size_t>{10}));
+  EXPECT_EQ(methods_by_panel(11), (std::vector<std::size_t>{5, 6}));
+  EXPECT_EQ(methods_by_panel(25), (std::vector<std::size_t>{8, 8, 9}));
+}
+
+TEST(ReportFigures, OfErrorAgainstCostNameTheCheapestAndTheNext) {
+  auto study = empty_study("unused");
+  study.scenarios.push_back(fake_scenario("top"));
+  for (int m = 0; m < 12; ++m) {  // each the dearer, the larger its scale
+    for (const double step : seven_steps)
+      study.runs.push_back(
+          fake_run({.method = "m" + std::to_string(10 + m), .scale = std::pow(3, m), .p = 3}, "top", step));
+  }
+  const auto set = figures_of(study, group(study));
+  const Figure* figure = find_figure(set, "error_against_cost");
+  ASSERT_NE(figure, nullptr);
+  std::set<std::string> coloured;
+  for (const PlottedCurve& curve : figure->panels.front().curves) {
+    if (!curve.muted) coloured.insert(figure->methods[curve.method]);
+  }
+  EXPECT_EQ(coloured, (std::set<std::string>{"m10", "m11"}));
+  ASSERT_EQ(figure->panels.front().names.size(), 1U);
+  EXPECT_EQ(figure->panels.front().names.front().name, "m11");
+  EXPECT_EQ(figure->panels.front().envelope.front().label, "m10");
 }
 
 TEST(ReportFigures, DrawAllPointsInsideTheirAxes) {

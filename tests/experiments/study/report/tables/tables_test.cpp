@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <set>
 #include <string>
@@ -51,9 +52,26 @@ TEST(ReportTables, AreWritten) {
   EXPECT_NE(values.find("\\newcommand{\\polhodeTumblingBoxRkFourEnergyDriftSlope}"), std::string::npos);
   for (const auto& text : {tex, md, values}) EXPECT_FALSE(has_not_a_number(text));
 
+  const auto methods = read(folder.path / "tables/methods.csv");
+  EXPECT_NE(methods.find("\nrk4,"), std::string::npos) << methods;
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "tables/values_rk4.tex"));
+
   study.runs.resize(3);
   write_tables(study);
   EXPECT_NE(read(folder.path / "tables/summary.tex").find("\\begin{tabular}"), std::string::npos);
+}
+
+TEST(ReportTables, ValuesOfManyRunsAreInAFileForEachMethod) {
+  const Folder folder;
+  auto study = power_laws(folder.path);
+  while (study.runs.size() <= most_runs_of_a_values_file) study.runs.push_back(study.runs[study.runs.size() % 49]);
+  write_tables(study);
+  const auto values = read(folder.path / "tables/values.tex"), of_rk4 = read(folder.path / "tables/values_rk4.tex");
+  EXPECT_NE(values.find("\\newcommand{\\polhodeRuns}"), std::string::npos);
+  EXPECT_EQ(values.find("EnergyDriftMax}"), std::string::npos);
+  EXPECT_NE(of_rk4.find("EnergyDriftMax}"), std::string::npos);
+  EXPECT_EQ(of_rk4.find("CvodeAdams"), std::string::npos);
+  EXPECT_NE(of_rk4.find("\\input{values_rk4.tex}"), std::string::npos);
 }
 
 }  // namespace

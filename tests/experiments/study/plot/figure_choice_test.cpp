@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/plot/figure_choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "experiments/study/plot/figure_layout.hpp"
+#include "experiments/study/plot/gnuplot_figure.hpp"
+#include "experiments/study/text/input_error.hpp"
+
+namespace polhode::study {
+namespace {
+
+/// Two rows of `columns` panels, of which only those on the left label their y axis.
+Figure two_rows(std::size_t columns) {
+  Figure figure{.name = "f", .title = "A title", .methods = {"rk4"}, .variants = {""}};
+  add_rows(figure, std::vector<Panel>(2 * columns), columns);
+  return figure;
+}
+
+TEST(FigureWidth, IsAWordOrANumber) {
+  EXPECT_EQ(read_figure_width("one_column", "--figure-width"), 8.6);
+  EXPECT_EQ(read_figure_width("two_columns", "--figure-width"), 17.8);
+  EXPECT_EQ(read_figure_width("12.7", "--figure-width"), 12.7);
+  for (const char* wrong : {"", "wide", "4", "61", "12cm", "nan", "-9"})
+    EXPECT_THROW(read_figure_width(wrong, "--figure-width"), InputError) << wrong;
+}
+
+TEST(FigureFont, IsAFamilyASizeOrBoth) {
+  Look look;
+  read_figure_font("DejaVu Serif", "--figure-font", look);
+  EXPECT_EQ(look.font, "DejaVu Serif");
+  EXPECT_EQ(look.font_size, 9);
+  read_figure_font(",11", "--figure-font", look);
+  EXPECT_EQ(look.font, "DejaVu Serif");
+  EXPECT_EQ(look.font_size, 11);
+  read_figure_font("Latin Modern Roman,10.5", "--figure-font", look);
+  EXPECT_EQ(look.font, "Latin Modern Roman");
+  EXPECT_EQ(look.font_size, 10.5);
+  for (const char* wrong : {"", "a,b", "a,3", "a,41", "it's", "a\"b", "a,9,9"})
+    EXPECT_THROW(read_figure_font(wrong, "--figure-font", look), InputError) << wrong;
+}
+
+TEST(FigureChoice, RemovesFiguresAndGivesTheOthersTheirLook) {
+  std::vector<Figure> figures = {two_rows(1), two_rows(1)};
+  figures[1].name = "g";
+  FigureChoice choice;
+  choice.look.title = true;
+  choose_figures(choice, figures);
+  ASSERT_EQ(figures.size(), 2U);
+  EXPECT_TRUE(figures[0].look.title);
+  choice.names = {"g", "h"};
+  choose_figures(choice, figures);
+  ASSERT_EQ(figures.size(), 1U);
+  EXPECT_EQ(figures[0].name, "g");
+}
+
+TEST(FittedFigure, PutsPanelsBelowEachOtherWhereTheyWouldBeNarrow) {
+  Figure figure = two_rows(3);
+  EXPECT_EQ(fitted(figure).columns, 3U);  // at the default width
+  figure.look.width_cm = 12.7;
+  EXPECT_EQ(fitted(figure).columns, 2U);
+  figure.look.width_cm = 8.6;
+  const Figure narrow = fitted(figure);
+  EXPECT_EQ(narrow.columns, 1U);
+  EXPECT_EQ(narrow.rows, 6U);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(narrow.panels[i].row, i);
+    EXPECT_EQ(narrow.panels[i].column, 0U);
+    EXPECT_TRUE(narrow.panels[i].y.labelled);
+  }
+}
+
+TEST(FittedFigure, BeginsEachRowOfTheWideOneOnANewRow) {
+  Figure figure = two_rows(3);
+  figure.look.width_cm = 12.7;
+  const Figure fit = fitted(figure);
+  EXPECT_EQ(fit.rows, 4U);
+  EXPECT_EQ(fit.panels[3].row, 2U);
+  EXPECT_EQ(fit.panels[3].column, 0U);
+}
+
+TEST(GnuplotScript, HasTheTitleOnlyIfAskedFor) {
+  Figure figure = two_rows(1);
+  EXPECT_EQ(gnuplot_script(figure).find("set label 'A title'"), std::string::npos);
+  figure.look.title = true;
+  EXPECT_NE(gnuplot_script(figure).find("set label 'A title'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace polhode::study
