@@ -219,7 +219,7 @@ Analysis comparison(const StudyView& study) {
                  {"pairs.csv", pairs_csv(costs)},
                  {"regret.csv", regret_csv(costs)}};
   std::string page = paragraph(found.answer.sentences) + "\n" + paragraph(found.sentences) + "\n";
-  for (const auto& table : found.tables) page += markdown(table.table) + "\n";
+  for (const auto& table : found.tables) page += "**" + table.table.caption + "**\n\n" + markdown(table.table) + "\n";
   page += "What it depends on:\n\n" + paragraph(found.answer.depends) + "\n" + paragraph(found.method);
   found.files.push_back({"methods.md", std::move(page)});
   return found;

@@ -15,9 +15,9 @@ FIGURES = ("solved_against_budget", "profiles_of_two")
 
 HEAD = """# Methods compared: which one, for which kind of problem
 
-Every method of the catalogue, in six formulations, on {motions} motions in {groups} groups that were fixed beforehand:
-what each has to spend to come below errors from 1e-2 to 1e-10. How it is measured and compared, and what each word
-means: [experiments/methods/README.md](../../experiments/methods/README.md). All of this page below the figures is printed
+Every method of the catalogue, in six formulations, on {motions} motions in {groups} groups: what each has to spend to
+come below errors from 1e-2 to 1e-10. How it is measured and compared, how the groups were chosen, and what each word means:
+[experiments/methods/README.md](../../experiments/methods/README.md). All of this page below the figures is printed
 by `./run methods` (polhode {version}); `publish.py` put it here. A test counts the claims again from `costs.csv`.
 
 ![Tasks solved within a budget](solved_against_budget.svg)
