@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The page of the default study in a browser without a network: what the first screen shows, on a phone, on paper."""
+import base64
 import re
 import shutil
 import unittest
@@ -9,6 +10,39 @@ from programs import call, temporary_folder
 
 LARGEST = 5_000_000  # bytes
 BOX = "(() => {{ const b = document.querySelector({!r}).getBoundingClientRect(); return [b.left, b.top, b.right, b.bottom]; }})()"
+
+# How far the picture of a figure on the page is from another one, of 255: the mean over all pixels, and the largest over
+# squares of 4 x 4 pixels in any colour.
+DIFFERENCE = """(async (name, other) => {
+  const read = async (address) => {
+    const picture = new Image();
+    picture.src = address;
+    await picture.decode();
+    const canvas = Object.assign(document.createElement("canvas"), {width: picture.naturalWidth, height: picture.naturalHeight});
+    const context = canvas.getContext("2d");
+    context.drawImage(picture, 0, 0);
+    return context.getImageData(0, 0, canvas.width, canvas.height);
+  };
+  const one = await read(document.querySelector(`#${name} img`).src), two = await read(other);
+  if (one.width !== two.width || one.height !== two.height) return [255, 255];
+  let sum = 0, largest = 0;
+  for (let y = 0; y < one.height; y += 4) {
+    for (let x = 0; x < one.width; x += 4) {
+      for (let colour = 0; colour < 3; ++colour) {
+        let square = 0;
+        for (let v = y; v < Math.min(y + 4, one.height); ++v) {
+          for (let u = x; u < Math.min(x + 4, one.width); ++u) {
+            const at = 4 * (v * one.width + u) + colour;
+            square += one.data[at] - two.data[at];
+            sum += Math.abs(one.data[at] - two.data[at]);
+          }
+        }
+        largest = Math.max(largest, Math.abs(square) / 16);
+      }
+    }
+  }
+  return [sum / (3 * one.width * one.height), largest];
+})"""
 
 
 @unittest.skipUnless(PROGRAM, "skipped, because chromium is not installed")
@@ -49,6 +83,19 @@ class ReportPage(unittest.TestCase):
         self.assertLess(self.page.stat().st_size, LARGEST)
         outside = re.findall(r'(?:src|href)="(?!data:|#)([^"]*:[^"]*)"', self.page.read_text(encoding="utf-8"))
         self.assertEqual(outside, [])
+
+    @unittest.skipUnless(shutil.which("gnuplot"), "skipped, because gnuplot is not installed")
+    def test_its_pictures_are_those_of_the_files_in_fewer_bytes(self):
+        self.open(width=1280, height=900)
+        pictures = sorted((self.page.parent / "figures").glob("*.svg"))
+        self.assertGreaterEqual(len(pictures), 6)
+        text = self.page.read_text(encoding="utf-8")
+        self.assertLess(len(text), sum(picture.stat().st_size for picture in pictures))
+        for picture in pictures:
+            address = "data:image/svg+xml;base64," + base64.b64encode(picture.read_bytes()).decode()
+            mean, largest = self.browser.run(f"{DIFFERENCE}({picture.stem!r}, {address!r})")
+            self.assertLess(mean, 0.1, picture.stem)
+            self.assertLess(largest, 32, picture.stem)  # the antialiasing of a few edges
 
     def test_a_phone_shows_all_of_its_width(self):
         self.open(width=390, height=844)

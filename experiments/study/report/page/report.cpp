@@ -20,6 +20,7 @@
 #include "experiments/study/report/figures/study_figures.hpp"
 #include "experiments/study/report/findings/findings.hpp"
 #include "experiments/study/report/findings/method_table.hpp"
+#include "experiments/study/report/page/compact_svg.hpp"
 #include "experiments/study/report/page/how_to_read.hpp"
 #include "experiments/study/report/page/page_style.hpp"
 #include "experiments/study/report/page/replay_link.hpp"
@@ -146,8 +147,8 @@ constexpr const char* not_drawn =
 std::string figure_html(const StudyView& study, const Figure& figure) {
   const auto svg = picture(study, figure);
   const auto drawing =
-      svg ? fmt::format("<div class=\"drawing\"><img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\"></div>",
-                        html(figure.title + ". " + figure.caption), base64(*svg))
+      svg ? fmt::format("<div class=\"drawing\"><img alt=\"{}\" src=\"{}\"></div>",
+                        html(figure.title + ". " + figure.caption), svg_address(compact_svg(*svg)))
           : std::string(not_drawn);
   return fmt::format("<figure id=\"{}\">\n{}\n<figcaption><b>{}.</b> {}{}</figcaption>\n</figure>\n", figure.name,
                      drawing, html(figure.title), html(figure.caption),

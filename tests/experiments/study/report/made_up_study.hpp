@@ -94,7 +94,9 @@ inline Scenario fake_scenario(const std::string& name) {
   box.mass = 10;
   scenario.problem.bodies.push_back(box);
   scenario.problem.starts.emplace_back();
-  scenario.problem.forces.push_back({.kind = "uniform_gravity", .bodies = {0}, .values = {}});
+  scenario.shapes.emplace_back();
+  scenario.problem.forces.push_back(
+      {.kind = "uniform_gravity", .bodies = {0}, .values = {{"acceleration", Vector3<double>(0, 0, -9.81)}}});
   return scenario;
 }
 
