@@ -170,7 +170,7 @@ class Recount:
             ("diverged", r"(\S+)(?: \((.*?)\))?(?: on (.*?))? diverged in (\d+) of (\d+) runs?; (?:it did so|the first to do so), at "
              r"(dt|tolerance) = (\S+?)(?: s)?, at t = (\S+) s\.", self.diverged),
             ("more diverged", r"(\d+) more curves diverged\.", lambda n: None),
-            ("perfect energy", r"(\S+?)(?:, gyroscopic off)?: energy alone would call (?:this run|these runs) perfect \((\d+) runs? of (.*?)\), since it (does "
+            ("perfect energy", r"([^:]+): energy alone would call (?:this run|these runs) perfect \((\d+) runs? of (.*?)\), since it (does "
              r"not drift at all|drifts by no more than (\S+)); but the angular momentum drifts by (\S+?)(?: to (\S+))?(?: at every step "
              r"size| at every tolerance| at every step size and tolerance)?\. .*", self.perfect_energy),
             ("least, counted", r"Least " + quantity + r", or at round-off, counted over motions and formulations: (.*)\.",
@@ -524,8 +524,7 @@ class Recount:
         self.equal(True, any(row["status"] == "diverged" and math.isclose(number(row[column]), float(step), rel_tol=1e-4) for row in rows), step)
 
     def perfect_energy(self, case, n, methods, _, energy, low, high):
-        rows = [row for row in self.rows if self.case(row) == case.split(",")[0]]
-        rows = [row for row in rows if (self.value(row, "energy drift") if self.value(row, "energy drift") is not None else 1) < 1e-10
+        rows = [row for row in self.chosen(case) if (self.value(row, "energy drift") if self.value(row, "energy drift") is not None else 1) < 1e-10
                 and (self.value(row, "angular momentum drift") or 0) > 1e-6]
         self.equal(int(n), len(rows), "deceived runs")
         self.equal(set(names(methods)), {row["integrator"] for row in rows}, "deceived methods")
