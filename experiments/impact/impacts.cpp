@@ -10,7 +10,7 @@
 
 #include "experiments/study/curves/curves.hpp"
 #include "experiments/study/plot/plain_panel.hpp"
-#include "experiments/study/scenario/narrow_phase_choice.hpp"
+#include "experiments/study/record/first_impact.hpp"
 #include "experiments/study/statistics/line_fit.hpp"
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
@@ -18,30 +18,8 @@
 namespace polhode::study::impact {
 namespace {
 
-constexpr const char* exact_method = "odeint_fehlberg78";
-constexpr double exact_tolerance = 1e-13;
 /// Errors below these are rounding errors, or errors of the run that replaces the exact solution; s, and relative.
 constexpr double time_floor = 1e-11, energy_floor = 1e-14;
-
-/// The configuration of the run that replaces the exact solution; the same for all runs of a motion.
-RunConfig exact_one(const RunRecord& run) {
-  RunConfig c = run.config;
-  c.integrator = exact_method;
-  c.formulation = {};
-  c.normalize = false;
-  c.precision = Precision::double_precision;
-  c.settings.clear();
-  if (c.summation) c.summation = Summation::plain;
-  c.contact = ContactConfig{"sweep_and_prune", narrow_phase_for(*run.scenario), "sequential_impulses", "event_located"};
-  c.dt.reset();
-  c.tolerance = exact_tolerance;
-  c.samples.reset();
-  return c;
-}
-
-bool is_exact_one(const RunConfig& c) {
-  return c.integrator == exact_method && c.tolerance == exact_tolerance && c.contact->impact_timing == "event_located";
-}
 
 /// True if impacts conserve the energy: every pair of bodies that can collide has restitution 1 and no friction.
 bool keeps_energy(const Scenario& scenario) {
@@ -86,13 +64,13 @@ class Impacts {
  public:
   explicit Impacts(const StudyView& study) {
     for (const RunRecord& run : study.runs) {
-      if (run.config.contact && is_exact_one(run.config)) exact_[motion(run.config)] = run.result.contact.first_impact;
+      if (is_first_impact_reference(run.config)) exact_[motion(run.config)] = run.result.contact.first_impact;
     }
     for (const RunRecord& run : study.runs) {
       if (!run.config.contact) continue;
       if (run.result.status != "ok") {
         failed_.push_back(fmt::format("{} on {}: {}", run.config.integrator, motion(run.config), run.result.message));
-      } else if (!is_exact_one(run.config)) {
+      } else if (!is_first_impact_reference(run.config)) {
         add(run);
       }
     }
@@ -116,7 +94,7 @@ class Impacts {
             "order "
             "is the slope of the error against the step, by least squares through the logarithms, above {} s and {} of "
             "the energy.",
-            exact_method, number(exact_tolerance), number(time_floor), number(energy_floor)),
+            first_impact_method, number(first_impact_tolerance), number(time_floor), number(energy_floor)),
         "The error of the energy is the largest distance of kinetic and potential energy from that at the start, over "
         "it, where "
         "every impact is elastic and without friction; elsewhere the drift of the ledger, in which what impacts took "
@@ -362,7 +340,7 @@ class Impacts {
 std::vector<RunConfig> exact_impacts(const StudyView& study) {
   std::vector<RunConfig> wanted;
   for (const RunRecord& run : study.runs) {
-    if (run.config.contact) wanted.push_back(exact_one(run));
+    if (run.config.contact) wanted.push_back(first_impact_reference(run));
   }
   return wanted;
 }

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "experiments/study/record/first_impact.hpp"
 #include "experiments/study/record/run_options.hpp"
 
 namespace polhode::study::methods {

@@ -7,16 +7,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "experiments/study/record/first_impact.hpp"
 #include "experiments/study/scenario/characteristic_rate.hpp"
 #include "experiments/study/scenario/motion_size.hpp"
-#include "experiments/study/scenario/narrow_phase_choice.hpp"
 #include "experiments/study/text/value_lists.hpp"
 
 namespace polhode::study::methods {
 namespace {
-
-constexpr const char* reference_method = "odeint_fehlberg78";
-constexpr double reference_tolerance = 1e-13;
 
 /// The largest of the numbers that are there; absent if none is, or one is not finite.
 std::optional<double> largest(std::initializer_list<std::optional<double>> numbers) {
@@ -29,26 +26,6 @@ std::optional<double> largest(std::initializer_list<std::optional<double>> numbe
 }
 
 }  // namespace
-
-RunConfig first_impact_reference(const RunRecord& run) {
-  RunConfig c = run.config;
-  c.integrator = reference_method;
-  c.formulation = {};
-  c.normalize = false;
-  c.precision = Precision::double_precision;
-  c.settings.clear();
-  if (c.summation) c.summation = Summation::plain;
-  c.contact = ContactConfig{"sweep_and_prune", narrow_phase_for(*run.scenario), "sequential_impulses", "event_located"};
-  c.dt.reset();
-  c.tolerance = reference_tolerance;
-  c.samples.reset();
-  return c;
-}
-
-bool is_first_impact_reference(const RunConfig& c) {
-  return c.contact && c.integrator == reference_method && c.tolerance == reference_tolerance && !c.samples &&
-         c.contact->impact_timing == "event_located";
-}
 
 double characteristic_time(const RunRecord& run) {
   const auto rate = characteristic_rate(run.scenario->problem);

@@ -11,11 +11,6 @@
 
 namespace polhode::study::methods {
 
-/// The configuration of the run whose first impact replaces the exact one: Fehlberg 7(8) at a tolerance of 1e-13, with
-/// located impacts.
-RunConfig first_impact_reference(const RunRecord& run);
-bool is_first_impact_reference(const RunConfig& config);
-
 /// Characteristic time of the motion of a run (s): 2π over the characteristic rate, or the duration if it has none.
 double characteristic_time(const RunRecord& run);
 

@@ -2,7 +2,7 @@
 // What is seen of a run: bodies with their axes and vectors, what stands still, springs, trails, marks where bodies meet.
 
 const AXES = ["#d55e00", "#009e73", "#0072b2"], OMEGA = "#e69f00", MOMENTUM = "#a0468c", MARK = "#d55e00";
-const HUES = ["#77aadd", "#ee8866", "#44bb99", "#eedd88", "#ffaabb", "#99ddff", "#bbcc33", "#aaaa00"];  // the viewer's, palette.hpp
+const HUES = ["#77aadd", "#ee8866", "#44bb99", "#eedd88", "#ffaabb", "#99ddff", "#bbcc33", "#aaaa00"];  // experiments/study/scene/body_colours.hpp
 const FEW = 40, MANY = 250;       // bodies with trails and vectors; with edges and shadows
 const TRAIL_POINTS = 300, MOST_MARKS = 64;
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The viewer's colours. Bodies: Paul Tol's "light" qualitative scheme (Colour schemes, SRON technical note, 2021).
-// Vectors and contacts: Okabe and Ito (Color universal design, 2008). Colour-blind readers can tell the colours of both
-// apart.
+// The viewer's colours. Bodies: those of all drawings. Vectors and contacts: Okabe and Ito (Color universal design,
+// 2008), which colour-blind readers can tell apart.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+
+#include "experiments/study/scene/body_colours.hpp"
 
 namespace polhode::viewer::inline drawing {
 
@@ -27,14 +28,6 @@ constexpr Colour mix(Colour a, Colour b, double share) {
 }
 
 namespace colours {
-constexpr std::array<Colour, 8> bodies = {{{119, 170, 221},
-                                           {238, 136, 102},
-                                           {68, 187, 153},
-                                           {238, 221, 136},
-                                           {255, 170, 187},
-                                           {153, 221, 255},
-                                           {187, 204, 51},
-                                           {170, 170, 0}}};
 constexpr Colour fixed = {176, 180, 186};
 constexpr Colour ink = {38, 44, 52};
 constexpr Colour accent = {0, 90, 160};
@@ -51,6 +44,9 @@ constexpr Colour inset = {206, 216, 228};
 }  // namespace colours
 
 /// The colour of a moving body, by its number.
-constexpr Colour body_colour(std::size_t number) { return colours::bodies[number % colours::bodies.size()]; }
+constexpr Colour body_colour(std::size_t number) {
+  const auto [red, green, blue] = study::body_colour(number);
+  return {red, green, blue};
+}
 
 }  // namespace polhode::viewer::drawing

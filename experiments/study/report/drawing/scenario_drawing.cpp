@@ -13,6 +13,7 @@
 #include "experiments/study/report/drawing/marks.hpp"
 #include "experiments/study/report/drawing/scenario_words.hpp"
 #include "experiments/study/report/drawing/solid.hpp"
+#include "experiments/study/scene/body_colours.hpp"
 #include "experiments/study/scene/scene.hpp"
 #include "experiments/study/text/notation.hpp"
 
@@ -45,22 +46,14 @@ constexpr const char* style = R"css(
 .scene .spin.label,.scene .velocity.label,.scene .force.label,.scene .gravity.label{stroke:#fff;stroke-width:3px;stroke-dasharray:none}
 )css";
 
-/// A colour for the window's colours of bodies, darker where the light falls from aside: "#b7cfe8".
+/// The colour of a body, darker where the light falls from aside: "#b7cfe8".
 std::string shade(std::size_t body, bool fixed, const Vector3<double>& normal, const View& view) {
-  constexpr std::array<std::array<double, 3>, 8> colours = {{{119, 170, 221},
-                                                             {238, 136, 102},
-                                                             {68, 187, 153},
-                                                             {238, 221, 136},
-                                                             {255, 170, 187},
-                                                             {153, 221, 255},
-                                                             {187, 204, 51},
-                                                             {170, 170, 0}}};
-  constexpr std::array<double, 3> grey = {206, 209, 214};
-  const auto& colour = fixed ? grey : colours[body % colours.size()];
+  constexpr std::array<std::uint8_t, 3> grey = {206, 209, 214};
+  const auto colour = fixed ? grey : body_colour(body);
   const PagePoint across = view.direction(normal);
   const double light = std::clamp(0.62 - 0.36 * across.y() + 0.14 * across.x() * -1, 0.0, 1.0);  // from above, left
   std::string text = "#";
-  for (const double c : colour) {
+  for (const std::uint8_t c : colour) {
     const double pale = c + 0.45 * (255 - c);  // so that lines and letters stand out
     text += fmt::format("{:02x}", int(std::lround(pale * (0.72 + 0.28 * light))));
   }
