@@ -11,12 +11,12 @@ inline constexpr std::string_view page_style = R"css(
 :root {
   color-scheme: light dark;
   --paper: #ffffff; --ink: #1d2126; --soft: #59616b; --rule: #d9dde2; --panel: #f4f6f8; --accent: #0b62a4;
-  --warn: #fff4e0; --warn-rule: #d98a00;
+  --warn: #fff4e0; --warn-rule: #d98a00; --edge: rgba(0, 0, 0, .22);
 }
 @media (prefers-color-scheme: dark) {
   :root {
     --paper: #16191d; --ink: #e4e7ea; --soft: #a3abb5; --rule: #363c44; --panel: #1f2429; --accent: #7cbcf0;
-    --warn: #33291a; --warn-rule: #d98a00;
+    --warn: #33291a; --warn-rule: #d98a00; --edge: rgba(255, 255, 255, .3);
   }
 }
 * { box-sizing: border-box; }
@@ -64,9 +64,17 @@ code, pre, .name {
   font-family: ui-monospace, SFMono-Regular, Menlo, Consolas, "DejaVu Sans Mono", monospace; font-size: .88em;
 }
 figure { margin: 1.6rem 0 2.2rem; }
-.drawing { background: #ffffff; border: 1px solid var(--rule); border-radius: 6px; padding: .5rem; overflow-x: auto; }
+.drawing { border: 1px solid var(--rule); border-radius: 6px; padding: .5rem; overflow-x: auto; }
 .drawing img { display: block; margin: 0 auto; max-width: 100%; height: auto; }
 @media (max-width: 44rem) { .drawing img { max-width: none; } }
+/* A shadow at the right edge where there is more to the right. */
+.wide, .drawing {
+  background:
+    linear-gradient(to left, var(--behind) 50%, transparent) right / 2rem 100% no-repeat local,
+    linear-gradient(to left, var(--edge), transparent) right / .7rem 100% no-repeat scroll, var(--behind);
+}
+.wide { --behind: var(--paper); }
+.drawing { --behind: #ffffff; --edge: rgba(0, 0, 0, .22); }
 .scene { display: block; width: 100%; height: auto; }
 .start { display: flex; flex-wrap: wrap; gap: .4rem 1.6rem; align-items: flex-start; }
 .start figure { flex: 1 1 20rem; max-width: 34rem; margin: .4rem 0; }
@@ -87,6 +95,12 @@ td.text { min-width: 14rem; }
 summary { cursor: pointer; margin: .8rem 0; }
 #seen > details > summary { font-weight: 600; }
 footer { margin-top: 3rem; color: var(--soft); font-size: .88rem; }
+@media screen and (min-width: 64rem) {  /* a table may be wider than the text, to the edges of the window */
+  .wide {
+    width: max-content; min-width: 100%; max-width: calc(100vw - 3rem); position: relative; left: 50%;
+    transform: translateX(-50%);
+  }
+}
 @media (max-width: 40rem) {
   body { padding: 1.2rem .9rem 3rem; }
   h1 { font-size: 1.55rem; }
@@ -100,7 +114,7 @@ footer { margin-top: 3rem; color: var(--soft); font-size: .88rem; }
   nav { display: none; }
   figure, .caution, .box { break-inside: avoid; }
   h2, h3 { break-after: avoid; }
-  .wide, .drawing { overflow: visible; }
+  .wide, .drawing { overflow: visible; background: none; }
   .drawing { border: 0; padding: 0; }
   table { font-size: 7.5pt; }
   th, td { padding: .15rem .3rem; }

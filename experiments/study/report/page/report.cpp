@@ -50,10 +50,10 @@ std::string title_of(const StudyView& study) {
   return title;
 }
 
-/// A sentence in which no line breaks within a number like 2e-7.
+/// A sentence in which no line breaks within a number like 2e-7 or 20 %.
 std::string prose(std::string_view text) {
-  static const std::regex number_with_exponent("[0-9.]+e-[0-9]+");
-  return std::regex_replace(html(text), number_with_exponent, "<span class=\"nowrap\">$&</span>");
+  static const std::regex number("[0-9.]+(e-[0-9]+| %)");
+  return std::regex_replace(html(text), number, "<span class=\"nowrap\">$&</span>");
 }
 
 std::string paragraph(std::string_view text) { return fmt::format("<p>{}</p>\n", prose(text)); }
@@ -100,7 +100,7 @@ std::string head(const StudyView& study) {
 /// Statements under their heading, and what belongs to them. `below_answer`: many are folded.
 std::string statements(const std::string& heading, const std::vector<std::string>& sentences, const std::string& more,
                        bool below_answer) {
-  constexpr std::size_t most_open = 2;
+  constexpr std::size_t most_open = 3;
   const std::string content = (sentences.empty() ? "" : list(sentences)) + more;
   if (below_answer && sentences.size() > most_open)
     return folded(fmt::format("{}: {}", heading, count(sentences.size(), "statement")), content, false);
@@ -146,10 +146,9 @@ constexpr const char* not_drawn =
 
 std::string figure_html(const StudyView& study, const Figure& figure) {
   const auto svg = picture(study, figure);
-  const auto drawing =
-      svg ? fmt::format("<div class=\"drawing\"><img alt=\"{}\" src=\"{}\"></div>",
-                        html(figure.title + ". " + figure.caption), svg_address(compact_svg(*svg)))
-          : std::string(not_drawn);
+  const auto drawing = svg ? fmt::format("<div class=\"drawing\"><img alt=\"{}\" src=\"{}\"></div>",
+                                         html(figure.title + ". " + figure.caption), svg_address(compact_svg(*svg)))
+                           : std::string(not_drawn);
   return fmt::format("<figure id=\"{}\">\n{}\n<figcaption><b>{}.</b> {}{}</figcaption>\n</figure>\n", figure.name,
                      drawing, html(figure.title), html(figure.caption),
                      svg ? fmt::format(" Files: {}.", file_links(figure)) : "");
