@@ -110,7 +110,8 @@ footer { margin-top: 3rem; color: var(--soft); font-size: .88rem; }
 }
 @media print {
   :root { --paper: #fff; --ink: #000; --soft: #444; --rule: #bbb; --panel: #f4f4f4; --accent: #000; --warn: #fff; }
-  body { max-width: none; padding: 0; font-size: 10pt; }
+  html { font-size: 10pt; }
+  body { max-width: none; padding: 0; }
   nav { display: none; }
   figure, .caution, .box { break-inside: avoid; }
   h2, h3 { break-after: avoid; }
