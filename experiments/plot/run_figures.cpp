@@ -264,7 +264,8 @@ class RunFigureMaker {
   void stacked(std::size_t q) {
     const PlotQuantity& quantity = *quantities_[q];
     Figure figure = begun(q);
-    const std::array<std::string, 4> colours = {"0072B2", "56B4E9", "E69F00", "8C510A"};
+    // Told apart by their lightness too.
+    const std::array<std::string, 4> colours = {"08306B", "4292C6", "FDE0A0", "F0A030"};
     for (std::size_t c = 0; c < quantity.components.size(); ++c)
       figure.shades.push_back({quantity.components[c].label, colours[c]});
     const bool impacts = std::any_of(runs_.begin(), runs_.end(), [](const auto& run) { return !run.impacts.empty(); });

@@ -95,7 +95,7 @@ void add_step_guides(std::vector<Panel>& panels) {
     const auto* curve = panel.x_column == "dt_s" ? highest(panel, 0) : nullptr;
     if (curve == nullptr) continue;
     const auto& end = curve->points.back();
-    panel.guides.push_back(guide_through(end.x, 10 * end.value, 6 * end.x, -0.5, "h^{−1/2}"));
+    panel.guides.push_back(guide_through(end.x, 30 * end.value, 6 * end.x, -0.5, "h^{−1/2}"));
   }
 }
 
@@ -159,7 +159,7 @@ void add_time_guides(std::vector<Panel>& panels, double power, const std::string
     const auto* curve = highest(panel, 0);
     if (curve == nullptr) continue;
     const auto& end = curve->points.back();
-    const double from = end.x / 16, to = end.x / 1.6;
+    const double from = end.x / 40, to = end.x / 4;
     panel.guides.push_back(guide_through(from, 4 * end.value * std::pow(from / end.x, power), to, power, label));
   }
 }

@@ -26,8 +26,8 @@ ReplayOptions parse_replay_options(int argc, const char* const* argv) {
   double megabytes = 3;
   const auto own = [&](CLI::App& app) {
     for (const char* name : {"--out", "--force", "--trajectory", "--reference", "--curves", "--no-figures", "--figure",
-                             "--figure-width", "--figure-font", "--figure-title", "--jobs", "--seed", "--shard",
-                             "--merge", "--slurm", "--submit", "--dry-run"}) {
+                             "--figure-width", "--figure-font", "--figure-title", "--figure-language", "--jobs",
+                             "--seed", "--shard", "--merge", "--slurm", "--submit", "--dry-run"}) {
       app.remove_option(app.get_option(name));
     }
     app.add_option("--results", results,

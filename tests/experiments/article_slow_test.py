@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The default study of every experiment in LaTeX: its article, every table, every figure and the values of a method compile
-with pdflatex without an error, a warning or an overfull box. POLHODE_ARTICLES is a folder to keep them in."""
+with pdflatex without an error, a warning or an overfull box; and every word of its figures has a German one.
+POLHODE_ARTICLES is a folder to keep them in."""
 import os
 import pathlib
 import re
 import unittest
 
+import figure_words
 import latex
 from programs import call, temporary_folder
 import programs
@@ -41,8 +43,8 @@ class Everything(unittest.TestCase):
 def everything(experiment, options):
     def test(self):
         out = self.folder / experiment
-        done = call(experiment, *options, "--article", "--out", out, folder=self.folder,
-                    status=3 if experiment in FAILING_RUNS else 0)
+        status = 3 if experiment in FAILING_RUNS else 0
+        done = call(experiment, *options, "--article", "--out", out, folder=self.folder, status=status)
         self.assertEqual(done.stderr.count("pdflatex is not installed"), 0)
         log = (out / "article/article.log").read_text(encoding="utf-8", errors="replace")
         self.assertEqual(latex.complaints(log), [], "article")
@@ -58,6 +60,10 @@ def everything(experiment, options):
             name = re.search(r"\\newcommand\{\\(polhode\w+)\}", values.read_text(encoding="utf-8")).group(1)
             text = latex.PREAMBLE + r"\begin{document}\input{%s}It is \%s.\end{document}" % (values, name)
             self.assertEqual(latex.compiled(text, out / "latex", values.stem), [], values)
+        english = figure_words.of_folder(out)
+        done = call(experiment, *options, "--figure-language", "de", "--out", out, folder=self.folder, status=status)
+        self.assertNotIn("has no words", done.stderr)
+        self.assertEqual(figure_words.left_in_english(english, figure_words.of_folder(out), "de"), [])
     return test
 
 

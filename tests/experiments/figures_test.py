@@ -38,6 +38,8 @@ class Figures(unittest.TestCase):
         cls.folder = temporary_folder(cls.addClassCleanup)
         call("energy_drift", *STUDY, "--out", "study", folder=cls.folder)
         call("energy_drift", *STUDY, "--orientation", "matrix", "--no-figures", "--out", "matrices", folder=cls.folder)
+        call("energy_drift", *STUDY[:-4], "--dt", "0.02,0.01", *STUDY[-2:], "--orientation", "matrix", "--no-figures", "--out",
+             "matrix_of_two", folder=cls.folder)
 
     def said(self, program, *arguments, status=0):
         return call(program, *arguments, folder=self.folder, status=status)
@@ -168,6 +170,34 @@ class Figures(unittest.TestCase):
             for row in block:
                 self.assertAlmostEqual(sum((float(x) / a) ** 2 for x, a in zip(row, semi)), 1, delta=0.02)
         self.assertIn("dashtype (2,4)", script)
+
+    def test_figures_in_space_have_all_of_their_labels_and_lines_in_sight(self):
+        for width in ("one_column", "17"):
+            self.said("plot", "study", "--where", "dt >= 0.01", "--quantity", "polhode,herpolhode", "--figure-width", width, "--out",
+                      f"space_{width}")
+            for name, axes in (("polhode", "ω₁ ω₂ ω₃"), ("herpolhode", "first second along")):
+                svg = (self.folder / f"space_{width}/plots/{name}.svg").read_text(encoding="utf-8")
+                wide, high = (float(x) for x in re.search(r'viewBox="0 0 (\d+) (\d+)"', svg).groups())
+                said = re.findall(r'translate\(([-\d.]+),([-\d.]+)\)[^<]*<text>(.*?)</text>', svg, re.DOTALL)
+                texts = " ".join(re.sub(r"<[^>]*>", "", text) for _, _, text in said)
+                for word in (*axes.split(), "rk4, dt = 0.02 s", "heun, dt = 0.01 s", "dmv, dt = 0.02 s"):
+                    self.assertIn(word, texts)
+                places = [place[:2] for place in said] + re.findall(r"[ML](-?[\d.]+),(-?[\d.]+)", svg.split("</defs>")[-1])
+                for x, y in places:
+                    self.assertTrue(0 <= float(x) <= wide and 0 <= float(y) <= high, (name, width, x, y))
+
+    def test_figures_of_a_study_whose_durations_follow_its_steps_are_drawn_again_with_the_same_bytes(self):
+        self.said("stability", "--scenario", "hairer_vilmart", "--integrator", "heun,rk4", "--t-end", "5", "--out", "stable")
+        before = files(self.folder / "stable/figures")
+        self.said("figures", "stable", "--figure", "drift_against_step")
+        for ending in ("svg", "dat"):
+            self.assertEqual(files(self.folder / "stable/figures")[f"drift_against_step.{ending}"], before[f"drift_against_step.{ending}"])
+
+    def test_no_step_stands_twice_beside_more_steps_of_another_study(self):
+        self.said("figures", "study", "matrix_of_two", "--figure", "drift_against_time", "--out", "uneven")
+        titles = re.findall(r"set title (.*) noenhanced", (self.folder / "uneven/figures/drift_against_time.gp").read_text(encoding="utf-8"))
+        self.assertEqual(len(titles), 5)
+        self.assertEqual(len(set(titles)), 5)
 
     def test_the_stacked_energies_and_the_impacts_of_a_ball(self):
         self.said("simulate", "--scenario", "bouncing_ball", "--dt", "0.005", "--no-figures", "--out", "ball")

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "experiments/study/plot/figure_style.hpp"
+#include "experiments/study/plot/language.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/suggestion.hpp"
 #include "experiments/study/text/value_lists.hpp"
@@ -62,6 +63,13 @@ void add_look_options(CLI::App& app, Look& look) {
       "--figure-title", [&look](const std::string& text) { look.title = text == "on"; },
       "write the title of each figure above it (default: off)", "on|off")
       ->check(CLI::IsMember({"on", "off"}).description(""));
+  std::string names = "en";
+  for (const LanguageFile& file : language_files()) names += fmt::format("|{}", file.name);
+  add(
+      "--figure-language",
+      [&look](const std::string& text) { look.language = read_language(text, "--figure-language"); },
+      "language of the words in figures, or a file of phrases, such as mine.toml (default: en)",
+      (names + "|FILE").c_str());
 }
 
 void add_figure_options(CLI::App& app, FigureChoice& choice, bool closed, CLI::Option* excludes) {

@@ -21,7 +21,7 @@ struct FigureName {
 /// The figures of every study.
 std::span<const FigureName> figure_names();
 
-/// Adds --figure-width, --figure-font and --figure-title.
+/// Adds --figure-width, --figure-font, --figure-title and --figure-language.
 void add_look_options(CLI::App& app, Look& look);
 
 /// Adds --figure and these. `closed`: there are no figures but figure_names();

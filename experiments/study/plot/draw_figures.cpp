@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <deque>
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "experiments/study/plot/gnuplot_figure.hpp"
+#include "experiments/study/plot/language.hpp"
 #include "experiments/study/plot/pgfplots_figure.hpp"
 #include "experiments/study/text/child_process.hpp"
 #include "experiments/study/text/notation.hpp"
@@ -35,11 +37,15 @@ void remove_old_figures(const fs::path& folder) {
   }
 }
 
-void write_sources(const FigureSet& set, const fs::path& folder) {
+/// The data are in English whatever the language of the figure. Words without a translation are added to `missing`.
+void write_sources(const FigureSet& set, const fs::path& folder, std::set<std::string>& missing) {
   write_text(folder / style_file, gnuplot_style(set));
-  for (const auto& figure : set.figures) {
-    write_text(folder / (figure.name + ".gp"), gnuplot_script(figure));
-    write_text(folder / (figure.name + ".dat"), gnuplot_data(figure));
+  const std::vector<std::size_t> first = first_styles(set);
+  for (std::size_t f = 0; f < set.figures.size(); ++f) {
+    const Figure& given = set.figures[f];
+    write_text(folder / (given.name + ".dat"), gnuplot_data(given));
+    const Figure figure = translated(given, missing);
+    write_text(folder / (figure.name + ".gp"), gnuplot_script(figure, first[f]));
     const auto pages = pgfplots(figure);
     for (std::size_t page = 0; page < pages.size(); ++page)
       write_text(folder / pgfplots_file(figure.name, page), pages[page]);
@@ -88,6 +94,17 @@ void finish_gnuplot(ChildProcess& child, const std::string& name, const fs::path
   fix_date(file.string() + ".pdf");
 }
 
+std::string untranslated(const Look& look, const std::set<std::string>& missing) {
+  if (missing.empty()) return "";
+  std::vector<std::string> quoted;
+  for (const std::string& phrase : missing) quoted.push_back("'" + phrase + "'");
+  return fmt::format("{} has no words for {}: they stay in English", look.language->name(), words(quoted));
+}
+
+std::string joined(const std::string& one, const std::string& other) {
+  return one + (one.empty() || other.empty() ? "" : "; ") + other;
+}
+
 std::string not_installed(const std::vector<std::string>& figures, const std::string& where) {
   std::vector<std::string> names;
   for (const auto& figure : figures) names.push_back(figure + ".gp");
@@ -134,10 +151,11 @@ std::string draw_figures(const FigureSet& set, const fs::path& study_folder, con
   if (others == Others::remove) remove_old_figures(folder);
   if (set.figures.empty()) return "";
   fs::create_directories(folder);
-  write_sources(set, folder);
+  std::set<std::string> missing;
+  write_sources(set, folder, missing);
   std::vector<std::string> names;
   for (const auto& figure : set.figures) names.push_back(figure.name);
-  return draw_scripts(names, folder, where);
+  return joined(draw_scripts(names, folder, where), untranslated(set.figures.front().look, missing));
 }
 
 std::string draw_space_figures(const std::vector<SpaceFigure>& figures, const fs::path& study_folder,
@@ -145,13 +163,14 @@ std::string draw_space_figures(const std::vector<SpaceFigure>& figures, const fs
   const auto folder = study_folder / where;
   if (figures.empty()) return "";
   fs::create_directories(folder);
+  std::set<std::string> missing;
   std::vector<std::string> names;
   for (const auto& figure : figures) {
-    write_text(folder / (figure.name + ".gp"), space_script(figure));
+    write_text(folder / (figure.name + ".gp"), space_script(translated(figure, missing)));
     write_text(folder / (figure.name + ".dat"), space_data(figure));
     names.push_back(figure.name);
   }
-  return draw_scripts(names, folder, where);
+  return joined(draw_scripts(names, folder, where), untranslated(figures.front().look, missing));
 }
 
 }  // namespace polhode::study::plot

@@ -14,8 +14,8 @@ namespace polhode::study::inline plot {
 /// What becomes of figures that are in the folder and not drawn.
 enum class Others { remove, keep };
 
-/// Draws into a subfolder of a study's folder. Returns a message for the user if gnuplot is not installed. Throws
-/// std::runtime_error if gnuplot fails.
+/// Draws into a subfolder of a study's folder. Returns a message for the user if gnuplot is not installed, or words of
+/// the figures have no translation. Throws std::runtime_error if gnuplot fails.
 std::string draw_figures(const FigureSet& set, const std::filesystem::path& study_folder, const std::string& where,
                          Others others = Others::remove);
 

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace polhode::study::inline plot {
+
+class Language;
 
 enum class Scale {
   linear,
@@ -71,8 +74,9 @@ struct NameMark {
   double x = 0, y = 0;
   std::string name{};
   std::size_t method = 0;
-  bool left = true;    ///< of the point; false: right of it
-  bool above = false;  ///< a little above the point
+  bool left = true;     ///< of the point; false: right of it
+  bool above = false;   ///< a little above the point
+  bool opaque = false;  ///< over other marks: with a white ground
 };
 
 /// A straight line in log–log that shows a slope.
@@ -106,15 +110,22 @@ struct Panel {
   std::vector<MapCell> cells{};  ///< drawn behind everything
 };
 
-/// Size and letters of a figure.
+/// Size, letters and language of a figure.
 struct Look {
-  std::optional<double> width_cm{};  ///< absent: 17 of pictures, the line of an article on A4 of PGFPlots
-  std::string font = "sans-serif";   ///< family, of pictures; PGFPlots takes that of the document
-  double font_size = 9;              ///< pt
-  bool title = false;                ///< the figure has its title above it
+  std::optional<double> width_cm{};            ///< absent: 17 of pictures, the line of an article on A4 of PGFPlots
+  std::string font = "sans-serif";             ///< family, of pictures; PGFPlots takes that of the document
+  double font_size = 9;                        ///< pt
+  bool title = false;                          ///< the figure has its title above it
+  std::shared_ptr<const Language> language{};  ///< of its words; null: English
 
   /// Width of pictures in pixels; 96 are an inch.
   double width() const { return width_cm.value_or(17) * 96 / 2.54; }
+};
+
+/// Words of a legend besides names.
+struct LegendWords {
+  std::string envelope = "lower envelope", muted = "other methods", zero = "exactly zero",
+              edge = "diverged or off scale";
 };
 
 struct Figure {
@@ -127,6 +138,7 @@ struct Figure {
   std::vector<std::size_t> used_methods{};
   std::vector<std::string> variants{};  ///< distinguished by dashes; one entry if there is only one
   std::vector<Shade> shades{};          ///< kinds of the cells
+  LegendWords legend{};
   Look look{};
   double panel_height = 0;  ///< pixels; 0: by the number of panels in a row
   bool has_zero_marks = false, has_edge_marks = false, has_envelope = false, has_muted = false;

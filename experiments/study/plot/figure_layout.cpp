@@ -32,8 +32,8 @@ double share_of(const std::string& name, const Figure& figure) {
   return (static_cast<double>(length(name)) + 2) * letter / panel;
 }
 
-/// Writes names beside crosses: left of the first one of a method, right of the last one, or above, where there is
-/// room.
+/// Writes names beside crosses: left of the first one of a method, right of the last one, where there is room, or over
+/// the last ones.
 void name_crosses(Panel& panel, const Figure& figure) {
   const double left = panel.x.place(panel.x.low), right = panel.x.place(panel.x.high);
   std::set<double> named;  // lanes
@@ -48,8 +48,14 @@ void name_crosses(Panel& panel, const Figure& figure) {
     const std::string& name = figure.methods[curve.method];
     const double room = share_of(name, figure) * (right - left);
     const bool fits_left = panel.x.place(first->x) - left > room, fits_right = right - panel.x.place(last->x) > room;
-    const Point& at = fits_left || !fits_right ? *first : *last;
-    panel.names.push_back({at.x, at.drawn, name, curve.method, fits_left, !fits_left && !fits_right});
+    const bool over = !fits_left && !fits_right;
+    const Point& at = fits_left ? *first : *last;
+    panel.names.push_back({.x = over ? panel.x.high : at.x,
+                           .y = at.drawn,
+                           .name = name,
+                           .method = curve.method,
+                           .left = fits_left || over,
+                           .opaque = over});
   }
 }
 

@@ -45,6 +45,8 @@ constexpr double rank(std::size_t method) { return static_cast<double>(method % 
 constexpr double line_width(std::size_t method) { return 2.3 - 0.16 * rank(method); }
 constexpr double point_size(std::size_t method) { return 0.95 - 0.03 * rank(method); }
 constexpr double mark_size(std::size_t method) { return 1.6 - 0.14 * rank(method); }
+/// Of a curve of so many points every how manyth has a marker, so that markers do not run into a band.
+constexpr std::size_t points_to_a_mark(std::size_t points) { return points < 30 ? 1 : points / 15; }
 
 inline constexpr double one_column = 8.6, two_columns = 17.8;  // cm, of journals with two columns
 inline constexpr double font_size = 9;                         // pt

@@ -22,10 +22,16 @@ void line(std::string& out, fmt::format_string<T...> format, T&&... values) {
   out += '\n';
 }
 
-/// Line styles: 1, 2, … of methods with their own dash; 1001, … of those with the dash of variant 0, 2001, … 1.
-int style_number(const Figure& figure, std::size_t method, std::size_t variant) {
-  return static_cast<int>((figure.variants.size() > 1 ? 1000 * (variant + 1) : 0) + method + 1);
-}
+/// Line styles: 1, 2, … of methods with their own dash; 1001, … of those with the dash of variant 0, 2001, … 1. The
+/// styles of a figure begin after the first ones.
+struct StyleNumbers {
+  std::size_t first;
+  bool by_variant;
+
+  std::size_t of(std::size_t method, std::size_t variant) const {
+    return (by_variant ? 1000 * (variant + 1) : 0) + first + method + 1;
+  }
+};
 
 /// Positions of all parts of the figure, in pixels from the top left corner.
 class Layout {
@@ -73,23 +79,26 @@ class Layout {
     for (const auto m : figure_.used_methods) texts.push_back(figure_.methods[m]);
     if (figure_.variants.size() > 1) texts.insert(texts.end(), figure_.variants.begin(), figure_.variants.end());
     for (const auto& shade : figure_.shades) texts.push_back(shade.label);
-    if (figure_.has_envelope) texts.emplace_back("lower envelope");
-    if (figure_.has_muted) texts.emplace_back("other methods");
-    if (figure_.has_zero_marks) texts.emplace_back("exactly zero");
-    if (figure_.has_edge_marks) texts.emplace_back("diverged or off scale");
+    if (figure_.has_envelope) texts.push_back(figure_.legend.envelope);
+    if (figure_.has_muted) texts.push_back(figure_.legend.muted);
+    if (figure_.has_zero_marks) texts.push_back(figure_.legend.zero);
+    if (figure_.has_edge_marks) texts.push_back(figure_.legend.edge);
     return texts;
   }
 
  private:
   std::size_t legend_rows() const { return (legend_texts().size() + legend_columns() - 1) / legend_columns(); }
 
-  /// Names on the y axis take more room than numbers.
+  /// Room for the labels of the ticks of y axes: names, numbers of many digits.
   double left_margin() const {
-    std::size_t longest = 0;
+    double widest = 0;
     for (const auto& panel : figure_.panels) {
-      for (const auto& tick : panel.y.ticks) longest = std::max(longest, panel.y.named ? length(tick.label) : 0);
+      const double beside = panel.y.named ? 20 : style::title_line + 26;  // no label, or one turned upright
+      for (const auto& tick : panel.y.ticks)
+        if (tick.label.find('^') == std::string::npos)
+          widest = std::max(widest, beside + style::character_width * static_cast<double>(length(tick.label)));
     }
-    return std::max(style::left_margin, 20 + style::character_width * static_cast<double>(longest)) * scale_;
+    return std::max(style::left_margin, widest) * scale_;
   }
 
   /// Columns without labels on their y axis stand close to the one on their left.
@@ -97,7 +106,7 @@ class Layout {
     if (column == 0) return left_margin();
     const bool labelled = std::any_of(figure_.panels.begin(), figure_.panels.end(),
                                       [&](const auto& p) { return p.column == column && p.y.labelled; });
-    return (labelled ? style::left_margin : style::inner_margin) * scale_;
+    return labelled ? left_margin() : style::inner_margin * scale_;
   }
   double plot_width() const {
     double free = width() - style::right_margin * scale_;
@@ -171,9 +180,10 @@ void write_envelope(std::string& out, const Panel& panel) {
 
 void write_names(std::string& out, const Panel& panel, const std::vector<MethodStyle>& styles) {
   for (const auto& mark : panel.names) {
-    line(out, "  set label {} at first {},{} {} offset character {},{} front noenhanced font small textcolor rgb '{}'",
+    line(out,
+         "  set label {} at first {},{} {} offset character {},{} front noenhanced font small textcolor rgb '{}'{}",
          gnuplot(mark.name), mark.x, mark.y, mark.left ? "right" : "left", mark.left ? "-1" : "1",
-         mark.above ? "0.5" : "0", html_colour(styles[mark.method]));
+         mark.above ? "0.5" : "0", html_colour(styles[mark.method]), mark.opaque ? " boxed" : "");
   }
 }
 
@@ -189,7 +199,7 @@ std::vector<MapCell> cells_of(const Panel& panel, std::size_t shade) {
 }
 
 /// The plot command of a panel; `block` counts the blocks of the data file.
-void write_plot(std::string& out, const Figure& figure, const Panel& panel, int& block) {
+void write_plot(std::string& out, const Figure& figure, const Panel& panel, const StyleNumbers& numbers, int& block) {
   const bool over_time = panel.x.scale == Scale::linear;
   std::vector<std::string> items;
   for (std::size_t s = 0; s < figure.shades.size(); ++s) {
@@ -203,10 +213,12 @@ void write_plot(std::string& out, const Figure& figure, const Panel& panel, int&
       if (!has(curve, mark)) return;
       items.push_back(fmt::format("data index {} using 1:(drawn('{}')) with {} notitle", block, name(mark), with));
     };
-    const int number = curve.muted ? 9003 : style_number(figure, curve.method, curve.variant);
+    const std::size_t number = curve.muted ? 9003 : numbers.of(curve.method, curve.variant);
     const bool line_alone = curve.muted && curve.points.size() > 1;
-    item(Mark::value, fmt::format("{} linestyle {}{}", line_alone ? "lines" : "linespoints", number,
-                                  over_time ? " pointnumber 6" : ""));
+    item(Mark::value,
+         fmt::format("{} linestyle {}{}", line_alone ? "lines" : "linespoints", number,
+                     over_time ? std::string(" pointnumber 6")
+                               : fmt::format(" pointinterval {}", style::points_to_a_mark(curve.points.size()))));
     const double size = style::mark_size(curve.method);
     item(Mark::zero, fmt::format("points linestyle {} pointtype 10 pointsize {:.2f} linewidth 1.5", number, size));
     item(Mark::edge, fmt::format("points linestyle {} pointtype 2 pointsize {:.2f} linewidth 2", number, size));
@@ -216,7 +228,7 @@ void write_plot(std::string& out, const Figure& figure, const Panel& panel, int&
 }
 
 void write_panel(std::string& out, const Figure& figure, const Panel& panel, const std::vector<MethodStyle>& styles,
-                 const Layout& layout, int& block) {
+                 const StyleNumbers& numbers, const Layout& layout, int& block) {
   line(out, "\n  # panel {},{}", panel.row + 1, panel.column + 1);
   line(out, "  unset logscale\n  unset nonlinear y");
   line(out, "  set lmargin at screen {:.5f}; set rmargin at screen {:.5f}", layout.left(panel), layout.right(panel));
@@ -227,15 +239,15 @@ void write_panel(std::string& out, const Figure& figure, const Panel& panel, con
   write_guides(out, panel);
   write_envelope(out, panel);
   write_names(out, panel, styles);
-  write_plot(out, figure, panel, block);
+  write_plot(out, figure, panel, numbers, block);
 }
 
 /// The legend is a plot of its own with nothing but its key, so that it covers no data.
-void write_legend(std::string& out, const Figure& figure, const Layout& layout) {
+void write_legend(std::string& out, const Figure& figure, const StyleNumbers& numbers, const Layout& layout) {
   std::vector<std::string> entries;
   for (const auto m : figure.used_methods) {
-    entries.push_back(fmt::format("keyentry with linespoints linestyle {} title {}", style_number(figure, m, 0),
-                                  gnuplot(figure.methods[m])));
+    entries.push_back(
+        fmt::format("keyentry with linespoints linestyle {} title {}", numbers.of(m, 0), gnuplot(figure.methods[m])));
   }
   for (std::size_t v = 0; v < figure.variants.size() && figure.variants.size() > 1; ++v) {
     entries.push_back(fmt::format("keyentry with lines linestyle {} title {}", 9010 + v, gnuplot(figure.variants[v])));
@@ -244,16 +256,14 @@ void write_legend(std::string& out, const Figure& figure, const Layout& layout) 
     entries.push_back(fmt::format("keyentry with boxes fillcolor rgb '#{}' fillstyle solid 1 noborder title {}",
                                   shade.colour, gnuplot(shade.label)));
   }
-  if (figure.has_envelope) entries.emplace_back("keyentry with lines linestyle 9002 title 'lower envelope'");
-  if (figure.has_muted) entries.emplace_back("keyentry with lines linestyle 9003 title 'other methods'");
-  if (figure.has_zero_marks) {
-    entries.emplace_back("keyentry with points pointtype 10 pointsize 1 linecolor rgb '#555555' title 'exactly zero'");
-  }
-  if (figure.has_edge_marks) {
-    entries.emplace_back(
-        "keyentry with points pointtype 2 pointsize 1 linewidth 2 linecolor rgb '#555555' "
-        "title 'diverged or off scale'");
-  }
+  const auto entry = [&](const char* with, const std::string& title) {
+    entries.push_back(fmt::format("keyentry with {} title {}", with, gnuplot(title)));
+  };
+  if (figure.has_envelope) entry("lines linestyle 9002", figure.legend.envelope);
+  if (figure.has_muted) entry("lines linestyle 9003", figure.legend.muted);
+  if (figure.has_zero_marks) entry("points pointtype 10 pointsize 1 linecolor rgb '#555555'", figure.legend.zero);
+  if (figure.has_edge_marks)
+    entry("points pointtype 2 pointsize 1 linewidth 2 linecolor rgb '#555555'", figure.legend.edge);
   line(out, "\n  # legend");
   line(out,
        "  unset logscale\n  unset nonlinear y\n  unset title\n  unset xlabel\n  unset ylabel\n  unset arrow\n  unset "
@@ -289,36 +299,53 @@ std::string gnuplot_style(const FigureSet& set) {
   line(out, "set border 31 linewidth 1 linecolor rgb '#333333'");
   line(out, "set grid xtics ytics linetype 1 linewidth 0.6 linecolor rgb '#e2e2e2'");
   line(out, "set tics nomirror scale 0.6");
+  line(out, "set style textbox opaque noborder margins 0.4,0.1 fillcolor rgb 'white'");
   line(out, "set style line 9001 linewidth 1.2 dashtype (6,4) linecolor rgb '#888888'");
   line(out, "set style line 9002 linewidth 9 dashtype 1 linecolor rgb '#ffe08a'");
   line(out, "set style line 9003 linewidth 1 dashtype 1 pointtype 7 pointsize 0.3 linecolor rgb '#bdbdbd'");
   std::size_t variants = 1;
-  std::vector<std::string> methods;
-  for (const auto& figure : set.figures) {
-    variants = std::max(variants, figure.variants.size());
-    if (figure.methods.size() > methods.size()) methods = figure.methods;
-  }
+  for (const auto& figure : set.figures) variants = std::max(variants, figure.variants.size());
   for (std::size_t v = 0; v < variants; ++v) {
     line(out, "set style line {} linewidth 1.6 dashtype {} linecolor rgb '#555555'", 9010 + v,
          style::dashes[v % style::dashes.size()].gnuplot);
   }
-  const auto styles = styles_of(methods);
-  for (std::size_t m = 0; m < methods.size(); ++m) {
-    line(out, "\n# {}", one_line(methods[m]));
-    const auto write_style = [&](std::size_t number, std::size_t dash) {
-      line(out, "set style line {} linecolor rgb '{}' linewidth {:.2f} dashtype {} pointtype {} pointsize {:.2f}",
-           number, html_colour(styles[m]), style::line_width(m), style::dashes[dash].gnuplot,
-           style::markers[styles[m].marker].gnuplot, style::point_size(m));
-    };
-    write_style(m + 1, styles[m].dash);
-    for (std::size_t v = 0; v < variants && variants > 1; ++v) {
-      write_style(1000 * (v + 1) + m + 1, v % style::dashes.size());
+  const auto first = first_styles(set);
+  std::size_t written = 0;
+  for (std::size_t f = 0; f < set.figures.size(); ++f) {
+    if (first[f] < written) continue;
+    const auto& methods = set.figures[f].methods;
+    const auto styles = styles_of(methods);
+    for (std::size_t m = 0; m < methods.size(); ++m, ++written) {
+      line(out, "\n# {}", one_line(methods[m]));
+      const auto write_style = [&](std::size_t number, std::size_t dash) {
+        line(out, "set style line {} linecolor rgb '{}' linewidth {:.2f} dashtype {} pointtype {} pointsize {:.2f}",
+             number, html_colour(styles[m]), style::line_width(m), style::dashes[dash].gnuplot,
+             style::markers[styles[m].marker].gnuplot, style::point_size(m));
+      };
+      write_style(written + 1, styles[m].dash);
+      for (std::size_t v = 0; v < variants && variants > 1; ++v) {
+        write_style(1000 * (v + 1) + written + 1, v % style::dashes.size());
+      }
     }
   }
   return out;
 }
 
-std::string gnuplot_script(const Figure& given) {
+std::vector<std::size_t> first_styles(const FigureSet& set) {
+  std::vector<std::size_t> first;
+  std::size_t total = 0;
+  for (std::size_t f = 0; f < set.figures.size(); ++f) {
+    const auto& methods = set.figures[f].methods;
+    const auto same = std::find_if(set.figures.begin(), set.figures.begin() + static_cast<std::ptrdiff_t>(f),
+                                   [&](const Figure& earlier) { return earlier.methods == methods; });
+    const auto at = static_cast<std::size_t>(same - set.figures.begin());
+    first.push_back(at < f ? first[at] : total);
+    if (at == f) total += methods.size();
+  }
+  return first;
+}
+
+std::string gnuplot_script(const Figure& given, std::size_t first_style) {
   const Figure figure = fitted(given);
   const Layout layout(figure);
   std::string out;
@@ -347,8 +374,9 @@ std::string gnuplot_script(const Figure& given) {
   line(out, "  unset key");
   int block = 0;
   const auto styles = styles_of(figure.methods);
-  for (const auto& panel : figure.panels) write_panel(out, figure, panel, styles, layout, block);
-  write_legend(out, figure, layout);
+  const StyleNumbers numbers{first_style, figure.variants.size() > 1};
+  for (const auto& panel : figure.panels) write_panel(out, figure, panel, styles, numbers, layout, block);
+  write_legend(out, figure, numbers, layout);
   line(out, "\n  unset multiplot\n  unset output\n}}");
   return out;
 }

@@ -3,7 +3,9 @@
 // and NAME.pdf.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "experiments/study/plot/figure.hpp"
 
@@ -11,10 +13,13 @@ namespace polhode::study::inline plot {
 
 inline constexpr const char* style_file = "style.gnuplot";
 
-/// The line styles of the study's methods, which every script loads.
+/// The line styles of the methods of all figures, which every script loads.
 std::string gnuplot_style(const FigureSet& set);
 
-std::string gnuplot_script(const Figure& figure);
+/// How many line styles stand before those of each figure. Figures of the same methods share theirs.
+std::vector<std::size_t> first_styles(const FigureSet& set);
+
+std::string gnuplot_script(const Figure& figure, std::size_t first_style = 0);
 
 /// The data file: columns separated by blanks, one block for each curve, with comments that name them.
 std::string gnuplot_data(const Figure& figure);

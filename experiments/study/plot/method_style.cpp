@@ -64,6 +64,15 @@ constexpr std::array style_table = {
     NamedStyle{"odeint_rosenbrock4", {5, 0, 4}},
 };
 
+// The same for the broad and narrow phases, which stand in figures without methods.
+constexpr std::array phase_table = {
+    NamedStyle{"all_pairs", {0, 0, 0}},    NamedStyle{"sweep_and_prune", {1, 1, 0}},
+    NamedStyle{"uniform_grid", {2, 2, 0}}, NamedStyle{"quadtree", {3, 3, 0}},
+    NamedStyle{"octree", {4, 4, 0}},       NamedStyle{"bvh", {5, 5, 0}},
+    NamedStyle{"bsp_tree", {6, 6, 0}},     NamedStyle{"sat", {0, 0, 0}},
+    NamedStyle{"gjk", {1, 1, 0}},          NamedStyle{"sat_course_report", {2, 2, 0}},
+};
+
 bool shares(const MethodStyle& a, const MethodStyle& b) {
   return a.marker == b.marker && (a.colour == b.colour || a.dash == b.dash);
 }
@@ -105,6 +114,9 @@ std::vector<MethodStyle> styles_of(const std::vector<std::string>& names) {
   std::size_t unknown = 0;
   for (const std::string& name : names) {
     const NamedStyle* row = row_of(name);
+    const auto phase =
+        std::find_if(phase_table.begin(), phase_table.end(), [&](const auto& r) { return r.method == name; });
+    if (row == nullptr && !methods && phase != phase_table.end()) row = &*phase;
     if (row == nullptr && !methods && unknown < style::colours.size()) {
       styles.push_back({unknown, unknown, 0});
       ++unknown;

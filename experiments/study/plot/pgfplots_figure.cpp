@@ -24,7 +24,7 @@ constexpr double label_size = 9, tick_size = 8;                     // letters, 
 constexpr double label_line = 11, tick_length = 24;                 // with the gaps around labels, pt
 constexpr double node_margin = 3.7;                                 // about the text of a node, pt
 constexpr double least_height = 130;                                // of a panel, pt
-constexpr double most_height = tex_page_height - 110;               // of what stands on a page, without the caption, pt
+constexpr double caption_size = 10, caption_line = 12;              // letters and lines of a caption, pt
 
 template <class... T>
 void tex_line(std::string& out, fmt::format_string<T...> format, T&&... values) {
@@ -99,9 +99,9 @@ void write_points(std::string& out, const Panel& panel, const PlottedCurve& curv
 
 void write_tex_names(std::string& out, const Panel& panel, const std::vector<MethodStyle>& styles) {
   for (const auto& mark : panel.names) {
-    tex_line(out, "\\node[overlay, {}, {}, font=\\scriptsize] at (axis cs:{:.5g},{:.5g}) {{{}}};",
-             mark.left ? "left" : "right", colour_name(styles[mark.method].colour), panel.x.place(mark.x),
-             panel.y.place(mark.y), tex(mark.name));
+    tex_line(out, "\\node[overlay, {}{}, {}, font=\\scriptsize] at (axis cs:{:.5g},{:.5g}) {{{}}};",
+             mark.opaque ? "fill=white, inner sep=1pt, " : "", mark.left ? "left" : "right",
+             colour_name(styles[mark.method].colour), panel.x.place(mark.x), panel.y.place(mark.y), tex(mark.name));
   }
 }
 
@@ -109,7 +109,8 @@ void write_curve(std::string& out, const Figure& figure, const Panel& panel, con
                  const MethodStyle& method) {
   const auto colour = colour_name(method.colour);
   const bool over_time = panel.x.scale == Scale::linear;
-  const std::size_t repeat = over_time ? std::max<std::size_t>(1, curve.points.size() / 6) : 1;
+  const std::size_t repeat =
+      over_time ? std::max<std::size_t>(1, curve.points.size() / 6) : style::points_to_a_mark(curve.points.size());
   const double size = style::mark_size(curve.method);
   tex_line(out, "% {}", one_line(curve.label));
   if (curve.muted) return write_points(out, panel, curve, Mark::value, "gray!50, thin, mark=*, mark size=0.3pt");
@@ -143,10 +144,10 @@ void write_legend(std::string& out, const Figure& figure, const std::vector<Meth
   for (std::size_t s = 0; s < figure.shades.size(); ++s) {
     entry(fmt::format("area legend, draw=gray, fill={}", shade_name(s)), figure.shades[s].label);
   }
-  if (figure.has_envelope) entry("yellow!80!orange!60, line width=4pt, no marks", "lower envelope");
-  if (figure.has_muted) entry("gray!50, thin, no marks", "other methods");
-  if (figure.has_zero_marks) entry("gray, only marks, mark=triangle, mark options={rotate=180}", "exactly zero");
-  if (figure.has_edge_marks) entry("gray, only marks, mark=x, thick", "diverged or off scale");
+  if (figure.has_envelope) entry("yellow!80!orange!60, line width=4pt, no marks", figure.legend.envelope);
+  if (figure.has_muted) entry("gray!50, thin, no marks", figure.legend.muted);
+  if (figure.has_zero_marks) entry("gray, only marks, mark=triangle, mark options={rotate=180}", figure.legend.zero);
+  if (figure.has_edge_marks) entry("gray, only marks, mark=x, thick", figure.legend.edge);
 }
 
 /// The rows of the figure that stand on one page.
@@ -166,11 +167,15 @@ double line_width(const Figure& figure) {
 /// Width of the widest entry of the legend, pt.
 double legend_entry_width(const Figure& figure) {
   constexpr double mark = 36;  // with the room between columns
-  double widest = tex_width(figure.has_edge_marks ? "diverged or off scale" : "lower envelope", label_size);
+  double widest = 0;
   const auto take = [&](const std::string& text) { widest = std::max(widest, tex_width(text, label_size)); };
   for (const auto m : figure.used_methods) take(figure.methods[m]);
   for (const auto& variant : figure.variants) take(variant);
   for (const auto& shade : figure.shades) take(shade.label);
+  if (figure.has_envelope) take(figure.legend.envelope);
+  if (figure.has_muted) take(figure.legend.muted);
+  if (figure.has_zero_marks) take(figure.legend.zero);
+  if (figure.has_edge_marks) take(figure.legend.edge);
   return widest + mark;
 }
 
@@ -232,6 +237,15 @@ struct Frame {
   double row = 0;  ///< from one row of panels to the next
 };
 
+/// Height of a page that the caption leaves, which the article ends with the number of pages, pt.
+double room_beside_caption(const Figure& figure) {
+  constexpr double least = 110, gaps = 30, of_typewriter = 1.15;
+  const double words =
+      tex_width(figure.title + figure.caption + " Page 1 of 10; the others are in the article's folder", caption_size);
+  const double lines = std::ceil(of_typewriter * words / tex_line_width) + 1;
+  return tex_page_height - std::max(least, gaps + lines * caption_line);
+}
+
 /// Lines that a text takes in this width.
 double lines_in(const std::string& text, double width) {
   return std::max(1.0, std::ceil(1.25 * tex_width(text, label_size) / width));
@@ -242,7 +256,7 @@ Frame frame_of(const Figure& figure) {
   const auto columns = static_cast<double>(figure.columns);
   f.height = figure.panel_height > 0 ? figure.panel_height * line_width(figure) / figure.look.width()
                                      : panel_height_pt[std::min<std::size_t>(figure.columns, 3) - 1];
-  f.height = std::clamp(f.height, least_height, most_height - 4 * label_line);
+  f.height = std::clamp(f.height, least_height, room_beside_caption(figure) - 4 * label_line);
   f.gap = 2 * node_margin;
   f.right = node_margin;
   for (const auto& panel : figure.panels) {
@@ -271,7 +285,7 @@ Frame frame_of(const Figure& figure) {
 std::vector<Page> pages_of(const Figure& figure, const Frame& frame) {
   const auto legend_lines =
       static_cast<double>((legend_entries(figure) + legend_columns(figure) - 1) / legend_columns(figure));
-  const double room = most_height - (legend_lines + 1) * label_line;
+  const double room = room_beside_caption(figure) - (legend_lines + 1) * label_line;
   const auto rows = std::max<std::size_t>(1, static_cast<std::size_t>(std::max(0.0, room / frame.row)));
   std::vector<Page> pages;
   for (std::size_t first = 0; first < figure.rows; first += rows)

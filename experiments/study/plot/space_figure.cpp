@@ -117,18 +117,16 @@ std::array<std::pair<double, double>, 3> ranges_of(const SpaceFigure& figure) {
   return ranges;
 }
 
-/// The factor of gnuplot's view with which the box of the axes fills the width and the height, in pixels. Without it
-/// gnuplot gives the longest side 0.85 of the width.
-double scale_of(const std::array<std::pair<double, double>, 3>& ranges, double width, double height) {
-  constexpr double radian = std::numbers::pi / 180, room_for_numbers = 0.95;
+/// Side in pixels of the square within gnuplot's margins with which the box of the axes fills the width and the height:
+/// gnuplot draws the longer side of the ground as long as that, before it turns the box.
+double square_of(const std::array<std::pair<double, double>, 3>& ranges, double width, double height) {
+  constexpr double radian = std::numbers::pi / 180;
   Place side{};
   for (std::size_t i = 0; i < 3; ++i) side[i] = ranges[i].second - ranges[i].first;
   const double c = std::abs(std::cos(turn_z * radian)), s = std::abs(std::sin(turn_z * radian));
-  const double unit = 0.85 * width / std::max({side[0], side[1], side[2]});
-  const double across = (side[0] * c + side[1] * s) * unit;
-  const double up =
-      (side[2] * std::sin(turn_x * radian) + (side[0] * s + side[1] * c) * std::cos(turn_x * radian)) * unit;
-  return room_for_numbers * std::min(width / across, height / up);
+  const double across = side[0] * c + side[1] * s;
+  const double up = side[2] * std::sin(turn_x * radian) + (side[0] * s + side[1] * c) * std::cos(turn_x * radian);
+  return std::max(side[0], side[1]) * std::min(width / across, height / up);
 }
 
 struct Blocks {
@@ -196,36 +194,41 @@ std::string space_script(const SpaceFigure& figure) {
       size / 96, height / 96);
   put(out, "  }}");
   put(out, "  set output '{}.'.kind", figure.name);
-  put(out, "  set encoding utf8\n  set decimalsign '.'");
+  put(out, "  set encoding utf8\n  set decimalsign '.'\n  set multiplot\n  unset key");
   std::size_t longest = 1;
   for (const auto& curve : figure.curves) longest = std::max(longest, length(curve.label));
   const double letters = figure.look.font_size / style::font_size;
   const auto in_a_row = static_cast<std::size_t>(
       std::max(1.0, 0.95 * size / ((static_cast<double>(longest) * style::character_width + 60) * letters)));
   const auto rows = static_cast<double>((figure.curves.size() + in_a_row - 1) / in_a_row);
-  const double left = 0.1, right = 0.95, top = figure.look.title ? 0.93 : 0.99;
-  const double bottom = ((rows + 1) * style::legend_line + style::legend_gap) * letters / height;
+  const double key_height = (rows * style::legend_line + 2 * style::legend_gap) * letters;
+  // Room for the numbers and labels of the axes, pixels: the third axis stands at the left.
+  const double left = 85 * letters, right = size - 40 * letters, bottom = height - key_height - 55 * letters,
+               top = (figure.look.title ? style::title_line + 2 * style::legend_gap : style::legend_gap) * letters;
   const auto ranges = ranges_of(figure);
-  put(out, "  set view {},{},{:.3f}\n  set view equal xyz\n  set surface explicit\n  set xyplane 0", turn_x, turn_z,
-      scale_of(ranges, size * (right - left), height * (top - bottom)));
+  const double half = square_of(ranges, right - left, bottom - top) / 2;
+  const double across = (left + right) / 2, down = (top + bottom) / 2;
+  put(out, "  set view {},{}\n  set view equal xyz\n  set surface explicit\n  set xyplane 0", turn_x, turn_z);
   put(out, "  set border 31 linewidth 1 linecolor rgb '#999999'");
-  put(out, "  set lmargin at screen {}; set rmargin at screen {}", left, right);
-  put(out, "  set bmargin at screen {:.5f}; set tmargin at screen {}", bottom, top);
+  put(out, "  set lmargin at screen {:.5f}; set rmargin at screen {:.5f}", (across - half) / size,
+      (across + half) / size);
+  put(out, "  set bmargin at screen {:.5f}; set tmargin at screen {:.5f}", 1 - (down + half) / height,
+      1 - (down - half) / height);
   for (std::size_t i = 0; i < 3; ++i) {
     const char axis = "xyz"[i];
     const Axis ticks = linear_axis("", ranges[i].first, ranges[i].second);
     std::vector<std::string> marks;
-    for (std::size_t k = 0; k<ticks.ticks.size(); k += ticks.ticks.size()> 5 ? 2 : 1)
+    const std::size_t stride = ticks.ticks.size() > 5 ? 2 : 1;
+    const auto zero = std::find_if(ticks.ticks.begin(), ticks.ticks.end(), [](const Tick& t) { return t.at == 0; });
+    for (std::size_t k = static_cast<std::size_t>(zero - ticks.ticks.begin()) % stride; k < ticks.ticks.size();
+         k += stride)
       marks.push_back(fmt::format("'{}' {}", ticks.ticks[k].label, ticks.ticks[k].at));
     put(out, "  set {}range [{:.6g}:{:.6g}]\n  set {}tics ({}) offset {}", axis, ranges[i].first, ranges[i].second,
         axis, fmt::join(marks, ", "), i == 2 ? "0,0" : "0,-0.4");
     put(out, "  set {}label {} noenhanced {}", axis, gnuplot(figure.axes[i]),
         i == 2 ? "rotate parallel" : "offset 0,-0.8");
   }
-  if (figure.look.title) put(out, "  set title {} noenhanced", gnuplot(figure.title));
-  put(out, "  set key at screen 0.5,{:.5f} center top horizontal Left reverse noenhanced samplen 2.5 maxcols {}",
-      (rows * style::legend_line + style::legend_gap) * letters / height, in_a_row);
-  std::vector<std::string> items;
+  std::vector<std::string> items, entries;
   int block = 0;
   if (blocks.grid)
     items.push_back(fmt::format("data index {} with lines linewidth 0.7 linecolor rgb '#bbbbbb' notitle", block++));
@@ -238,13 +241,21 @@ std::string space_script(const SpaceFigure& figure) {
     if (blocks.curves[i].second)
       items.push_back(fmt::format("data index {} with lines linewidth 0.9 dashtype (2,4) linecolor rgb '{}' notitle",
                                   block + (blocks.curves[i].first ? 1 : 0), colour));
-    if (blocks.curves[i].first)
-      items.push_back(fmt::format("data index {} with lines linewidth 2 dashtype {} linecolor rgb '{}' title {}", block,
-                                  dash, colour, gnuplot(curve.label)));
+    const auto drawn = fmt::format("with lines linewidth 2 dashtype {} linecolor rgb '{}'", dash, colour);
+    if (blocks.curves[i].first) items.push_back(fmt::format("data index {} {} notitle", block, drawn));
+    entries.push_back(fmt::format("keyentry {} title {}", drawn, gnuplot(curve.label)));
     block += blocks.curves[i].first + blocks.curves[i].second;
   }
   put(out, "  splot {}", fmt::join(items, ", \\\n        "));
-  put(out, "  unset output\n}}");
+  put(out, "  reset\n  unset border\n  unset tics\n  set xrange [0:1]\n  set yrange [0:1]");
+  put(out, "  set lmargin at screen 0; set rmargin at screen 1; set bmargin at screen 0; set tmargin at screen 1");
+  if (figure.look.title)
+    put(out, "  set label {} at screen 0.5,{:.5f} center noenhanced", gnuplot(figure.title),
+        1 - (style::legend_gap + style::title_line / 2) * letters / height);
+  put(out, "  set key at screen 0.5,{:.5f} center top horizontal Left reverse noenhanced samplen 2.5 maxcols {}",
+      (key_height - style::legend_gap * letters) / height, in_a_row);
+  put(out, "  plot NaN notitle, {}", fmt::join(entries, ", \\\n       "));
+  put(out, "  unset multiplot\n  unset output\n}}");
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <numeric>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "experiments/study/plan/run_order.hpp"
@@ -66,6 +67,19 @@ std::vector<RunRecord> sorted(std::vector<RunRecord> runs) {
   return ordered;
 }
 
+/// True if the durations of the runs go with their steps. In a study that varies the duration, each step has them all,
+/// two or more.
+bool durations_follow_steps(const std::vector<RunRecord>& runs) {
+  std::set<std::pair<std::string, double>> steps;
+  std::set<std::tuple<std::string, double, double>> with_duration;
+  for (const RunRecord& run : runs) {
+    const double step = run.config.tolerance ? -*run.config.tolerance : run.config.dt.value_or(0);
+    steps.emplace(run.config.scenario, step);
+    with_duration.emplace(run.config.scenario, step, run.config.t_end);
+  }
+  return with_duration.size() < 2 * steps.size();
+}
+
 }  // namespace
 
 StoredStudyView stored_study(const ResultStores& stores, const std::vector<std::string>& where) {
@@ -101,6 +115,7 @@ StoredStudyView stored_study(const ResultStores& stores, const std::vector<std::
     throw InputError(where.empty() ? "there is no run to draw in " + words(first_items(stores.folders(), 4))
                                    : "--where: no run satisfies the conditions");
   view.runs = sorted(std::move(view.runs));
+  view.durations_follow_steps = stores.all().size() == 1 && durations_follow_steps(view.runs);
   view.invariants.assign(invariants.begin(), invariants.end());
   return stored;
 }

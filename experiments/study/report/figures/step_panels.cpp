@@ -102,9 +102,17 @@ double lowest_decade(const Axis& axis) {
 struct Area {
   double x0, y0, width, height;
 };
+/// Without the level of zeros at the bottom and the crosses, with their names, at the top.
 Area drawing_area(const Panel& panel) {
   const double x = panel.x.place(panel.x.low), y = panel.y.place(lowest_decade(panel.y));
-  return {x, y, panel.x.place(panel.x.high) - x, panel.y.place(panel.y.high) - y};
+  double top = panel.y.place(panel.y.high);
+  const double high = top;
+  for (const auto& curve : panel.curves) {
+    for (const auto& point : curve.points) {
+      if (point.mark == Mark::edge) top = std::min(top, panel.y.place(point.drawn) - 0.03 * (high - y));
+    }
+  }
+  return {x, y, panel.x.place(panel.x.high) - x, top - y};
 }
 
 /// Points along the curves, close enough together to find every crossing of a curve with a rectangle.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <utility>
@@ -158,6 +159,16 @@ class Figures {
     return kept;
   }
 
+  /// The quantities without those that are exactly zero in all runs; all of them if that is true of each.
+  std::vector<Quantity> without_zeros(const std::vector<Quantity>& quantities) const {
+    std::vector<Quantity> kept;
+    std::copy_if(quantities.begin(), quantities.end(), std::back_inserter(kept), [&](const Quantity& quantity) {
+      return std::any_of(study_.runs.begin(), study_.runs.end(),
+                         [&](const RunRecord& run) { return value(run, quantity).value_or(0) != 0; });
+    });
+    return kept.empty() ? quantities : kept;
+  }
+
   std::optional<double> largest_if_round_off(const Quantity& quantity) const {
     double most = 0;
     for (const auto& curve : grouping_.curves) {
@@ -222,7 +233,7 @@ class Figures {
   }
 
   void error_against_step() {
-    const auto quantities = defined({quantity::attitude_error(), quantity::position_error()});
+    const auto quantities = without_zeros(defined({quantity::attitude_error(), quantity::position_error()}));
     const bool by_reference = std::any_of(study_.runs.begin(), study_.runs.end(), used_reference);
     Figure figure{
         .name = "error_against_step",

@@ -93,10 +93,8 @@ Axis y_axis(const std::vector<Panel>& row, const SeriesQuantity& quantity) {
   return symlog_axis(quantity.axis, lowest, highest, std::isfinite(smallest_curve) ? smallest_curve : 0);
 }
 
-std::size_t columns_of(const std::vector<Block>& blocks) {
-  std::size_t most = 1;
-  for (const auto& block : blocks) most = std::max({most, steps_of(block, false).size(), steps_of(block, true).size()});
-  return std::min(most, max_columns);
+std::size_t columns_of(const Block& block) {
+  return std::clamp<std::size_t>(std::max(steps_of(block, false).size(), steps_of(block, true).size()), 1, max_columns);
 }
 
 }  // namespace
@@ -107,9 +105,9 @@ bool has_series(const Curve& curve) {
 
 std::vector<std::vector<Panel>> panels_against_time(const Selection& selection, const SeriesQuantity& quantity) {
   const auto blocks = selection.blocks([](const Curve&) { return true; });
-  const std::size_t columns = columns_of(blocks);
   std::vector<std::vector<Panel>> rows;
   for (const auto& block : blocks) {
+    const std::size_t columns = columns_of(block);  // of fewer steps than the other blocks none stands twice
     std::vector<Panel> row;
     for (std::size_t c = 0; c < columns; ++c) {
       const double fraction = columns == 1 ? 0 : static_cast<double>(c) / static_cast<double>(columns - 1);

@@ -8,6 +8,7 @@
 
 #include "experiments/study/plot/figure_layout.hpp"
 #include "experiments/study/plot/gnuplot_figure.hpp"
+#include "experiments/study/plot/method_style.hpp"
 #include "experiments/study/text/input_error.hpp"
 
 namespace polhode::study {
@@ -41,6 +42,18 @@ TEST(FigureFont, IsAFamilyASizeOrBoth) {
   EXPECT_EQ(look.font_size, 10.5);
   for (const char* wrong : {"", "a,b", "a,3", "a,41", "it's", "a\"b", "a,9,9"})
     EXPECT_THROW(read_figure_font(wrong, "--figure-font", look), InputError) << wrong;
+}
+
+TEST(FigureStyles, AreThoseOfItsOwnMethods) {
+  FigureSet set;
+  set.figures.assign(3, two_rows(1));
+  set.figures[0].methods = set.figures[2].methods = {"float", "double"};
+  set.figures[1].methods = {"heun", "rk4"};
+  EXPECT_EQ(first_styles(set), (std::vector<std::size_t>{0, 2, 0}));
+  const std::string style = gnuplot_style(set);
+  const std::string rk4 = "set style line 4 linecolor rgb '" + html_colour(styles_of({"rk4"}).front()) + "'";
+  EXPECT_NE(style.find(rk4), std::string::npos) << style;
+  EXPECT_EQ(style.find("# float"), style.rfind("# float"));
 }
 
 TEST(FigureChoice, RemovesFiguresAndGivesTheOthersTheirLook) {

@@ -34,6 +34,13 @@ TEST(MethodStyle, IsUniqueInTheCatalogue) {
   EXPECT_EQ(in_grey.size(), styles.size());
 }
 
+TEST(MethodStyle, OfAPhaseIsTheSameAlone) {
+  const auto all = styles_of({"sat", "gjk", "sat_course_report"});
+  EXPECT_EQ(styles_of({"sat_course_report"}).front(), all[2]);
+  EXPECT_EQ(styles_of({"gjk", "sat"}), (std::vector<MethodStyle>{all[1], all[0]}));
+  EXPECT_FALSE(styles_of({"bvh"}).front() == styles_of({"octree"}).front());
+}
+
 TEST(MethodStyle, IsTheSameInEachStudy) {
   const auto names = all_methods();
   const auto styles = styles_of(names);
