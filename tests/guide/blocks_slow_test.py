@@ -172,7 +172,7 @@ def prepare(folder, text):
         if named in text:
             shutil.copyfile(ROOT / "tests/fuzz/corpus" / file, folder / named.split()[1])
     if "results/my_study" in text and AS_PRINTED not in text:
-        made("energy_drift", "--integrator", "rk4,dmv", "--dt", "0.1,0.05", "--trajectory", "csv", "--no-figures", "--out", "results/my_study")
+        made("energy_drift", "--integrator", "rk4,dmv", "--dt", "0.02,0.01", "--trajectory", "csv", "--no-figures", "--out", "results/my_study")
 
 
 def carried_out(path, text):
