@@ -296,12 +296,23 @@ class Compact {
       allow(node.attributes, {"id"});
       return children(node, style);
     }
-    allow(node.attributes, {"id", "transform"});
+    allow(node.attributes, {"id", "transform", "style"});
     for (const Node& child : node.children) {
       if (blank(child)) continue;
       if (child.name != "text") throw Unknown{};
-      text(child, style, transform->second);
+      text(child, style, transform->second, filter(node));
     }
+  }
+
+  /// The style of words in a box: ";filter:url(#textbox)".
+  std::string filter(const Node& group) {
+    const auto style = group.attributes.find("style");
+    if (style == group.attributes.end()) return {};
+    static const std::regex only_a_filter("filter:url\\(#(\\w+)\\)");
+    std::smatch found;
+    if (!std::regex_match(style->second, found, only_a_filter) || !symbols_.contains(found[1])) throw Unknown{};
+    keep(found[1]);
+    return ";" + style->second;
   }
 
   void define(const Node& node) {
@@ -437,19 +448,23 @@ class Compact {
     std::string out = "<" + node.name;
     for (const auto& [name, value] : node.attributes)
       out += fmt::format(" {}={}", name == "xlink:href" ? "href" : name, quoted(value));
-    if (!node.children.empty()) throw Unknown{};
-    return out + "/>";
+    if (node.children.empty()) return out + "/>";
+    out += ">";
+    for (const Node& child : node.children) {
+      if (!blank(child)) out += written(child);
+    }
+    return out + "</" + node.name + ">";
   }
 
   static std::string quoted(const std::string& value) {
     return value.find('\'') == std::string::npos ? "'" + value + "'" : "\"" + value + "\"";
   }
 
-  void text(const Node& node, const Attributes& outer, const std::string& transform) {
+  void text(const Node& node, const Attributes& outer, const std::string& transform, const std::string& filter) {
     allow(node.attributes, {"xml:space"});
     const Attributes style = inherited(outer, node.attributes);
     flush();
-    std::string out = fmt::format("<text class='{}'", class_of(styled(style, of_texts)));
+    std::string out = fmt::format("<text class='{}'", class_of(styled(style, of_texts) + filter));
     static const std::regex moved("translate\\(([-0-9.]+),([-0-9.]+)\\)");
     if (std::smatch found; std::regex_match(transform, found, moved)) {
       out += fmt::format(" x='{}' y='{}'", shortest(hundredths(found[1])), shortest(hundredths(found[2])));

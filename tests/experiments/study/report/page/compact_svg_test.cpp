@@ -102,6 +102,21 @@ TEST(CompactSvg, KeepsTheWordsAndWhereTheyStand) {
             "<text class='a' transform='translate(24.32,180.01) rotate(270)'>a &lt; b</text>");
 }
 
+TEST(CompactSvg, KeepsTheBoxBehindWords) {
+  const auto words = [](const std::string& style) {
+    return "<g transform=\"translate(1.00,2.00)\" fill=\"red\" " + style + "><text>rk4</text></g>";
+  };
+  const std::string all = compact_svg(picture(words("style='filter:url(#textbox)'") + words("")));
+  EXPECT_NE(
+      all.find("<style>.a{fill:red;filter:url(#textbox)}.b{fill:red}</style><defs><filter id='textbox' x='0'>"
+               "<feFlood result='bgnd'/></filter></defs><text class='a' x='1' y='2'>rk4</text><text class='b' x='1' "
+               "y='2'>rk4</text></svg>"),
+      std::string::npos)
+      << all;
+  const std::string other = picture(words("style='opacity:0.5'"));
+  EXPECT_EQ(compact_svg(other), other);
+}
+
 TEST(CompactSvg, DrawsCellsOfAMap) {
   const std::string cell =
       "<g stroke='none' shape-rendering='crispEdges'>\n<polygon fill = 'rgb(255,   0,   1)' points = ";
