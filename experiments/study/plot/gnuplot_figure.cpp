@@ -37,14 +37,22 @@ struct StyleNumbers {
 class Layout {
  public:
   explicit Layout(const Figure& figure) : figure_(figure) {
-    for (const auto& panel : figure.panels) title_lines_ = std::max(title_lines_, panel.title.size());
+    for (const auto& panel : figure.panels) title_lines_ = std::max(title_lines_, title(panel).size());
     double y = (style::legend_gap + (figure.look.title ? style::title_line : 0)) * scale_;
+    const double legend = (static_cast<double>(legend_rows()) * style::legend_line + 2 * style::legend_gap) * scale_;
+    if (is_high()) {
+      legend_top_ = y - style::legend_gap * scale_;
+      y += legend;
+    }
     for (std::size_t row = 0; row < figure.rows; ++row) {
       tops_.push_back(y + (style::title_gap + static_cast<double>(title_lines_) * style::title_line) * scale_);
       y = tops_.back() + plot_height() + style::bottom_margin * scale_;
     }
-    legend_top_ = y;
-    height_ = y + (static_cast<double>(legend_rows()) * style::legend_line + 2 * style::legend_gap) * scale_;
+    if (!is_high()) {
+      legend_top_ = y;
+      y += legend;
+    }
+    height_ = y;
   }
 
   double width() const { return figure_.look.width(); }
@@ -63,8 +71,20 @@ class Layout {
   double title_line() const { return 1 - (style::legend_gap + style::title_line / 2) * scale_ / height_; }
   double legend_top() const { return 1 - (legend_top_ + style::legend_gap * scale_) / height_; }
 
-  std::size_t title_characters() const {
-    return static_cast<std::size_t>(plot_width() / (style::character_width * scale_));
+  /// The rows of a panel's title. One that is too long goes on in another, after an underscore or a space.
+  std::vector<std::string> title(const Panel& panel) const {
+    const auto most = static_cast<std::size_t>(plot_width() / (style::character_width * scale_));
+    std::vector<std::string> rows;
+    for (std::string row : panel.title) {
+      while (length(row) > most) {
+        const auto end = row.find_last_of("_ ", most - 1);
+        if (end == std::string::npos) break;
+        rows.push_back(row.substr(0, end + 1));
+        row.erase(0, end + 1);
+      }
+      rows.push_back(shortened(row, most));
+    }
+    return rows;
   }
 
   std::size_t legend_columns() const {
@@ -87,6 +107,9 @@ class Layout {
   }
 
  private:
+  /// The first panels of a high figure are seen without what is below them, so that its legend stands above them.
+  bool is_high() const { return static_cast<double>(figure_.rows) * plot_height() > 450; }
+
   std::size_t legend_rows() const { return (legend_texts().size() + legend_columns() - 1) / legend_columns(); }
 
   /// Room for the labels of the ticks of y axes: names, numbers of many digits.
@@ -147,12 +170,10 @@ void write_axis(std::string& out, char name, const Axis& axis) {
   else line(out, "  unset {}label", name);
 }
 
-void write_title(std::string& out, const Panel& panel, std::size_t characters) {
-  if (panel.title.empty()) return line(out, "  unset title");
+void write_title(std::string& out, const std::vector<std::string>& rows) {
+  if (rows.empty()) return line(out, "  unset title");
   std::string text;
-  for (const auto& row : panel.title) {
-    text += (text.empty() ? "" : ".\"\\n\".") + gnuplot(shortened(row, characters));
-  }
+  for (const auto& row : rows) text += (text.empty() ? "" : ".\"\\n\".") + gnuplot(row);
   line(out, "  set title {} noenhanced", text);
 }
 
@@ -233,7 +254,7 @@ void write_panel(std::string& out, const Figure& figure, const Panel& panel, con
   line(out, "  unset logscale\n  unset nonlinear y");
   line(out, "  set lmargin at screen {:.5f}; set rmargin at screen {:.5f}", layout.left(panel), layout.right(panel));
   line(out, "  set bmargin at screen {:.5f}; set tmargin at screen {:.5f}", layout.bottom(panel), layout.top(panel));
-  write_title(out, panel, layout.title_characters());
+  write_title(out, layout.title(panel));
   write_axis(out, 'x', panel.x);
   write_axis(out, 'y', panel.y);
   write_guides(out, panel);
