@@ -312,6 +312,17 @@ class Played(unittest.TestCase):
             self.assertGreater(self.colours(0, third / 3 + 0.05, 1, 0.25), 50)
         self.check_quiet()
 
+    def test_answer_motion_and_curves_share_a_window(self):
+        call("replay", "--scenario", "dzhanibekov", "--integrator", "rk4,semi_implicit_euler", "--dt", "0.05", "--t-end", "5",
+             "--out", "window.html", folder=self.folder)
+        self.open(self.folder / "window.html", width=1280, height=720)
+        tops, bottoms = zip(*self.browser.run("['answer', 'stage', 'plot'].map((id) => document.getElementById(id).getBoundingClientRect())"
+                                              ".map((box) => [box.top, box.bottom])"))
+        self.assertEqual(list(tops), sorted(tops))
+        self.assertGreater(bottoms[0], tops[0])
+        self.assertLessEqual(bottoms[-1], 720)
+        self.check_quiet()
+
 
 if __name__ == "__main__":
     unittest.main()

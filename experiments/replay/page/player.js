@@ -154,7 +154,8 @@ function layOut() {
   grid.gridTemplateColumns = `repeat(${columns}, minmax(0, 1fr))`;
   grid.gridTemplateRows = `repeat(${rows}, minmax(0, 1fr))`;
   stage.style.height = narrow ? `${Math.round(rows * Math.max(230, 0.72 * window.innerWidth))}px`
-                              : rows > 2 ? `${rows * 270}px` : "";
+                              : rows > 2 ? `${rows * 270}px`
+                              : `clamp(17rem, calc(56vh - ${element("answer").offsetHeight}px), 60rem)`;  // the curves stay in the window
   if (renderer) renderer.setSize(stage.clientWidth, stage.clientHeight, false);
   plot.layout();
   state.dirty = true;
