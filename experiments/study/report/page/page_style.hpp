@@ -70,7 +70,7 @@ figure { margin: 1.6rem 0 2.2rem; }
 /* A shadow at the right edge where there is more to the right. */
 .wide, .drawing {
   background:
-    linear-gradient(to left, var(--behind) 50%, transparent) right / 2rem 100% no-repeat local,
+    linear-gradient(to left, var(--behind) 50%, transparent) right -2px top / 2rem 100% no-repeat local,
     linear-gradient(to left, var(--edge), transparent) right / .7rem 100% no-repeat scroll, var(--behind);
 }
 .wide { --behind: var(--paper); }
@@ -97,7 +97,7 @@ summary { cursor: pointer; margin: .8rem 0; }
 footer { margin-top: 3rem; color: var(--soft); font-size: .88rem; }
 @media screen and (min-width: 64rem) {  /* a table may be wider than the text, to the edges of the window */
   .wide {
-    width: max-content; min-width: 100%; max-width: calc(100vw - 3rem); position: relative; left: 50%;
+    width: min-content; min-width: 100%; max-width: calc(100vw - 3rem); position: relative; left: 50%;
     transform: translateX(-50%);
   }
 }
