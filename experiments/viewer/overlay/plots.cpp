@@ -140,7 +140,8 @@ void draw_plots(Stage& stage, float left, float upper, float width, float height
   ImGui::SetNextWindowSize({width, height});
   ImGui::Begin("plots", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus);
-  const float legend = stage.size() > 1 ? ImGui::GetTextLineHeight() + 4 : 0, margin = 12;
+  const float row = ImGui::GetTextLineHeight() + 4, margin = 12;
+  const float legend = stage.size() > 1 ? 2 * row : 0;  // of the runs, and what they tell below it
   const float each = (width - margin * float(quantities.size() + 1)) / float(quantities.size());
   const std::vector<ImU32> colours = colours_of(stage);
   for (std::size_t i = 0; i < quantities.size(); ++i) {
@@ -157,7 +158,7 @@ void draw_plots(Stage& stage, float left, float upper, float width, float height
   }
   if (legend > 0) {
     const std::string text = answer_of(stage);
-    ImGui::GetWindowDrawList()->AddText({x + 20, upper + height - legend - 2}, ink, text.c_str());
+    ImGui::GetWindowDrawList()->AddText({left + margin, upper + height - row - 2}, ink, text.c_str());
   }
   ImGui::End();
 }
