@@ -54,6 +54,7 @@ void compare(const NarrowPhaseOptions& options, const std::string& question, con
   measure_course_report(10 * options.count, options.seed, analysis);
   view.figure_choice.look = options.look;
   choose_figures(view.figure_choice, analysis.figures);
+  choose_figures(view.figure_choice, analysis.timed.figures);
   view.analysis = std::move(analysis);
   std::filesystem::create_directories(view.folder);
   write_tables(view);

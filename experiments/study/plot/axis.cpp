@@ -170,6 +170,14 @@ Axis symlog_axis(std::string label, double lowest, double highest, double smalle
   return axis;
 }
 
+std::size_t labels_apart(const Axis& axis, double length, double width) {
+  double least = axis.place(axis.high) - axis.place(axis.low);
+  const double whole = least;
+  for (std::size_t i = 1; i < axis.ticks.size(); ++i)
+    least = std::min(least, axis.place(axis.ticks[i].at) - axis.place(axis.ticks[i - 1].at));
+  return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(width / (least / whole * length) - 1e-9)));
+}
+
 void share_y_axis(std::vector<Panel>& panels, const Axis& axis) {
   for (auto& panel : panels) {
     panel.y = axis;

@@ -37,6 +37,9 @@ double edge_of(const Axis& axis, bool up, std::size_t lane = 0);
 /// visible.
 Axis symlog_axis(std::string label, double lowest, double highest, double smallest_curve);
 
+/// Every how manyth tick of an axis of this length has its label, so that labels of this width stand apart.
+std::size_t labels_apart(const Axis& axis, double length, double width);
+
 /// Gives panels one common y axis and places their points on it; the crosses of each curve in a lane of their own.
 void share_y_axis(std::vector<Panel>& panels, const Axis& axis);
 

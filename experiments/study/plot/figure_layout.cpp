@@ -25,16 +25,17 @@ void add_rows(Figure& figure, std::vector<Panel> panels, std::size_t columns) {
 
 namespace {
 
-/// Part of the width of a panel that a name takes, beside its cross.
-double share_of(const std::string& name, const Figure& figure) {
+/// Letters that this part of the width of a panel has room for, beside a cross.
+std::size_t letters_in(double share, const Figure& figure) {
   constexpr double letter = 6.4, sides = 120;  // pixels, of small letters and of both margins
   const double panel = (Look{}.width() - sides) / static_cast<double>(figure.columns);
-  return (static_cast<double>(length(name)) + 2) * letter / panel;
+  return static_cast<std::size_t>(std::max(0.0, share * panel / letter - 2));
 }
 
-/// Writes names beside crosses: left of the first one of a method, right of the last one, where there is room, or over
-/// the last ones.
+/// Writes names beside crosses: left of the first one of a method or right of the last one, shortened where there is
+/// little room; where there is none, over the last ones.
 void name_crosses(Panel& panel, const Figure& figure) {
+  constexpr std::size_t shortest = 8;
   const double left = panel.x.place(panel.x.low), right = panel.x.place(panel.x.high);
   std::set<double> named;  // lanes
   for (const auto& curve : panel.curves) {
@@ -46,15 +47,17 @@ void name_crosses(Panel& panel, const Figure& figure) {
     }
     if (first == nullptr || curve.method >= figure.methods.size() || !named.insert(first->drawn).second) continue;
     const std::string& name = figure.methods[curve.method];
-    const double room = share_of(name, figure) * (right - left);
-    const bool fits_left = panel.x.place(first->x) - left > room, fits_right = right - panel.x.place(last->x) > room;
-    const bool over = !fits_left && !fits_right;
-    const Point& at = fits_left ? *first : *last;
-    panel.names.push_back({.x = over ? panel.x.high : at.x,
-                           .y = at.drawn,
-                           .name = name,
+    const std::size_t on_left = letters_in((panel.x.place(first->x) - left) / (right - left), figure);
+    const std::size_t on_right = letters_in((right - panel.x.place(last->x)) / (right - left), figure);
+    const bool over = std::max(on_left, on_right) < std::min(shortest, length(name));
+    const bool is_left = over || length(name) <= on_left || (length(name) > on_right && on_left >= on_right);
+    panel.names.push_back({.x = over      ? panel.x.high
+                                : is_left ? first->x
+                                          : last->x,
+                           .y = first->drawn,
+                           .name = over ? name : shortened(name, is_left ? on_left : on_right),
                            .method = curve.method,
-                           .left = fits_left || over,
+                           .left = is_left,
                            .opaque = over});
   }
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "experiments/study/plot/axis.hpp"
 #include "experiments/study/plot/figure_choice.hpp"
 #include "experiments/study/plot/figure_style.hpp"
 #include "experiments/study/plot/method_style.hpp"
@@ -32,6 +33,17 @@ struct StyleNumbers {
     return (by_variant ? 1000 * (variant + 1) : 0) + first + method + 1;
   }
 };
+
+/// Letters of the longest label, an exponent's half as wide.
+double longest_label(const Axis& axis) {
+  double longest = 0;
+  for (const Tick& tick : axis.ticks) {
+    const std::size_t power = tick.label.find("^{");
+    const auto letters = static_cast<double>(length(tick.label));
+    longest = std::max(longest, power == std::string::npos ? letters : (letters - 3 + static_cast<double>(power)) / 2);
+  }
+  return longest;
+}
 
 /// Positions of all parts of the figure, in pixels from the top left corner.
 class Layout {
@@ -70,6 +82,10 @@ class Layout {
   double bottom(const Panel& panel) const { return 1 - (tops_[panel.row] + plot_height()) / height_; }
   double title_line() const { return 1 - (style::legend_gap + style::title_line / 2) * scale_ / height_; }
   double legend_top() const { return 1 - (legend_top_ + style::legend_gap * scale_) / height_; }
+
+  std::size_t x_labels_apart(const Panel& panel) const {
+    return labels_apart(panel.x, plot_width(), (longest_label(panel.x) + 1) * style::character_width * scale_);
+  }
 
   /// The rows of a panel's title. One that is too long goes on in another, after an underscore or a space.
   std::vector<std::string> title(const Panel& panel) const {
@@ -149,15 +165,18 @@ class Layout {
   double legend_top_ = 0, height_ = 0;
 };
 
-std::string ticks(const Axis& axis, bool labelled) {
+/// `apart`: every how manyth tick has its label.
+std::string ticks(const Axis& axis, std::size_t apart) {
   std::string list;
-  for (const auto& tick : axis.ticks) {
-    list += fmt::format("{}'{}' {}", list.empty() ? "" : ", ", labelled ? tick.label : "", tick.at);
+  for (std::size_t i = 0; i < axis.ticks.size(); ++i) {
+    const Tick& tick = axis.ticks[i];
+    list +=
+        fmt::format("{}'{}' {}", list.empty() ? "" : ", ", axis.labelled && i % apart == 0 ? tick.label : "", tick.at);
   }
   return "(" + list + ")";
 }
 
-void write_axis(std::string& out, char name, const Axis& axis) {
+void write_axis(std::string& out, char name, const Axis& axis, std::size_t apart = 1) {
   line(out, "  set {}range [{}:{}]", name, axis.low, axis.high);
   if (axis.scale == Scale::logarithmic) line(out, "  set logscale {}", name);
   if (axis.scale == Scale::symlog) {
@@ -165,7 +184,7 @@ void write_axis(std::string& out, char name, const Axis& axis) {
          "  set nonlinear {0} via sgn({0})*asinh(abs({0})/{1})/log(10) inverse sgn({0})*{1}*sinh(abs({0})*log(10))",
          name, axis.threshold);
   }
-  line(out, "  set {}tics {}{}", name, ticks(axis, axis.labelled), axis.named ? " noenhanced" : "");
+  line(out, "  set {}tics {}{}", name, ticks(axis, apart), axis.named ? " noenhanced" : "");
   if (axis.labelled && !axis.label.empty()) line(out, "  set {}label {} noenhanced", name, gnuplot(axis.label));
   else line(out, "  unset {}label", name);
 }
@@ -255,7 +274,7 @@ void write_panel(std::string& out, const Figure& figure, const Panel& panel, con
   line(out, "  set lmargin at screen {:.5f}; set rmargin at screen {:.5f}", layout.left(panel), layout.right(panel));
   line(out, "  set bmargin at screen {:.5f}; set tmargin at screen {:.5f}", layout.bottom(panel), layout.top(panel));
   write_title(out, layout.title(panel));
-  write_axis(out, 'x', panel.x);
+  write_axis(out, 'x', panel.x, layout.x_labels_apart(panel));
   write_axis(out, 'y', panel.y);
   write_guides(out, panel);
   write_envelope(out, panel);

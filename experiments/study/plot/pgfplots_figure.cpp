@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <set>
 
+#include "experiments/study/plot/axis.hpp"
 #include "experiments/study/plot/figure_choice.hpp"
 #include "experiments/study/plot/figure_style.hpp"
 #include "experiments/study/plot/latex_table.hpp"
@@ -41,14 +43,39 @@ std::string tick_label(std::string label) {
 
 std::string colour_name(std::size_t colour) { return fmt::format("polhode{}", static_cast<char>('a' + colour)); }
 
-/// Values are written as their place on the axis (decades on logarithmic ones), which spares TeX the arithmetic.
-void write_tex_axis(std::string& out, char name, const Axis& axis) {
+/// Values are written as their place on the axis (decades on logarithmic ones), which spares TeX the arithmetic. A
+/// place on a short axis far from zero is counted from its low end: TeX has five digits.
+double tex_place(const Axis& axis, double value) {
+  const double low = axis.place(axis.low), high = axis.place(axis.high);
+  const bool is_far = high - low < 0.01 * std::max(std::abs(low), std::abs(high));
+  return axis.place(value) - (is_far ? low : 0);
+}
+
+/// Width of the label of a tick, pt; "10^{-4}" has a small exponent.
+double tick_width(const Axis& axis, const Tick& tick) {
+  if (axis.named) return tex_width(tick.label, tick_size);
+  std::string plain = tick.label;
+  const auto power = plain.find("^{");
+  if (power == std::string::npos) return tex_width(plain, tick_size);
+  const std::string exponent = plain.substr(power + 2, plain.size() - power - 3);
+  return tex_width(plain.substr(0, power), tick_size) + tex_number_width(exponent, tick_size - 2);
+}
+
+double ticks_width(const Axis& axis) {
+  double widest = 0;
+  for (const auto& tick : axis.ticks) widest = std::max(widest, tick_width(axis, tick));
+  return widest;
+}
+
+/// `apart`: every how manyth tick has its label.
+void write_tex_axis(std::string& out, char name, const Axis& axis, std::size_t apart = 1) {
   std::vector<std::string> at, labels;
-  for (const auto& tick : axis.ticks) {
-    at.push_back(fmt::format("{:.6g}", axis.place(tick.at)));
-    labels.push_back(!axis.labelled ? "" : axis.named ? tex(tick.label) : tick_label(tick.label));
+  for (std::size_t i = 0; i < axis.ticks.size(); ++i) {
+    const Tick& tick = axis.ticks[i];
+    at.push_back(fmt::format("{:.6g}", tex_place(axis, tick.at)));
+    labels.push_back(!axis.labelled || i % apart != 0 ? "" : axis.named ? tex(tick.label) : tick_label(tick.label));
   }
-  tex_line(out, "  {0}min={1:.6g}, {0}max={2:.6g},", name, axis.place(axis.low), axis.place(axis.high));
+  tex_line(out, "  {0}min={1:.6g}, {0}max={2:.6g},", name, tex_place(axis, axis.low), tex_place(axis, axis.high));
   tex_line(out, "  {0}tick={{{1}}}, {0}ticklabels={{{2}}},", name, fmt::join(at, ","), fmt::join(labels, ","));
   if (axis.labelled && !axis.label.empty()) tex_line(out, "  {}label={{{}}},", name, tex_breakable(axis.label));
 }
@@ -58,16 +85,18 @@ std::string shade_name(std::size_t shade) { return fmt::format("polhodeshade{}",
 void write_cells(std::string& out, const Panel& panel) {
   for (const auto& c : panel.cells) {
     tex_line(out, "\\fill[{}] (axis cs:{:.5g},{:.5g}) rectangle (axis cs:{:.5g},{:.5g});", shade_name(c.shade),
-             panel.x.place(c.x_low), panel.y.place(c.y_low), panel.x.place(c.x_high), panel.y.place(c.y_high));
+             tex_place(panel.x, c.x_low), tex_place(panel.y, c.y_low), tex_place(panel.x, c.x_high),
+             tex_place(panel.y, c.y_high));
   }
 }
 
 void write_tex_guides(std::string& out, const Panel& panel) {
   for (const auto& guide : panel.guides) {
     tex_line(out, "\\addplot[gray, dashed, no marks, forget plot] coordinates {{({:.5g},{:.5g}) ({:.5g},{:.5g})}};",
-             panel.x.place(guide.x0), panel.y.place(guide.y0), panel.x.place(guide.x1), panel.y.place(guide.y1));
-    tex_line(out, "\\node[right, gray, font=\\scriptsize] at (axis cs:{:.5g},{:.5g}) {{{}}};", panel.x.place(guide.x1),
-             panel.y.place(guide.label_y), tick_label(guide.label));
+             tex_place(panel.x, guide.x0), tex_place(panel.y, guide.y0), tex_place(panel.x, guide.x1),
+             tex_place(panel.y, guide.y1));
+    tex_line(out, "\\node[right, gray, font=\\scriptsize] at (axis cs:{:.5g},{:.5g}) {{{}}};",
+             tex_place(panel.x, guide.x1), tex_place(panel.y, guide.label_y), tick_label(guide.label));
   }
 }
 
@@ -75,13 +104,13 @@ void write_tex_envelope(std::string& out, const Panel& panel) {
   if (panel.envelope.empty()) return;
   std::string points;
   for (const auto& mark : panel.envelope) {
-    points += fmt::format(" ({:.5g},{:.5g})", panel.x.place(mark.x), panel.y.place(mark.y));
+    points += fmt::format(" ({:.5g},{:.5g})", tex_place(panel.x, mark.x), tex_place(panel.y, mark.y));
   }
   tex_line(out, "\\addplot[yellow!80!orange!60, line width=4pt, no marks, forget plot] coordinates {{{} }};", points);
   for (const auto& mark : panel.envelope) {
     if (mark.label.empty()) continue;
     tex_line(out, "\\node[below left, orange!50!black, font=\\scriptsize] at (axis cs:{:.5g},{:.5g}) {{{}}};",
-             panel.x.place(mark.x), panel.y.place(mark.y), tex(mark.label));
+             tex_place(panel.x, mark.x), tex_place(panel.y, mark.y), tex(mark.label));
   }
 }
 
@@ -91,17 +120,29 @@ void write_points(std::string& out, const Panel& panel, const PlottedCurve& curv
   int on_line = 0;
   for (const auto& point : curve.points) {
     if (point.mark != mark) continue;
-    points += fmt::format("{}({:.5g},{:.5g})", on_line++ % 6 == 0 ? "\n  " : " ", panel.x.place(point.x),
-                          panel.y.place(point.drawn));
+    points += fmt::format("{}({:.5g},{:.5g})", on_line++ % 6 == 0 ? "\n  " : " ", tex_place(panel.x, point.x),
+                          tex_place(panel.y, point.drawn));
   }
   if (!points.empty()) tex_line(out, "\\addplot[{}, forget plot] coordinates {{{}\n}};", options, points);
 }
 
-void write_tex_names(std::string& out, const Panel& panel, const std::vector<MethodStyle>& styles) {
+/// The name of a cross, shortened to the room beside it in a panel of this width, pt.
+std::string name_in(const Panel& panel, const NameMark& mark, double width) {
+  if (mark.opaque || mark.above) return mark.name;
+  const double low = panel.x.place(panel.x.low), high = panel.x.place(panel.x.high), at = panel.x.place(mark.x);
+  const double room = (mark.left ? at - low : high - at) / (high - low) * width - 2 * node_margin;
+  std::string name = mark.name;
+  for (std::size_t letters = length(name); letters > 4 && tex_width(name, tick_size) > room;)
+    name = shortened(mark.name, --letters);
+  return name;
+}
+
+void write_tex_names(std::string& out, const Panel& panel, const std::vector<MethodStyle>& styles, double width) {
   for (const auto& mark : panel.names) {
-    tex_line(out, "\\node[overlay, {}{}, {}, font=\\scriptsize] at (axis cs:{:.5g},{:.5g}) {{{}}};",
+    tex_line(out, "\\node[overlay, {}{}, text={}, font=\\scriptsize] at (axis cs:{:.5g},{:.5g}) {{{}}};",
              mark.opaque ? "fill=white, inner sep=1pt, " : "", mark.left ? "left" : "right",
-             colour_name(styles[mark.method].colour), panel.x.place(mark.x), panel.y.place(mark.y), tex(mark.name));
+             colour_name(styles[mark.method].colour), tex_place(panel.x, mark.x), tex_place(panel.y, mark.y),
+             tex(name_in(panel, mark, width)));
   }
 }
 
@@ -125,7 +166,7 @@ void write_curve(std::string& out, const Figure& figure, const Panel& panel, con
       out, panel, curve, Mark::zero,
       fmt::format("{}, only marks, mark=triangle, mark size={:.2f}pt, mark options={{rotate=180}}", colour, 2 * size));
   write_points(out, panel, curve, Mark::edge,
-               fmt::format("{}, only marks, mark=x, mark size={:.2f}pt, thick", colour, 2 * size));
+               fmt::format("{}, only marks, mark=x, mark size={:.2f}pt, thick", colour, 1.4 * size));
 }
 
 void write_legend(std::string& out, const Figure& figure, const std::vector<MethodStyle>& styles) {
@@ -158,6 +199,13 @@ struct Page {
 /// The legend stands below the first panel of the last row, the width of the figure.
 bool carries_legend(const Page& page, const Panel& panel) { return panel.row + 1 == page.end && panel.column == 0; }
 
+/// What the panels of a figure leave free, and their size, pt.
+struct Frame {
+  double left = 0, gap = 0, right = 0, width = 0, height = 0;
+  double title_lines = 0;
+  double row = 0;  ///< from one row of panels to the next
+};
+
 /// Width of the whole figure, pt.
 double line_width(const Figure& figure) {
   constexpr double points_in_cm = 28.45;
@@ -188,7 +236,7 @@ std::size_t legend_entries(const Figure& figure) {
          figure.has_envelope + figure.has_muted + figure.has_zero_marks + figure.has_edge_marks;
 }
 
-void write_panel(std::string& out, const Figure& figure, const Page& page, double left, const Panel& panel,
+void write_panel(std::string& out, const Figure& figure, const Page& page, const Frame& frame, const Panel& panel,
                  const std::vector<MethodStyle>& styles) {
   tex_line(out, "\\nextgroupplot[");
   if (!panel.title.empty()) {
@@ -196,46 +244,23 @@ void write_panel(std::string& out, const Figure& figure, const Page& page, doubl
     for (const auto& text : panel.title) lines.push_back(tex_breakable(text));
     tex_line(out, "  title={{{}}},", fmt::join(lines, "\\\\"));
   }
-  write_tex_axis(out, 'x', panel.x);
+  write_tex_axis(out, 'x', panel.x, labels_apart(panel.x, frame.width, ticks_width(panel.x) + node_margin));
   write_tex_axis(out, 'y', panel.y);
   if (carries_legend(page, panel)) {
     tex_line(out,
              "  legend style={{at={{(0,0)}}, xshift=-{:.0f}pt, yshift=-{:.0f}pt, anchor=north west, draw=none, inner "
              "xsep=0pt, font=\\footnotesize, cells={{anchor=west}}, /tikz/every even column/.append style={{column "
              "sep=6pt}}}},\n  legend columns={},",
-             left, 2.7 * label_line, legend_columns(figure));
+             frame.left, 2.7 * label_line, legend_columns(figure));
   }
   tex_line(out, "]");
   write_cells(out, panel);
   write_tex_guides(out, panel);
   write_tex_envelope(out, panel);
-  write_tex_names(out, panel, styles);
+  write_tex_names(out, panel, styles, frame.width);
   for (const auto& curve : panel.curves) write_curve(out, figure, panel, curve, styles.at(curve.method));
   if (carries_legend(page, panel)) write_legend(out, figure, styles);
 }
-
-/// Width of the label of a tick, pt; "10^{-4}" has a small exponent.
-double tick_width(const Axis& axis, const Tick& tick) {
-  if (axis.named) return tex_width(tick.label, tick_size);
-  std::string plain = tick.label;
-  const auto power = plain.find("^{");
-  if (power == std::string::npos) return tex_width(plain, tick_size);
-  const std::string exponent = plain.substr(power + 2, plain.size() - power - 3);
-  return tex_width(plain.substr(0, power), tick_size) + tex_number_width(exponent, tick_size - 2);
-}
-
-double ticks_width(const Axis& axis) {
-  double widest = 0;
-  for (const auto& tick : axis.ticks) widest = std::max(widest, tick_width(axis, tick));
-  return widest;
-}
-
-/// What the panels of a figure leave free, and their size, pt.
-struct Frame {
-  double left = 0, gap = 0, right = 0, width = 0, height = 0;
-  double title_lines = 0;
-  double row = 0;  ///< from one row of panels to the next
-};
 
 /// Height of a page that the caption leaves, which the article ends with the number of pages, pt.
 double room_beside_caption(const Figure& figure) {
@@ -269,7 +294,7 @@ Frame frame_of(const Figure& figure) {
     for (const auto& guide : panel.guides)
       beside = std::max(beside, tex_width(guide.label, tick_size) + 2 * node_margin);
     if (panel.column + 1 == figure.columns) f.right = std::max(f.right, beside);
-    else f.gap = std::max(f.gap, beside);
+    else f.gap = std::max(f.gap, beside + (panel.x.ticks.empty() ? 0 : tick_width(panel.x, panel.x.ticks.front()) / 2));
   }
   f.width = (line_width(figure) - f.left - f.right - (columns - 1) * f.gap) / columns;
   for (const auto& panel : figure.panels) {
@@ -281,15 +306,42 @@ Frame frame_of(const Figure& figure) {
   return f;
 }
 
+/// The figure with the panels of these rows alone, and the legend of what stands in them.
+Figure part_of(const Figure& whole, const Page& page) {
+  Figure part = whole;
+  std::erase_if(part.panels, [&](const Panel& panel) { return panel.row < page.first || panel.row >= page.end; });
+  std::set<std::size_t> used;
+  part.has_envelope = part.has_muted = part.has_zero_marks = part.has_edge_marks = false;
+  for (const Panel& panel : part.panels) {
+    part.has_envelope |= !panel.envelope.empty();
+    for (const PlottedCurve& curve : panel.curves) {
+      if (curve.muted) part.has_muted = true;
+      else used.insert(curve.method);
+      for (const Point& point : curve.points) {
+        part.has_zero_marks |= point.mark == Mark::zero;
+        part.has_edge_marks |= point.mark == Mark::edge;
+      }
+    }
+  }
+  part.used_methods = {used.begin(), used.end()};
+  return part;
+}
+
 /// As many rows on each page as fit, the legend among them.
 std::vector<Page> pages_of(const Figure& figure, const Frame& frame) {
-  const auto legend_lines =
-      static_cast<double>((legend_entries(figure) + legend_columns(figure) - 1) / legend_columns(figure));
-  const double room = room_beside_caption(figure) - (legend_lines + 1) * label_line;
-  const auto rows = std::max<std::size_t>(1, static_cast<std::size_t>(std::max(0.0, room / frame.row)));
+  const double room = room_beside_caption(figure);
+  const auto height = [&](const Page& page) {
+    const Figure part = part_of(figure, page);
+    const auto legend_lines =
+        static_cast<double>((legend_entries(part) + legend_columns(part) - 1) / legend_columns(part));
+    return static_cast<double>(page.end - page.first) * frame.row + (legend_lines + 1) * label_line;
+  };
   std::vector<Page> pages;
-  for (std::size_t first = 0; first < figure.rows; first += rows)
-    pages.push_back({first, std::min(figure.rows, first + rows)});
+  for (Page page; page.first < figure.rows; page.first = page.end) {
+    page.end = page.first + 1;
+    while (page.end < figure.rows && height({page.first, page.end + 1}) <= room) ++page.end;
+    pages.push_back(page);
+  }
   return pages;
 }
 
@@ -318,7 +370,8 @@ std::string picture(const Figure& figure, const Frame& frame, const Page& page) 
            figure.columns, page.end - page.first, frame.gap, frame.row - frame.height);
   tex_line(out, "  scale only axis, width={:.1f}pt, height={:.1f}pt,", frame.width, frame.height);
   tex_line(out,
-           "  axis lines=left, grid=major, grid style={{gray!25}}, clip marker paths=false, clip mode=individual,");
+           "  axis lines=left, scaled ticks=false, grid=major, grid style={{gray!25}}, clip marker paths=false, clip "
+           "mode=individual,");
   tex_line(out,
            "  title style={{align=flush center, text width={0:.0f}pt, font=\\footnotesize}}, label "
            "style={{font=\\footnotesize}},\n  xlabel style={{align=flush center, text width={0:.0f}pt}}, ylabel "
@@ -334,7 +387,7 @@ std::string picture(const Figure& figure, const Frame& frame, const Page& page) 
         continue;
       }
       for (; skipped > 0; --skipped) tex_line(out, "\\nextgroupplot[group/empty plot, xmin=0, xmax=1, ymin=0, ymax=1]");
-      write_panel(out, figure, page, frame.left, *panel, styles);
+      write_panel(out, figure, page, frame, *panel, styles);
     }
   }
   tex_line(out, "\\end{{groupplot}}\n\\end{{tikzpicture}}");
@@ -359,11 +412,13 @@ std::vector<std::string> pgfplots(const Figure& given) {
     tex_line(out, "% {}", one_line(figure.caption));
     tex_line(out, "% \\input this file inside a figure environment. The preamble needs:");
     tex_line(out, "%   {}", packages_of_pgfplots);
-    tex_line(out,
-             "% Coordinates are places on the axes: decades on logarithmic ones; on an axis that is logarithmic on "
-             "both sides of");
+    tex_line(
+        out,
+        "% Coordinates are places on the axes: decades on logarithmic ones; from its low end on a short axis far from "
+        "zero;");
+    tex_line(out, "% on an axis that is logarithmic on both sides of");
     tex_line(out, "% zero sgn(y) asinh(|y|/threshold)/ln 10. {}.dat has the numbers themselves.", figure.name);
-    texts.push_back(out + picture(figure, frame, pages[p]));
+    texts.push_back(out + picture(part_of(figure, pages[p]), frame, pages[p]));
   }
   return texts;
 }

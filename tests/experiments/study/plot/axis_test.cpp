@@ -19,5 +19,12 @@ TEST(ReportAxis, SymlogGoesThereAndBack) {
   EXPECT_LE(axis.ticks.size(), 12U);
 }
 
+TEST(Labels, OfTicksThatStandCloseTogetherAreLeftOut) {
+  const Axis axis = linear_axis("x", 0, 10);  // ticks 2 apart
+  EXPECT_EQ(labels_apart(axis, 100, 19), 1U);
+  EXPECT_EQ(labels_apart(axis, 100, 21), 2U);
+  EXPECT_EQ(labels_apart(axis, 100, 59), 3U);
+}
+
 }  // namespace
 }  // namespace polhode::study::report_tests
