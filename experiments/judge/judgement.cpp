@@ -189,9 +189,9 @@ std::string likeness(const Diagnosis& d) {
 }
 
 /// How far the trajectories are from the exact motion, which is the nearest, and what they are most like.
-Answer answer_of(const StudyView& study, const std::vector<Judged>& judged) {
+Answer answer_of(const std::vector<Judged>& judged) {
   Answer answer;
-  const std::string scenario = study.scenarios.front().name;
+  const std::string scenario = judged.front().score.record.config.scenario;
   const auto result = [](const Judged& one) -> const RunResult& { return one.score.record.result; };
   const auto error = [&](const Judged& one) -> Value {
     const Value& e = result(one).attitude_error_max ? result(one).attitude_error_max : result(one).position_error_max;
@@ -248,7 +248,7 @@ Answer answer_of(const StudyView& study, const std::vector<Judged>& judged) {
 }  // namespace
 
 Analysis judgement(const StudyView& study, const std::vector<Judged>& judged) {
-  Analysis analysis{.answer = answer_of(study, judged),
+  Analysis analysis{.answer = answer_of(judged),
                     .heading = "Scores",
                     .sentences = sentences_of(judged),
                     .method = {"Energy, momenta and invariants are computed from the states in the file with the "
