@@ -2,7 +2,9 @@
 """The experiment `methods`: its costs against its runs, its claims against its costs, and what becomes of them without
 the method that wins."""
 import math
+import pathlib
 import re
+import tomllib
 import unittest
 
 import recounted_methods
@@ -100,6 +102,13 @@ class Methods(unittest.TestCase):
             return [r for r in read(out / name) if all(r[m] != self.winner for m in methods)]
         self.assertEqual(rows(self.out, "costs.csv", ["method"]), read(self.without / "costs.csv"))
         self.assertEqual(rows(self.out, "pairs.csv", ["first_method", "second_method"]), read(self.without / "pairs.csv"))
+
+    def test_titles_of_groups_are_translated(self):
+        root = pathlib.Path(__file__).resolve().parents[2] / "experiments"
+        titles = set(re.findall(r'"([A-Z][a-z ]+)",\s*Measure', (root / "methods/groups.cpp").read_text(encoding="utf-8")))
+        self.assertGreaterEqual(len(titles), 9)
+        for language in sorted((root / "study/plot/languages").glob("*.toml")):
+            self.assertLessEqual(titles, set(tomllib.loads(language.read_text(encoding="utf-8"))), language.name)
 
     def test_the_same_study_again_has_the_same_bytes(self):
         before = {n: (self.out / n).read_bytes() for n in ("costs.csv", "pairs.csv", "regret.csv", "methods.md")}
