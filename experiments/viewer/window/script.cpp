@@ -23,7 +23,9 @@ const std::map<std::string, std::vector<std::size_t>> commands = {
     {"click", {1}},     {"choose", {2}}, {"drag", {2}}, {"type", {2}},    {"wait", {1}},  {"until", {1, 2}},
     {"expect", {2, 3}}, {"pull", {2}},   {"key", {1}},  {"picture", {1}}, {"places", {1}}};
 const std::map<std::string, int> keys = {{"space", GLFW_KEY_SPACE}, {"right", GLFW_KEY_RIGHT}, {"home", GLFW_KEY_HOME}};
-constexpr int most_frames = 20000;  // longest wait
+constexpr int most_frames = 20000;   // longest wait
+constexpr int patience = 300;        // frames until what is expected must hold; runs are threads of their own
+constexpr float double_click_s = 5;  // longest time between its clicks: frames of a loaded machine are slow
 
 }  // namespace
 
@@ -66,6 +68,7 @@ void Script::before_frame() {
     now_.key = 0;
     now_.typed.clear();
   }
+  io.MouseDoubleClickTime = double_click_s;
   io.MousePos = {now_.x, now_.y};
   io.MouseDown[0] = now_.pressed;
   for (const int key : {GLFW_KEY_ENTER, GLFW_KEY_SPACE, GLFW_KEY_RIGHT, GLFW_KEY_HOME})
@@ -94,6 +97,7 @@ void Script::after_frame(Stage& stage, Controls& controls) {
         return;
       }
     }
+    if (command == "expect" && !holds(stage, line_.words) && ++waited_ < patience) return;
     lines_.pop_front();
     waited_ = 0;
     take(stage, controls);
