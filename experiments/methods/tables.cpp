@@ -134,9 +134,11 @@ Table in_short(const Costs& costs) {
 
 Table cheapest(const Costs& costs) {
   using Kind = Column::Kind;
-  Table table{.caption = "The cheapest method for each motion and error; ≈: the second costs at most 20 % more",
-              .columns = {{"group", "", Kind::text}, {"motion", "", Kind::name}},
-              .rows = {}};
+  Table table{
+      .caption =
+          "The cheapest method for each motion and error; ≈, grey on the page: the second costs at most 20 % more",
+      .columns = {{"group", "", Kind::text}, {"motion", "", Kind::name}},
+      .rows = {}};
   for (const std::size_t k : in_table) table.columns.push_back({error_text(k), "", Kind::text});
   for (std::size_t g = 0; g < costs.groups.size(); ++g) {
     for (const std::size_t p : costs.problems_of(g)) {

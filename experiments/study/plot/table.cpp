@@ -27,7 +27,8 @@ std::string html_cell(const Column& column, const std::string& cell, bool heads_
                      : column.kind == Column::Kind::name ? "name"
                      : length(cell) <= short_text        ? "short"
                                                          : "text";
-  return fmt::format("<{}{} class=\"{}\">{}</{}>", tag, heads_row ? " scope=\"row\"" : "", kind,
+  const char* tie = cell.find(" ≈ ") == std::string::npos ? "" : " tie";
+  return fmt::format("<{}{} class=\"{}{}\">{}</{}>", tag, heads_row ? " scope=\"row\"" : "", kind, tie,
                      cell.empty() ? "<span class=\"none\" title=\"not defined\">–</span>" : text::html(cell), tag);
 }
 

@@ -33,6 +33,7 @@ enum class Caption {
   shown,
   spoken  ///< for screen readers only, if the page shows it elsewhere
 };
+/// A cell with " ≈ " names two that tie; it is grey.
 std::string html(const Table& table, Caption caption = Caption::shown);
 
 /// True for the cells, by row and column, with the best value of their column, as printed. Of equal ones each is

@@ -91,7 +91,7 @@ tbody th { font-weight: 400; position: sticky; left: 0; background: var(--paper)
 .number { text-align: right; font-variant-numeric: tabular-nums; }
 td.number, .name, .short, .nowrap { white-space: nowrap; }
 td.text { min-width: 14rem; }
-.none { color: var(--soft); }
+.none, .tie { color: var(--soft); }
 summary { cursor: pointer; margin: .8rem 0; }
 #seen > details > summary { font-weight: 600; }
 footer { margin-top: 3rem; color: var(--soft); font-size: .88rem; }

@@ -51,6 +51,13 @@ TEST(Tables, SayWhatIsBestInMarkdownCsvAndLatex) {
   EXPECT_NE(tex.find("\\texttt{dmv} & top & $\\mathbf{2\\times10^{-4}}$ & $7$ & $1$"), std::string::npos) << tex;
 }
 
+TEST(Tables, ATieIsGreyOnThePage) {
+  const Table table{
+      "", {{"motion", "", Column::Kind::name}, {"1e-6", "", Column::Kind::text}}, {{"top", "a ≈ b"}, {"box", "a"}}};
+  EXPECT_NE(html(table).find("<td class=\"short tie\">a ≈ b</td>"), std::string::npos) << html(table);
+  EXPECT_NE(html(table).find("<td class=\"short\">a</td>"), std::string::npos) << html(table);
+}
+
 /// The tables below each other: number of \begin{tabular} or \begin{longtable}.
 std::size_t parts(const std::string& tex) {
   std::size_t n = 0;
