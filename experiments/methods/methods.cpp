@@ -59,7 +59,10 @@ std::string winners(const Costs& costs) {
   }
   std::vector<std::string> parts;
   for (const auto& [method, titles] : found) parts.push_back(fmt::format("{} for {}", method, words(titles)));
-  return fmt::format("An error of {} is reached at the least cost by {}.", error_text(usual_target),
+  bool some_exact = false;
+  for (std::size_t g = 0; g < costs.groups.size(); ++g) some_exact = some_exact || !methods_exact_on(costs, g).empty();
+  return fmt::format("{} error of {} is reached at the least cost by {}.",
+                     some_exact ? "Exact methods aside, an" : "An", error_text(usual_target),
                      fmt::format("{}", fmt::join(parts, "; ")));
 }
 
