@@ -27,7 +27,7 @@ double height(const std::string& script, const std::string& words) {
 }
 
 TEST(GnuplotFigure, HasItsLegendAboveItsPanelsIfItIsHigh) {
-  for (const std::size_t rows : {1, 2, 5}) {
+  for (const std::size_t rows : {1U, 2U, 5U}) {
     const std::string script = gnuplot_script(figure_of(rows, 1, "peters_hsu"));
     const double legend = height(script, "set key at screen 0.5,"), panel = height(script, "set tmargin at screen ");
     EXPECT_GT(legend, 0);
