@@ -2,15 +2,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Publishes a comparison of all methods in this folder: publish.py FOLDER, the results of ./run methods.
 
-Copies the tables that the comparison follows from (costs.csv and so on) and its figures, and writes README.md around the
-sentences and tables of methods.md. Nothing is added to what the program wrote."""
+Copies costs.csv, from which all follows, regret.csv and the figures, and writes README.md around the sentences and tables of
+methods.md. Nothing is added to what the program wrote."""
 import json
 import pathlib
 import shutil
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-TABLES = ("costs.csv", "recommended.csv", "pairs.csv", "regret.csv")
+TABLES = ("costs.csv", "regret.csv")  # what else follows from costs.csv stands on the page
 FIGURES = ("solved_against_budget", "profiles_of_two")
 
 HEAD = """# Methods compared: which one, for which kind of problem
