@@ -44,7 +44,7 @@ class ShiftedSystem final : public Ode<S> {
   auto velocity_part(Flat& z) const {
     return z.segment(system_.layout().configuration_size, system_.layout().velocity_size);
   }
-  S& work_part(Flat& z) const { return z[z.size() - 1]; }
+  auto work_part(Flat& z) const { return z.tail(system_.layout().work_size); }
 
  private:
   const System<S>& system_;

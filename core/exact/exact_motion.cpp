@@ -3,8 +3,24 @@
 
 #include <algorithm>
 
+#include "core/exact/joined_motion.hpp"
+
 namespace polhode {
 namespace {
+
+bool has_joint(const Problem& problem, std::size_t body) {
+  return std::any_of(problem.joints.begin(), problem.joints.end(), [&](const JointParameters& joint) {
+    return std::find(joint.of.bodies.begin(), joint.of.bodies.end(), body) != joint.of.bodies.end();
+  });
+}
+
+/// True if a joint ends in the world or on a static body.
+bool held_by_the_world(const Problem& problem) {
+  return std::any_of(problem.joints.begin(), problem.joints.end(), [&](const JointParameters& joint) {
+    const auto& ends = joint.of.bodies;
+    return ends.size() == 1 || problem.bodies[ends[0]].fixed || problem.bodies[ends[1]].fixed;
+  });
+}
 
 bool torque_free(const System<double>& system, std::size_t body) {
   return std::none_of(system.forces().begin(), system.forces().end(),
@@ -18,8 +34,14 @@ ExactMotion::ExactMotion(const System<double>& system) {
   double fastest = 0;
   bool all_paths = true;
   for (std::size_t i = 0; i < system.moving(); ++i) {
-    rotations_.push_back(exact_rotation(system, i));
-    paths_.push_back(exact_path(system, i));
+    if (has_joint(problem, i)) {
+      JoinedMotion joined = joined_motion(system, i);
+      rotations_.push_back(std::move(joined.rotation));
+      paths_.push_back(std::move(joined.path));
+    } else {
+      rotations_.push_back(exact_rotation(system, i));
+      paths_.push_back(exact_path(system, i));
+    }
     has_angular_velocity_ = has_angular_velocity_ && rotations_[i];
     has_attitude_ = has_attitude_ && rotations_[i] && rotations_[i](0).orientation;
     fastest = std::max(fastest, problem.starts[i].angular_velocity.norm());
@@ -61,6 +83,7 @@ ConservedMomenta conserved_momenta(const System<double>& system) {
   bool any_pinned = false;
   for (std::size_t i = 0; i < system.moving(); ++i) any_pinned = any_pinned || system.problem().bodies[i].pinned;
   ConservedMomenta conserved;
+  if (held_by_the_world(system.problem())) return conserved;
   conserved.linear = internal && !any_pinned;
   if (system.moving() == 1) {
     conserved.angular = torque_free(system, 0);

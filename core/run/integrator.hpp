@@ -80,10 +80,14 @@ struct Sample {
   /// Energy injected by projection, J: by the projection after this step in a batch of steps, by all projections since
   /// the start in the samples that an observer gets.
   double projection = 0;
+  /// Work of the joints since the start, J. It is not zero where drift or Baumgarte's method leaves G v ≠ 0.
+  double joint_work = 0;
 
-  /// Balance of the energy ledger, J: kinetic + potential − work + lost in contact − injected by projection. It is
-  /// constant along the exact motion.
-  double ledger(double lost_in_contact) const { return seen.energy() - work - projection + lost_in_contact; }
+  /// Balance of the energy ledger, J: kinetic + potential − work − work of the joints + lost in contact − injected by
+  /// projection. It is constant along the exact motion.
+  double ledger(double lost_in_contact) const {
+    return seen.energy() - work - joint_work - projection + lost_in_contact;
+  }
 };
 
 /// A batch of steps of equal size, taken in one call. Step k ends at t = t0 + (first + k) h, k = 1 … count.

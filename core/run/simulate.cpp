@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "core/run/run_samples.hpp"
+#include "core/system/joint_projection.hpp"
 
 namespace polhode {
 namespace {
@@ -70,7 +71,9 @@ class Loop {
         contact_(contact),
         t0_(state.t),
         observed_(state.t),
-        account_(schedule.normalize && system.projection_changes_energy()) {}
+        projects_joints_(system.has_joints() && (system.formulation().joints.projects_position() ||
+                                                 system.formulation().joints.projects_velocity())),
+        account_(projects_joints_ || (schedule.normalize && system.projection_changes_energy())) {}
 
   RunOutcome run() {
     if constexpr (std::is_same_v<S, double>) {
@@ -97,7 +100,12 @@ class Loop {
  private:
   Sample measure(const State<S>& state) {
     const State<double>& seen = view_.of(state);
-    return {seen.t, truth_.measure(seen.y), seen.y[seen.y.size() - 1], projection_energy_};
+    const Layout& layout = system_.layout();
+    return {.t = seen.t,
+            .seen = truth_.measure(seen.y),
+            .work = seen.y[layout.work()],
+            .projection = projection_energy_,
+            .joint_work = layout.work_size > 1 ? seen.y[layout.joint_work()] : 0.0};
   }
 
   /// Passes samples to the observer. False ends the run as diverged.
@@ -177,9 +185,10 @@ class Loop {
     }
     if (const NativeProjection* native = integrator_.native_projection()) {
       projection_energy_ = native->projection_energy();
-    } else if (schedule_.normalize) {
+    } else if (schedule_.normalize || projects_joints_) {
       const double before = account_ ? energy() : 0.0;
-      system_.project(state_.y);
+      if (schedule_.normalize) system_.project(state_.y);
+      if (projects_joints_) project_joints(system_, state_.y);
       if (account_) projection_energy_ += energy() - before;
       integrator_.discard_history(state_);
     }
@@ -214,7 +223,7 @@ class Loop {
     const std::int64_t stride = schedule_.samples ? steps / *schedule_.samples : 1;
     std::int64_t k = 0;
     // All steps before the last are taken in batches if the method supports them and every step is sampled.
-    if (integrator_.takes_batches() && stride == 1 && !contact_) {
+    if (integrator_.takes_batches() && stride == 1 && !contact_ && !projects_joints_) {
       const std::int64_t until = plan.last > 0 ? plan.whole : plan.whole - 1;
       while (k < until) {
         const std::int64_t n =
@@ -267,7 +276,7 @@ class Loop {
     std::int64_t next = 1;
     // Steps must end exactly at the sample times under projection or contact, or if the method has no dense output.
     const DenseOutput<S>* dense = integrator_.dense_output();
-    const bool shorten = schedule_.samples && (schedule_.normalize || contact_ || !dense);
+    const bool shorten = schedule_.samples && (schedule_.normalize || projects_joints_ || contact_ || !dense);
     while (state_.t < schedule_.t_end) {
       const double target = shorten ? sample_time(next) : schedule_.t_end;
       if (outcome_.steps >= schedule_.most_steps) return fail(too_many_steps());
@@ -304,9 +313,10 @@ class Loop {
   Observer& observer_;
   const std::atomic<bool>* stop_;
   ContactModel* contact_;
-  const double t0_;     ///< start time of the run, s
-  double observed_;     ///< time of the last sample outside a batch, s
-  const bool account_;  ///< projections can change the energy, which is measured before and after them
+  const double t0_;             ///< start time of the run, s
+  double observed_;             ///< time of the last sample outside a batch, s
+  const bool projects_joints_;  ///< project onto the equations of the joints after each step
+  const bool account_;          ///< projections can change the energy, which is measured before and after them
   View<S> view_;
   double projection_energy_ = 0;
   std::int64_t surplus_steps_ = 0;

@@ -61,7 +61,10 @@ class BodyVariables : public std::conditional_t<N == BodyCount::one, System<S>, 
     if constexpr (is_one) return y.template segment<6>(one_configuration);
     else return Base::velocity_part(y);
   }
-  S& work_part(Flat& y) const { return y[y.size() - 1]; }
+  auto work_part(Flat& y) const {
+    if constexpr (is_one) return y.template tail<1>();
+    else return Base::work_part(y);
+  }
 
   int configuration_size() const {
     if constexpr (is_one) return one_configuration;

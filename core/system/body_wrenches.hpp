@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/system/body_variables.hpp"
+#include "core/system/constraints.hpp"
 
 namespace polhode {
 
@@ -15,6 +16,9 @@ namespace polhode {
 template <class S, Orientation O, AngularState A, BodyCount N>
 class BodyWrenches : public BodyVariables<S, O, A, N> {
  public:
+  /// A single free body has no joint: a body that is joined to the world is one of `many`.
+  static constexpr bool may_have_joints = N == BodyCount::many;
+
   /// Fills the motions that are passed to forces. Skips rotations and angular velocities if no force reads them.
   void fill_motions(const S* y) const {
     for (std::size_t i = 0; i < this->count(); ++i) {
@@ -31,6 +35,9 @@ class BodyWrenches : public BodyVariables<S, O, A, N> {
   void fill_wrenches(S t) const {
     for (auto& w : wrenches_) w = Wrench<S>{};
     for (const auto& force : this->forces()) force->add_wrench(t, motions_, wrenches_);
+    if constexpr (may_have_joints) {
+      if (this->has_joints()) this->constraints()->add_reactions(motions_, wrenches_);
+    }
   }
 
   /// Power (W) of the forces under the motions of the last fill_motions().

@@ -54,8 +54,10 @@ inline void rates(const Bodies& bodies, S t, const S* y, S* dy) {
   using ChartOf = typename Bodies::ChartOf;
   const bool forced = bodies.has_forces();
   const bool working = of_configuration && forced && bodies.forces_do_work();
-  if (forced && (of_velocity || working)) bodies.fill_motions(y);
-  if (forced && of_velocity) bodies.fill_wrenches(t);
+  bool reactions = false;  // needed for the work of the joints
+  if constexpr (Bodies::may_have_joints) reactions = of_configuration && bodies.has_joints();
+  if (forced && (of_velocity || working || reactions)) bodies.fill_motions(y);
+  if (forced && (of_velocity || reactions)) bodies.fill_wrenches(t);
   for (std::size_t i = 0; i < bodies.count(); ++i) {
     const Layout::Slot s = bodies.slot(i);
     const BodyConstants<S>& b = bodies.body(i);
@@ -63,7 +65,7 @@ inline void rates(const Bodies& bodies, S t, const S* y, S* dy) {
     const Vector a = load_vector(y + s.angular);
     const Vector* torque = forced && bodies.forces_exert_torques() ? &bodies.wrenches()[i].torque : nullptr;
     const auto rotation_now = [&]() -> Matrix {
-      const bool known = forced && bodies.forces_read_rotation() && (of_velocity || working);
+      const bool known = forced && bodies.forces_read_rotation() && (of_velocity || working || reactions);
       return known ? bodies.motions()[i].rotation : bodies.rotation(c);
     };
     if constexpr (of_configuration) {
@@ -90,6 +92,9 @@ inline void rates(const Bodies& bodies, S t, const S* y, S* dy) {
     }
   }
   if constexpr (of_configuration) dy[bodies.flat_size() - 1] = working ? bodies.power(t) : S(0);
+  if constexpr (Bodies::may_have_joints) {
+    if (reactions) dy[bodies.layout().joint_work()] = bodies.constraints()->power();
+  }
 }
 
 template <class Bodies, class S>

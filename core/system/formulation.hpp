@@ -23,6 +23,28 @@ enum class RotationFrom {
   stored       ///< formula 1 − 2(y² + z²) … applied to q without normalization
 };
 
+/// Correction of states that have drifted off the equations of the joints.
+enum class Stabilization {
+  none,
+  baumgarte,  ///< g̈ + 2α ġ + β² g = 0 in place of g̈ = 0
+  position,   ///< projection of the configuration onto g(q) = 0 after each step
+  velocity,   ///< projection of the velocity onto G v = 0 after each step
+  both        ///< projection of the configuration, then of the velocity
+};
+
+/// How the equations of the joints are solved.
+struct JointTreatment {
+  Stabilization stabilization = Stabilization::none;
+  double alpha = 0, beta = 0;  ///< parameters of Baumgarte's method, 1/s; 0 for the others
+
+  bool projects_position() const {
+    return stabilization == Stabilization::position || stabilization == Stabilization::both;
+  }
+  bool projects_velocity() const {
+    return stabilization == Stabilization::velocity || stabilization == Stabilization::both;
+  }
+};
+
 /// Names in options, tables and files.
 constexpr std::string_view name(Orientation o) { return o == Orientation::quaternion ? "quaternion" : "matrix"; }
 constexpr std::string_view name(AngularState a) {
@@ -30,6 +52,15 @@ constexpr std::string_view name(AngularState a) {
     case AngularState::velocity_world: return "velocity_world";
     case AngularState::velocity_body: return "velocity_body";
     default: return "momentum_world";
+  }
+}
+constexpr std::string_view name(Stabilization s) {
+  switch (s) {
+    case Stabilization::none: return "none";
+    case Stabilization::baumgarte: return "baumgarte";
+    case Stabilization::position: return "position";
+    case Stabilization::velocity: return "velocity";
+    default: return "both";
   }
 }
 constexpr std::string_view name(RotationFrom r) { return r == RotationFrom::normalized ? "normalized" : "stored"; }
@@ -40,6 +71,7 @@ struct Formulation {
   AngularState angular_state = AngularState::velocity_world;
   bool gyroscopic = true;  ///< include the term ω × Iω; both source documents omit it. momentum_world has no such term.
   RotationFrom rotation_from = RotationFrom::normalized;  ///< for quaternions only
+  JointTreatment joints{};                                ///< for problems with joints only
 };
 
 }  // namespace polhode

@@ -55,6 +55,7 @@ bool has_principal_axes(const Body& body) { return body.inertia.isDiagonal(0); }
 // Refusals: empty if the invariant applies to the problem; otherwise the reason why not.
 
 std::string refuse_unless_alone(const Problem& problem) {
+  if (!problem.joints.empty()) return "it is of a body without joints";
   return problem.moving() == 1 ? "" : "it is of the only body that moves";
 }
 

@@ -31,7 +31,7 @@ class ManyBodies : public System<S> {
   auto velocity_part(Flat& y) const {
     return y.segment(this->layout().configuration_size, this->layout().velocity_size);
   }
-  S& work_part(Flat& y) const { return y[y.size() - 1]; }
+  auto work_part(Flat& y) const { return y.tail(this->layout().work_size); }
 
   using System<S>::rate;
   virtual void rate(S t, const Flat& y, Flat& dy) const = 0;

@@ -34,9 +34,17 @@ void kick(const Bodies& bodies, typename Bodies::Scalar t, typename Bodies::Scal
   const S before = bodies.forces_do_work() ? bodies.power(t) : S(0);
   bodies.fill_wrenches(t);
   push(bodies, h, y);
+  S& work = y[y.size() - 1];
   if (bodies.forces_do_work()) {
     bodies.fill_motions(y.data());
-    bodies.work_part(y) += h * (S(0.5) * (before + bodies.power(t)));
+    work += h * (S(0.5) * (before + bodies.power(t)));
+  }
+  if constexpr (Bodies::may_have_joints) {
+    if (!bodies.has_joints()) return;
+    const S joints_before = bodies.constraints()->power();
+    bodies.fill_motions(y.data());
+    bodies.fill_wrenches(t);
+    y[bodies.layout().joint_work()] += h * (S(0.5) * (joints_before + bodies.constraints()->power()));
   }
 }
 
@@ -49,7 +57,10 @@ void kick(const Bodies& bodies, typename Bodies::Scalar t, typename Bodies::Scal
   bodies.fill_motions(seen.data());
   bodies.fill_wrenches(t);
   push(bodies, h, y);
-  if (bodies.forces_do_work()) bodies.work_part(y) += h * bodies.power(t);
+  if (bodies.forces_do_work()) y[y.size() - 1] += h * bodies.power(t);
+  if constexpr (Bodies::may_have_joints) {
+    if (bodies.has_joints()) y[bodies.layout().joint_work()] += h * bodies.constraints()->power();
+  }
 }
 
 /// R⁻¹ a: by the transpose for the rotation of a quaternion, by Cramer's rule for a stored matrix.

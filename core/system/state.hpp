@@ -9,7 +9,8 @@
 namespace polhode {
 
 /// State of a system. The flat vector y holds the configurations of all bodies, then their velocities, then the work of
-/// the non-conservative forces (J), which the method integrates together with the motion.
+/// the joints (J) if there are joints, and last the work of the non-conservative forces (J). The method integrates the
+/// works together with the motion.
 template <class S>
 struct State {
   double t = 0;  ///< time, s
@@ -28,10 +29,13 @@ struct Layout {
   std::vector<Slot> slots;  ///< one for each moving body
   int configuration_size = 0;
   int velocity_size = 0;
+  int work_size = 1;  ///< number of works: 2 with joints
   /// Number of entries of y.
-  int size() const { return configuration_size + velocity_size + 1; }
-  /// Index of the work in y.
-  int work() const { return configuration_size + velocity_size; }
+  int size() const { return configuration_size + velocity_size + work_size; }
+  /// Index in y of the work of the forces.
+  int work() const { return size() - 1; }
+  /// Index in y of the work of the joints; only if there are joints.
+  int joint_work() const { return size() - 2; }
 };
 
 }  // namespace polhode

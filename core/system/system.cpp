@@ -2,6 +2,7 @@
 #include "core/system/system.hpp"
 
 #include "core/forces/catalogue.hpp"
+#include "core/system/constraints.hpp"
 
 namespace polhode {
 
@@ -39,7 +40,14 @@ System<S>::System(std::vector<Problem> problems, const Formulation& formulation)
       add_force(make_force<S>(problem().forces[k], problem().bodies));
     }
   }
+  if constexpr (!is_lanes<S>) {
+    if (problem().joints.empty()) return;
+    constraints_ = std::make_shared<Constraints<S>>(problem(), formulation_);
+    layout_.work_size = 2;
+    forces_exert_torques_ = forces_read_rotation_ = forces_read_velocity_ = true;
+  }
 }
+
 
 template class System<float>;
 template class System<double>;

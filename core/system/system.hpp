@@ -35,6 +35,9 @@ struct Measurement {
   S energy() const { return kinetic + potential; }
 };
 
+template <class S>
+class Constraints;
+
 /// Interface of a system of rigid bodies in the scalar S.
 template <class S>
 class System : public Ode<S> {
@@ -51,7 +54,11 @@ class System : public Ode<S> {
   /// Number of moving bodies.
   std::size_t moving() const { return layout_.slots.size(); }
   const std::vector<ForcePointer<S>>& forces() const { return forces_; }
-  bool has_forces() const { return !forces_.empty(); }
+  /// True if forces or joints exert a wrench.
+  bool has_forces() const { return !forces_.empty() || has_joints(); }
+  bool has_joints() const { return constraints_ != nullptr; }
+  /// The joints; null: the problem has none.
+  const Constraints<S>* constraints() const { return constraints_.get(); }
   bool forces_do_work() const { return forces_do_work_; }
   bool forces_exert_torques() const { return forces_exert_torques_; }
   bool forces_read_rotation() const { return forces_read_rotation_; }
@@ -102,6 +109,7 @@ class System : public Ode<S> {
   Formulation formulation_;
   Layout layout_;
   std::vector<ForcePointer<S>> forces_;
+  std::shared_ptr<const Constraints<S>> constraints_;
   bool forces_do_work_ = false;
   bool forces_exert_torques_ = false;
   bool forces_read_rotation_ = false;

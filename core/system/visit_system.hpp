@@ -12,9 +12,9 @@ namespace polhode {
 /// rounding studies, where speed matters less.
 template <class S>
 inline constexpr bool has_one_body_form = std::is_same_v<S, double> || is_lanes<S>;
-/// True for a problem with a single body that is free.
+/// True for a problem with a single body that is free and not joined to the world.
 inline bool fits_one_body_form(const Problem& problem) {
-  return problem.bodies.size() == 1 && !problem.bodies.front().pinned;
+  return problem.bodies.size() == 1 && !problem.bodies.front().pinned && problem.joints.empty();
 }
 
 /// Calls build<O, A>() with the orientation chart and the angular state of the formulation.

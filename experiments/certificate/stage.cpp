@@ -73,7 +73,7 @@ std::vector<Stage> stages_of(const std::vector<Scenario>& scenarios) {
   std::vector<Stage> stages;
   for (const Scenario& scenario : scenarios) {
     Stage stage{.name = scenario.name, .problem = scenario.problem};
-    stage.free = scenario.problem.forces.empty();
+    stage.free = scenario.problem.forces.empty() && scenario.problem.joints.empty();
     stage.conservative = !stage.free && !make_system<double>(scenario.problem, {})->forces_do_work();
     stages.push_back(std::move(stage));
   }

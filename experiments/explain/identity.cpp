@@ -68,14 +68,15 @@ void add_paths(const TomlValue& root, std::set<std::string>& paths) {
   const TomlValue* said = root.find("contact");
   const bool contact = said && said->boolean;
   for (const TomlEntry& entry : root.entries) {
-    const bool elements = (entry.key == "body" || entry.key == "force") && entry.value.type == Type::list;
+    const bool elements =
+        (entry.key == "body" || entry.key == "force" || entry.key == "joint") && entry.value.type == Type::list;
     if (!elements) {
       if (!is_idle(root_keys(), entry.key, contact)) paths.insert(entry.key);
       continue;
     }
     for (std::size_t k = 0; k < entry.value.items.size(); ++k) {
       for (const TomlEntry& part : entry.value.items[k].entries) {
-        if (entry.key != "body" || !is_idle(body_keys(), part.key, contact))
+        if (entry.key == "force" || !is_idle(body_keys(), part.key, contact))
           paths.insert(fmt::format("{}.{}.{}", entry.key, k, part.key));
       }
     }

@@ -56,8 +56,9 @@ std::vector<RunColumn> all_columns(const ResultStores& stores, const RunColumns&
       all.push_back(columns.find(option->column, "--columns"));
   }
   for (const std::string& key : selection.varied_keys) all.push_back(varied_key(key));
-  const bool contact = some_have("response"), reference = some_have("reference");
-  for (const RunColumn& metric : columns.metrics(reference, contact)) all.push_back(metric);
+  const RunKinds kinds{
+      .reference = some_have("reference"), .contact = some_have("response"), .joints = some_have("stabilization")};
+  for (const RunColumn& metric : columns.metrics(kinds)) all.push_back(metric);
   return all;
 }
 

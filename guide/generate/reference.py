@@ -50,6 +50,10 @@ def scenario_keys(catalogues):
         bodies = f"{force['min_bodies']} or more" if force["max_bodies"] is None else str(force["max_bodies"]) \
             if force["min_bodies"] == force["max_bodies"] else f"{force['min_bodies']} to {force['max_bodies']}"
         text += f"### `{force['name']}`\n\n{escaped(force['summary'])}. Bodies: {bodies}.\n\n" + parameters(force["keys"]) + "\n"
+    text += "## Joints, `[[joint]]`\n\nEvery joint has `kind` and `bodies` (one body and the world, or two), and may have a `name`.\n\n"
+    for joint in catalogues["joints"]:
+        text += (f"### `{joint['name']}`\n\n{escaped(joint['summary'])}. Equations: {joint['equations']}.\n\n" + parameters(joint["keys"])
+                 + "\n")
     text += "## Shapes, `shape = { kind = … }`\n\n"
     for shape in catalogues["shapes"]:
         moments = f" Moments: {escaped(shape['moments'])}." if shape["moments"] else ""
@@ -74,9 +78,9 @@ def columns(catalogues):
 
 def catalogue_pages(catalogues):
     text = "# Names\n\n## Scenarios\n\n" + table(
-        ["scenario", "title", "bodies", "`t_end`, s", "contact"],
+        ["scenario", "title", "bodies", "`t_end`, s", "contact", "joints"],
         [(code(s["name"]), escaped(s["title"] + (": " + s["description"] if s["description"] else "")), s["bodies"], f"{s['t_end_s']:g}",
-          "yes" if s["contact"] else "") for s in catalogues["scenarios"]])
+          "yes" if s["contact"] else "", s["joints"] or "") for s in catalogues["scenarios"]])
     for key, title in (("broad-phases", "Broad phases"), ("narrow-phases", "Narrow phases"), ("responses", "Responses to contact"),
                        ("impact-timings", "Timings of impacts")):
         text += f"\n## {title}\n\n" + table(["name", "what it is"], [(code(e["name"]), escaped(e["summary"])) for e in catalogues[key]])

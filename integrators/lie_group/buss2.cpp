@@ -34,7 +34,7 @@ class Buss2 {
     start_ = y;
     system.wrench(t, y, before_);
     system.configuration_rate(t, y, rate_);
-    const S power = system.work_part(rate_);
+    const auto power = system.work_part(rate_).eval();
     system.body_twist(y, twist_);
     system.body_acceleration(y, before_, acceleration_);
     system.bracket(acceleration_, twist_, bracket_);

@@ -15,22 +15,22 @@ constexpr int broyden_iterations = 20, newton_iterations = 40;
 template <class S>
 class Progress {
  public:
-  explicit Progress(S scale) : near_(S(256) * epsilon * scale) {}
+  explicit Progress(S scale) : near_(S(256) * epsilon * scale), nothing_(epsilon * epsilon * scale) {}
 
   /// True if the iteration has converged: the step is below the round-off of every unknown, or it is small and no
-  /// longer decreases by half.
+  /// longer decreases by half, or no sum with it would differ. An unknown whose solution is 0 ends by the last.
   bool done(const VectorX<S>& x, const VectorX<S>& step) {
     const S size = step.cwiseAbs().maxCoeff();
     const bool below = (step.array().abs() <= epsilon * x.array().abs()).all();
     const bool stagnant = size <= near_ && last_ <= near_ && size > last_ / S(2);
     last_ = size;
-    return below || stagnant;
+    return below || stagnant || size <= nothing_;
   }
   S size() const { return last_; }
 
  private:
   static constexpr S epsilon = std::numeric_limits<S>::epsilon();
-  S near_, last_ = std::numeric_limits<S>::infinity();
+  S near_, nothing_, last_ = std::numeric_limits<S>::infinity();
 };
 
 }  // namespace

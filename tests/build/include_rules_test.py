@@ -19,7 +19,8 @@ MAY_INCLUDE = {
     "core/math": "",
     "core/problem": "core/math",
     "core/forces": "core/math core/problem",
-    "core/system": "core/math core/problem core/forces",
+    "core/joints": "core/math core/problem",
+    "core/system": "core/math core/problem core/forces core/joints",
     "core/exact": "core/math core/problem core/system",
     "core/run": "core/math core/problem core/system",
     "integrators": "core/*",
@@ -65,11 +66,11 @@ MAY_INCLUDE = {
                                            " experiments/study/record",
     "experiments/study/report/answer": "integrators experiments/study/text experiments/study/plot experiments/study/record"
                                        " experiments/study/curves experiments/study/report/findings",
-    "experiments/study/report/drawing": "core/math core/problem core/forces collision collision/shapes experiments/study/text"
+    "experiments/study/report/drawing": "core/math core/problem core/forces core/joints collision collision/shapes experiments/study/text"
                                         " experiments/study/scenario experiments/study/scene",
     "experiments/study/report/figures": "experiments/study/text experiments/study/plot experiments/study/record"
                                         " experiments/study/curves",
-    "experiments/study/report/article": "core/problem core/forces collision integrators experiments/study/text"
+    "experiments/study/report/article": "core/problem core/forces core/joints collision integrators experiments/study/text"
                                         " experiments/study/scenario experiments/study/plot experiments/study/record"
                                         " experiments/study/curves experiments/study/report/findings"
                                         " experiments/study/report/answer experiments/study/report/figures"

@@ -973,7 +973,7 @@ class Simulate(StudyTest):
 class Asking(StudyTest):
     def test_lists(self):
         everything = self.call("energy_drift", "--list").stdout
-        for word, known in (("integrators", "rk4"), ("scenarios", "peters_hsu"), ("forces", "spring"), ("shapes", "box"),
+        for word, known in (("integrators", "rk4"), ("scenarios", "peters_hsu"), ("forces", "spring"), ("joints", "hinge"), ("shapes", "box"),
                             ("broad-phases", ""), ("narrow-phases", ""), ("responses", ""),
                             ("metrics", "orientation_defect_max"), ("invariants", "p_phi")):
             done = self.call("energy_drift", "--list", word)

@@ -4,16 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/study/metrics/worst.hpp"
+
 namespace polhode::study::inline metrics {
 namespace {
 
 constexpr std::int64_t depth_instants = 1000, between_depths = 10;
 constexpr double settled_at = 2;  // time from which displacements are measured, s
 constexpr double left = 0.1;  // displacement from the start, over the body's radius, beyond which it has left its place
-
-void raise(std::optional<double>& worst, double now) {
-  if (std::isfinite(now) && !(worst && *worst >= now)) worst = now;
-}
 
 }  // namespace
 

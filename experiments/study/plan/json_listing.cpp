@@ -12,6 +12,7 @@
 #include "collision/response.hpp"
 #include "collision/shapes/shape_catalogue.hpp"
 #include "core/forces/catalogue.hpp"
+#include "core/joints/catalogue.hpp"
 #include "core/system/invariants.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/scenario/builtin_scenarios.hpp"
@@ -101,6 +102,7 @@ Json scenario_in_json(const BuiltinScenario& b) {
           {"t_end_s", s.t_end},
           {"bodies", s.problem.bodies.size()},
           {"contact", !s.colliders.empty()},
+          {"joints", s.problem.joints.size()},
           {"invariants", s.invariants},
           {"text", b.text}};
 }
@@ -134,6 +136,13 @@ Json force_in_json(const ForceEntry& e) {
           {"keys", list_of(e.kind.parameters, parameter_in_json)}};
 }
 
+Json joint_in_json(const JointEntry& e) {
+  return {{"name", e.kind.name},
+          {"summary", e.kind.summary},
+          {"equations", e.kind.rows},
+          {"keys", list_of(e.kind.parameters, parameter_in_json)}};
+}
+
 Json shape_in_json(const ShapeEntry& e) {
   return {{"name", e.name},
           {"summary", e.summary},
@@ -150,6 +159,7 @@ Json metric_in_json(const Metric& m) {
           {"meaning", m.meaning},
           {"described_by", m.listed_with},
           {"runs", m.runs == Metric::Runs::with_contact     ? "with contact"
+                   : m.runs == Metric::Runs::with_joints    ? "with joints"
                    : m.runs == Metric::Runs::with_reference ? "with a reference"
                                                             : "all"},
           {"words", m.words},
@@ -172,6 +182,7 @@ std::string json_listing(std::span<const Metric> metrics) {
                     {"scenario-keys", list_of(root_keys(), key_in_json)},
                     {"body-keys", list_of(body_keys(), key_in_json)},
                     {"forces", list_of(force_catalogue(), force_in_json)},
+                    {"joints", list_of(joint_catalogue(), joint_in_json)},
                     {"shapes", list_of(shape_catalogue(), shape_in_json)},
                     {"invariants", list_of(invariant_catalogue(), invariant_in_json)},
                     {"metrics", list_of(metrics, metric_in_json)},

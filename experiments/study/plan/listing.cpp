@@ -14,6 +14,7 @@
 #include "collision/narrow_phase.hpp"
 #include "collision/shapes/shape_catalogue.hpp"
 #include "core/forces/catalogue.hpp"
+#include "core/joints/catalogue.hpp"
 #include "core/system/invariants.hpp"
 #include "experiments/study/plan/figure_options.hpp"
 #include "experiments/study/plan/json_listing.hpp"
@@ -64,6 +65,13 @@ std::string keys(const std::vector<Parameter>& parameters) {
 std::string forces() {
   std::string text;
   for (const ForceEntry& e : force_catalogue())
+    text += line(e.kind.name, e.kind.summary + "; keys: " + keys(e.kind.parameters));
+  return text;
+}
+
+std::string joints() {
+  std::string text;
+  for (const JointEntry& e : joint_catalogue())
     text += line(e.kind.name, e.kind.summary + "; keys: " + keys(e.kind.parameters));
   return text;
 }
@@ -135,17 +143,19 @@ std::string metrics_text(std::span<const Metric> table) {
 }  // namespace
 
 std::string listing(const std::string& what, std::span<const Metric> metrics) {
-  const std::pair<const char*, std::function<std::string()>> sections[] = {{"integrators", integrators},
-                                                                           {"scenarios", scenarios},
-                                                                           {"forces", forces},
-                                                                           {"shapes", shapes},
-                                                                           {"invariants", invariants},
-                                                                           {"metrics", [&] { return metrics_text(metrics); }},
-                                                                           {"figures", figures},
-                                                                           {"broad-phases", broad_phases},
-                                                                           {"narrow-phases", narrow_phases},
-                                                                           {"responses", responses},
-                                                                           {"impact-timings", impact_timings}};
+  const std::pair<const char*, std::function<std::string()>> sections[] = {
+      {"integrators", integrators},
+      {"scenarios", scenarios},
+      {"forces", forces},
+      {"joints", joints},
+      {"shapes", shapes},
+      {"invariants", invariants},
+      {"metrics", [&] { return metrics_text(metrics); }},
+      {"figures", figures},
+      {"broad-phases", broad_phases},
+      {"narrow-phases", narrow_phases},
+      {"responses", responses},
+      {"impact-timings", impact_timings}};
   if (what == "json") return json_listing(metrics);
   std::string text;
   std::vector<std::string_view> known = {"json"};

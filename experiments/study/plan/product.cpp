@@ -111,6 +111,7 @@ RunConfig Product::start_of(const Opened& opened, const Scenario& scenario) cons
   const bool contact = !scenario.colliders.empty();
   config.reference = contact ? reference_ == WithReference::all : reference_ != WithReference::none;
   if (contact) config.contact.emplace();
+  if (!scenario.problem.joints.empty()) config.joints.emplace();
   return config;
 }
 

@@ -163,7 +163,7 @@ std::vector<std::string> RunColumns::names() const {
     all.insert(stored_name(option));
     all.insert(file_key(option));
   }
-  for (const RunColumn& metric : metrics(true, true)) all.insert(metric.name);
+  for (const RunColumn& metric : metrics({.reference = true, .contact = true, .joints = true})) all.insert(metric.name);
   for (const auto& open : stores_->all()) {
     const std::size_t chosen[] = {index(varied_column)};
     RunRows(open->store).scan(chosen, [&](const RunRows::Part& part) {
@@ -188,11 +188,10 @@ std::vector<RunColumn> RunColumns::options() const {
   return columns;
 }
 
-std::vector<RunColumn> RunColumns::metrics(bool with_reference, bool with_contact) const {
+std::vector<RunColumn> RunColumns::metrics(const RunKinds& kinds) const {
   std::vector<RunColumn> columns;
   for (const Metric& metric : metric_table()) {
-    if (metric.runs == Metric::Runs::with_reference && !with_reference) continue;
-    if (metric.runs == Metric::Runs::with_contact && !with_contact) continue;
+    if (!kinds.define(metric.runs)) continue;
     if (metric.column == invariant_column) {
       for (const std::string& invariant : invariants_) {
         columns.push_back({.of = Of::invariant,

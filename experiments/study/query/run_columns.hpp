@@ -44,7 +44,7 @@ class RunColumns {
       const;  ///< of all columns that find() takes, sorted; of the scenario: the varied keys
   std::vector<RunColumn> options() const;  ///< of which some run has a value, in the order of runs.csv
   /// All metrics in the order of runs.csv, without those that are defined for no run.
-  std::vector<RunColumn> metrics(bool with_reference, bool with_contact) const;
+  std::vector<RunColumn> metrics(const RunKinds& kinds) const;
   std::size_t index(std::string_view column) const;  ///< in RunRows::columns(). Throws std::logic_error
 
  private:

@@ -31,6 +31,7 @@ std::string class_and_duration(const RunResult& r) {
 std::vector<Metric> all_metrics() {
   using R = RunResult;
   using C = ContactMeasures;
+  using J = JointMeasures;
   return {
       // Outcome of the run; judge has its own columns for it.
       {.column = "status",
@@ -348,6 +349,65 @@ std::vector<Metric> all_metrics() {
        .meaning = "when one was a tenth of its body's radius away from where it started",
        .list_rank = 2,
        .unit = "s"},
+
+      // Joints: joint_meter.hpp.
+      {.column = "joint_gap_max_m",
+       .member = &J::gap_max,
+       .runs = Runs::with_joints,
+       .meaning = "with joints: largest |g| of their lengths and angles, and |G v| of both, over all instants",
+       .listed_as = "joint_gap_max_m, joint_angle_max_rad ...",
+       .list_rank = 2,
+       .label = "joints open by",
+       .unit = "m",
+       .least_is_best = true,
+       .in_summary = true,
+       .terminal_label = "joint gap"},
+      {.column = "joint_angle_max_rad",
+       .member = &J::angle_max,
+       .runs = Runs::with_joints,
+       .listed_with = "joint_gap_max_m",
+       .label = "joints turn open by",
+       .unit = "rad",
+       .least_is_best = true},
+      {.column = "joint_velocity_max_m_per_s",
+       .member = &J::velocity_max,
+       .runs = Runs::with_joints,
+       .listed_with = "joint_gap_max_m",
+       .label = "joints part at",
+       .unit = "m/s",
+       .least_is_best = true},
+      {.column = "joint_rate_max_rad_per_s",
+       .member = &J::rate_max,
+       .runs = Runs::with_joints,
+       .listed_with = "joint_gap_max_m",
+       .unit = "rad/s",
+       .least_is_best = true},
+      {.column = "joint_work_J",
+       .member = &J::work,
+       .runs = Runs::with_joints,
+       .meaning = "work of the joints (of their reactions, not zero where drift or Baumgarte's method leaves G v),\n"
+                  "and energy injected by projection, at the end",
+       .listed_as = "joint_work_J, projection_J",
+       .list_rank = 2,
+       .label = "work of the joints",
+       .unit = "J"},
+      {.column = "projection_J",
+       .member = &J::projection,
+       .runs = Runs::with_joints,
+       .listed_with = "joint_work_J",
+       .label = "put in by projection",
+       .unit = "J"},
+      {.column = "joint_rank",
+       .member = &J::rank,
+       .runs = Runs::with_joints,
+       .meaning = "least rank of the equations of the joints, and largest condition of the independent ones",
+       .listed_as = "joint_rank, joint_condition_max",
+       .list_rank = 2,
+       .label = "rank"},
+      {.column = "joint_condition_max",
+       .member = &J::condition_max,
+       .runs = Runs::with_joints,
+       .listed_with = "joint_rank"},
   };
 }
 

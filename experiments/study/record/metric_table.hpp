@@ -25,10 +25,11 @@ struct Metric {
   /// number for each declared invariant.
   using Member =
       std::variant<std::monostate, std::optional<double> RunResult::*, std::optional<double> ContactMeasures::*,
-                   std::int64_t RunResult::*, std::string RunResult::*, std::map<std::string, double> RunResult::*>;
+                   std::optional<double> JointMeasures::*, std::int64_t RunResult::*, std::string RunResult::*,
+                   std::map<std::string, double> RunResult::*>;
 
   /// The runs for which the metric is defined. runs.csv has its column only in a study with such runs.
-  enum class Runs { all, with_reference, with_contact };
+  enum class Runs { all, with_reference, with_contact, with_joints };
 
   /// Name in runs.csv and in the store: an identifier that ends with the unit. A metric for each invariant has the
   /// columns INVARIANT_drift_max_rel in runs.csv.
@@ -64,6 +65,20 @@ struct Metric {
   std::string judge_label{};  ///< heading in judge's table; empty: no column there
 };
 
+/// The kinds of runs that a study has.
+struct RunKinds {
+  bool reference = false, contact = false, joints = false;
+  /// True if some run has a metric of these runs.
+  bool define(Metric::Runs runs) const {
+    switch (runs) {
+      case Metric::Runs::with_reference: return reference;
+      case Metric::Runs::with_contact: return contact;
+      case Metric::Runs::with_joints: return joints;
+      default: return true;
+    }
+  }
+};
+
 /// All metrics, in the order of the columns of runs.csv.
 const std::vector<Metric>& metric_table();
 
@@ -90,6 +105,8 @@ void with_value(const Metric& metric, Result& result, const Use& use) {
       }
     } else if constexpr (std::is_same_v<M, std::optional<double> ContactMeasures::*>) {
       use(result.contact.*member);
+    } else if constexpr (std::is_same_v<M, std::optional<double> JointMeasures::*>) {
+      use(result.joints.*member);
     } else {
       use(result.*member);
     }

@@ -351,6 +351,77 @@ std::vector<RunOption> options_of_time() {
   return {dt, tolerance, t_end, samples};
 }
 
+/// An option of joints: a run without joints has no value of it.
+RunOption of_joints(RunOption option) {
+  option.value = [value = option.value](const RunConfig& config) -> OptionValue {
+    if (!config.joints) return {};
+    return value(config);
+  };
+  option.set = [set = option.set](RunConfig& config, const OptionValue& said) {
+    if (!config.joints) config.joints.emplace();
+    set(config, said);
+  };
+  return option;
+}
+
+std::vector<RunOption> options_of_joints() {
+  const auto has_joints = [](const RunConfig& c) { return c.joints.has_value(); };
+  const auto baumgarte = [](const RunConfig& c) {
+    return c.joints && c.joints->stabilization == Stabilization::baumgarte;
+  };
+  const std::string no_joints = "no scenario here has joints",
+                    no_baumgarte = "no run here is stabilized by Baumgarte's method";
+  RunOption stabilization = choice(
+      {.name = "stabilization",
+       .values = "none|baumgarte|position|velocity|both",
+       .help =
+           "correction of joints that drift open: Baumgarte's method, or projection of positions, velocities or both "
+           "after each step (default: none)",
+       .column = "stabilization",
+       .on_demand = true,
+       .header = "stabilization",
+       .term = "stabilization of joints",
+       .word = "stabilization",
+       .usual = std::string("none"),
+       .applies = has_joints,
+       .decides = true,
+       .no_effect = "no scenario here has joints",
+       .remedy = "or take a scenario with joints"},
+      [](auto& c) -> auto& { return c.joints->stabilization; },
+      names_of({Stabilization::none, Stabilization::baumgarte, Stabilization::position, Stabilization::velocity,
+                Stabilization::both}));
+  const auto parameter = [&](const char* name, std::string help, std::string column, const char* header,
+                             const char* unit, auto member) {
+    return optional({.name = std::string("baumgarte-") + name,
+                     .values = "X",
+                     .help = std::move(help),
+                     .kind = Kind::number,
+                     .of_unit = *unit ? std::string(" of ") + unit : "",
+                     .column = std::move(column),
+                     .on_demand = true,
+                     .header = header,
+                     .unit = unit,
+                     .applies = baumgarte,
+                     .no_effect = "no run here is stabilized by Baumgarte's method",
+                     .remedy = "or take --stabilization baumgarte"},
+                    member);
+  };
+  const std::string equation = " of g'' + 2 alpha g' + beta^2 g = 0, in 1/s (default: 10)";
+  std::vector<RunOption> options = {
+      stabilization,
+      parameter(
+          "alpha", "alpha" + equation, "baumgarte_alpha_per_s", "Baumgarte alpha", "1/s",
+          [](auto& c) -> auto& { return c.joints->alpha; }),
+      parameter(
+          "beta", "beta" + equation, "baumgarte_beta_per_s", "Baumgarte beta", "1/s",
+          [](auto& c) -> auto& { return c.joints->beta; }),
+      parameter(
+          "per-step", "alpha = beta = X/h in their place, for methods of a fixed step h", "baumgarte_per_step",
+          "Baumgarte alpha h", "", [](auto& c) -> auto& { return c.joints->alpha_per_step; })};
+  for (RunOption& option : options) option = of_joints(std::move(option));
+  return options;
+}
+
 std::vector<RunOption> options_of_contact() {
   return {contact<BroadPhaseEntry>({.name = "broad-phase",
                                     .values = "NAME",
@@ -396,7 +467,7 @@ struct OptionTable {
 
   OptionTable() {
     for (const auto& part : {options_of_motion(), options_of_formulation(), options_of_summation(),
-                             options_of_settings(), options_of_time(), options_of_contact()})
+                             options_of_settings(), options_of_time(), options_of_joints(), options_of_contact()})
       options.insert(options.end(), part.begin(), part.end());
     sort();
   }

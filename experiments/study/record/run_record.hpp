@@ -46,6 +46,13 @@ struct ContactConfig {
   std::string impact_timing;  ///< empty if the response is a force
 };
 
+/// How a run solves the equations of the joints.
+struct JointConfig {
+  Stabilization stabilization = Stabilization::none;
+  std::optional<double> alpha, beta;     ///< parameters of Baumgarte's method, 1/s; absent: 10
+  std::optional<double> alpha_per_step;  ///< a, α = β = a/h in place of them; fixed-step methods only
+};
+
 /// The configuration of one run. run_options.hpp names, reads and prints each member.
 struct RunConfig {
   std::string scenario;  ///< name
@@ -58,6 +65,7 @@ struct RunConfig {
   Precision precision = Precision::double_precision;
   std::optional<Summation> summation;            ///< absent: plain, and not given by the study
   std::optional<ContactConfig> contact;          ///< absent: the scenario has no contact
+  std::optional<JointConfig> joints;             ///< absent: the scenario has no joints
   std::optional<double> dt;                      ///< s; fixed-step methods only
   std::optional<double> tolerance;               ///< adaptive methods only
   std::optional<std::int64_t> max_steps;         ///< adaptive methods only; absent: the default of Schedule
@@ -100,6 +108,19 @@ struct ContactMeasures {
   std::optional<double> left_place;
 };
 
+/// Measures of the joints of a run (joint_meter.hpp), the largest over all joints and instants. All absent for a run
+/// without joints.
+struct JointMeasures {
+  std::optional<double> gap_max;        ///< |g| of the lengths, m
+  std::optional<double> angle_max;      ///< |g| of the angles, rad
+  std::optional<double> velocity_max;   ///< |G v| of the lengths, m/s
+  std::optional<double> rate_max;       ///< |G v| of the angles, rad/s
+  std::optional<double> work;           ///< work of the joints until the end of the run, J; 0 for exact reactions
+  std::optional<double> projection;     ///< energy injected by projections until the end of the run, J
+  std::optional<double> rank;           ///< least rank of the constraint equations
+  std::optional<double> condition_max;  ///< largest condition of the independent equations, in the metric of the masses
+};
+
 struct RunResult {
   std::string status;    ///< "ok", "diverged", "failed", "refused"
   std::string message;   ///< reason, if the status is not "ok"
@@ -140,6 +161,7 @@ struct RunResult {
   std::optional<double> attitude_reference;  ///< rad
   std::optional<double> angular_velocity_reference_rel;
   ContactMeasures contact;
+  JointMeasures joints;
   /// Numbers of metrics without a member here, by name of their column (metric_table.hpp).
   std::map<std::string, double> further;
   double seconds = 0;  ///< wall time of the simulation including measurements, s; written to timings.csv only

@@ -15,6 +15,7 @@
 #include "core/system/invariants.hpp"
 #include "experiments/study/metrics/contact_meter.hpp"
 #include "experiments/study/metrics/drift_meter.hpp"
+#include "experiments/study/metrics/joint_meter.hpp"
 #include "experiments/study/record/result_numbers.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/scenario/narrow_phase_choice.hpp"
@@ -118,7 +119,7 @@ RunOutcome guarded(const Scenario& scenario, const Run& run) {
 
 RunResult measured(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory,
                    const std::atomic<bool>* stop, References* references, std::atomic<double>* share) {
-  const auto truth = make_system<double>(scenario.problem, config.formulation);
+  const auto truth = make_system<double>(scenario.problem, formulation_of(config));
   std::optional<ContactSetup> contact;
   if (config.contact) contact.emplace(*truth, scenario, *config.contact);
   DriftMeter meter(*truth, scenario.invariants, config.t_end, config.samples.has_value(),
@@ -130,6 +131,8 @@ RunResult measured(const RunConfig& config, const Scenario& scenario, const Traj
   Observers observers;
   if (writer) observers.add(*writer);
   if (contact_meter) observers.add(*contact_meter);
+  std::optional<JointMeter> joint_meter;
+  if (config.joints) observers.add(joint_meter.emplace(*truth, config.t_end));
   observers.add(meter);
   std::optional<ShareMeter> share_meter;
   if (share) observers.add(share_meter.emplace(*share, config.t_end));
@@ -140,6 +143,7 @@ RunResult measured(const RunConfig& config, const Scenario& scenario, const Traj
   if (writer && outcome.status != RunStatus::interrupted) writer->close();  // else it stays unfinished by name
   RunResult result = result_of(outcome, meter, seconds);
   if (contact_meter) contact_meter->report(result);
+  if (joint_meter) joint_meter->report(result);
   return result;
 }
 
@@ -152,7 +156,7 @@ std::vector<RunResult> side_by_side(std::span<const LanedRun> runs, const std::a
   std::vector<LaneRun> lanes;
   for (const LanedRun& run : runs) {
     problems.push_back(run.scenario.problem);
-    truths.push_back(make_system<double>(run.scenario.problem, config.formulation));
+    truths.push_back(make_system<double>(run.scenario.problem, formulation_of(config)));
     meters.push_back(std::make_unique<DriftMeter>(*truths.back(), run.scenario.invariants, config.t_end, false,
                                                   true_motion_of(run.config, run.scenario, stop, references)));
     DriftMeter& meter = *meters.back();
@@ -200,6 +204,11 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
                                     ? ": compensated summation is for methods of a fixed step"
                                     : ": compensated summation makes no sense: its step is not the sum of the state "
                                       "and an increment");
+  }
+  if (config.joints && config.joints->alpha_per_step) {
+    if (!config.dt) return config.integrator + " chooses its own steps; leave --baumgarte-per-step out";
+    if (config.joints->alpha || config.joints->beta)
+      return "Baumgarte's parameters are given twice; leave --baumgarte-per-step out, or --baumgarte-alpha and -beta";
   }
   if (config.contact) {
     if (config.precision != Precision::double_precision)
@@ -250,7 +259,7 @@ std::string ensemble_key(const RunConfig& config, const Scenario& scenario, cons
                      config.precision == Precision::double_precision && usual &&
                      trajectory.format == TrajectoryFormat::none;
   if (!plain || !find_integrator(config.integrator)->make_lanes) return {};
-  const std::string key = lane_key(*make_system<double>(scenario.problem, config.formulation));
+  const std::string key = lane_key(*make_system<double>(scenario.problem, formulation_of(config)));
   if (key.empty()) return {};
   const Formulation& f = config.formulation;
   return fmt::format("{} {} {} {} {} {} {} {} {} {}", key, config.integrator, name(f.orientation),

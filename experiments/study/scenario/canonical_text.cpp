@@ -48,8 +48,8 @@ void write_body(const Body& body, const BodyStart& start, std::string& out) {
   line.add("frame", std::string_view(start.angular_velocity_in_body ? "body" : "world"));
 }
 
-void write_force(const ForceParameters& force, std::string& out) {
-  Line line(out, force.kind);
+void write_force(const ForceParameters& force, std::string& out, const std::string& before = "") {
+  Line line(out, before + force.kind);
   std::string bodies;
   for (const std::size_t i : force.bodies) bodies.append(bodies.empty() ? "" : ",").append(std::to_string(i));
   line.add("bodies", std::string_view(bodies));
@@ -75,6 +75,7 @@ std::string canonical_text(const Problem& problem, const std::vector<std::string
   std::string out;
   for (std::size_t i = 0; i < problem.bodies.size(); ++i) write_body(problem.bodies[i], problem.starts[i], out);
   for (const ForceParameters& force : problem.forces) write_force(force, out);
+  for (const JointParameters& joint : problem.joints) write_force(joint.of, out, "joint ");
   std::vector<std::string> sorted = invariants;
   std::sort(sorted.begin(), sorted.end());
   for (const std::string& name : sorted) out.append("invariant ").append(name).append("\n");

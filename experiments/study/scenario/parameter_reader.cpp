@@ -58,7 +58,7 @@ std::map<std::string, ParameterValue> read_parameters(const TomlCursor& table, c
     const TomlCursor value = table.at(p.key, must_be(p));
     if (p.needs_bodies != 0 && static_cast<std::size_t>(p.needs_bodies) != bodies) {
       value.fail("makes sense with " + std::to_string(p.needs_bodies) + (p.needs_bodies == 1 ? " body" : " bodies") +
-                 " only, and this force names " + std::to_string(bodies));
+                 " only, and this one names " + std::to_string(bodies));
     }
     values.emplace(p.key, read(value, p));
   }

@@ -41,6 +41,9 @@ struct Scenario {
   std::optional<double> energy_scale;  ///< J, scale of relative energy drifts; absent: computed from the motion
   std::vector<std::string>
       invariants;  ///< declared invariants besides energy and momenta; names of core/system/invariants
+  /// What a user should know of the scenario as it was read: bodies that were moved to close joints, joints that repeat
+  /// each other's equations. One line each.
+  std::vector<std::string> notes;
   /// Everything that affects the results, and nothing else, as text with every default filled in and numbers that read
   /// back exactly. t_end is not included, since it is an option of the run. Part of the identity of a run.
   std::string canonical;

@@ -28,6 +28,8 @@ const std::vector<ScenarioKey>& root_keys() {
       {"contact_slip_speed", TomlValue::of(Compliance{}.slip_speed), Decides::with_contact},
       {"body", std::nullopt},
       {"force", empty_list()},
+      {"joint", empty_list()},
+      {"assemble", TomlValue::of(false)},
   };
   return keys;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/forces/catalogue.hpp"
+#include "core/joints/catalogue.hpp"
 #include "experiments/study/scenario/scenario_keys.hpp"
 #include "experiments/study/text/suggestion.hpp"
 #include "experiments/study/text/toml_cursor.hpp"
@@ -75,15 +76,24 @@ std::optional<double> plain_number(std::string_view text) {
   return number;
 }
 
-std::vector<ScenarioKey> force_keys(const TomlValue& force) {
+/// True for the keys of a scenario that hold a list of tables.
+bool is_list_of_tables(std::string_view key) { return key == "body" || key == "force" || key == "joint"; }
+
+/// The keys of an element of one of these lists: of a body, or of a force or joint of its kind.
+std::vector<ScenarioKey> keys_of(std::string_view list, const TomlValue& element) {
+  if (list == "body") return body_keys();
   std::vector<ScenarioKey> keys = {{"kind", std::nullopt}, {"bodies", std::nullopt}};
-  const TomlValue* kind = force.find("kind");
-  if (const ForceEntry* entry = kind ? find_force(kind->text) : nullptr) {
+  if (list == "joint") keys.push_back({"name", std::nullopt, Decides::never});
+  const auto add = [&](const auto* entry) {
+    if (!entry) return;
     for (const Parameter& p : entry->kind.parameters) {
       const bool required = p.need == Parameter::Need::required;
       keys.push_back({p.key, required ? std::nullopt : std::optional(to_toml(p.value))});
     }
-  }
+  };
+  const TomlValue* kind = element.find("kind");
+  if (kind && list == "force") add(find_force(kind->text));
+  if (kind && list == "joint") add(find_joint(kind->text));
   return keys;
 }
 
@@ -95,7 +105,7 @@ class Walk {
 
   std::string run() {
     const std::string& first = parts_.front();
-    if (first == "body" || first == "force") {
+    if (is_list_of_tables(first)) {
       into_element(first);
     } else {
       into_table(root_, root_keys(), 0);
@@ -129,23 +139,22 @@ class Walk {
     const std::size_t count = elements && elements->type == Type::list ? elements->items.size() : 0;
     if (parts_.size() < 3) fail("it must name one key of one " + list + ", as in " + list + ".0.KEY");
     std::optional<std::size_t> index = index_in(parts_[1], count);
-    for (std::size_t i = 0; list == "body" && !index && i < count; ++i) {
+    for (std::size_t i = 0; list != "force" && !index && i < count; ++i) {
       const TomlValue* name = elements->items[i].find("name");
-      if ((name ? name->text : "body" + std::to_string(i)) == parts_[1]) index = i;
+      if ((name ? name->text : list + std::to_string(i)) == parts_[1]) index = i;
     }
     if (!index) fail("the scenario has no " + list + " '" + parts_[1] + "'; " + they_are(list, elements, count));
     parts_[1] = std::to_string(*index);
     TomlValue& element = elements->items[*index];
     if (element.type != Type::table) fail(list + "." + parts_[1] + " is not a table");
-    if (list == "body") into_table(element, body_keys(), 2);
-    else into_table(element, force_keys(element), 2);
+    into_table(element, keys_of(list, element), 2);
   }
 
   static std::string they_are(const std::string& list, const TomlValue* elements, std::size_t count) {
     if (count == 0) return "it has none";
     std::string text = "it has " + std::to_string(count);
     for (std::size_t i = 0; i < count; ++i) {
-      const TomlValue* name = elements->items[i].find(list == "body" ? "name" : "kind");
+      const TomlValue* name = elements->items[i].find(list == "force" ? "kind" : "name");
       text += (i == 0 ? ": " : ", ") + std::to_string(i) + (name ? " (" + name->text + ")" : "");
     }
     return text;
@@ -229,8 +238,8 @@ std::optional<TomlValue> value_at(const TomlValue& root, const std::string& path
     }
     if (!next) return std::nullopt;
     at = next;
-    const bool element = i == 1 && (parts[0] == "body" || parts[0] == "force");
-    keys = !element ? std::vector<ScenarioKey>{} : parts[0] == "body" ? body_keys() : force_keys(*at);
+    const bool element = i == 1 && is_list_of_tables(parts[0]);
+    keys = element ? keys_of(parts[0], *at) : std::vector<ScenarioKey>{};
   }
   return *at;
 }

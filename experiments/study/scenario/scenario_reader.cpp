@@ -6,9 +6,11 @@
 
 #include "core/forces/catalogue.hpp"
 #include "core/system/invariants.hpp"
+#include "experiments/study/scenario/body_index.hpp"
 #include "experiments/study/scenario/body_reader.hpp"
 #include "experiments/study/scenario/body_repeat.hpp"
 #include "experiments/study/scenario/canonical_text.hpp"
+#include "experiments/study/scenario/joint_reader.hpp"
 #include "experiments/study/scenario/parameter_reader.hpp"
 #include "experiments/study/scenario/scenario_keys.hpp"
 #include "experiments/study/text/toml_cursor.hpp"
@@ -17,13 +19,6 @@
 namespace polhode::study::inline scenario {
 
 namespace {
-
-/// Index of a body in Problem, found by its name.
-struct Standing {
-  std::size_t index;
-  bool has_mass;
-};
-using BodyIndex = std::map<std::string, Standing, std::less<>>;
 
 TomlCursor key(const TomlCursor& root, std::string_view name) { return root.at(name, otherwise(root_keys(), name)); }
 
@@ -58,7 +53,7 @@ BodyIndex read_bodies(const TomlCursor& root, Scenario& scenario, std::string& c
   if (bodies.front().body.fixed) list.fail("every body is static; at least one must move");
   BodyIndex index;
   for (ReadBody& b : bodies) {
-    index.emplace(b.body.name, Standing{problem.bodies.size(), b.has_mass});
+    index.emplace(b.body.name, NamedBody{problem.bodies.size(), b.has_mass});
     problem.bodies.push_back(std::move(b.body));
     problem.starts.push_back(b.start);
     scenario.shapes.push_back(std::move(b.shape));
@@ -119,14 +114,6 @@ std::string count_in_words(const ForceKind& kind) {
   if (kind.max_bodies == 0) return least + " or more bodies";
   if (kind.max_bodies == kind.min_bodies) return least + (kind.min_bodies == 1 ? " body" : " bodies");
   return least + " to " + std::to_string(kind.max_bodies) + " bodies";
-}
-
-const Standing& read_body_name(const TomlCursor& name, const BodyIndex& index) {
-  const auto found = index.find(name.text("the name of a body"));
-  if (found != index.end()) return found->second;
-  std::vector<std::string_view> known;
-  for (const auto& body : index) known.push_back(body.first);
-  name.unknown("body", "There are", known);
 }
 
 std::vector<std::size_t> read_force_bodies(const TomlCursor& force, const ForceKind& kind, const BodyIndex& index) {
@@ -230,6 +217,7 @@ Scenario read_scenario(const TomlValue& tree, const std::string& name) {
   scenario.compliance = read_compliance(root, contact);
   read_gravity(root, scenario.problem);
   read_forces(root, index, scenario.problem);
+  read_joints(root, index, scenario);
   scenario.invariants = read_invariants(root, scenario.problem);
   scenario.canonical = canonical_text(scenario.problem, scenario.invariants) + contact;
   if (root.has("energy_scale")) {

@@ -19,13 +19,30 @@ Schedule schedule_of(const RunConfig& config) {
   return schedule;
 }
 
+Formulation formulation_of(const RunConfig& config) {
+  Formulation formulation = config.formulation;
+  if (!config.joints) return formulation;
+  JointTreatment& joints = formulation.joints;
+  joints.stabilization = config.joints->stabilization;
+  if (joints.stabilization != Stabilization::baumgarte) return formulation;
+  constexpr double usual = 10;  // 1/s
+  if (config.joints->alpha_per_step && config.dt) {
+    joints.alpha = joints.beta = *config.joints->alpha_per_step / *config.dt;
+  } else {
+    joints.alpha = config.joints->alpha.value_or(usual);
+    joints.beta = config.joints->beta.value_or(usual);
+  }
+  return formulation;
+}
+
 template <class S>
 std::unique_ptr<Integrator<S>> integrator_of(const RunConfig& config, const System<S>& system) {
-  const IntegratorSettings settings{.dt = config.dt.value_or(0),
-                                    .tolerance = config.tolerance.value_or(0),
-                                    .t_end = config.t_end,
-                                    .project = config.normalize,
-                                    .chosen = config.settings};
+  const IntegratorSettings settings{
+      .dt = config.dt.value_or(0),
+      .tolerance = config.tolerance.value_or(0),
+      .t_end = config.t_end,
+      .project = config.normalize && !system.has_joints(),  // the loop projects joints too
+      .chosen = config.settings};
   const IntegratorEntry& entry = *find_integrator(config.integrator);
   if constexpr (!is_lanes<S>) {
     if (is_compensated(config)) return make_compensated<S>(entry, system, settings);

@@ -13,6 +13,9 @@ namespace polhode::study::inline setup {
 
 Schedule schedule_of(const RunConfig& config);
 
+/// The formulation of a run, with the treatment of its joints.
+Formulation formulation_of(const RunConfig& config);
+
 /// The method in float, double, long double, or the lanes of an ensemble (without compensated summation). The system
 /// must outlive it.
 template <class S>

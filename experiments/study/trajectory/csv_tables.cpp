@@ -47,17 +47,25 @@ void CsvTable::write(std::string_view text) {
 
 void CsvTable::fail() const { cannot_write(path_, errno); }
 
-CsvTables::CsvTables(const std::filesystem::path& folder, const std::vector<std::string>& columns)
-    : trajectory_(folder / "trajectory.csv", columns),
-      energy_(folder / "energy.csv", energy_columns()),
-      events_(folder / "events.csv", event_columns(true)) {}
+CsvTables::CsvTables(const std::filesystem::path& folder, const System<double>& system)
+    : trajectory_(folder / "trajectory.csv", trajectory_columns(system)),
+      energy_(folder / "energy.csv", energy_columns(system)),
+      events_(folder / "events.csv", event_columns(true)) {
+  if (system.has_joints()) reactions_.emplace(folder / "reactions.csv", reaction_columns());
+}
+
+std::vector<CsvTable*> CsvTables::tables() {
+  std::vector<CsvTable*> all = {&trajectory_, &energy_, &events_};
+  if (reactions_) all.push_back(&*reactions_);
+  return all;
+}
 
 void CsvTables::flush() {
-  for (CsvTable* table : {&trajectory_, &energy_, &events_}) table->flush();
+  for (CsvTable* table : tables()) table->flush();
 }
 
 void CsvTables::close() {
-  for (CsvTable* table : {&trajectory_, &energy_, &events_}) table->close();
+  for (CsvTable* table : tables()) table->close();
 }
 
 }  // namespace polhode::study::trajectory

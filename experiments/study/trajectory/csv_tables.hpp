@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes a trajectory as trajectory.csv, energy.csv and events.csv.
+// Writes a trajectory as trajectory.csv, energy.csv, events.csv and, with joints, reactions.csv.
 #pragma once
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/system/system.hpp"
 
 namespace polhode::study::inline trajectory {
 
@@ -36,16 +39,20 @@ class CsvTable {
 
 class CsvTables {
  public:
-  CsvTables(const std::filesystem::path& folder, const std::vector<std::string>& columns);
+  CsvTables(const std::filesystem::path& folder, const System<double>& system);
   void trajectory(const std::vector<double>& row) { trajectory_.add(row); }
   void energy(const std::vector<double>& row) { energy_.add(row); }
+  void reaction(const std::vector<double>& row) { reactions_->add(row); }
   void impact(const std::vector<double>& row) { events_.add(row, "impact"); }
   void slide_end(const std::vector<double>& row) { events_.add(row, "slide_end"); }
   void flush();
   void close();
 
  private:
+  std::vector<CsvTable*> tables();
+
   CsvTable trajectory_, energy_, events_;
+  std::optional<CsvTable> reactions_;  ///< of a system with joints
 };
 
 }  // namespace polhode::study::trajectory

@@ -23,21 +23,28 @@ bool Hdf5Table::write() {
   return true;
 }
 
-Hdf5Tables::Hdf5Tables(const std::filesystem::path& folder, const std::vector<std::string>& columns)
+Hdf5Tables::Hdf5Tables(const std::filesystem::path& folder, const System<double>& system)
     : path_(folder / "trajectory.h5"),
       file_((errno = 0, create_hdf5(unfinished(path_)))),
-      trajectory_(file_, "trajectory", columns),
-      energy_(file_, "energy", energy_columns()),
+      trajectory_(file_, "trajectory", trajectory_columns(system)),
+      energy_(file_, "energy", energy_columns(system)),
       impacts_(file_, "impacts", event_columns(false)),
       slide_ends_(file_, "slide_ends", event_columns(false)) {
-  const bool good = file_ && trajectory_ && energy_ && impacts_ && slide_ends_ &&
+  if (system.has_joints()) reactions_.emplace(file_, "reactions", reaction_columns());
+  const bool good = file_ && trajectory_ && energy_ && impacts_ && slide_ends_ && (!reactions_ || *reactions_) &&
                     set_attribute(file_, "format", hdf5_format) && H5Fstart_swmr_write(file_) >= 0;
   if (!good) fail();
 }
 
+std::vector<Hdf5Table*> Hdf5Tables::tables() {
+  std::vector<Hdf5Table*> all = {&trajectory_, &energy_, &impacts_, &slide_ends_};
+  if (reactions_) all.push_back(&*reactions_);
+  return all;
+}
+
 void Hdf5Tables::flush() {
   errno = 0;
-  for (Hdf5Table* table : {&trajectory_, &energy_, &impacts_, &slide_ends_}) {
+  for (Hdf5Table* table : tables()) {
     if (!table->write()) fail();
   }
   if (H5Fflush(file_, H5F_SCOPE_LOCAL) < 0) fail();
@@ -47,7 +54,7 @@ void Hdf5Tables::close() {
   flush();
   errno = 0;
   bool good = true;
-  for (Hdf5Table* table : {&trajectory_, &energy_, &impacts_, &slide_ends_}) good = table->close() && good;
+  for (Hdf5Table* table : tables()) good = table->close() && good;
   good = file_.close() && good;
   if (!good) fail();
 }

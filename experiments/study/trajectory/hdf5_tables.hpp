@@ -3,9 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/system/system.hpp"
 #include "experiments/study/trajectory/hdf5_file.hpp"
 
 namespace polhode::study::inline trajectory {
@@ -32,21 +34,24 @@ class Hdf5Table {
 /// All functions throw TrajectoryError where the file cannot be written.
 class Hdf5Tables {
  public:
-  Hdf5Tables(const std::filesystem::path& folder, const std::vector<std::string>& columns);
+  Hdf5Tables(const std::filesystem::path& folder, const System<double>& system);
   void trajectory(const std::vector<double>& row) { add(trajectory_, row); }
   void energy(const std::vector<double>& row) { add(energy_, row); }
+  void reaction(const std::vector<double>& row) { add(*reactions_, row); }
   void impact(const std::vector<double>& row) { add(impacts_, row); }
   void slide_end(const std::vector<double>& row) { add(slide_ends_, row); }
   void flush();
   void close();
 
  private:
+  std::vector<Hdf5Table*> tables();
   void add(Hdf5Table& table, const std::vector<double>& row);
   [[noreturn]] void fail() const;
 
   std::filesystem::path path_;
   Hdf5Handle file_;
   Hdf5Table trajectory_, energy_, impacts_, slide_ends_;
+  std::optional<Hdf5Table> reactions_;  ///< of a system with joints
 };
 
 }  // namespace polhode::study::trajectory

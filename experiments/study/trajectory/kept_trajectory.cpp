@@ -111,6 +111,8 @@ KeptTrajectory kept_csv_files(const fs::path& folder) {
   };
   std::vector<OpenTable> events;
   events.push_back(open("events.csv"));
+  const fs::path reactions = folder / reactions_file;
+  if (fs::exists(reactions) || fs::exists(unfinished(reactions))) events.push_back(open(reactions_file));
   Instants all(kept, open("trajectory.csv"), open("energy.csv"), std::move(events));
   all.read();
   judge_condition(kept, finished, all.same_end());
@@ -211,6 +213,7 @@ KeptTrajectory kept_hdf5_file(const fs::path& path) {
   const auto open = [&](const char* name) -> OpenTable { return {name, path, kept_hdf5(file, name, path)}; };
   std::vector<OpenTable> events;
   for (const char* name : {"impacts", "slide_ends"}) events.push_back(open(name));
+  if (H5Lexists(file, "reactions", H5P_DEFAULT) > 0) events.push_back(open("reactions"));
   Instants all(kept, open("trajectory"), open("energy"), std::move(events));
   all.read();
   judge_condition(kept, finished, all.same_end());

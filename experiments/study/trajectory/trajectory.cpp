@@ -14,7 +14,7 @@ template <class Tables>
 class Writer final : public TrajectoryWriter {
  public:
   Writer(const std::filesystem::path& folder, const System<double>& system, BlockEnd block)
-      : system_(system), block_(block), tables_(folder, trajectory_columns(system)) {}
+      : system_(system), block_(block), tables_(folder, system) {}
 
   void on_impacts(std::span<const Impact> impacts) override {
     for (const Impact& impact : impacts) tables_.impact(event_row(impact));
@@ -33,7 +33,10 @@ class Writer final : public TrajectoryWriter {
     for (std::size_t i = 0; i < system_.moving(); ++i) {
       tables_.trajectory(trajectory_row(system_, state, i, sample.seen.energy()));
     }
-    tables_.energy(energy_row(sample, contact_, energy_start_));
+    tables_.energy(energy_row(system_, sample, contact_, energy_start_));
+    if (system_.has_joints()) {
+      for (const auto& row : reaction_rows(system_, state)) tables_.reaction(row);
+    }
     rows_in_block_ += system_.moving();
     if (rows_in_block_ >= block_.rows || Clock::now() - flushed_ >= block_.age) flush();
   }

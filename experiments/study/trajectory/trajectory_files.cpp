@@ -59,6 +59,8 @@ void begin_trajectory(const fs::path& folder) {
       if (error) cannot_write(folder / name, error.value());
     }
   }
+  fs::remove(unfinished(folder / reactions_file), error);
+  if (error) cannot_write(folder / reactions_file, error.value());
 }
 
 void finish_trajectories(TrajectoryFormat format, const std::vector<fs::path>& folders) {
@@ -73,7 +75,9 @@ void finish_trajectories(TrajectoryFormat format, const std::vector<fs::path>& f
                      [&](const auto& name) { return fs::exists(unfinished(folder / name)); })) {
       continue;
     }
-    for (const std::string& name : names) {
+    std::vector<std::string> made_files = names;
+    if (fs::exists(unfinished(folder / reactions_file))) made_files.insert(made_files.begin(), reactions_file);
+    for (const std::string& name : made_files) {
       const fs::path path = folder / name;
       if (std::rename(unfinished(path).c_str(), path.c_str()) != 0) cannot_write(path, errno);
     }

@@ -25,6 +25,9 @@ class TrajectoryError : public std::runtime_error {
 /// Names of the files of a format, in the order in which they are renamed.
 const std::vector<std::string>& trajectory_files(TrajectoryFormat format);
 
+/// File of the reactions, which a trajectory in CSV of a system with joints has besides. It is renamed first.
+inline constexpr const char* reactions_file = "reactions.csv";
+
 /// Path of a file that is not finished.
 std::filesystem::path unfinished(const std::filesystem::path& path);
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/trajectory/trajectory_rows.hpp"
 
+#include "core/system/constraints.hpp"
+#include "core/system/joint_projection.hpp"
+
 namespace polhode::study::inline trajectory {
 
 std::vector<std::string> trajectory_columns(const System<double>& system) {
@@ -36,22 +39,40 @@ std::vector<double> trajectory_row(const System<double>& system, const State<dou
   return row;
 }
 
-std::vector<std::string> energy_columns() {
-  return {"t_s",           "kinetic_J",    "potential_J", "work_J", "impact_loss_J", "friction_loss_J",
-          "penetration_J", "projection_J", "drift_J"};
+std::vector<std::string> energy_columns(const System<double>& system) {
+  std::vector<std::string> names = {"t_s",           "kinetic_J",       "potential_J",   "work_J",
+                                    "impact_loss_J", "friction_loss_J", "penetration_J", "projection_J"};
+  if (system.has_joints()) names.emplace_back("stabilization_J");
+  names.emplace_back("drift_J");
+  return names;
 }
 
-std::vector<double> energy_row(const Sample& sample, const ContactLosses& contact, double energy_start) {
+std::vector<double> energy_row(const System<double>& system, const Sample& sample, const ContactLosses& contact,
+                               double energy_start) {
   const Measurement<double>& m = sample.seen;
-  return {sample.t,
-          m.kinetic,
-          m.potential,
-          sample.work,
-          contact.impact,
-          contact.friction,
-          contact.penetration,
-          sample.projection,
-          sample.ledger(contact.total()) - energy_start};
+  std::vector<double> row = {sample.t,       m.kinetic,        m.potential,         sample.work,
+                             contact.impact, contact.friction, contact.penetration, sample.projection};
+  if (system.has_joints()) row.push_back(sample.joint_work);
+  row.push_back(sample.ledger(contact.total()) - energy_start);
+  return row;
+}
+
+std::vector<std::string> reaction_columns() {
+  return {"t_s", "joint", "body", "fx_N", "fy_N", "fz_N", "tx_N_m", "ty_N_m", "tz_N_m"};
+}
+
+std::vector<std::vector<double>> reaction_rows(const System<double>& system, const State<double>& state) {
+  VectorX<double> rate(state.y.size());
+  system.rate(state.t, state.y.data(), rate.data());  // computes the reactions
+  const Constraints<double>& joints = *system.constraints();
+  const auto motions = motions_of(system, state.y);
+  std::vector<std::vector<double>> rows;
+  for (std::size_t i = 0; i < joints.count(); ++i) {
+    const Wrench<double> w = joints.reaction(i, motions);
+    rows.push_back({state.t, static_cast<double>(i), static_cast<double>(joints.joint(i).first()), w.force[0],
+                    w.force[1], w.force[2], w.torque[0], w.torque[1], w.torque[2]});
+  }
+  return rows;
 }
 
 std::vector<std::string> event_columns(bool kind) {

@@ -18,9 +18,17 @@ std::vector<std::string> trajectory_columns(const System<double>& system);
 std::vector<double> trajectory_row(const System<double>& system, const State<double>& state, std::size_t body,
                                    double energy);
 
-std::vector<std::string> energy_columns();
+/// The terms of the energy ledger. A system with joints has their work besides.
+std::vector<std::string> energy_columns(const System<double>& system);
 /// One row of the energy ledger; energy_start is its value at the start.
-std::vector<double> energy_row(const Sample& sample, const ContactLosses& contact, double energy_start);
+std::vector<double> energy_row(const System<double>& system, const Sample& sample, const ContactLosses& contact,
+                               double energy_start);
+
+/// t_s, joint, body, force and torque: the reaction on the first body of each joint, world axes, at its anchor. Joints
+/// and bodies count from 0 in the order of the scenario.
+std::vector<std::string> reaction_columns();
+/// One row for each joint.
+std::vector<std::vector<double>> reaction_rows(const System<double>& system, const State<double>& state);
 
 /// `kind`: with the column of words, which only a table of text has.
 std::vector<std::string> event_columns(bool kind);

@@ -263,6 +263,7 @@ class Article {
       out += table(fmt::format("bodies_{}", shown), table_of_bodies(scenario));
       const Table forces = table_of_forces(scenario);
       out += forces.rows.empty() ? "No force acts.\n\n" : table(fmt::format("forces_{}", shown), forces);
+      if (!scenario.problem.joints.empty()) out += table(fmt::format("joints_{}", shown), table_of_joints(scenario));
       out += fmt::format("\\noindent Hash of the scenario's data: \\code{{{:016x}}}\n", number_of(scenario));
     }
     return out + "\\clearpage\n";

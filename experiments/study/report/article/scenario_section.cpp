@@ -8,6 +8,7 @@
 
 #include "collision/shape.hpp"
 #include "core/forces/catalogue.hpp"
+#include "core/joints/catalogue.hpp"
 #include "experiments/study/text/notation.hpp"
 
 namespace polhode::study::inline report::inline article {
@@ -82,31 +83,42 @@ Table table_of_bodies(const Scenario& scenario) {
   return without_empty_columns(std::move(table));
 }
 
-Table table_of_forces(const Scenario& scenario) {
+/// A table of forces or of joints: what, on which bodies, with which parameters.
+Table table_of(const Scenario& scenario, const std::string& what, const std::string& caption) {
   using Kind = Column::Kind;
-  Table table{.caption = fmt::format("Forces of {}", scenario.name),
-              .columns = {{.header = "force", .kind = Kind::name, .key = true},
+  Table table{.caption = fmt::format("{} of {}", caption, scenario.name),
+              .columns = {{.header = what, .kind = Kind::name, .key = true},
                           {.header = "on", .kind = Kind::text, .key = true},
                           {.header = "parameter", .kind = Kind::name, .key = true},
                           {"value", "", Kind::text},
                           {"unit", "", Kind::text},
                           {"meaning", "", Kind::text}},
               .rows = {}};
-  for (const ForceParameters& force : scenario.problem.forces) {
+  const auto add = [&](const ForceParameters& force, const std::vector<Parameter>& parameters) {
     std::vector<std::string> bodies;
     for (const std::size_t b : force.bodies) bodies.push_back(scenario.problem.bodies[b].name);
     std::string kind = force.kind, on = words(first_items(bodies, 4));
-    const ForceEntry* entry = find_force(force.kind);
-    if (!entry) continue;
-    for (const Parameter& parameter : entry->kind.parameters) {
+    for (const Parameter& parameter : parameters) {
       const auto found = force.values.find(parameter.key);
       if (found == force.values.end()) continue;
       table.rows.push_back({kind, on, parameter.key, value_text(found->second), parameter.unit, parameter.meaning});
       kind.clear(), on.clear();  // once for each force
     }
-    if (entry->kind.parameters.empty()) table.rows.push_back({kind, on, "", "", "", ""});
+    if (parameters.empty()) table.rows.push_back({kind, on, "", "", "", ""});
+  };
+  if (what == "force") {
+    for (const ForceParameters& force : scenario.problem.forces) {
+      if (const ForceEntry* entry = find_force(force.kind)) add(force, entry->kind.parameters);
+    }
+  } else {
+    for (const JointParameters& joint : scenario.problem.joints) {
+      if (const JointEntry* entry = find_joint(joint.of.kind)) add(joint.of, entry->kind.parameters);
+    }
   }
   return table;
 }
+
+Table table_of_forces(const Scenario& scenario) { return table_of(scenario, "force", "Forces"); }
+Table table_of_joints(const Scenario& scenario) { return table_of(scenario, "joint", "Joints"); }
 
 }  // namespace polhode::study::report::article

@@ -11,5 +11,6 @@ namespace polhode::study::inline report::inline article {
 Table table_of_bodies(const Scenario& scenario);
 /// A row for each parameter of each force; no row where no force acts.
 Table table_of_forces(const Scenario& scenario);
+Table table_of_joints(const Scenario& scenario);
 
 }  // namespace polhode::study::report::article

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include "collision/shapes/half_space.hpp"
 #include "core/forces/catalogue.hpp"
+#include "core/joints/catalogue.hpp"
 #include "core/problem/inertia.hpp"
 #include "experiments/study/text/notation.hpp"
 
@@ -82,15 +84,12 @@ std::string value_words(const ParameterValue& value) {
   return std::get<std::string>(value);
 }
 
-std::string force_words(const Problem& problem, const ForceParameters& force) {
-  if (force.kind == "uniform_gravity" && force.bodies.size() == problem.moving())
-    return fmt::format("Gravity {} m/s² on {}", vector_words(force.vector("acceleration")),
-                       problem.moving() == 1 ? "the body" : "all moving bodies");
+/// "Spring between a and b: stiffness 40 N/m" for a force, likewise for a joint.
+std::string words_of(const Problem& problem, const ForceParameters& force, const std::vector<Parameter>& parameters) {
   std::vector<std::string> names, values;
   for (const std::size_t b : force.bodies) names.push_back(problem.bodies[b].name);
-  const ForceEntry* entry = find_force(force.kind);
   bool between = false, to_world = false;
-  for (const Parameter& p : entry ? entry->kind.parameters : std::vector<Parameter>()) {
+  for (const Parameter& p : parameters) {
     between = between || p.needs_bodies == 2;
     to_world = to_world || p.needs_bodies == 1;
     const auto found = force.values.find(p.key);
@@ -104,6 +103,20 @@ std::string force_words(const Problem& problem, const ForceParameters& force) {
   const bool pair = (between || force.kind == "point_gravity") && names.size() == 2;
   return fmt::format("{} {} {}{}{}", kind, pair ? "between" : "on", words(first_items(names, 4)),
                      values.empty() ? "" : ": ", fmt::join(values, ", "));
+}
+
+std::string force_words(const Problem& problem, const ForceParameters& force) {
+  if (force.kind == "uniform_gravity" && force.bodies.size() == problem.moving())
+    return fmt::format("Gravity {} m/s² on {}", vector_words(force.vector("acceleration")),
+                       problem.moving() == 1 ? "the body" : "all moving bodies");
+  const ForceEntry* entry = find_force(force.kind);
+  return words_of(problem, force, entry ? entry->kind.parameters : std::vector<Parameter>());
+}
+
+std::string joint_words(const Problem& problem, const JointParameters& joint) {
+  const JointEntry* entry = find_joint(joint.of.kind);
+  return fmt::format("{} ({})", words_of(problem, joint.of, entry ? entry->kind.parameters : std::vector<Parameter>()),
+                     joint.name);
 }
 
 }  // namespace
@@ -126,10 +139,15 @@ std::vector<std::string> scenario_words(const Scenario& scenario) {
   }
   for (const ForceParameters& force : problem.forces) lines.push_back(force_words(problem, force) + ".");
   if (problem.forces.empty()) lines.emplace_back("No forces act.");
+  for (const JointParameters& joint : problem.joints) lines.push_back(joint_words(problem, joint) + ".");
+  for (const std::string& note : scenario.notes) {
+    lines.push_back(note + ".");
+    lines.back().front() = static_cast<char>(std::toupper(lines.back().front()));
+  }
   if (lines.size() > most_lines) {
     const std::size_t rest = lines.size() - (most_lines - 1);
     lines.resize(most_lines - 1);
-    lines.push_back(fmt::format("{} more bodies and forces are in the scenario’s file.", rest));
+    lines.push_back(fmt::format("{} more bodies, forces and joints are in the scenario’s file.", rest));
   }
   return lines;
 }

@@ -29,20 +29,19 @@ bool has_references(const StudyView& study) {
   return std::any_of(study.runs.begin(), study.runs.end(), [](const RunRecord& run) { return run.config.reference; });
 }
 
-bool has_contact(const StudyView& study) {
-  return std::any_of(study.runs.begin(), study.runs.end(),
-                     [](const RunRecord& run) { return run.config.contact.has_value(); });
+RunKinds kinds_of(const StudyView& study) {
+  const auto any = [&](const auto& has) { return std::any_of(study.runs.begin(), study.runs.end(), has); };
+  return {.reference = has_references(study),
+          .contact = any([](const RunRecord& run) { return run.config.contact.has_value(); }),
+          .joints = any([](const RunRecord& run) { return run.config.joints.has_value(); })};
 }
 
 /// The metrics that are defined for some run of the study.
 std::vector<const Metric*> metrics_of(const StudyView& study) {
-  const bool references = has_references(study), contact = has_contact(study);
+  const RunKinds kinds = kinds_of(study);
   std::vector<const Metric*> metrics;
   for (const Metric& metric : study.metrics) {
-    const bool defined = metric.runs == Metric::Runs::with_reference ? references
-                         : metric.runs == Metric::Runs::with_contact ? contact
-                                                                     : true;
-    if (defined) metrics.push_back(&metric);
+    if (kinds.define(metric.runs)) metrics.push_back(&metric);
   }
   return metrics;
 }

@@ -44,15 +44,20 @@ Scenario retold(Scenario scenario, const Vector& shift, const Quaternion<double>
     if (force.values.contains("anchor_world"))
       force.values.at("anchor_world") = Vector(r * force.vector("anchor_world") + shift);
   }
+  for (JointParameters& joint : scenario.problem.joints) {
+    joint.of.values.at("anchor_world") = Vector(r * joint.of.vector("anchor_world") + shift);
+    if (joint.of.values.contains("normal")) joint.of.values.at("normal") = Vector(r * joint.of.vector("normal"));
+  }
   return scenario;
 }
 
-/// Duration (s) in which a rounding of the start stays a rounding. Impacts magnify it, the box on a spring is chaotic,
-/// and the pendulum swings about its middle axis, which is unstable. The drift of the rolling ball stands at the edge
-/// of two classes after half a second; after a second it has one class, moved or turned.
+/// Duration (s) in which a rounding of the start stays a rounding. Impacts and singular configurations magnify it, the
+/// box on a spring is chaotic, and the pendulum swings about its middle axis, which is unstable. The drift of the
+/// rolling ball stands at the edge of two classes after half a second; after a second it has one class, moved or
+/// turned.
 double foreseeable(const Scenario& scenario) {
   if (scenario.name == "simbenchmark_rolling") return 1;
-  if (!scenario.colliders.empty()) return 0.5;
+  if (!scenario.colliders.empty() || !scenario.problem.joints.empty()) return 0.5;
   return scenario.name == "physical_pendulum" || scenario.name == "spring_box" ? 4 : scenario.t_end;
 }
 
@@ -70,6 +75,7 @@ RunConfig configured(const Scenario& scenario, const std::string& method) {
   if (!scenario.colliders.empty()) {
     config.contact = {"sweep_and_prune", narrow_phase_for(scenario), "sequential_impulses", "time_stepping"};
   }
+  if (!scenario.problem.joints.empty()) config.joints.emplace().stabilization = Stabilization::both;
   return config;
 }
 

@@ -18,13 +18,13 @@ namespace {
 
 using namespace precision;
 
-/// The built-in scenarios whose bodies all turn without torque, and do not touch.
+/// The built-in scenarios whose bodies all turn without torque, and neither touch nor are joined.
 std::vector<Scenario> free_scenarios() {
   std::vector<Scenario> free;
   for (const BuiltinScenario& each : builtin_scenarios()) {
     Scenario scenario = ScenarioSource::open(std::string(each.name)).resolve();
     const auto system = make_system<double>(scenario.problem, {});
-    bool torque = !scenario.colliders.empty(), turns = false;
+    bool torque = !scenario.colliders.empty() || system->has_joints(), turns = false;
     for (std::size_t i = 0; i < system->moving(); ++i) {
       for (const auto& force : system->forces()) torque = torque || force->effect_on(i).torque;
       turns = turns || scenario.problem.starts[i].angular_velocity.norm() > 0;

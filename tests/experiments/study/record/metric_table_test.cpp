@@ -215,7 +215,8 @@ TEST(MetricTable, ColumnsAreIdentifiersAndEachStandsOnce) {
     })) << metric.column;
     EXPECT_TRUE(seen.insert(metric.column).second) << metric.column;
     // The column ends with the unit that tables print.
-    const std::string ending = metric.unit == "relative" ? "_rel" : "_" + metric.unit;
+    std::string ending = metric.unit == "relative" ? "_rel" : "_" + metric.unit;
+    if (const std::size_t per = ending.find('/'); per != std::string::npos) ending.replace(per, 1, "_per_");
     if (metric.unit.empty() || metric.unit == "1") continue;
     EXPECT_TRUE(metric.column.ends_with(ending)) << metric.column;
   }

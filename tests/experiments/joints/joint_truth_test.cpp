@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Jointed scenarios against motions known in closed form, by quadrature, or in extended precision by two formulations.
+// The numbers are those of the sources that the scenario files name.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "core/exact/exact_motion.hpp"
+#include "core/run/simulate.hpp"
+#include "core/system/constraints.hpp"
+#include "core/system/joint_projection.hpp"
+#include "experiments/study/scenario/scenario.hpp"
+#include "integrators/catalogue.hpp"
+
+namespace polhode::study::joints_tests {
+namespace {
+
+using Vector = Vector3<double>;
+
+struct End {
+  std::unique_ptr<System<double>> system;
+  State<double> state;
+  Sample last;
+  double largest_drift = 0;
+  double largest_gap = 0;
+
+  Vector point(std::size_t body, const Vector& in_body) const {
+    return system->motion_of(state.y, body).point(in_body);
+  }
+};
+
+/// Keeps the ledger and the gaps of the joints.
+class Watch final : public Observer {
+ public:
+  explicit Watch(End& end) : end_(end) {}
+  std::size_t on_samples(std::span<const Sample> samples) override {
+    for (const Sample& s : samples) {
+      if (s.t == 0) start_ = s.ledger(0);
+      end_.largest_drift = std::max(end_.largest_drift, std::abs(s.ledger(0) - start_));
+    }
+    end_.last = samples.back();
+    return samples.size();
+  }
+  void on_state(const State<double>& state, const Sample&) override {
+    const auto motions = motions_of(*end_.system, state.y);
+    for (std::size_t i = 0; i < end_.system->constraints()->count(); ++i) {
+      const auto v = end_.system->constraints()->violation(i, motions);
+      end_.largest_gap = std::max({end_.largest_gap, v.position, v.angle});
+    }
+  }
+  double next_state() const override { return 0; }
+
+ private:
+  End& end_;
+  double start_ = 0;
+};
+
+End run(const std::string& scenario, double dt, double t_end, Stabilization stabilization = Stabilization::both,
+        AngularState angular = AngularState::velocity_world, const std::string& method = "rk4") {
+  const Problem problem = ScenarioSource::open(scenario).resolve().problem;
+  Formulation f{.angular_state = angular};
+  f.joints.stabilization = stabilization;
+  End end{make_system<double>(problem, f), {}, {}};
+  end.state = end.system->start();
+  const IntegratorEntry& entry = *find_integrator(method);
+  const auto integrator =
+      entry.make(*end.system, {.dt = dt, .tolerance = dt, .t_end = t_end});  // of adaptive methods dt is the tolerance
+  Schedule schedule;
+  schedule.t_end = t_end;
+  schedule.dt = dt;
+  schedule.adaptive = entry.declaration.adaptive;
+  Watch watch(end);
+  const RunOutcome outcome = simulate<double>(*end.system, *end.system, *integrator, end.state, schedule, watch);
+  EXPECT_EQ(outcome.status, RunStatus::ok) << outcome.message;
+  return end;
+}
+
+Vector reaction(const End& end, std::size_t joint) {
+  VectorX<double> rate(end.state.y.size());
+  end.system->rate(end.state.t, end.state.y.data(), rate.data());
+  return end.system->constraints()->reaction(joint, motions_of(*end.system, end.state.y)).force;
+}
+
+TEST(JointTruth, PendulumOnARod) {
+  const End end = run("rod_pendulum", 1e-3, 10);
+  EXPECT_NEAR(end.point(0, Vector::Zero())[0], -0.27508746257611686, 1e-9);
+  EXPECT_NEAR(end.point(0, Vector::Zero())[1], -0.961419205099125064, 1e-9);
+  EXPECT_NEAR(reaction(end, 0).norm(), 28.29456720606725, 1e-7);
+  EXPECT_LT(end.largest_gap, 1e-13);
+  EXPECT_LT(end.largest_drift, 5e-5) << "the limit of the benchmark library";
+}
+
+TEST(JointTruth, TensionPointsAlongTheRodTowardsTheWorld) {
+  const End end = run("rod_pendulum", 1e-3, 10);
+  const Vector force = reaction(end, 0), towards = -end.point(0, Vector::Zero());
+  EXPECT_NEAR(force.normalized().dot(towards.normalized()), 1, 1e-12);
+}
+
+TEST(JointTruth, HeavyTopOnABallJoint) {
+  const End end = run("ball_joint_top", 1e-4, 1);
+  EXPECT_LT(
+      (end.point(0, Vector::Zero()) - Vector(0.173343964098386043, 0.640088592070568783, -0.748490791133581309)).norm(),
+      1e-9);
+  EXPECT_LT((reaction(end, 0) - Vector(-517.6007394769, -396.8431014895542, 404.5749251628847)).norm(), 1e-5);
+}
+
+TEST(JointTruth, ReactionOfTheTopAtItsStart) {
+  End end = run("ball_joint_top", 1e-4, 1e-4);
+  end.state = end.system->start();
+  EXPECT_LT((reaction(end, 0) - Vector(0, -319.525988166, -317.2624615384615)).norm(), 1e-8);
+}
+
+/// The jointed top and the pinned one are two formulations of one motion.
+TEST(JointTruth, PinnedAndJointedTopAgree) {
+  const Problem jointed = ScenarioSource::open("ball_joint_top").resolve().problem;
+  Problem pinned = jointed;
+  pinned.joints.clear();
+  Body& body = pinned.bodies[0];
+  body.pinned = true;
+  body.center_of_mass = Vector(0, 1, 0);
+  body.inertia += body.mass * Vector(1, 0, 1).asDiagonal().toDenseMatrix();
+  pinned.starts[0].position.setZero();
+  const auto at_end = [](const Problem& problem) {
+    Formulation f{.angular_state = AngularState::velocity_body};
+    f.joints.stabilization = Stabilization::both;
+    const auto system = make_system<double>(problem, f);
+    const auto method = find_integrator("odeint_fehlberg78")->make(*system, {.tolerance = 1e-13, .t_end = 0.1});
+    State<double> state = system->start();
+    Observer nothing;
+    Schedule schedule;
+    schedule.t_end = 0.1;
+    schedule.adaptive = true;
+    simulate<double>(*system, *system, *method, state, schedule, nothing);
+    return system->snapshot(state.y, 0);
+  };
+  const auto a = at_end(jointed), b = at_end(pinned);
+  EXPECT_LT((a.position - b.position).norm(), 1e-10);
+  EXPECT_LT((a.position - Vector(0.421296658925402044, 0.894571974345592991, -0.149164700561899612)).norm(), 1e-10);
+  EXPECT_LT(angle_between(a.orientation, b.orientation), 1e-10);
+}
+
+TEST(JointTruth, FourBarThroughItsSingularConfiguration) {
+  const End one = run("four_bar", 1e-3, 10);
+  EXPECT_LT((one.point(0, {0, 0.5, 0}) - Vector(0.478385057760970559, 0.878150178791209301, 0)).norm(), 1e-8);
+  const End two = run("two_four_bars", 1e-3, 4);
+  EXPECT_LT((two.point(0, {0, 0.5, 0}) - Vector(0.117616102376808612, 0.993059138451325101, 0)).norm(), 1e-8);
+  EXPECT_LT(two.largest_gap, 1e-13);
+}
+
+TEST(JointTruth, BricardsMechanismWithDependentEquations) {
+  const End end = run("bricard", 1e-3, 1);
+  EXPECT_LT(
+      (end.point(1, {0, -0.5, 0}) - Vector(0.274481319264623041217, -0.886707938734672018281, -0.462330002687376038074))
+          .norm(),
+      1e-8);
+  const ConstraintRank rank = end.system->constraints()->rank(motions_of(*end.system, end.state.y));
+  EXPECT_EQ(rank.rows, 30u);
+  EXPECT_EQ(rank.rank, 29u);
+  EXPECT_FALSE(rank.dependent.empty());
+}
+
+TEST(JointTruth, DoublePendulum) {
+  const End end = run("double_pendulum", 2e-4, 2);
+  // Angles from downward at 2 s.
+  const double upper = -0.082758306820570847, lower = 0.407362074911907234;
+  const Vector elbow(std::sin(upper), -std::cos(upper), 0), tip = elbow + Vector(std::sin(lower), -std::cos(lower), 0);
+  EXPECT_LT((end.point(0, {0.5, 0, 0}) - elbow).norm(), 1e-8);
+  EXPECT_LT((end.point(1, {0.5, 0, 0}) - tip).norm(), 1e-8);
+}
+
+TEST(JointTruth, DiskThatRolls) {
+  for (const AngularState state :
+       {AngularState::velocity_world, AngularState::velocity_body, AngularState::momentum_world}) {
+    const End end = run("rolling_disk", 5e-4, 1, Stabilization::both, state);
+    EXPECT_LT((end.point(0, Vector::Zero()) - Vector(2.777198908942067, 3.235529398577041, 0.6922818752022209)).norm(),
+              1e-8);
+  }
+}
+
+/// Without stabilization the joints drift open, and the ledger books the work that their reactions then do.
+TEST(JointTruth, LedgerClosesWithTheWorkOfTheJoints) {
+  for (const Stabilization s : {Stabilization::none, Stabilization::baumgarte, Stabilization::position,
+                                Stabilization::velocity, Stabilization::both}) {
+    SCOPED_TRACE(name(s));
+    const Problem problem = ScenarioSource::open("double_pendulum").resolve().problem;
+    const auto drift = [&](double dt) {
+      Formulation f;
+      f.joints = {.stabilization = s};
+      if (s == Stabilization::baumgarte) f.joints.alpha = f.joints.beta = 20;
+      End end{make_system<double>(problem, f), {}, {}};
+      end.state = end.system->start();
+      const auto method = find_integrator("rk4")->make(*end.system, {.dt = dt});
+      Watch watch(end);
+      Schedule schedule;
+      schedule.t_end = 2;
+      schedule.dt = dt;
+      simulate<double>(*end.system, *end.system, *method, end.state, schedule, watch);
+      return std::pair(end.largest_drift, std::abs(end.last.joint_work) + std::abs(end.last.projection));
+    };
+    const auto [coarse, unused] = drift(0.01);
+    const auto [fine, put_in] = drift(0.0025);
+    EXPECT_GT(std::log(coarse / fine) / std::log(4.0), 3.5) << "closes to the method's order";
+    EXPECT_GT(put_in, 1e-9) << "and something was booked";
+  }
+}
+
+/// The exact motions of jointed bodies agree with accurate runs.
+TEST(JointTruth, ExactMotionsOfJointedBodies) {
+  for (const char* scenario : {"rod_pendulum", "ball_joint_top"}) {
+    const End end = run(scenario, 1e-4, 1);
+    const ExactMotion exact(*end.system);
+    ASSERT_TRUE(exact.is_complete()) << scenario;
+    const ExactMotion::Error error = exact.error(*end.system, end.state);
+    EXPECT_LT(*error.position, 1e-9) << scenario;
+    EXPECT_LT(*error.attitude, 5e-9) << scenario;
+  }
+  EXPECT_FALSE(
+      ExactMotion(*make_system<double>(ScenarioSource::open("double_pendulum").resolve().problem, {})).has_anything());
+}
+
+}  // namespace
+}  // namespace polhode::study::joints_tests
