@@ -10,6 +10,7 @@ template <class S>
 class Ball final : public TwoEndedJoint<S, Ball<S>> {
  public:
   static constexpr int equations = 3;
+  static constexpr bool has_axes = false;
   static JointKind kind() {
     return {"ball", "two anchors coincide, rotations are free: d = 0", equations, JointEnds<S>::anchors()};
   }

@@ -12,6 +12,7 @@ template <class S>
 class Distance final : public TwoEndedJoint<S, Distance<S>> {
  public:
   static constexpr int equations = 1;
+  static constexpr bool has_axes = false;
   static JointKind kind() {
     std::vector<Parameter> keys = JointEnds<S>::anchors();
     keys.push_back({"length", 0.0, "m", "l; 0: the distance at the start", Parameter::Need::optional,
@@ -41,7 +42,7 @@ class Distance final : public TwoEndedJoint<S, Distance<S>> {
       bodies.push_back(
           {s.position, rotation_matrix<double>(s.orientation), Vector3<double>::Zero(), Vector3<double>::Zero()});
     }
-    return ends.now(bodies).d.norm();
+    return ends.now<false>(bodies).d.norm();
   }
 
   S length_;

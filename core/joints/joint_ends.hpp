@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/math/flatten.hpp"
 #include "core/problem/joint_kind.hpp"
 
 namespace polhode {
@@ -67,7 +68,9 @@ struct JointNow {
 
   /// The anchors coincide: rows 0 to 2.
   void coincide(std::span<ConstraintRow<S>> rows) const {
-    for (int k = 0; k < 3; ++k) rows[std::size_t(k)] = along(Vector3<S>::Unit(k), JointEnd::world);
+    rows[0] = along(Vector3<S>::UnitX(), JointEnd::world);
+    rows[1] = along(Vector3<S>::UnitY(), JointEnd::world);
+    rows[2] = along(Vector3<S>::UnitZ(), JointEnd::world);
   }
   /// The axes n of the two ends are parallel: rows 0 and 1.
   void parallel(std::span<ConstraintRow<S>> rows) const {
@@ -118,13 +121,15 @@ class JointEnds {
   std::optional<std::size_t> second() const { return second_; }
   Vector3<S> anchor(std::span<const BodyMotion<S>> bodies) const { return bodies[first_].point(anchor1_); }
 
+  /// `with_axes`: the frames too.
+  template <bool with_axes>
   JointNow<S> now(std::span<const BodyMotion<S>> bodies) const {
     JointNow<S> j;
     const BodyMotion<S>& one = bodies[first_];
     j.r1 = one.rotation * anchor1_;
     j.w1 = one.angular_velocity;
     const Vector3<S> turned = j.w1.cross(j.r1);
-    j.axes1 = one.rotation * axes1_;
+    if constexpr (with_axes) j.axes1 = one.rotation * axes1_;
     j.d = one.position + j.r1;
     j.rate = one.velocity + turned;
     j.centripetal = j.w1.cross(turned);
@@ -134,7 +139,7 @@ class JointEnds {
       j.w2 = two.angular_velocity;
       const Vector3<S> turned2 = j.w2.cross(j.r2);
       j.turn2 = two.rotation;
-      j.axes2 = j.turn2 * axes2_;
+      if constexpr (with_axes) j.axes2 = j.turn2 * axes2_;
       j.d -= two.position + j.r2;
       j.rate -= two.velocity + turned2;
       j.centripetal -= j.w2.cross(turned2);
@@ -160,13 +165,15 @@ class JointEnds {
 template <class S, class Derived>
 class TwoEndedJoint : public JointModel<S> {
  public:
+  static constexpr bool has_axes = true;  ///< false in a kind that does not read the frames
+
   TwoEndedJoint(const JointParameters& p, std::span<const BodyStart> starts) : ends_(p, starts) {}
 
   std::size_t first() const final { return ends_.first(); }
   std::optional<std::size_t> second() const final { return ends_.second(); }
   std::size_t rows() const final { return Derived::equations; }
-  void evaluate(std::span<const BodyMotion<S>> bodies, std::span<ConstraintRow<S>> rows) const final {
-    static_cast<const Derived*>(this)->fill(ends_.now(bodies), rows);
+  POLHODE_FLATTEN void evaluate(std::span<const BodyMotion<S>> bodies, std::span<ConstraintRow<S>> rows) const final {
+    static_cast<const Derived*>(this)->fill(ends_.template now<Derived::has_axes>(bodies), rows);
   }
   Vector3<S> anchor(std::span<const BodyMotion<S>> bodies) const final { return ends_.anchor(bodies); }
 

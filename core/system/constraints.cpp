@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "core/joints/catalogue.hpp"
@@ -14,6 +15,7 @@
 namespace polhode {
 namespace {
 
+constexpr std::size_t most_small_rows = 6;   // up to it the size of the matrix is known at compile time
 constexpr std::size_t most_dense_rows = 24;  // above it the sparse factorization is faster for a chain
 
 template <class S>
@@ -128,8 +130,6 @@ struct Constraints<S>::Parts {
 
   /// Factorizes G M⁻¹ Gᵀ of the last divide_by_masses(). False: the rows depend on each other to within round-off.
   bool factorize() {
-    using std::sqrt;
-    const S least = sqrt(std::numeric_limits<S>::epsilon()) * S(1e-2);  // relative to a diagonal entry
     if (rows.size() <= most_dense_rows) {
       dense.setZero();
       for (const Term& t : terms) {
@@ -140,7 +140,7 @@ struct Constraints<S>::Parts {
       const Eigen::LLT<Eigen::Ref<MatrixX<S>>> factor(dense);  // in place
       if (factor.info() != Eigen::Success) return false;
       for (Eigen::Index i = 0; i < dense.rows(); ++i) {
-        if (!(dense(i, i) * dense(i, i) > least * diagonal[i])) return false;
+        if (!(dense(i, i) * dense(i, i) > least_pivot() * diagonal[i])) return false;
       }
       return true;
     }
@@ -155,24 +155,67 @@ struct Constraints<S>::Parts {
     const auto pivots = sparse_factor.vectorD();
     const auto& order = sparse_factor.permutationP().indices();
     for (Eigen::Index i = 0; i < pivots.size(); ++i) {
-      if (!(pivots[order[i]] > least * diagonal[i])) return false;
+      if (!(pivots[order[i]] > least_pivot() * diagonal[i])) return false;
+    }
+    return true;
+  }
+
+  /// Calls f with the number of rows as a constant of the compiler, if they are few.
+  template <class F>
+  bool with_size(const F& f) {
+    switch (rows.size()) {
+      case 1: return f(std::integral_constant<int, 1>());
+      case 2: return f(std::integral_constant<int, 2>());
+      case 3: return f(std::integral_constant<int, 3>());
+      case 4: return f(std::integral_constant<int, 4>());
+      case 5: return f(std::integral_constant<int, 5>());
+      default: return f(std::integral_constant<int, 6>());
+    }
+  }
+
+  /// Cholesky's factorization and solution for few rows. False: the rows depend on each other to within round-off.
+  template <int n>
+  bool solve_small() {
+    Eigen::Matrix<S, n, n> matrix = Eigen::Matrix<S, n, n>::Zero();
+    for (const Term& t : terms) {
+      matrix(Eigen::Index(t.row), Eigen::Index(t.column)) +=
+          product(row_on(t.row, t.second_of_row), divided(t.column, t.second_of_column));
+    }
+    const Eigen::LLT<Eigen::Matrix<S, n, n>> factor(matrix);
+    if (factor.info() != Eigen::Success) return false;
+    for (int i = 0; i < n; ++i) {
+      const S pivot = factor.matrixLLT()(i, i);
+      if (!(pivot * pivot > least_pivot() * matrix(i, i))) return false;
+    }
+    Eigen::Map<Eigen::Matrix<S, n, 1>> solution(lambda.data());
+    solution = factor.solve(Eigen::Map<const Eigen::Matrix<S, n, 1>>(right.data()));
+    return true;
+  }
+
+  /// Least square of a pivot relative to its diagonal entry.
+  static S least_pivot() {
+    using std::sqrt;
+    static const S least = sqrt(std::numeric_limits<S>::epsilon()) * S(1e-2);
+    return least;
+  }
+
+  /// λ from G M⁻¹ Gᵀ λ = right by Cholesky. False: the rows depend on each other to within round-off.
+  bool solve_independent() {
+    if (rows.size() <= most_small_rows) return with_size([&](auto n) { return solve_small<n()>(); });
+    if (!factorize()) return false;
+    if (rows.size() <= most_dense_rows) {
+      lambda = right;
+      dense.template triangularView<Eigen::Lower>().solveInPlace(lambda);
+      dense.transpose().template triangularView<Eigen::Upper>().solveInPlace(lambda);
+    } else {
+      lambda = sparse_factor.solve(right);
     }
     return true;
   }
 
   /// λ from G M⁻¹ Gᵀ λ = right.
   void solve() {
-    if (!dependent && factorize()) {
-      if (rows.size() <= most_dense_rows) {
-        lambda = right;
-        dense.template triangularView<Eigen::Lower>().solveInPlace(lambda);
-        dense.transpose().template triangularView<Eigen::Upper>().solveInPlace(lambda);
-      } else {
-        lambda = sparse_factor.solve(right);
-      }
-      return;
-    }
-    solve_by_rank();
+    if (dependent || !solve_independent()) solve_by_rank();
   }
 
   /// G M^(−1/2) with rows of unit length in that metric, and the inverse lengths.
@@ -279,8 +322,14 @@ Constraints<S>::Constraints(const Problem& problem, const Formulation& formulati
     const Matrix3<S> r = rotation_matrix<double>(s.orientation).template cast<S>();
     motions.push_back({s.position.cast<S>(), r, Vector3<S>::Zero(), Vector3<S>::Zero()});
   }
+  Parts& p = *parts_;
+  p.seen = motions;
+  p.evaluate(motions);
+  p.divide_by_masses(motions);
+  p.right.setZero();
+  if (p.solve_independent()) return;  // the rank of many equations costs more than a run
   const ConstraintRank at_start = rank(motions);
-  parts_->dependent = at_start.rank < at_start.rows;
+  p.dependent = at_start.rank < at_start.rows;
 }
 
 template <class S>
@@ -289,6 +338,10 @@ Constraints<S>::~Constraints() = default;
 template <class S>
 std::size_t Constraints<S>::count() const {
   return parts_->joints.size();
+}
+template <class S>
+bool Constraints<S>::dependent() const {
+  return parts_->dependent;
 }
 template <class S>
 std::size_t Constraints<S>::rows() const {

@@ -43,6 +43,7 @@ class Constraints {
 
   std::size_t count() const;  ///< number of joints
   std::size_t rows() const;   ///< number of equations
+  bool dependent() const;     ///< equations depend on each other at the start
   const JointModel<S>& joint(std::size_t i) const;
   const std::string& name(std::size_t i) const;
 

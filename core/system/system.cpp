@@ -48,7 +48,6 @@ System<S>::System(std::vector<Problem> problems, const Formulation& formulation)
   }
 }
 
-
 template class System<float>;
 template class System<double>;
 template class System<long double>;

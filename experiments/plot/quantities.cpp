@@ -56,7 +56,7 @@ double kinetic_of_translation(const System<double>& system, const State<double>&
 Measure parts_of_energy(const System<double>& system, std::size_t) {
   return [&system](const Instant& at) -> std::vector<double> {
     const double translation = kinetic_of_translation(system, at.state);
-    const double gone = at.contact.total() - at.sample.work - at.sample.projection;
+    const double gone = at.contact.total() - at.sample.work - at.sample.joint_work - at.sample.projection;
     return {at.sample.seen.kinetic - translation, translation, at.sample.seen.potential, gone};
   };
 }

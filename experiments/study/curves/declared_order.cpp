@@ -17,8 +17,8 @@ bool torque_acts(const Scenario& scenario) {
 }  // namespace
 
 std::optional<double> declared_order(const Declaration& method, const Scenario& scenario, bool attitude) {
-  const bool free = scenario.problem.joints.empty() &&
-                    (scenario.problem.forces.empty() || (attitude && !torque_acts(scenario)));
+  const bool free =
+      scenario.problem.joints.empty() && (scenario.problem.forces.empty() || (attitude && !torque_acts(scenario)));
   const int order = free && method.free_order > 0 ? method.free_order : method.order;
   return order == Declaration::exact_order ? std::nullopt : std::optional<double>(order);
 }

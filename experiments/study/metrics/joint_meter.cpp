@@ -12,6 +12,7 @@ namespace polhode::study::inline metrics {
 namespace {
 
 constexpr std::int64_t instants = 1000, between_ranks = 10;
+constexpr std::size_t most_ranked_rows = 200;  // a rank costs the cube of their number
 
 }  // namespace
 
@@ -43,7 +44,8 @@ void JointMeter::on_state(const State<double>& state, const Sample&) {
     raise(found_.angle_max, v.angle);
     raise(found_.rate_max, v.rate);
   }
-  if (instant_ == 0 || reached / between_ranks > (instant_ - 1) / between_ranks) {
+  const bool due = instant_ == 0 || reached / between_ranks > (instant_ - 1) / between_ranks;
+  if (due && constraints.rows() <= most_ranked_rows) {
     const ConstraintRank now = constraints.rank(motions);
     const auto rank = static_cast<double>(now.rank);
     found_.rank = std::min(found_.rank.value_or(rank), rank);

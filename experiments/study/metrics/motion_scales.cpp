@@ -167,7 +167,7 @@ MotionScales along_exact(const Scenario& scenario, const System<double>& system,
 }
 
 MotionScales along_steps(const Scenario& scenario, const RunConfig& config, const std::atomic<bool>* stop) {
-  const auto system = make_system<double>(scenario.problem, config.formulation);
+  const auto system = make_system<double>(scenario.problem, formulation_of(config));
   std::optional<ContactSetup> contact;
   std::vector<double> radii;
   if (config.contact) {
@@ -192,6 +192,7 @@ MotionScales along_rk4(const Scenario& scenario, double t_end, const std::atomic
   config.integrator = "rk4";
   config.formulation.angular_state = AngularState::velocity_body;
   config.t_end = t_end;
+  if (!scenario.problem.joints.empty()) config.joints.emplace().stabilization = Stabilization::both;
   MotionScales coarse;
   bool known = false;
   for (std::int64_t steps = fewest; steps <= most && !(stop && *stop); steps *= 2) {

@@ -162,7 +162,7 @@ void read_joints(const TomlCursor& root, const BodyIndex& index, Scenario& scena
                                   : "move its bodies, or set assemble = true, which moves them to the nearest start "
                                     "that closes all joints"));
   }
-  note_rank(system->constraints()->rank(motions), scenario);
+  if (system->constraints()->dependent()) note_rank(system->constraints()->rank(motions), scenario);
 }
 
 }  // namespace polhode::study::scenario

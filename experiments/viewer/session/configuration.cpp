@@ -67,6 +67,7 @@ Configuration usual_configuration(const study::Scenario& scenario) {
   usual.run.scenario = scenario.name;
   choose_integrator(usual, "rk4");
   if (!scenario.colliders.empty()) usual.run.contact.emplace();
+  if (!scenario.problem.joints.empty()) usual.run.joints.emplace();
   for (const study::RunOption& option : study::run_options()) {
     if (option.preset && option.applies_to(usual.run)) option.set(usual.run, option.preset(scenario));
   }

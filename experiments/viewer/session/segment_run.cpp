@@ -10,7 +10,8 @@
 namespace polhode::viewer::inline session {
 
 SegmentRun::SegmentRun(const study::Scenario& scenario, const Configuration& configuration)
-    : configuration_(configuration), system_(make_system<double>(scenario.problem, configuration.run.formulation)) {
+    : configuration_(configuration),
+      system_(make_system<double>(scenario.problem, study::formulation_of(configuration.run))) {
   if (configuration.run.contact) contact_.emplace(*system_, scenario, *configuration.run.contact);
   integrator_ = study::integrator_of<double>(configuration.run, *system_);
 }
@@ -20,7 +21,9 @@ RunOutcome SegmentRun::go(State<double>& state, Observer& observer, const std::a
   Schedule schedule = study::schedule_of(configuration_.run);
   if (configuration_.drive == Drive::frame_clock) schedule.next_step = std::move(next_step);
   if (!(state.t < schedule.t_end)) {
-    const Sample sample{state.t, system_->measure(state.y), state.y[system_->layout().work()], 0};
+    const Layout& layout = system_->layout();
+    const double joint_work = system_->has_joints() ? state.y[layout.joint_work()] : 0.0;
+    const Sample sample{state.t, system_->measure(state.y), state.y[layout.work()], 0, joint_work};
     observer.on_start(state, sample);
     RunOutcome outcome;
     outcome.t = state.t;

@@ -48,7 +48,7 @@ State<double> converted(const System<double>& from, const State<double>& state, 
     out.y.segment<3>(b.position) = state.y.segment<3>(a.position);
     out.y.segment<3>(b.velocity) = state.y.segment<3>(a.velocity);
   }
-  out.y[to.layout().work()] = state.y[from.layout().work()];
+  out.y.tail(to.layout().work_size) = state.y.tail(from.layout().work_size);
   return out;
 }
 
