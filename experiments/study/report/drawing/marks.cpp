@@ -96,6 +96,8 @@ void Marks::pivot(const PagePoint& at) {
   svg_.circle(at, 2.4, "class=\"anchor\"");
 }
 
+void Marks::joint(const PagePoint& at) { svg_.circle(at, 4, "class=\"joint\""); }
+
 void Marks::keep_free(const PagePoint& from, const PagePoint& to) {
   constexpr double apart = 6, half = 3;
   const int n = int((to - from).norm() / apart) + 1;

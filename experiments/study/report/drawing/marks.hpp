@@ -28,6 +28,7 @@ class Marks {
   void damper(const PagePoint& from, const PagePoint& to);
   void anchor(const PagePoint& at, bool in_the_world);
   void pivot(const PagePoint& at);
+  void joint(const PagePoint& at);
 
   /// A text beside a point, away from it along a direction; finish() finds its place.
   void label(const PagePoint& at, const PagePoint& away, std::string_view text, std::string_view style);

@@ -40,7 +40,8 @@ constexpr const char* style = R"css(
 .scene .head{stroke-dasharray:none;stroke-width:.5}.scene .round{stroke-dasharray:none;fill:#fff;stroke-width:1.8}
 .scene .spin.head{fill:#a86f00}.scene .velocity.head{fill:#b04a00}.scene .force.head{fill:#007353}
 .scene .gravity.head{fill:#59616b}.scene text.spin,.scene text.velocity,.scene text.force,.scene text.gravity{font-weight:600}
-.scene .spring{stroke:#3c444e;stroke-width:1.3}.scene .anchor{fill:#262c34}.scene .pivot{fill:#fff}
+.scene .spring{stroke:#3c444e;stroke-width:1.3}.scene .anchor{fill:#262c34}.scene .pivot,.scene .joint{fill:#fff}
+.scene .rod{stroke:#3c444e;stroke-width:2}
 .scene .small{stroke:#59616b;stroke-dasharray:3 3}
 .scene .axis.label,.scene .bar.label{stroke:#fff;stroke-width:3px;stroke-dasharray:none;font-size:13px}
 .scene .spin.label,.scene .velocity.label,.scene .force.label,.scene .gravity.label{stroke:#fff;stroke-width:3px;stroke-dasharray:none}
@@ -120,6 +121,9 @@ class Drawer {
     for (const SceneSpring& spring : scene_.springs) {
       for (const auto& end : ends_of(spring)) bodies_.extend(end);
     }
+    for (const JointParameters& joint : problem_.joints) {
+      for (const auto& end : ends_of(joint)) bodies_.extend(end);
+    }
     for (std::size_t i = 0; i < problem_.bodies.size(); ++i) {
       if (problem_.bodies[i].pinned) bodies_.extend(problem_.starts[i].position);
     }
@@ -135,6 +139,14 @@ class Drawer {
   std::array<Vector3<double>, 2> ends_of(const SceneSpring& spring) const {
     return {world_point(spring.body, spring.anchor),
             spring.other ? world_point(*spring.other, spring.anchor_other) : spring.anchor_other};
+  }
+
+  /// The anchors of a joint, world axes, m.
+  std::array<Vector3<double>, 2> ends_of(const JointParameters& joint) const {
+    const std::vector<std::size_t>& bodies = joint.of.bodies;
+    return {world_point(bodies[0], joint.of.vector("anchor_body")),
+            bodies.size() == 2 ? world_point(bodies[1], joint.of.vector("anchor_body_2"))
+                               : joint.of.vector("anchor_world")};
   }
 
   /// How far the surface of a body reaches from its mass centre along a direction, m.
@@ -282,6 +294,7 @@ class Drawer {
     Marks marks(svg_, width, height_ + strip);
     paint_connections(marks);
     paint_bodies(marks);
+    paint_joints(marks);
     for (const Arrow& arrow : arrows_)
       marks.arrow(view_.on_page(arrow.from), view_.scale() * view_.direction(arrow.scale * arrow.vector),
                   arrow.vector.dot(view_.toward()) > 0, arrow.style, named() ? arrow.label : "", arrow.heads);
@@ -326,6 +339,26 @@ class Drawer {
       else marks.damper(from, to);
       marks.anchor(from, false);
       marks.anchor(to, !spring.other);
+    }
+  }
+
+  void paint_joints(Marks& marks) {
+    for (const JointParameters& joint : problem_.joints) {
+      const auto ends = ends_of(joint);
+      const PagePoint from = view_.on_page(ends[0]), to = view_.on_page(ends[1]);
+      const bool to_world = joint.of.bodies.size() == 1 || problem_.bodies[joint.of.bodies[1]].fixed;
+      if (joint.of.kind == "rolling" || joint.of.kind == "planar") continue;  // they hold a body on a plane
+      if (joint.of.kind == "distance") {
+        svg_.line(from, to, "class=\"rod\"");
+        marks.anchor(from, false);
+      }
+      if (to_world) {
+        const PagePoint centre = view_.on_page(pose(joint.of.bodies[0]).position);
+        if (joint.of.kind != "distance") svg_.line(to, centre, "class=\"axis hidden\"");
+        marks.pivot(to);
+      } else {
+        marks.joint(to);
+      }
     }
   }
 
