@@ -3,9 +3,14 @@
 // The numbers are those of the sources that the scenario files name.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/exact/exact_motion.hpp"
 #include "core/run/simulate.hpp"
@@ -177,6 +182,130 @@ TEST(JointTruth, DiskThatRolls) {
     EXPECT_LT((end.point(0, Vector::Zero()) - Vector(2.777198908942067, 3.235529398577041, 0.6922818752022209)).norm(),
               1e-8);
   }
+}
+
+TEST(JointTruth, SqueezerAnglesRatesAndMultipliers) {
+  const End end = run("squeezer", 1e-5, 0.03);
+  const double beta = 15.8107711951537070971, theta = -15.7563710584118394697, gamma = 0.0408222401196458048583,
+               phi = -0.534730116342079593770, delta = 0.524409965879954069372, epsilon = 1.04808074104193787307;
+  const double angles[] = {beta, beta + theta, gamma, phi + delta, delta, -phi + epsilon, epsilon};
+  const double rates[] = {1139.92030225910606420,  1139.92030225910606420 - 1424.37929517754007320,
+                          11.0329119106185937453,  19.2933741050320408316 + 0.573569914829502453818,
+                          0.573569914829502453818, -19.2933741050320408316 + 0.323179149249130874991,
+                          0.323179149249130874991};
+  for (std::size_t i = 0; i < 7; ++i) {
+    SCOPED_TRACE(i + 1);
+    const BodyMotion<double> m = end.system->motion_of(end.state.y, i);
+    const double angle = std::atan2(m.rotation(1, 0), m.rotation(0, 0));
+    EXPECT_NEAR(std::remainder(angle - angles[i], 2 * std::numbers::pi), 0, 1e-8);
+    EXPECT_NEAR(m.angular_velocity[2], rates[i], 1e-6);
+  }
+  // The multipliers of the source are the forces at the point where three bodies meet.
+  const std::pair<const char*, Vector> multipliers[] = {
+      {"k3 at P", {199.175348104538628186, -29.7553099749717633244, 0}},
+      {"k4 at P", {23.0665436116221511286, 31.4527252757711370754, 0}},
+      {"k6 at P", {22.6424947863943785777, 11.6173923526112559068, 0}}};
+  for (const auto& [name, force] : multipliers) {
+    SCOPED_TRACE(name);
+    std::size_t joint = 0;
+    while (end.system->constraints()->name(joint) != name) ++joint;
+    EXPECT_LT((reaction(end, joint) - force).norm(), 1e-6);
+  }
+  EXPECT_LT(end.largest_gap, 1e-13);
+}
+
+TEST(JointTruth, GovernorOnStiffSprings) {
+  const End end = run("governor", 2e-5, 1);
+  EXPECT_NEAR(end.point(1, Vector::Zero())[2], 0.5014209223795676507, 1e-8);
+  const double start = end.system->measure(end.system->start().y).angular_momentum[2];
+  EXPECT_NEAR(end.system->measure(end.state.y).angular_momentum[2], start, 1e-9 * start)
+      << "the bearing exerts no torque about its axis";
+}
+
+/// Rods of 1 kg and 1 m that hang from each other by ball joints, with a ball at the end of the last one; turned from
+/// the vertical by angles (rad) about y.
+Problem hanging_chain(const std::vector<double>& angles, double ball) {
+  Problem problem;
+  ForceParameters gravity{"uniform_gravity", {}, {{"acceleration", Vector(0, 0, -9.81)}}};
+  Vector joint = Vector::Zero();
+  const std::size_t n = angles.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const double m = i + 1 == n ? ball : 0, center = (0.5 + m) / (1 + m);  // of the mass, from the upper end
+    const double across = 1.0 / 12 + (center - 0.5) * (center - 0.5) + m * (1 - center) * (1 - center);
+    Body rod;
+    rod.name = "rod" + std::to_string(i);
+    rod.mass = 1 + m;
+    rod.inertia = Vector(across, across, 1e-3).asDiagonal();
+    BodyStart start;
+    start.orientation = {std::cos(angles[i] / 2), 0, std::sin(angles[i] / 2), 0};
+    const Vector down(-std::sin(angles[i]), 0, -std::cos(angles[i]));
+    start.position = joint + center * down;
+    joint += down;
+    const double above = i == 0 ? 0 : 0.5 - 1;  // all but the last one have their mass centre in the middle
+    ForceParameters ends{"ball",
+                         {i},
+                         {{"anchor_body", Vector(0, 0, center)},
+                          {"anchor_world", Vector(0, 0, 0)},
+                          {"anchor_body_2", Vector(0, 0, above)}}};
+    if (i > 0) ends.bodies.push_back(i - 1);
+    problem.joints.push_back({"joint" + std::to_string(i), ends});
+    problem.bodies.push_back(rod);
+    problem.starts.push_back(start);
+    gravity.bodies.push_back(i);
+  }
+  problem.forces.push_back(gravity);
+  return problem;
+}
+
+TEST(JointTruth, JointsOfAChainCarryWhatHangsBelow) {
+  for (const double ball : {0.0, 1.0, 100.0, 1e4}) {
+    const Problem problem = hanging_chain(std::vector<double>(10, 0.0), ball);
+    End end{make_system<double>(problem, {}), {}, {}};
+    end.state = end.system->start();
+    for (std::size_t k = 0; k < 10; ++k) {
+      const double carried = (ball + 10 - static_cast<double>(k)) * 9.81;
+      EXPECT_LT((reaction(end, k) - Vector(0, 0, carried)).norm(), 1e-9 + 1e-11 * carried) << ball << " " << k;
+    }
+  }
+}
+
+/// The frequencies of small swings, from the angular accelerations at rest in turned positions.
+TEST(JointTruth, FrequenciesOfAChain) {
+  const auto frequencies = [](std::size_t n, double ball) {
+    constexpr double turn = 1e-4;
+    Eigen::MatrixXd stiffness(n, n);
+    const auto accelerations = [&](std::size_t j, double angle) {
+      std::vector<double> angles(n, 0.0);
+      angles[j] = angle;
+      const auto system = make_system<double>(hanging_chain(angles, ball), {});
+      const VectorX<double> y = system->start().y;
+      VectorX<double> dy(y.size());
+      system->rate(0, y.data(), dy.data());
+      Eigen::VectorXd all(n);
+      for (std::size_t i = 0; i < n; ++i) all[Eigen::Index(i)] = dy[system->layout().slots[i].angular + 1];
+      return all;
+    };
+    // Central differences, extrapolated once: an error of the order turn⁴.
+    for (std::size_t j = 0; j < n; ++j) {
+      const Eigen::VectorXd coarse = (accelerations(j, 2 * turn) - accelerations(j, -2 * turn)) / (4 * turn);
+      const Eigen::VectorXd fine = (accelerations(j, turn) - accelerations(j, -turn)) / (2 * turn);
+      stiffness.col(Eigen::Index(j)) = -(4 * fine - coarse) / 3;
+    }
+    const Eigen::VectorXd squares = stiffness.eigenvalues().real();
+    std::vector<double> found;
+    for (const double square : squares) found.push_back(std::sqrt(square));
+    std::sort(found.begin(), found.end());
+    return found;
+  };
+  const std::vector<double> two = frequencies(2, 0), free = frequencies(10, 0), loaded = frequencies(10, 100);
+  EXPECT_NEAR(two[0], std::sqrt((3 - 6 / std::sqrt(7.0)) * 9.81), 1e-6);
+  EXPECT_NEAR(two[1], std::sqrt((3 + 6 / std::sqrt(7.0)) * 9.81), 1e-6);
+  EXPECT_NEAR(free[0], 1.1912959338622340, 1e-6);
+  EXPECT_NEAR(free[1], 2.7601376236998327, 1e-6);
+  EXPECT_NEAR(free[9], 26.637701525004112, 1e-6);
+  EXPECT_NEAR(loaded[0], 0.99831361610755684, 1e-6);
+  EXPECT_NEAR(loaded[1], 10.220296787948910, 1e-6);
+  EXPECT_NEAR(loaded[9], 107.28836927818960, 1e-5);
 }
 
 /// Without stabilization the joints drift open, and the ledger books the work that their reactions then do.
