@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scenarios with joints as a user meets them: reactions written, energy accounted for, options refused with the reason."""
+import math
+import unittest
+
+import h5py
+
+from programs import call, read, temporary_folder
+
+LOOSE = """t_end = 1.0
+gravity = [0, 0, -9.81]
+assemble = true
+[[body]]
+name = "rod"
+mass = 1
+inertia = [0.1, 0.1, 0.01]
+position = [0.1, 0, -0.5]
+[[joint]]
+name = "pivot"
+kind = "ball"
+bodies = ["rod"]
+anchor_body = [0, 0, 0.5]
+"""
+
+
+class Joints(unittest.TestCase):
+    def setUp(self):
+        self.folder = temporary_folder(self.addCleanup)
+
+    def run_program(self, program, *arguments, status=0):
+        return call(program, *arguments, "--no-figures", folder=self.folder, status=status)
+
+    def test_reactions_are_those_of_the_pendulum(self):
+        out = self.folder / "out"
+        self.run_program("simulate", "--scenario", "rod_pendulum", "--integrator", "rk4", "--dt", "1e-3", "--stabilization", "both",
+                         "--out", out)
+        motion, reactions = read(out / "trajectory.csv"), read(out / "reactions.csv")
+        self.assertEqual(list(reactions[0]), ["t_s", "joint", "body", "fx_N", "fy_N", "fz_N", "tx_N_m", "ty_N_m", "tz_N_m"])
+        self.assertEqual(len(reactions), len(motion))
+        for place, row in zip(motion[::500], reactions[::500]):
+            force = math.hypot(*(float(row[f"f{k}_N"]) for k in "xyz"))
+            self.assertAlmostEqual(force, abs(3 * 9.81 * float(place["py_m"])), delta=1e-7)  # 3 m g |y|/L from the horizontal
+            self.assertEqual([float(row[f"t{k}_N_m"]) for k in "xyz"], [0, 0, 0])
+
+    def test_both_formats_have_the_same_reactions(self):
+        for form in ("csv", "hdf5"):
+            self.run_program("simulate", "--scenario", "double_pendulum", "--integrator", "rk4", "--dt", "1e-2", "--trajectory", form,
+                             "--out", self.folder / form)
+        rows = [[float(x) for x in row.values()] for row in read(self.folder / "csv/reactions.csv")]
+        with h5py.File(self.folder / "hdf5/trajectory.h5") as file:
+            self.assertEqual([list(row) for row in file["reactions"]], rows)
+        self.assertEqual([row[1] for row in rows[:4]], [0, 1, 0, 1])
+        self.assertNotIn("reactions.csv", [f.name for f in self.free_run().iterdir()])
+
+    def free_run(self):
+        out = self.folder / "free"
+        self.run_program("simulate", "--scenario", "dzhanibekov", "--integrator", "rk4", "--dt", "1", "--out", out)
+        return out
+
+    def test_the_ledger_has_what_stabilization_puts_in(self):
+        for how in ("none", "baumgarte", "both"):
+            out = self.folder / how
+            self.run_program("simulate", "--scenario", "double_pendulum", "--integrator", "rk4", "--dt", "2e-3", "--stabilization", how,
+                             "--out", out)
+            last = read(out / "energy.csv")[-1]
+            work, projection = float(last["stabilization_J"]), float(last["projection_J"])
+            energy = float(last["kinetic_J"]) + float(last["potential_J"])  # 0 J at the start
+            self.assertNotEqual(work, 0)
+            self.assertEqual(projection != 0, how == "both")
+            self.assertAlmostEqual(energy - work - projection, float(last["drift_J"]), delta=1e-15)
+            self.assertLess(abs(float(last["drift_J"])), 1e-6)
+            row = read(out / "runs.csv")[0]
+            self.assertEqual((float(row["joint_work_J"]), float(row["projection_J"])), (work, projection))
+            self.assertEqual(float(row["joint_gap_max_m"]) < 1e-13, how == "both")
+
+    def test_assembly_and_dependent_equations_are_told(self):
+        scenario = self.folder / "loose.toml"
+        scenario.write_text(LOOSE, encoding="utf-8")
+        for name, says in ((scenario, "Assemble moved the body &#39;rod&#39; by"), ("bricard", "rank 29 of 30")):
+            out = self.folder / "told"
+            self.run_program("simulate", "--scenario", name, "--integrator", "rk4", "--dt", "1e-2", "--t-end", "0.1", "--force", "--out",
+                             out)
+            page = (out / "report.html").read_text(encoding="utf-8")
+            self.assertIn(says.replace("&#39;", "'"), page.replace("&#39;", "'"))
+
+    def test_options_that_make_no_sense_are_refused(self):
+        for arguments, says in (
+                (["--scenario", "dzhanibekov", "--stabilization", "both"], "no scenario here has joints"),
+                (["--scenario", "rod_pendulum", "--baumgarte-alpha", "5"], "no run here is stabilized by Baumgarte's method"),
+                (["--scenario", "rod_pendulum", "--stabilization", "sometimes"], "none, baumgarte, position, velocity, both")):
+            done = self.run_program("energy_drift", *arguments, "--integrator", "rk4", "--dt", "1e-2", "--out", self.folder / "x", status=2)
+            self.assertIn(says, done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        done = self.run_program("energy_drift", "--scenario", "rod_pendulum", "--stabilization", "baumgarte", "--baumgarte-per-step", "0.1",
+                                "--integrator", "odeint_dopri5", "--tolerance", "1e-6", "--out", self.folder / "x", status=2)
+        self.assertIn("chooses its own steps; leave --baumgarte-per-step out", done.stderr)
+        done = self.run_program("energy_drift", "--scenario", "rod_pendulum", "--stabilization", "baumgarte", "--baumgarte-per-step", "0.1",
+                                "--baumgarte-beta", "3", "--integrator", "rk4", "--dt", "1e-2", "--out", self.folder / "x", status=2)
+        self.assertIn("given twice", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
