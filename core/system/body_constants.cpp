@@ -58,6 +58,9 @@ BodyConstants<Lanes> constants_of<Lanes>(const std::vector<Problem>& problems, s
   return all;
 }
 
+template BodyConstants<float>::BodyConstants(const Body&);
+template BodyConstants<double>::BodyConstants(const Body&);
+template BodyConstants<long double>::BodyConstants(const Body&);
 template BodyConstants<float> constants_of<float>(const std::vector<Problem>&, std::size_t);
 template BodyConstants<double> constants_of<double>(const std::vector<Problem>&, std::size_t);
 template BodyConstants<long double> constants_of<long double>(const std::vector<Problem>&, std::size_t);
