@@ -40,10 +40,21 @@
   METHOD(recipe_ode) \
   METHOD(recipe_bullet) \
   METHOD(recipe_simbody) \
+  METHOD(shake) \
+  METHOD(rattle) \
+  METHOD(shake_lie) \
+  METHOD(rattle_lie) \
+  METHOD(generalized_alpha_index3) \
+  METHOD(generalized_alpha_index2) \
   METHOD(cvode_adams) \
   METHOD(cvode_bdf) \
   METHOD(arkode_erk) \
   METHOD(arkode_dirk) \
+  METHOD(ida_index1) \
+  METHOD(ida_index2) \
+  METHOD(ida_index3) \
+  METHOD(ida_ggl) \
+  METHOD(ida_ah) \
   METHOD(odeint_rk4) \
   METHOD(odeint_adams_bashforth_moulton) \
   METHOD(odeint_cash_karp54) \

@@ -145,8 +145,7 @@ class FixedStep final : public Integrator<typename System::Scalar> {
     } else {
       batch.samples[k - 1] = {batch.time(k), m, y[y.size() - 1], injected};
       if constexpr (!System::is_one) {
-        const Layout& layout = system_.layout();
-        if (layout.work_size > 1) batch.samples[k - 1].joint_work = y[layout.joint_work()];
+        if (system_.has_joints()) batch.samples[k - 1].joint_work = y[system_.layout().joint_work()];
       }
     }
   }

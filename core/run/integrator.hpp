@@ -21,6 +21,15 @@ struct StepResult {
   bool ok() const { return failure.empty(); }
 };
 
+/// Which equations of the joints a method satisfies with multipliers of its own.
+enum class JointEquations {
+  of_formulation,  ///< none: it integrates the index-1 form, and drifts as the formulation's stabilization lets it
+  acceleration,    ///< G v̇ = γ
+  velocity,        ///< G v = 0
+  position,        ///< g(q) = 0
+  position_and_velocity
+};
+
 /// Declared properties of a method. The conformance tests verify each of them by measurement.
 struct Declaration {
   std::string name;     ///< name in the catalogue
@@ -49,7 +58,10 @@ struct Declaration {
   bool conserves_energy = false;
   bool conserves_momentum = false;  ///< conserves the angular momentum in world axes
   bool conserves_casimir = false;   ///< conserves |IΩ|, the length of the angular momentum in body axes
+  JointEquations joints = JointEquations::of_formulation;  ///< equations of the joints that it solves itself
   std::vector<Setting> settings{};  ///< settings of its own; the method reads them from IntegratorSettings
+
+  bool solves_joints() const { return joints != JointEquations::of_formulation; }
 
   static constexpr int exact_order = 1000;  ///< value of free_order of a method that is exact for free bodies
 };
@@ -183,6 +195,10 @@ class Integrator {
   /// Discards the history of a multi-step method after the state was changed from outside, by a projection or an
   /// impact.
   virtual void discard_history(const State<S>&) {}
+
+  /// Multipliers of the joints as the method has solved for them, at the time of the last step or interpolation, in the
+  /// order of the rows, N or N m. Empty: they follow from the state by the index-1 form.
+  virtual std::span<const S> multipliers() const { return {}; }
 
   /// Abilities of the method in this run; null: the method does not have this one.
   virtual const DenseOutput<S>* dense_output() const { return nullptr; }

@@ -29,6 +29,9 @@ class Observer {
   /// one call before it.
   virtual double next_state() const { return std::numeric_limits<double>::infinity(); }
 
+  /// Receives the multipliers of the joints for the next full state, from a method that solves for them itself.
+  virtual void on_multipliers(std::span<const double>) {}
+
   /// Receive the impacts of a step, the ends of its sliding phases, and the energy balance of the contacts up to the
   /// next sample. Called before that sample, only in runs with a contact model.
   virtual void on_impacts(std::span<const Impact>) {}
@@ -60,6 +63,9 @@ class Observers final : public Observer {
     double next = std::numeric_limits<double>::infinity();
     for (const Observer* one : all_) next = std::min(next, one->next_state());
     return next;
+  }
+  void on_multipliers(std::span<const double> multipliers) override {
+    for (Observer* one : all_) one->on_multipliers(multipliers);
   }
   void on_impacts(std::span<const Impact> impacts) override {
     for (Observer* one : all_) one->on_impacts(impacts);

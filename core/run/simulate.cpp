@@ -9,6 +9,7 @@
 #include <new>
 #include <stdexcept>
 #include <type_traits>
+#include <vector>
 
 #include "core/run/run_samples.hpp"
 #include "core/system/joint_projection.hpp"
@@ -71,8 +72,7 @@ class Loop {
         contact_(contact),
         t0_(state.t),
         observed_(state.t),
-        projects_joints_(system.has_joints() && (system.formulation().joints.projects_position() ||
-                                                 system.formulation().joints.projects_velocity())),
+        projects_joints_(system.has_joints() && system.formulation().joints.projects()),
         account_(projects_joints_ || (schedule.normalize && system.projection_changes_energy())) {}
 
   RunOutcome run() {
@@ -83,6 +83,7 @@ class Loop {
     }
     integrator_.begin(state_);
     const Sample start = measure(state_);
+    tell_multipliers();
     observer_.on_start(view_.of(state_), start);
     if (take_samples({&start, 1}) && !interrupted()) {
       if (schedule_.adaptive) adaptive();
@@ -100,12 +101,11 @@ class Loop {
  private:
   Sample measure(const State<S>& state) {
     const State<double>& seen = view_.of(state);
-    const Layout& layout = system_.layout();
     return {.t = seen.t,
             .seen = truth_.measure(seen.y),
-            .work = seen.y[layout.work()],
+            .work = seen.y[system_.layout().work()],
             .projection = projection_energy_,
-            .joint_work = layout.work_size > 1 ? seen.y[layout.joint_work()] : 0.0};
+            .joint_work = system_.has_joints() ? seen.y[system_.layout().joint_work()] : 0.0};
   }
 
   /// Passes samples to the observer. False ends the run as diverged.
@@ -201,6 +201,13 @@ class Loop {
 
   double energy() { return truth_.measure(view_.of(state_).y).energy(); }
 
+  void tell_multipliers() {
+    const auto multipliers = integrator_.multipliers();
+    if (multipliers.empty()) return;
+    multipliers_.assign(multipliers.begin(), multipliers.end());
+    observer_.on_multipliers(multipliers_);
+  }
+
   bool observe_now() { return observe(state_); }
   bool observe(const State<S>& state) {
     const Sample sample = measure(state);
@@ -208,6 +215,7 @@ class Loop {
     if (contact_) observer_.on_contact_energy(contact_->losses());
     if (!take_samples({&sample, 1})) return false;
     if (sample.t < observer_.next_state()) return true;
+    tell_multipliers();
     observer_.on_state(view_.of(state), sample);
     return !interrupted();
   }
@@ -318,6 +326,7 @@ class Loop {
   const bool projects_joints_;  ///< project onto the equations of the joints after each step
   const bool account_;          ///< projections can change the energy, which is measured before and after them
   View<S> view_;
+  std::vector<double> multipliers_;
   double projection_energy_ = 0;
   std::int64_t surplus_steps_ = 0;
   int steps_without_progress_ = 0;

@@ -8,9 +8,7 @@
 // Baumgarte's. Sources: Hairer & Wanner, Solving Ordinary Differential Equations II, section VII.1; Baumgarte, Comput.
 // Methods Appl. Mech. Eng. 1 (1972).
 //
-// The matrix is factorized by Cholesky: dense for few rows, sparse for many, so that a chain of n bodies costs O(n). If
-// rows depend on each other, a rank-revealing factorization of G M^(−1/2) takes its place: accelerations are then those
-// of the independent rows, and λ has the least norm.
+// A method that solves for the multipliers itself prescribes them instead (PrescribedMultipliers).
 #pragma once
 
 #include <memory>
@@ -20,7 +18,6 @@
 
 #include "core/problem/joint.hpp"
 #include "core/problem/problem.hpp"
-#include "core/system/body_constants.hpp"
 #include "core/system/formulation.hpp"
 
 namespace polhode {
@@ -32,6 +29,9 @@ struct ConstraintRank {
   std::vector<std::string> dependent{};  ///< names of the joints with a row that depends on others
 };
 
+/// Functions of one state evaluate the joints first and refer to the last evaluation. Not reentrant: a system serves
+/// one run on one thread. Twists and displacements (v, ω) of the moving bodies are kept as wrenches: the linear part
+/// (m/s, m) as `force`, the angular part (rad/s, rad) as `torque`. All vectors are in world axes.
 template <class S>
 class Constraints {
  public:
@@ -47,15 +47,17 @@ class Constraints {
   const JointModel<S>& joint(std::size_t i) const;
   const std::string& name(std::size_t i) const;
 
-  /// Adds the reactions to the wrenches of the forces, at the motions of all bodies. Not reentrant: a system serves one
-  /// run on one thread.
+  /// Adds the reactions to the wrenches of the forces, at the motions of all bodies.
   void add_reactions(Motions motions, Wrenches wrenches) const;
 
+  /// λ of the last add_reactions(), in the order of the rows: N or N m.
+  const VectorX<S>& multipliers() const;
+  /// G v in the last add_reactions(), m/s or rad/s.
+  const VectorX<S>& rates() const;
   /// Power (W) of the last reactions on the bodies, λᵀ G v. It vanishes where G v = 0.
   S power() const;
 
-  /// Reaction of a joint on its first body in the last add_reactions(): force (N), and torque (N m) about the anchor,
-  /// world axes.
+  /// Reaction of a joint on its first body in the last add_reactions(): force (N), and torque (N m) about the anchor.
   Wrench<S> reaction(std::size_t joint, Motions motions) const;
 
   /// True if a joint has equations between angles.
@@ -71,8 +73,7 @@ class Constraints {
   Violation violation(std::size_t joint, Motions motions) const;
 
   /// The smallest displacement in the metric of the masses that satisfies the linearized position equations:
-  /// ξ = −M⁻¹ Gᵀ (G M⁻¹ Gᵀ)⁻¹ g. Wrench::force holds the shift (m), Wrench::torque the rotation vector (rad) of each
-  /// moving body, world axes. Returns the largest |g| before it, m or rad.
+  /// ξ = −M⁻¹ Gᵀ (G M⁻¹ Gᵀ)⁻¹ g. Returns the largest |g| before it, m or rad.
   S position_correction(Motions motions, Wrenches displacements) const;
   /// The smallest impulses (N s, N m s) in the metric of the masses after which G v = 0. Returns the largest |G v|
   /// before them, m/s or rad/s.
@@ -80,9 +81,40 @@ class Constraints {
 
   ConstraintRank rank(Motions motions) const;
 
+  // ---- for methods that solve the equations of the joints themselves ------------------------------------------------
+
+  /// Evaluates all rows at the motions, which must live until the last call of a function below.
+  void evaluate(Motions motions) const;
+  const std::vector<ConstraintRow<S>>& equations() const;
+  /// G u for a twist of each moving body.
+  void multiply(std::span<const Wrench<S>> twists, VectorX<S>& product) const;
+  /// Adds Gᵀ λ to the wrenches.
+  void add_transposed(const VectorX<S>& lambda, Wrenches wrenches) const;
+  /// M⁻¹ w of each moving body.
+  void divide_by_masses(Wrenches wrenches) const;
+  /// λ from G M⁻¹ Gᵀ λ = right.
+  void solve(const VectorX<S>& right, VectorX<S>& lambda) const;
+  /// G v̇ − γ in the last add_reactions() with prescribed multipliers, m/s² or rad/s².
+  VectorX<S> acceleration_defects() const;
+
  private:
+  template <class T>
+  friend class PrescribedMultipliers;
   struct Parts;
   std::unique_ptr<Parts> parts_;
+};
+
+/// While it lives, the reactions have these multipliers; they are not solved for.
+template <class S>
+class PrescribedMultipliers {
+ public:
+  PrescribedMultipliers(const Constraints<S>& constraints, const VectorX<S>& multipliers);
+  ~PrescribedMultipliers();
+  PrescribedMultipliers(const PrescribedMultipliers&) = delete;
+  PrescribedMultipliers& operator=(const PrescribedMultipliers&) = delete;
+
+ private:
+  const Constraints<S>& constraints_;
 };
 
 }  // namespace polhode

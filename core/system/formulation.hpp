@@ -43,6 +43,7 @@ struct JointTreatment {
   bool projects_velocity() const {
     return stabilization == Stabilization::velocity || stabilization == Stabilization::both;
   }
+  bool projects() const { return projects_position() || projects_velocity(); }
 };
 
 /// Names in options, tables and files.

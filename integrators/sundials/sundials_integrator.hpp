@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Common base of the integrators of CVODE and ARKODE: single steps up to a stop time, dense output, event location, and
-// failure messages. The virtual functions below call the functions of each library.
+// Common base of the integrators of CVODE, ARKODE and IDA: single steps up to a stop time, dense output, event
+// location, and failure messages. The virtual functions below call the functions of each library.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ constexpr long max_steps = 100000000;  // limit of steps between two returns; th
 /// Throws if `flag` is an error code of the named function. Used for calls that fail only if memory is exhausted.
 void check(int flag, const char* function);
 
-/// Base class of an integrator on CVODE or ARKODE.
+/// Base class of an integrator on one of the libraries.
 class SundialsIntegrator : public Integrator<double>, public DenseOutput<double>, public NativeRoots<double> {
  public:
   SundialsIntegrator(const System<double>& system, const IntegratorSettings& settings);
@@ -55,6 +55,8 @@ class SundialsIntegrator : public Integrator<double>, public DenseOutput<double>
   // a shorter step.
   static int right_hand_side(double t, N_Vector y, N_Vector dy, void* self);
   static int find_roots(double t, N_Vector y, double* values, void* self);
+
+  void count_evaluation() { ++evaluations_; }
 
   SUNContext context() const { return context_.get(); }
   const System<double>& system() const { return system_; }
