@@ -25,7 +25,9 @@ class ArkodeDirk final : public SundialsIntegrator {
   static Setting order() { return table_order(2, 5); }
 
   ArkodeDirk(const System<double>& system, const IntegratorSettings& settings)
-      : SundialsIntegrator(system, settings), order_(static_cast<int>(settings.whole(order()))) {}
+      : SundialsIntegrator(system, settings), order_(static_cast<int>(settings.whole(order()))) {
+    if (projects_joints()) project_within_steps(settings.project);
+  }
 
  private:
   void create(double t, N_Vector y, SundialsIntegrator* self) override {
@@ -39,6 +41,9 @@ class ArkodeDirk final : public SundialsIntegrator {
     check(ARKStepSetOrder(memory_.get(), order_), "ARKStepSetOrder");
     check(ARKStepSStolerances(memory_.get(), tolerance(), tolerance()), "ARKStepSStolerances");
     check(ARKStepSetMaxNumSteps(memory_.get(), max_steps), "ARKStepSetMaxNumSteps");
+    if (projects_within_steps()) {
+      check(ARKStepSetPostprocessStepFn(memory_.get(), &project_step), "ARKStepSetPostprocessStepFn");
+    }
     check(ARKStepSetLinearSolver(memory_.get(), linear_.get(), matrix_.get()), "ARKStepSetLinearSolver");
   }
 

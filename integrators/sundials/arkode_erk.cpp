@@ -23,7 +23,9 @@ class ArkodeErk final : public SundialsIntegrator {
   static Setting order() { return table_order(2, 8); }
 
   ArkodeErk(const System<double>& system, const IntegratorSettings& settings)
-      : SundialsIntegrator(system, settings), order_(static_cast<int>(settings.whole(order()))) {}
+      : SundialsIntegrator(system, settings), order_(static_cast<int>(settings.whole(order()))) {
+    if (projects_joints()) project_within_steps(settings.project);
+  }
 
  private:
   void create(double t, N_Vector y, SundialsIntegrator* self) override {
@@ -34,6 +36,9 @@ class ArkodeErk final : public SundialsIntegrator {
     check(ERKStepSetOrder(memory_.get(), order_), "ERKStepSetOrder");
     check(ERKStepSStolerances(memory_.get(), tolerance(), tolerance()), "ERKStepSStolerances");
     check(ERKStepSetMaxNumSteps(memory_.get(), max_steps), "ERKStepSetMaxNumSteps");
+    if (projects_within_steps()) {
+      check(ERKStepSetPostprocessStepFn(memory_.get(), &project_step), "ERKStepSetPostprocessStepFn");
+    }
   }
 
   void restart(double t, N_Vector y) override {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // CVODE's variable-order, variable-step linear multistep methods: Adams–Moulton (orders 1 to 12, fixed-point
 // iteration) and backward differentiation (orders 1 to 5, Newton iteration, dense difference-quotient Jacobian).
-// If a run requests projection, backward differentiation projects the orientations within its steps and continues
-// without a restart. Its dense output between two steps deviates from the manifold by about the tolerance. Source:
-// Hindmarsh et al., SUNDIALS, ACM TOMS 31 (2005); Eich, SIAM J. Numer. Anal. 30 (1993), on projection; the CVODE 6.4
-// user guide.
+// If a run requests projection, backward differentiation projects the orientations and the joints within its steps and
+// continues without a restart. Its dense output between two steps deviates from the manifold by about the tolerance.
+// Source: Hindmarsh et al., SUNDIALS, ACM TOMS 31 (2005); Eich, SIAM J. Numer. Anal. 30 (1993), on projection; the
+// CVODE 6.4 user guide.
 #include <cvode/cvode.h>
 #include <cvode/cvode_proj.h>
 #include <sunlinsol/sunlinsol_dense.h>
@@ -24,13 +24,12 @@ using namespace sundials;
 void free_cvode(void* memory) { CVodeFree(&memory); }
 using CvodeMemory = std::unique_ptr<void, Destroy<free_cvode>>;
 
-class Cvode final : public SundialsIntegrator, public NativeProjection {
+class Cvode final : public SundialsIntegrator {
  public:
   Cvode(const System<double>& system, const IntegratorSettings& settings, int method)
-      : SundialsIntegrator(system, settings), method_(method), projects_(settings.project && method == CV_BDF) {}
-
-  const NativeProjection* native_projection() const override { return projects_ ? this : nullptr; }
-  double projection_energy() const override { return injected_; }
+      : SundialsIntegrator(system, settings), method_(method) {
+    if (method == CV_BDF && (settings.project || projects_joints())) project_within_steps(settings.project);
+  }
 
  private:
   void create(double t, N_Vector y, SundialsIntegrator* self) override {
@@ -53,9 +52,8 @@ class Cvode final : public SundialsIntegrator, public NativeProjection {
       if (!nonlinear_) throw std::bad_alloc();
       check(CVodeSetNonlinearSolver(memory_.get(), nonlinear_.get()), "CVodeSetNonlinearSolver");
     }
-    injected_ = last_ = 0;
-    if (projects_) {
-      check(CVodeSetProjFn(memory_.get(), &project), "CVodeSetProjFn");
+    if (projects_within_steps()) {
+      check(CVodeSetProjFn(memory_.get(), &correct), "CVodeSetProjFn");
       check(CVodeSetProjErrEst(memory_.get(), SUNFALSE), "CVodeSetProjErrEst");
     }
   }
@@ -81,26 +79,17 @@ class Cvode final : public SundialsIntegrator, public NativeProjection {
   }
   const char* library() const override { return "CVODE"; }
 
-  /// Projection function of CVODE: corr = P(y) − y. CVODE may reject a step after projecting it, so that only the last
-  /// projection belongs to the accepted step.
-  static int project(double, N_Vector y, N_Vector corr, double, N_Vector, void* user_data) {
+  /// Projection function of CVODE: corr = P(y) − y.
+  static int correct(double, N_Vector y, N_Vector corr, double, N_Vector, void* user_data) {
     auto& self = static_cast<Cvode&>(*static_cast<SundialsIntegrator*>(user_data));
-    const System<double>& system = self.system();
     const VectorX<double> before = Eigen::Map<const VectorX<double>>(N_VGetArrayPointer(y), N_VGetLength(y));
     VectorX<double> after = before;
-    system.project(after);
-    if (!after.allFinite()) return 1;
+    if (!self.project(after)) return 1;
     Eigen::Map<VectorX<double>>(N_VGetArrayPointer(corr), after.size()) = after - before;
-    if (system.projection_changes_energy()) {
-      self.last_ = system.measure(after).energy() - system.measure(before).energy();
-    }
     return 0;
   }
-  void step_done() override { injected_ += last_; }
 
   int method_;
-  bool projects_;
-  double injected_ = 0, last_ = 0;  ///< energy injected by all steps and by the last projection, J
   Matrix matrix_;
   LinearSolver linear_;
   NonlinearSolver nonlinear_;

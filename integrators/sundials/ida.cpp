@@ -8,9 +8,12 @@
 //   ah       the same with λ = Λ̇ and μ = Ṁ, the derivatives of unknowns (Anantharaman & Hiller; index 1)
 //
 // An equation that is not holonomic is G v = 0 in every form but index1, and its μ is 0. Tolerances of each kind of
-// unknown, with the tolerance tol of the run: relative tol for all; absolute tol for q, 100 tol for v, 1e6 tol for λ
-// and μ, which are left out of the error test; in index3 v is left out, too. Newton's iteration has a dense Jacobian:
-// by forward differences for y = (q, v, work), exact for λ and μ, in which the residual is linear. Sources: Brenan,
+// unknown, with the tolerance tol of the run: relative tol for all; absolute tol for q, v and work, 1e6 tol for λ and
+// μ, which are left out of the error test. In index3 v is left out, too, and the absolute tolerances of v and λ are 1e4
+// tol and 1e10 tol: tighter ones are below the round-off of g over h and h². Newton's iteration has a dense Jacobian:
+// by forward differences for y = (q, v, work), exact for λ and μ, in which the residual is linear.
+//
+// Sources: Brenan,
 // Campbell & Petzold (1996), chapters 2 and 6; Gear, Leimkuhler & Gupta (1985); Anantharaman & Hiller (1991); Hindmarsh
 // et al. (2005); the IDA 6.4 user guide.
 #include <ida/ida.h>
@@ -71,21 +74,31 @@ class Ida final : public SundialsIntegrator {
     check(IDAInit(memory_.get(), &residual_function, t, z_.get(), dz_.get()), "IDAInit");
     check(IDASetUserData(memory_.get(), self), "IDASetUserData");
     const Layout& layout = system().layout();
-    of(tolerances_).setConstant(1e6 * tolerance());
-    of(tolerances_).head(ny_).setConstant(100 * tolerance());
+    const bool third = form_ == Form::index3;
+    of(tolerances_).setConstant((third ? 1e10 : 1e6) * tolerance());
+    of(tolerances_).head(ny_).setConstant((third ? 1e4 : 1) * tolerance());
     of(tolerances_).head(layout.configuration_size).setConstant(tolerance());
     check(IDASVtolerances(memory_.get(), tolerance(), tolerances_.get()), "IDASVtolerances");
     of(kinds_).setZero();  // out of the error test
     of(kinds_).head(ny_).setOnes();
-    if (form_ == Form::index3) of(kinds_).segment(layout.configuration_size, layout.velocity_size).setZero();
+    if (third) of(kinds_).segment(layout.configuration_size, layout.velocity_size).setZero();
     check(IDASetId(memory_.get(), kinds_.get()), "IDASetId");
     check(IDASetSuppressAlg(memory_.get(), SUNTRUE), "IDASetSuppressAlg");
     check(IDASetMaxNumSteps(memory_.get(), max_steps), "IDASetMaxNumSteps");
+    check(IDASetInitStep(memory_.get(), first_step()), "IDASetInitStep");
     matrix_.reset(SUNDenseMatrix(size_, size_, context()));
     linear_.reset(SUNLinSol_Dense(z_.get(), matrix_.get(), context()));
     if (!matrix_ || !linear_) throw std::bad_alloc();
     check(IDASetLinearSolver(memory_.get(), linear_.get(), matrix_.get()), "IDASetLinearSolver");
     check(IDASetJacFn(memory_.get(), &jacobian_function), "IDASetJacFn");
+  }
+
+  /// Size (s) of the first step: IDA's own choice, a half over the norm of ẏ in the tolerances, falls with the
+  /// tolerance to sizes at which the Jacobian of the higher indices is singular to round-off.
+  double first_step() const {
+    const auto allowed = tolerance() * of(z_).head(ny_).array().abs() + of(tolerances_).head(ny_).array();
+    const double norm = std::sqrt((of(dz_).head(ny_).array() / allowed).square().mean());
+    return norm > 0 ? 0.5 / (norm * std::sqrt(tolerance())) : 0;  // 0: IDA's own choice
   }
 
   void restart(double t, N_Vector y) override {
@@ -230,26 +243,28 @@ class Ida final : public SundialsIntegrator {
   IdaMemory memory_;
 };
 
+constexpr const char* tolerances =
+    R"(q, v: \mathrm{tol}, \quad \lambda, \mu: 10^6\,\mathrm{tol}, \text{ out of the error test})";
+constexpr const char* third_tolerances =
+    R"(q: \mathrm{tol}, \quad v: 10^4\,\mathrm{tol}, \quad \lambda: 10^{10}\,\mathrm{tol}, \text{ both out of the error test})";
+
 IntegratorEntry entry(std::string name, std::string summary, std::string equation, std::vector<std::string> sources,
                       Form form, JointEquations joints) {
   sources.insert(sources.begin() + (sources.size() > 1 ? 1 : 0), "hindmarsh2005");
-  return {
-      .declaration = {.name = std::move(name),
-                      .family = "SUNDIALS",
-                      .summary = "IDA, backward differentiation of orders 1 to 5 for " + std::move(summary),
-                      .equation = R"(\dot q &= N(q)\,(v + M^{-1} G^T \mu), \quad M \dot v = f + G^T \lambda, \\
+  return {.declaration = {.name = std::move(name),
+                          .family = "SUNDIALS",
+                          .summary = "IDA, backward differentiation of orders 1 to 5 for " + std::move(summary),
+                          .equation = R"(\dot q &= N(q)\,(v + M^{-1} G^T \mu), \quad M \dot v = f + G^T \lambda, \\
 )" + std::move(equation) + R"( \\
-\text{absolute tolerances}\quad & q: \mathrm{tol}, \quad v: 100\,\mathrm{tol}, \quad
-  \lambda, \mu: 10^6\,\mathrm{tol}, \text{ out of the error test})",
-                      .sources = std::move(sources),
-                      .adaptive = true,
-                      .implicit = true,
-                      .multi_step = true,
-                      .joints = joints},
-      .make = [form](const System<double>& system, const IntegratorSettings& settings) -> IntegratorPointer<double> {
-        return std::make_unique<Ida>(system, settings, form);
-      },
-      .refusal = [](const Problem& p, const Formulation& f) { return joint_refusal(p, f, Rows::independent); }};
+\text{absolute tolerances}\quad & )" + std::string(form == Form::index3 ? third_tolerances : tolerances),
+                          .sources = std::move(sources),
+                          .adaptive = true,
+                          .implicit = true,
+                          .multi_step = true,
+                          .joints = joints},
+          .make = [form](const System<double>& system, const IntegratorSettings& settings)
+              -> IntegratorPointer<double> { return std::make_unique<Ida>(system, settings, form); },
+          .refusal = [](const Problem& p, const Formulation& f) { return joint_refusal(p, f, Rows::independent); }};
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <new>
 #include <stdexcept>
 
+#include "core/system/joint_projection.hpp"
+
 namespace polhode::inline integrators::sundials {
 namespace {
 
@@ -43,6 +45,7 @@ void SundialsIntegrator::begin(const State<double>& state) {
   work_.reset(N_VNew_Serial(state.y.size(), context_.get()));
   if (!work_) throw std::bad_alloc();
   evaluations_ = 0;
+  injected_ = last_injected_ = 0;
   seen_ = state;
   copy_in(state);
   create(state.t, work_.get(), this);
@@ -58,10 +61,21 @@ StepResult SundialsIntegrator::step(State<double>& state, double h) {
   if (!is_finite(y, state.y.size())) return {std::string(library()) + "'s step ended in no number"};
   std::fill(roots_.begin(), roots_.end(), 0);
   if (flag == root_return) check(roots(roots_.data()), "GetRootInfo");
-  step_done();
+  injected_ += last_injected_;
+  last_injected_ = 0;
   state.t = t_now_ = t;
   state.y = Eigen::Map<const VectorX<double>>(y, state.y.size());
   return {};
+}
+
+bool SundialsIntegrator::project(VectorX<double>& y) {
+  const bool account = projects_joints() || system_.projection_changes_energy();
+  const double before = account ? system_.measure(y).energy() : 0;
+  if (projects_orientations_) system_.project(y);
+  if (projects_joints()) project_joints(system_, y);
+  if (!y.allFinite()) return false;
+  if (account) last_injected_ = system_.measure(y).energy() - before;
+  return true;
 }
 
 void SundialsIntegrator::discard_history(const State<double>& state) {
@@ -96,6 +110,15 @@ int SundialsIntegrator::right_hand_side(double t, N_Vector y, N_Vector dy, void*
   double* rate = N_VGetArrayPointer(dy);
   self.system_.rate(t, N_VGetArrayPointer(y), rate);
   return is_finite(rate, self.seen_.y.size()) ? 0 : 1;
+}
+
+int SundialsIntegrator::project_step(double, N_Vector y, void* user_data) {
+  auto& self = *static_cast<SundialsIntegrator*>(user_data);
+  Eigen::Map<VectorX<double>> values(N_VGetArrayPointer(y), N_VGetLength(y));
+  VectorX<double> projected = values;
+  if (!self.project(projected)) return 1;
+  values = projected;
+  return 0;
 }
 
 int SundialsIntegrator::find_roots(double t, N_Vector y, double* values, void* user_data) {

@@ -22,7 +22,10 @@ constexpr long max_steps = 100000000;  // limit of steps between two returns; th
 void check(int flag, const char* function);
 
 /// Base class of an integrator on one of the libraries.
-class SundialsIntegrator : public Integrator<double>, public DenseOutput<double>, public NativeRoots<double> {
+class SundialsIntegrator : public Integrator<double>,
+                           public DenseOutput<double>,
+                           public NativeRoots<double>,
+                           public NativeProjection {
  public:
   SundialsIntegrator(const System<double>& system, const IntegratorSettings& settings);
 
@@ -35,6 +38,8 @@ class SundialsIntegrator : public Integrator<double>, public DenseOutput<double>
   NativeRoots<double>* native_roots() final { return this; }
   void set_events(std::vector<EventFunction<double>> events) final;
   std::span<const int> events() const final { return roots_; }
+  const NativeProjection* native_projection() const final { return projects_ ? this : nullptr; }
+  double projection_energy() const final { return injected_; }
 
  protected:
   /// Creates the library's object for a run from (t, y), with tolerances, solvers and `self` as user data.
@@ -49,12 +54,22 @@ class SundialsIntegrator : public Integrator<double>, public DenseOutput<double>
   virtual int roots(int* signs) = 0;
   virtual std::string flag_name(int flag) const = 0;
   virtual const char* library() const = 0;
-  virtual void step_done() {}
-
   // Callbacks of the library. A right-hand side that is not finite is reported as recoverable: the library retries with
   // a shorter step.
   static int right_hand_side(double t, N_Vector y, N_Vector dy, void* self);
   static int find_roots(double t, N_Vector y, double* values, void* self);
+  static int project_step(double t, N_Vector y, void* self);  ///< ARKODE's post-processing of an accepted step
+
+  /// Projects within the steps of the library; set by a library that can, before create().
+  void project_within_steps(bool orientations) {
+    projects_ = true;
+    projects_orientations_ = orientations;
+  }
+  bool projects_within_steps() const { return projects_; }
+  bool projects_joints() const { return system_.has_joints() && system_.formulation().joints.projects(); }
+  /// Projects y as the run asks: the orientations, then the joints. A library may reject a step that it has projected,
+  /// so that only the energy of the last projection before the end of a step counts. False: y ceased to be finite.
+  bool project(VectorX<double>& y);
 
   void count_evaluation() { ++evaluations_; }
 
@@ -69,6 +84,8 @@ class SundialsIntegrator : public Integrator<double>, public DenseOutput<double>
   double tolerance_;
   double t_now_ = 0;
   std::int64_t evaluations_ = 0;
+  bool projects_ = false, projects_orientations_ = false;
+  double injected_ = 0, last_injected_ = 0;  ///< energy injected by all steps and by the last projection, J
   std::vector<EventFunction<double>> events_;
   std::vector<int> roots_;
   State<double> seen_;  ///< state that is passed to event functions

@@ -41,7 +41,7 @@ std::unique_ptr<Integrator<S>> integrator_of(const RunConfig& config, const Syst
       .dt = config.dt.value_or(0),
       .tolerance = config.tolerance.value_or(0),
       .t_end = config.t_end,
-      .project = config.normalize && !system.has_joints(),  // the loop projects joints too
+      .project = config.normalize,
       .chosen = config.settings};
   const IntegratorEntry& entry = *find_integrator(config.integrator);
   if constexpr (!is_lanes<S>) {
