@@ -197,6 +197,15 @@ S Constraints<S>::power() const {
 }
 
 template <class S>
+S Constraints<S>::power_at(Motions motions) const {
+  S sum(0);
+  for (Eigen::Index k = 0; k < parts_->lambda.size(); ++k) {
+    sum += parts_->lambda[k] * parts_->rate(std::size_t(k), motions);
+  }
+  return sum;
+}
+
+template <class S>
 Wrench<S> Constraints<S>::reaction(std::size_t joint, Motions motions) const {
   const Parts& p = *parts_;
   Wrench<S> sum;

@@ -56,6 +56,8 @@ class Constraints {
   const VectorX<S>& rates() const;
   /// Power (W) of the last reactions on the bodies, λᵀ G v. It vanishes where G v = 0.
   S power() const;
+  /// Power (W) of the same reactions at other velocities of the same configuration.
+  S power_at(Motions motions) const;
 
   /// Reaction of a joint on its first body in the last add_reactions(): force (N), and torque (N m) about the anchor.
   Wrench<S> reaction(std::size_t joint, Motions motions) const;

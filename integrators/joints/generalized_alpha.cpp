@@ -148,6 +148,7 @@ class GeneralizedAlpha final : public JointMethod, private StepEquations<double>
       const PrescribedMultipliers<double> prescribed(joints_, lambda_);
       bodies_.configuration_rate(t, y, before_);
       bodies_.configuration_rate(t_, trial_, after_);
+      evaluations_ += 2;
     }
     const Eigen::Index works = bodies_.layout().work_size;
     trial_.tail(works) = y.tail(works) + h_ / 2 * (before_.tail(works) + after_.tail(works));

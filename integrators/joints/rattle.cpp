@@ -43,8 +43,9 @@ class Rattle final : public JointMethod, private StepEquations<double> {
     evaluations_ = 0;
     Flat rate = bodies_.zero();
     bodies_.rate(state.t, state.y, rate);
+    ++evaluations_;
     discard_history(state);
-    lambda_ = joints_.multipliers();
+    lambda_ = multiplier_ = joints_.multipliers();
   }
   void discard_history(const State<double>&) override { known_for_ = 0; }
 
@@ -52,7 +53,6 @@ class Rattle final : public JointMethod, private StepEquations<double> {
   const char* take(double t, double h, Flat& y) override {
     if (known_for_ != h) {  // the first step, or a step of another size
       ahead_ = h / 2;
-      multiplier_ = joints_.multipliers();
       if (const char* why = close_next_position(t, h, y)) return why;
     }
     if (const char* why = kick(t, h / 2, multiplier_, y)) return why;
@@ -90,9 +90,7 @@ class Rattle final : public JointMethod, private StepEquations<double> {
     why_ = nullptr;
     evaluate(y);
     x_ = multiplier_ * (gain / mean_mass_);
-    const char* why = root_.solve(*this, x_, scale());
-    if (why_) return why_;
-    if (why) return why;
+    if (const char* why = root_.solve(*this, x_, scale())) return why_ ? why_ : why;
     multiplier_ = x_ * (mean_mass_ / gain);
     return nullptr;
   }
@@ -190,6 +188,7 @@ IntegratorEntry entry(std::string name, std::string summary, std::string equatio
        .implicit = true,
        .multi_step = !projected,
        .lie_group = true,
+       .symmetric = projected,
        .joints = projected ? JointEquations::position_and_velocity : JointEquations::position},
       [](const Problem& p, const Formulation& f) {
         if (std::string why = joint_refusal(p, f, Rows::may_depend); !why.empty()) return why;

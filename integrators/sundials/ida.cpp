@@ -27,6 +27,7 @@
 #include <new>
 
 #include "core/system/constraints.hpp"
+#include "core/system/joint_projection.hpp"
 #include "core/system/many_bodies.hpp"
 #include "integrators/joints/joint_refusal.hpp"
 #include "integrators/sundials/sundials_integrator.hpp"
@@ -39,6 +40,8 @@ using namespace sundials;
 enum class Form { index1, index2, index3, ggl, ah };
 
 void free_ida(void* memory) { IDAFree(&memory); }
+constexpr int most_failures = 50;  // of one step; the defaults are 10
+
 using IdaMemory = std::unique_ptr<void, Destroy<free_ida>>;
 using Map = Eigen::Map<VectorX<double>>;
 
@@ -86,6 +89,9 @@ class Ida final : public SundialsIntegrator {
     check(IDASetSuppressAlg(memory_.get(), SUNTRUE), "IDASetSuppressAlg");
     check(IDASetMaxNumSteps(memory_.get(), max_steps), "IDASetMaxNumSteps");
     check(IDASetInitStep(memory_.get(), first_step()), "IDASetInitStep");
+    // After a restart at order 1 the step that was due is far too long.
+    check(IDASetMaxErrTestFails(memory_.get(), most_failures), "IDASetMaxErrTestFails");
+    check(IDASetMaxConvFails(memory_.get(), most_failures), "IDASetMaxConvFails");
     matrix_.reset(SUNDenseMatrix(size_, size_, context()));
     linear_.reset(SUNLinSol_Dense(z_.get(), matrix_.get(), context()));
     if (!matrix_ || !linear_) throw std::bad_alloc();
@@ -104,9 +110,19 @@ class Ida final : public SundialsIntegrator {
   void restart(double t, N_Vector y) override {
     double h = 0;
     check(IDAGetCurrentStep(memory_.get(), &h), "IDAGetCurrentStep");
+    make_consistent(y);
     fill_start(t, y);
     check(IDAReInit(memory_.get(), t, z_.get(), dz_.get()), "IDAReInit");
     check(IDASetInitStep(memory_.get(), h), "IDASetInitStep");
+  }
+
+  /// Moves a state that was changed from outside onto the equations of the joints that the form satisfies.
+  void make_consistent(N_Vector y) {
+    y_ = Map(N_VGetArrayPointer(y), ny_);
+    if (form_ == Form::index1) return;
+    if (form_ != Form::index2) project_joint_positions(system(), y_);
+    project_joint_velocities(system(), y_);
+    Map(N_VGetArrayPointer(y), ny_) = y_;
   }
 
   /// z and ż from the state: λ of the index-1 form, μ = 0. λ̇ and μ̇ are predicted as 0.
@@ -115,6 +131,7 @@ class Ida final : public SundialsIntegrator {
     of(dz_).setZero();
     of(z_).head(ny_) = Map(N_VGetArrayPointer(y), ny_);
     system().rate(t, of(z_).data(), of(dz_).data());
+    count_evaluation();
     lambda_ = joints_.multipliers();
     (form_ == Form::ah ? of(dz_) : of(z_)).segment(ny_, m_) = lambda_;
   }
@@ -188,6 +205,7 @@ class Ida final : public SundialsIntegrator {
     }
     rate_of_shifted_ = dy_;
     bodies_.configuration_rate(t, shifted_, rate_of_shifted_);
+    count_evaluation();
     bodies_.configuration_part(dy_) = bodies_.configuration_part(rate_of_shifted_);
   }
 

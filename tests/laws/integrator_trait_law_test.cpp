@@ -46,6 +46,7 @@ class IntegratorTrait : public OverTheCatalogue {
   /// Declared: below `limit` in every formulation. Not declared: above `seen` in one at least.
   template <class Deviation>
   void expect_kept(bool is_declared, int steps, double limit, double seen, const Deviation& deviation) const {
+    if (declared().solves_joints()) GTEST_SKIP() << "it needs joints, and this is about a free body";
     int accepted = 0;
     double most = 0;
     for (const Formulation& f : gyroscopic_formulations()) {
@@ -85,7 +86,8 @@ TEST_P(IntegratorTrait, SymmetricMethodsReturn) {
     ASSERT_TRUE(integrator->advance(state, 0.03, 10).ok());
     const State<double> before = state;
     ASSERT_TRUE(integrator->step(state, 0.1).ok());
-    ASSERT_TRUE(integrator->step(state, -0.1).ok());
+    const StepResult back = integrator->step(state, -0.1);
+    ASSERT_TRUE(back.ok()) << back.failure;
     const double away = difference(state.y, before.y);
     if (declared().symmetric) {
       EXPECT_LT(away, 1e-12);
@@ -101,7 +103,7 @@ TEST_P(IntegratorTrait, SymmetricMethodsReturn) {
 // none.
 TEST_P(IntegratorTrait, AdditiveMethodsTakeCompensatedSteps) {
   if (!declared().additive) {
-    const auto system = make_system<double>(free_top(), {});
+    const auto system = build<double>(own_trials().front(), {});
     EXPECT_THROW(make_compensated<double>(entry(), *system, {}), std::invalid_argument);
     return;
   }

@@ -33,6 +33,11 @@ inline std::vector<Trial> trials() {
           {"shaken_pinned", heavy_top(), true}};
 }
 
+/// The problems of a method that solves the equations of joints itself.
+inline std::vector<Trial> jointed_trials() {
+  return {{"jointed", jointed_rods()}, {"jointed_shaken", jointed_rods(), true}};
+}
+
 template <class S>
 std::unique_ptr<System<S>> build(const Trial& trial, const Formulation& formulation) {
   auto system = make_system<S>(trial.problem, formulation);
@@ -88,10 +93,18 @@ class OverTheCatalogue : public testing::TestWithParam<std::string> {
     return entry().refusal && !entry().refusal(problem, f).empty();
   }
 
+  std::vector<Trial> own_trials() const { return declared().solves_joints() ? jointed_trials() : trials(); }
+
+  /// The largest error after a second of an adaptive method. Index 3 leaves the velocities out of its error test.
+  double error_limit(double tolerance) const {
+    if (declared().joints == JointEquations::position) return 1e6 * tolerance;
+    return (declared().solves_joints() ? 4000 : 1000) * tolerance;
+  }
+
   /// check(trial, formulation), in every formulation that is true to the body and that the method accepts.
   template <class Check>
   void everywhere(const Check& check) const {
-    for (const Trial& trial : trials()) {
+    for (const Trial& trial : own_trials()) {
       for (const Formulation& f : gyroscopic_formulations()) {
         if (refuses(trial.problem, f)) continue;
         SCOPED_TRACE(GetParam() + ", " + trial.name + ", " + label(f));

@@ -65,6 +65,29 @@ inline Problem heavy_top() {
   return p;
 }
 
+/// Two rods that hang from the world by a ball joint and a hinge, under gravity.
+inline Problem jointed_rods() {
+  Problem p;
+  const Vector3<double> up(0, 0, 0.5), down(0, 0, -0.5), along(0, 1, 0), spin(0.3, 2, -1);
+  for (const std::string name : {"upper", "lower"}) {
+    p.bodies.push_back({.name = name, .mass = 1.5, .inertia = turned_inertia({0.2, 0.25, 0.08}, {0.9, 0.1, 0, 0.2})});
+  }
+  const Quaternion<double> turn = Quaternion<double>(0.8, 0.3, -0.4, 0.1).normalized();
+  const Matrix3<double> r = rotation_matrix<double>(turn);
+  // The velocities of the mass centres are those of a rotation about the ball joint.
+  const Vector3<double> one = r * down, two = r * (down + 2 * down);
+  p.starts.push_back({.position = one, .orientation = turn, .velocity = spin.cross(one), .angular_velocity = spin});
+  p.starts.push_back({.position = two, .orientation = turn, .velocity = spin.cross(two), .angular_velocity = spin});
+  p.forces.push_back(force("uniform_gravity", {0, 1}, {{"acceleration", Vector3<double>(0, 0, -9.81)}}));
+  const Vector3<double> zero = Vector3<double>::Zero();
+  p.joints.push_back({"ball", {"ball", {0}, {{"anchor_body", up}, {"anchor_world", zero}, {"anchor_body_2", zero}}}});
+  p.joints.push_back({"hinge",
+                      {"hinge",
+                       {1, 0},
+                       {{"anchor_body", up}, {"anchor_world", zero}, {"anchor_body_2", down}, {"axis_body", along}}}});
+  return p;
+}
+
 /// One free body on a damped spring fixed at a corner, with gravity and a torque fixed in the body.
 inline Problem box_on_spring(const Matrix3<double>& inertia = diagonal(0.5, 0.8, 1.1)) {
   Problem p;

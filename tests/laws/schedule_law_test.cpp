@@ -72,7 +72,7 @@ TEST_P(ScheduleLaw, ARunStartsAtTheTimeOfItsState) {
 
 // Steps end where none is given, are cut at t_end, and are as long as they were asked to be.
 TEST_P(ScheduleLaw, GivenStepsAreTakenAsTheyCome) {
-  const Trial trial = trials().front();
+  const Trial trial = own_trials().front();
   const auto system = build<double>(trial, {});
   const std::vector<double> sizes = {0.01, 0.05, 0.003, 0.0};
   std::size_t next = 0;
@@ -112,7 +112,7 @@ struct Stopper final : Observer {
 };
 
 TEST_P(ScheduleLaw, AnObserverStopsARunWhereItLooks) {
-  const Trial trial = trials().front();
+  const Trial trial = own_trials().front();
   const auto system = build<double>(trial, {});
   for (const bool given : {false, true}) {
     Schedule schedule{.t_end = 1, .dt = h, .samples = {}};
