@@ -60,6 +60,28 @@ ExactMotion::BodyAt ExactMotion::at(double t, std::size_t body) const {
   return known;
 }
 
+VectorX<double> ExactMotion::state(const System<double>& system, const State<double>& near) const {
+  VectorX<double> y = near.y;
+  for (std::size_t i = 0; i < system.moving(); ++i) {
+    const Body& body = system.problem().bodies[i];
+    const RotationAt exact = rotations_[i](near.t);
+    const BodySnapshot<double> now = system.snapshot(y, i);
+    const Vector3<double> turn =
+        rotation_vector<double>(product<double>(*exact.orientation, conjugate<double>(now.orientation)));
+    Vector3<double> shift = Vector3<double>::Zero(), change = shift;
+    if (!body.pinned) {
+      const PathAt path = paths_[i](near.t);
+      shift = path.position - now.position;
+      change = body.mass * (path.velocity - now.velocity);
+    }
+    system.displace(y, i, shift, turn);
+    const BodySnapshot<double> turned = system.snapshot(y, i);
+    const Matrix3<double> inertia = turned.rotation * system.inverse_inertia(i).inverse() * turned.rotation.transpose();
+    system.apply_impulse(y, i, change, inertia * (exact.angular_velocity - turned.angular_velocity));
+  }
+  return y;
+}
+
 ExactMotion::Error ExactMotion::error(const System<double>& system, const State<double>& state) const {
   Error error;
   const auto raise = [](std::optional<double>& worst, double e) {

@@ -157,24 +157,30 @@ ReferenceMotion::Uncertainty ReferenceMotion::difference(const System<Real>& sys
 ReferenceMotion::Follower::Follower(std::shared_ptr<const ReferenceMotion> reference)
     : reference_(std::move(reference)), system_(reference_->make()), y_(reference_->states_.front()) {}
 
-ExactMotion::Error ReferenceMotion::Follower::error(const System<double>& system, const State<double>& state) {
+const VectorX<Real>& ReferenceMotion::Follower::at(double t) {
   const ReferenceMotion& reference = *reference_;
   const double interval = reference.t_end_ / intervals;
   const std::size_t last = reference.states_.size() - 1;
-  std::size_t k = std::min(last, static_cast<std::size_t>(std::max(0.0, state.t / interval)));
-  while (k > 0 && reference.instant(k) > state.t) --k;
-  if (t_ > state.t || reference.instant(k) >= t_) {
+  std::size_t k = std::min(last, static_cast<std::size_t>(std::max(0.0, t / interval)));
+  while (k > 0 && reference.instant(k) > t) --k;
+  if (t_ > t || reference.instant(k) >= t_) {
     t_ = reference.instant(k);
     y_ = reference.states_[k];
   }
-  if (state.t > t_) {
-    const Real span = Real(state.t) - Real(t_), size = Real(interval) / Real(reference.steps_);
+  if (t > t_) {
+    const Real span = Real(t) - Real(t_), size = Real(interval) / Real(reference.steps_);
     const int steps = std::max(1, static_cast<int>(std::ceil(span / size * (1 - Real(1e-15)))));
     const Real big = span / Real(steps);
     Stepper stepper(*system_);
     for (int i = 0; i < steps; ++i) stepper.step(Real(t_) + big * Real(i), big, y_);
-    t_ = state.t;
+    t_ = t;
   }
+  return y_;
+}
+
+ExactMotion::Error ReferenceMotion::Follower::error(const System<double>& system, const State<double>& state) {
+  const ReferenceMotion& reference = *reference_;
+  at(state.t);
   ExactMotion::Error error;
   const auto keep = [](std::optional<double>& worst, Real x) {
     if (!worst || !(x <= Real(*worst))) worst = static_cast<double>(x);

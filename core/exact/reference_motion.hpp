@@ -37,6 +37,9 @@ class ReferenceMotion {
   class Follower {
    public:
     explicit Follower(std::shared_ptr<const ReferenceMotion> reference);
+    /// The reference's system, and its state at t (s).
+    const System<long double>& system() const { return *system_; }
+    const VectorX<long double>& at(double t);
     /// All errors: position (absent if every body is pinned), attitude, angular velocity.
     ExactMotion::Error error(const System<double>& system, const State<double>& state);
 

@@ -6,15 +6,30 @@
 
 #include "core/system/constraints.hpp"
 #include "core/system/joint_projection.hpp"
+#include "core/system/joint_reactions.hpp"
 #include "experiments/study/metrics/worst.hpp"
 
 namespace polhode::study::inline metrics {
 namespace {
 
-constexpr std::int64_t instants = 1000, between_ranks = 10;
+constexpr std::int64_t instants = 1000, between_ranks = 10, between_errors = 20;
 constexpr std::size_t most_ranked_rows = 200;  // a rank costs the cube of their number
 
 }  // namespace
+
+JointMeter::JointMeter(const System<double>& system, double t_end, std::shared_ptr<const ReferenceMotion> reference)
+    : system_(system), t_end_(t_end) {
+  if (reference) {
+    follower_.emplace(std::move(reference));
+    return;
+  }
+  exact_.emplace(system);
+  if (!exact_->is_complete() || !exact_->has_angular_velocity()) exact_.reset();
+}
+
+void JointMeter::on_multipliers(std::span<const double> multipliers) {
+  multipliers_ = Eigen::Map<const VectorX<double>>(multipliers.data(), Eigen::Index(multipliers.size()));
+}
 
 std::size_t JointMeter::on_samples(std::span<const Sample> samples) {
   if (!samples.empty()) {
@@ -34,8 +49,16 @@ void JointMeter::on_state(const State<double>& state, const Sample&) {
   const auto reached =
       static_cast<std::int64_t>(std::floor((1 + 1e-12) * state.t / t_end_ * static_cast<double>(instants)));
   if (reached < instant_ || !state.y.allFinite()) return;
-  const Constraints<double>& constraints = *system_.constraints();
   const auto motions = motions_of(system_, state.y);
+  measure_gaps(motions);
+  const auto due = [&](std::int64_t between) { return instant_ == 0 || reached / between > (instant_ - 1) / between; };
+  if (due(between_ranks)) measure_rank(motions);
+  if (due(between_errors)) measure_errors(state);
+  instant_ = reached + 1;
+}
+
+void JointMeter::measure_gaps(std::span<const BodyMotion<double>> motions) {
+  const Constraints<double>& constraints = *system_.constraints();
   for (std::size_t i = 0; i < constraints.count(); ++i) {
     const auto v = constraints.violation(i, motions);
     raise(found_.gap_max, v.position);
@@ -44,14 +67,36 @@ void JointMeter::on_state(const State<double>& state, const Sample&) {
     raise(found_.angle_max, v.angle);
     raise(found_.rate_max, v.rate);
   }
-  const bool due = instant_ == 0 || reached / between_ranks > (instant_ - 1) / between_ranks;
-  if (due && constraints.rows() <= most_ranked_rows) {
-    const ConstraintRank now = constraints.rank(motions);
-    const auto rank = static_cast<double>(now.rank);
-    found_.rank = std::min(found_.rank.value_or(rank), rank);
-    raise(found_.condition_max, now.condition);
+}
+
+void JointMeter::measure_rank(std::span<const BodyMotion<double>> motions) {
+  const Constraints<double>& constraints = *system_.constraints();
+  if (constraints.rows() > most_ranked_rows) return;
+  const ConstraintRank now = constraints.rank(motions);
+  const auto rank = static_cast<double>(now.rank);
+  found_.rank = std::min(found_.rank.value_or(rank), rank);
+  raise(found_.condition_max, now.condition);
+}
+
+void JointMeter::measure_errors(const State<double>& state) {
+  if (follower_) compare(state, follower_->system(), follower_->at(state.t));
+  else if (exact_) compare(state, system_, exact_->state(system_, state));
+}
+
+template <class S>
+void JointMeter::compare(const State<double>& state, const System<S>& system, const VectorX<S>& exact) {
+  for (std::size_t i = 0; i < system_.moving(); ++i) {
+    const Vector3<S> v = system_.snapshot(state.y, i).velocity.template cast<S>();
+    raise(found_.speed_error_max, static_cast<double>((v - system.snapshot(exact, i).velocity).norm()));
   }
-  instant_ = reached + 1;
+  const auto found = joint_reactions(system_, state.t, state.y, multipliers_);
+  const auto right = joint_reactions(system, S(state.t), exact);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    raise(found_.reaction_error_max, static_cast<double>((found[i].force.template cast<S>() - right[i].force).norm()));
+    if (!system_.constraints()->has_angles(i)) continue;
+    raise(found_.reaction_torque_error_max,
+          static_cast<double>((found[i].torque.template cast<S>() - right[i].torque).norm()));
+  }
 }
 
 }  // namespace polhode::study::metrics

@@ -16,18 +16,16 @@
 namespace polhode::study::inline plan {
 namespace {
 
-/// The study with the methods that the experiment allows. "all" leaves out the others; naming one is an error.
-StudyAxes with_fitting_methods(const Experiment& experiment, StudyAxes study) {
+/// "all" methods without those that the study does not allow. To name one of these is an error.
+void leave_out(StudyAxes& study, const std::function<bool(const Declaration&)>& unfit) {
   const auto said = study.axes.find("integrator");
-  if (!experiment.fixed_steps_only || said == study.axes.end() || study.table_with("integrator")) return study;
-  const bool all = said->second == "all";
+  if (said == study.axes.end() || said->second != "all" || study.table_with("integrator")) return;
   std::string fitting;
   for (const OptionValue& name : axis_values(run_option("integrator"), said->second, study.label("integrator"))) {
-    if (all && find_integrator(text_of(name))->declaration.adaptive) continue;
+    if (unfit(find_integrator(text_of(name))->declaration)) continue;
     fitting += (fitting.empty() ? "" : ",") + text_of(name);
   }
   said->second = fitting;
-  return study;
 }
 
 /// Rejects several durations, and samples, if the experiment derives the duration of a run from its step.
@@ -47,15 +45,18 @@ void check_durations(const Experiment& experiment, const StudyAxes& study) {
 }  // namespace
 
 Product::Product(const Experiment& experiment, const StudyAxes& study, const Options& options, WithReference reference)
-    : experiment_(experiment),
-      study_(with_fitting_methods(experiment, study)),
-      max_steps_(options.max_steps),
-      reference_(reference) {
+    : experiment_(experiment), study_(study), max_steps_(options.max_steps), reference_(reference) {
   check_durations(experiment, study_);
   for (const RunOption& option : run_options()) {
     if (option.needed) needed_.push_back(&option);
   }
   for (const Condition& condition : study_.where) conditions_.emplace_back(condition.text, condition.label);
+  open_scenarios(dimensions(study_, true));
+  const bool jointed = std::any_of(opened_.begin(), opened_.end(),
+                                   [](const auto& one) { return !one->scenario->problem.joints.empty(); });
+  leave_out(study_, [&](const Declaration& method) {
+    return (experiment.fixed_steps_only && method.adaptive) || (!jointed && method.solves_joints());
+  });
   counted_ = make_cells(true).count();
 }
 
@@ -72,7 +73,6 @@ std::set<std::string> Product::varied_keys() const {
 
 Cells Product::make_cells(bool counted) {
   std::vector<Dimension> all = dimensions(study_, counted);
-  if (opened_.empty()) open_scenarios(all);
   return Cells(std::move(all), [this](const std::string& name) {
     const Opened& opened = *by_name_.at(name);
     return Cells::Start{start_of(opened, *opened.scenario), opened.scenario.get()};

@@ -19,7 +19,7 @@ struct Marker {
   int gnuplot;
   std::string_view pgf;
 };
-inline constexpr std::array<Marker, 10> markers = {{{7, "*"},
+inline constexpr std::array<Marker, 12> markers = {{{7, "*"},
                                                     {5, "square*"},
                                                     {9, "triangle*"},
                                                     {13, "diamond*"},
@@ -28,7 +28,9 @@ inline constexpr std::array<Marker, 10> markers = {{{7, "*"},
                                                     {4, "square"},
                                                     {8, "triangle"},
                                                     {12, "diamond"},
-                                                    {14, "pentagon"}}};
+                                                    {14, "pentagon"},
+                                                    {1, "+"},
+                                                    {2, "x"}}};
 
 struct Dash {
   std::string_view gnuplot, pgf;

@@ -408,6 +408,31 @@ std::vector<Metric> all_metrics() {
        .member = &J::condition_max,
        .runs = Runs::with_joints,
        .listed_with = "joint_rank"},
+      {.column = "velocity_error_max_m_per_s",
+       .member = &J::speed_error_max,
+       .runs = Runs::with_joints,
+       .meaning =
+           "with joints: largest error of the velocity of a mass centre, of the force and of the torque of a joint,\n"
+           "against the exact motion or the reference",
+       .listed_as = "velocity_error_max_m_per_s, joint_reaction_error_max_N ...",
+       .list_rank = 2,
+       .label = "velocity off by",
+       .unit = "m/s",
+       .least_is_best = true},
+      {.column = "joint_reaction_error_max_N",
+       .member = &J::reaction_error_max,
+       .runs = Runs::with_joints,
+       .listed_with = "velocity_error_max_m_per_s",
+       .label = "forces of joints off by",
+       .unit = "N",
+       .least_is_best = true},
+      {.column = "joint_reaction_torque_error_max_N_m",
+       .member = &J::reaction_torque_error_max,
+       .runs = Runs::with_joints,
+       .listed_with = "velocity_error_max_m_per_s",
+       .label = "torques of joints off by",
+       .unit = "N m",
+       .least_is_best = true},
   };
 }
 

@@ -119,6 +119,10 @@ struct JointMeasures {
   std::optional<double> projection;     ///< energy injected by projections until the end of the run, J
   std::optional<double> rank;           ///< least rank of the constraint equations
   std::optional<double> condition_max;  ///< largest condition of the independent equations, in the metric of the masses
+  // Against the exact motion or a reference.
+  std::optional<double> speed_error_max;            ///< of the velocities of mass centres, m/s
+  std::optional<double> reaction_error_max;         ///< of the forces of the joints, N
+  std::optional<double> reaction_torque_error_max;  ///< of their torques about their anchors, N m
 };
 
 struct RunResult {

@@ -122,8 +122,8 @@ RunResult measured(const RunConfig& config, const Scenario& scenario, const Traj
   const auto truth = make_system<double>(scenario.problem, formulation_of(config));
   std::optional<ContactSetup> contact;
   if (config.contact) contact.emplace(*truth, scenario, *config.contact);
-  DriftMeter meter(*truth, scenario.invariants, config.t_end, config.samples.has_value(),
-                   true_motion_of(config, scenario, stop, references), config.precision);
+  const TrueMotion motion = true_motion_of(config, scenario, stop, references);
+  DriftMeter meter(*truth, scenario.invariants, config.t_end, config.samples.has_value(), motion, config.precision);
   std::optional<ContactMeter> contact_meter;
   if (config.contact) contact_meter.emplace(*truth, scenario, *config.contact, config.t_end);
   const auto writer =
@@ -132,7 +132,7 @@ RunResult measured(const RunConfig& config, const Scenario& scenario, const Traj
   if (writer) observers.add(*writer);
   if (contact_meter) observers.add(*contact_meter);
   std::optional<JointMeter> joint_meter;
-  if (config.joints) observers.add(joint_meter.emplace(*truth, config.t_end));
+  if (config.joints) observers.add(joint_meter.emplace(*truth, config.t_end, motion.reference));
   observers.add(meter);
   std::optional<ShareMeter> share_meter;
   if (share) observers.add(share_meter.emplace(*share, config.t_end));

@@ -22,6 +22,9 @@ class Writer final : public TrajectoryWriter {
   void on_slides_end(std::span<const Transition> transitions) override {
     for (const Transition& transition : transitions) tables_.slide_end(event_row(transition));
   }
+  void on_multipliers(std::span<const double> multipliers) override {
+    multipliers_ = Eigen::Map<const VectorX<double>>(multipliers.data(), Eigen::Index(multipliers.size()));
+  }
   void on_contact_energy(const ContactLosses& losses) override { contact_ = losses; }
   double next_state() const override { return 0; }
 
@@ -35,7 +38,7 @@ class Writer final : public TrajectoryWriter {
     }
     tables_.energy(energy_row(system_, sample, contact_, energy_start_));
     if (system_.has_joints()) {
-      for (const auto& row : reaction_rows(system_, state)) tables_.reaction(row);
+      for (const auto& row : reaction_rows(system_, state, multipliers_)) tables_.reaction(row);
     }
     rows_in_block_ += system_.moving();
     if (rows_in_block_ >= block_.rows || Clock::now() - flushed_ >= block_.age) flush();
@@ -56,6 +59,7 @@ class Writer final : public TrajectoryWriter {
   BlockEnd block_;
   Tables tables_;
   ContactLosses contact_;
+  VectorX<double> multipliers_;  ///< of the next state, from a method that solves for them; else empty
   double energy_start_ = 0;
   std::size_t rows_in_block_ = 0;
   Clock::time_point flushed_ = Clock::now();

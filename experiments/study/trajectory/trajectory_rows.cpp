@@ -2,7 +2,7 @@
 #include "experiments/study/trajectory/trajectory_rows.hpp"
 
 #include "core/system/constraints.hpp"
-#include "core/system/joint_projection.hpp"
+#include "core/system/joint_reactions.hpp"
 
 namespace polhode::study::inline trajectory {
 
@@ -61,14 +61,13 @@ std::vector<std::string> reaction_columns() {
   return {"t_s", "joint", "body", "fx_N", "fy_N", "fz_N", "tx_N_m", "ty_N_m", "tz_N_m"};
 }
 
-std::vector<std::vector<double>> reaction_rows(const System<double>& system, const State<double>& state) {
-  VectorX<double> rate(state.y.size());
-  system.rate(state.t, state.y.data(), rate.data());  // computes the reactions
+std::vector<std::vector<double>> reaction_rows(const System<double>& system, const State<double>& state,
+                                               const VectorX<double>& multipliers) {
   const Constraints<double>& joints = *system.constraints();
-  const auto motions = motions_of(system, state.y);
+  const std::vector<Wrench<double>> reactions = joint_reactions(system, state.t, state.y, multipliers);
   std::vector<std::vector<double>> rows;
   for (std::size_t i = 0; i < joints.count(); ++i) {
-    const Wrench<double> w = joints.reaction(i, motions);
+    const Wrench<double>& w = reactions[i];
     rows.push_back({state.t, static_cast<double>(i), static_cast<double>(joints.joint(i).first()), w.force[0],
                     w.force[1], w.force[2], w.torque[0], w.torque[1], w.torque[2]});
   }

@@ -27,8 +27,9 @@ std::vector<double> energy_row(const System<double>& system, const Sample& sampl
 /// t_s, joint, body, force and torque: the reaction on the first body of each joint, world axes, at its anchor. Joints
 /// and bodies count from 0 in the order of the scenario.
 std::vector<std::string> reaction_columns();
-/// One row for each joint.
-std::vector<std::vector<double>> reaction_rows(const System<double>& system, const State<double>& state);
+/// One row for each joint. `multipliers`: of the method; empty: the reactions follow from the state.
+std::vector<std::vector<double>> reaction_rows(const System<double>& system, const State<double>& state,
+                                               const VectorX<double>& multipliers);
 
 /// `kind`: with the column of words, which only a table of text has.
 std::vector<std::string> event_columns(bool kind);
