@@ -70,6 +70,26 @@ TEST(ConstrainedMethod, Squeezer) {
   }
 }
 
+/// Backward differentiation and ARKODE project onto the joints within their steps.
+TEST(ConstrainedMethod, SundialsProjectsWithinItsSteps) {
+  for (const std::string method : {"cvode_bdf", "arkode_erk", "arkode_dirk", "cvode_adams"}) {
+    SCOPED_TRACE(method);
+    const bool native = method != "cvode_adams";
+    for (const Stabilization s : {Stabilization::both, Stabilization::none}) {
+      Formulation f;
+      f.joints.stabilization = s;
+      const auto system = make_system<double>(problem_of("double_pendulum"), f);
+      const auto integrator = find_integrator(method)->make(*system, {.tolerance = 1e-8, .t_end = 1});
+      EXPECT_EQ(integrator->native_projection() != nullptr, native && s == Stabilization::both);
+    }
+    const End end = run_with(method, "double_pendulum", 1e-8, 1, Stabilization::both);
+    EXPECT_LT(end.largest_gap, 1e-13);
+    EXPECT_LT(end.largest_drift, 1e-4);
+    const End other = run_with("rk4", "double_pendulum", 1e-4, 1, Stabilization::both);
+    EXPECT_LT((end.point(1, Vector::Zero()) - other.point(1, Vector::Zero())).norm(), native ? 1e-5 : 1e-3);
+  }
+}
+
 /// The largest error of the reactions of a method over a run, against those that follow from its states.
 class WatchReactions final : public Observer {
  public:

@@ -217,6 +217,7 @@ TEST(MetricTable, ColumnsAreIdentifiersAndEachStandsOnce) {
     // The column ends with the unit that tables print.
     std::string ending = metric.unit == "relative" ? "_rel" : "_" + metric.unit;
     if (const std::size_t per = ending.find('/'); per != std::string::npos) ending.replace(per, 1, "_per_");
+    std::replace(ending.begin(), ending.end(), ' ', '_');
     if (metric.unit.empty() || metric.unit == "1") continue;
     EXPECT_TRUE(metric.column.ends_with(ending)) << metric.column;
   }
