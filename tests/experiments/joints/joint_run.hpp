@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "core/run/simulate.hpp"
 #include "core/system/constraints.hpp"
 #include "core/system/joint_projection.hpp"
+#include "core/system/joint_reactions.hpp"
 #include "experiments/study/scenario/scenario.hpp"
 #include "integrators/catalogue.hpp"
 
@@ -82,12 +82,7 @@ inline End run(const Problem& problem, double dt, double t_end, Stabilization st
 
 /// Force (N) of a joint on its first body at the end, by the multipliers of the method or those of the index-1 form.
 inline Vector reaction(const End& end, std::size_t joint) {
-  const Constraints<double>& joints = *end.system->constraints();
-  VectorX<double> rate(end.state.y.size());
-  std::optional<PrescribedMultipliers<double>> prescribed;
-  if (end.multipliers.size() > 0) prescribed.emplace(joints, end.multipliers);
-  end.system->rate(end.state.t, end.state.y.data(), rate.data());
-  return joints.reaction(joint, motions_of(*end.system, end.state.y)).force;
+  return joint_reactions(*end.system, end.state.t, end.state.y, end.multipliers)[joint].force;
 }
 
 inline Problem problem_of(const std::string& scenario) { return ScenarioSource::open(scenario).resolve().problem; }

@@ -6,87 +6,16 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/exact/exact_motion.hpp"
-#include "core/run/simulate.hpp"
-#include "core/system/constraints.hpp"
-#include "core/system/joint_projection.hpp"
-#include "experiments/study/scenario/scenario.hpp"
-#include "integrators/catalogue.hpp"
+#include "tests/experiments/joints/joint_run.hpp"
 
 namespace polhode::study::joints_tests {
 namespace {
-
-using Vector = Vector3<double>;
-
-struct End {
-  std::unique_ptr<System<double>> system;
-  State<double> state;
-  Sample last;
-  double largest_drift = 0;
-  double largest_gap = 0;
-
-  Vector point(std::size_t body, const Vector& in_body) const {
-    return system->motion_of(state.y, body).point(in_body);
-  }
-};
-
-/// Keeps the ledger and the gaps of the joints.
-class Watch final : public Observer {
- public:
-  explicit Watch(End& end) : end_(end) {}
-  std::size_t on_samples(std::span<const Sample> samples) override {
-    for (const Sample& s : samples) {
-      if (s.t == 0) start_ = s.ledger(0);
-      end_.largest_drift = std::max(end_.largest_drift, std::abs(s.ledger(0) - start_));
-    }
-    end_.last = samples.back();
-    return samples.size();
-  }
-  void on_state(const State<double>& state, const Sample&) override {
-    const auto motions = motions_of(*end_.system, state.y);
-    for (std::size_t i = 0; i < end_.system->constraints()->count(); ++i) {
-      const auto v = end_.system->constraints()->violation(i, motions);
-      end_.largest_gap = std::max({end_.largest_gap, v.position, v.angle});
-    }
-  }
-  double next_state() const override { return 0; }
-
- private:
-  End& end_;
-  double start_ = 0;
-};
-
-End run(const std::string& scenario, double dt, double t_end, Stabilization stabilization = Stabilization::both,
-        AngularState angular = AngularState::velocity_world, const std::string& method = "rk4") {
-  const Problem problem = ScenarioSource::open(scenario).resolve().problem;
-  Formulation f{.angular_state = angular};
-  f.joints.stabilization = stabilization;
-  End end{make_system<double>(problem, f), {}, {}};
-  end.state = end.system->start();
-  const IntegratorEntry& entry = *find_integrator(method);
-  const auto integrator =
-      entry.make(*end.system, {.dt = dt, .tolerance = dt, .t_end = t_end});  // of adaptive methods dt is the tolerance
-  Schedule schedule;
-  schedule.t_end = t_end;
-  schedule.dt = dt;
-  schedule.adaptive = entry.declaration.adaptive;
-  Watch watch(end);
-  const RunOutcome outcome = simulate<double>(*end.system, *end.system, *integrator, end.state, schedule, watch);
-  EXPECT_EQ(outcome.status, RunStatus::ok) << outcome.message;
-  return end;
-}
-
-Vector reaction(const End& end, std::size_t joint) {
-  VectorX<double> rate(end.state.y.size());
-  end.system->rate(end.state.t, end.state.y.data(), rate.data());
-  return end.system->constraints()->reaction(joint, motions_of(*end.system, end.state.y)).force;
-}
 
 TEST(JointTruth, PendulumOnARod) {
   const End end = run("rod_pendulum", 1e-3, 10);
@@ -119,7 +48,7 @@ TEST(JointTruth, ReactionOfTheTopAtItsStart) {
 
 /// The jointed top and the pinned one are two formulations of one motion.
 TEST(JointTruth, PinnedAndJointedTopAgree) {
-  const Problem jointed = ScenarioSource::open("ball_joint_top").resolve().problem;
+  const Problem jointed = problem_of("ball_joint_top");
   Problem pinned = jointed;
   pinned.joints.clear();
   Body& body = pinned.bodies[0];
@@ -313,7 +242,7 @@ TEST(JointTruth, LedgerClosesWithTheWorkOfTheJoints) {
   for (const Stabilization s : {Stabilization::none, Stabilization::baumgarte, Stabilization::position,
                                 Stabilization::velocity, Stabilization::both}) {
     SCOPED_TRACE(name(s));
-    const Problem problem = ScenarioSource::open("double_pendulum").resolve().problem;
+    const Problem problem = problem_of("double_pendulum");
     const auto drift = [&](double dt) {
       Formulation f;
       f.joints = {.stabilization = s};
@@ -345,8 +274,7 @@ TEST(JointTruth, ExactMotionsOfJointedBodies) {
     EXPECT_LT(*error.position, 1e-9) << scenario;
     EXPECT_LT(*error.attitude, 5e-9) << scenario;
   }
-  EXPECT_FALSE(
-      ExactMotion(*make_system<double>(ScenarioSource::open("double_pendulum").resolve().problem, {})).has_anything());
+  EXPECT_FALSE(ExactMotion(*make_system<double>(problem_of("double_pendulum"), {})).has_anything());
 }
 
 }  // namespace
