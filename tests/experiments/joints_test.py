@@ -57,6 +57,20 @@ class Joints(unittest.TestCase):
         self.run_program("simulate", "--scenario", "dzhanibekov", "--integrator", "rk4", "--dt", "1", "--out", out)
         return out
 
+    def test_errors_of_velocities_and_reactions_have_their_orders(self):
+        steps = (2e-3, 5e-4)
+        for scenario, more in (("rod_pendulum", ()), ("double_pendulum", ("--reference",))):
+            out = self.folder / scenario
+            self.run_program("energy_drift", "--scenario", scenario, "--integrator", "rattle,shake,generalized_alpha_index2,rk4", "--dt",
+                             ",".join(map(str, steps)), "--t-end", "1", *more, "--out", out)
+            rows = {(r["integrator"], float(r["dt_s"])): r for r in read(out / "runs.csv")}
+            for method, of_reaction in (("rattle", 1), ("shake", 2), ("generalized_alpha_index2", 2), ("rk4", 4)):
+                for column, order in (("velocity_error_max_m_per_s", 4 if method == "rk4" else 2),
+                                      ("joint_reaction_error_max_N", of_reaction)):
+                    coarse, fine = (float(rows[method, h][column]) for h in steps)
+                    if fine > 1e-10:
+                        self.assertAlmostEqual(math.log(coarse / fine, 4), order, delta=0.25, msg=f"{scenario} {method} {column}")
+
     def test_the_ledger_has_what_stabilization_puts_in(self):
         for how in ("none", "baumgarte", "both"):
             out = self.folder / how

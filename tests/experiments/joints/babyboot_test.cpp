@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Kane's pendulum of two hinges against its two freedoms. Source: Kane & Levinson, Dynamics: Theory and Applications
-// (1985).
+// Kane's pendulum of two hinges, a benchmark of Drake, against its two freedoms.
 #include <gtest/gtest.h>
 
 #include <cmath>

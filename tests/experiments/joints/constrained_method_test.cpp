@@ -84,7 +84,7 @@ TEST(ConstrainedMethod, SundialsProjectsWithinItsSteps) {
     }
     const End end = run_with(method, "double_pendulum", 1e-8, 1, Stabilization::both);
     EXPECT_LT(end.largest_gap, 1e-13);
-    EXPECT_LT(end.largest_drift, 1e-4);
+    EXPECT_LT(end.largest_drift, native ? 1e-4 : 1e-2) << "a restart after each step loses the history";
     const End other = run_with("rk4", "double_pendulum", 1e-4, 1, Stabilization::both);
     EXPECT_LT((end.point(1, Vector::Zero()) - other.point(1, Vector::Zero())).norm(), native ? 1e-5 : 1e-3);
   }

@@ -9,7 +9,6 @@
 //   (A + m r²) κ = C (C + m r²) ω²/A - m g r; it vanishes at g/(3r) for a disk and g/(4r) for a hoop.
 // Of spinning on edge at ψ' = Ω, ω3 = m r² Ω δ/(C + m r²) and
 //   (A + m r²) κ = (A + m r²) Ω² - m g r; it vanishes at 4g/(5r) for a disk and 2g/(3r) for a hoop.
-// Source: Neimark & Fufaev, Dynamics of Nonholonomic Systems (1972).
 #include <gtest/gtest.h>
 
 #include <cmath>
