@@ -32,8 +32,8 @@ class ExactMotion {
   /// The known parts of the motion of one body at t (s), also if they are not known for every body.
   BodyAt at(double t, std::size_t body) const;
 
-  /// The state of the exact motion at the time of `near`, a state near it; the works are those of `near`. For a complete
-  /// motion whose angular velocities are known.
+  /// The state of the exact motion at the time of `near`, a state near it; the works are those of `near`. For a
+  /// complete motion whose angular velocities are known.
   VectorX<double> state(const System<double>& system, const State<double>& near) const;
 
   struct Error {

@@ -37,12 +37,11 @@ Formulation formulation_of(const RunConfig& config) {
 
 template <class S>
 std::unique_ptr<Integrator<S>> integrator_of(const RunConfig& config, const System<S>& system) {
-  const IntegratorSettings settings{
-      .dt = config.dt.value_or(0),
-      .tolerance = config.tolerance.value_or(0),
-      .t_end = config.t_end,
-      .project = config.normalize,
-      .chosen = config.settings};
+  const IntegratorSettings settings{.dt = config.dt.value_or(0),
+                                    .tolerance = config.tolerance.value_or(0),
+                                    .t_end = config.t_end,
+                                    .project = config.normalize,
+                                    .chosen = config.settings};
   const IntegratorEntry& entry = *find_integrator(config.integrator);
   if constexpr (!is_lanes<S>) {
     if (is_compensated(config)) return make_compensated<S>(entry, system, settings);
