@@ -103,7 +103,7 @@ CONTACT_SCENARIOS = {
 # Each experiment that makes a study or a folder, with what its default study needs to stay short.
 EXPERIMENTS = {
     "energy_drift": [], "simulate": [], "convergence": [], "work_precision": [], "stability": [], "precision": [],
-    "certificate": [], "impact": [], "pile": [], "stack": [], "narrow_phase": [],
+    "certificate": [], "impact": [], "pile": [], "stack": [], "joints": [], "narrow_phase": [],
     "broad_phase": ["--bodies", "100,1000"],  # 100 to 100000 bodies by default: nothing but wall times
 }
 STUDIES = [name for name in EXPERIMENTS if name not in ("narrow_phase", "broad_phase")]

@@ -13,7 +13,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXPERIMENTS = ("simulate", "energy_drift", "convergence", "impact", "pile", "stack", "stability", "work_precision",
-               "precision", "certificate")
+               "precision", "certificate", "joints")
 UNITS = {"s": 1, "min": 60, "h": 3600}
 
 

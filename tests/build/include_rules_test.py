@@ -93,6 +93,7 @@ MAY_INCLUDE = {
     "experiments/explain": "experiments/study/*",
     "experiments/figures": "experiments/study/*",
     "experiments/impact": "core/* integrators collision/* experiments/study/*",
+    "experiments/joints": "core/* integrators collision/* experiments/study/*",
     "experiments/judge": "core/* integrators collision/* experiments/study/*",
     "experiments/methods": "core/* integrators collision/* experiments/study/*",
     "experiments/narrow_phase": "core/* integrators collision/* experiments/study/*",

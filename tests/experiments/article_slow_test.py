@@ -14,7 +14,7 @@ import programs
 
 # Default studies; broad_phase with fewer boxes than by default, which take minutes.
 EXPERIMENTS = {"energy_drift": [], "simulate": [], "convergence": [], "certificate": [], "work_precision": [],
-               "precision": [], "stability": [], "impact": [], "stack": [], "pile": [],
+               "precision": [], "stability": [], "impact": [], "stack": [], "pile": [], "joints": [],
                "broad_phase": ["--bodies", "100,1000"], "narrow_phase": ["--count", "200"]}
 programs.PATIENCE = 1200
 MAY_HAVE_NONE = ("viewer", "replay", "results", "rerun", "explain", "archive", "judge", "figures",

@@ -71,6 +71,35 @@ class Joints(unittest.TestCase):
                     if fine > 1e-10:
                         self.assertAlmostEqual(math.log(coarse / fine, 4), order, delta=0.25, msg=f"{scenario} {method} {column}")
 
+    def test_the_experiment_says_what_its_runs_say(self):
+        out = self.folder / "out"
+        done = self.run_program("joints", "--scenario", "double_pendulum", "--integrator", "rk4", "--stabilization", "none,both", "--dt",
+                                "4e-3,1e-3", "--out", out)
+        rows, runs = read(out / "joints.csv"), {r["run"]: r for r in read(out / "runs.csv")}
+        self.assertEqual(len(rows), 4)
+        for row in rows:
+            for column in ("joint_gap_max_m", "position_error_max_m", "velocity_error_max_m_per_s", "joint_reaction_error_max_N"):
+                self.assertEqual(row[column], runs[row["run"]][column])
+            put_in = float(runs[row["run"]]["joint_work_J"]) + float(runs[row["run"]]["projection_J"])
+            self.assertAlmostEqual(float(row["put_in_J"]), put_in, delta=1e-15)
+        widest = max(float(r["joint_gap_max_m"]) for r in rows if float(r["step_s_or_tolerance"]) == 1e-3)
+        self.assertIn(f"Joints stay closed to 1e-12 m with rk4 (both); rk4 (none) lets them open most, by {widest:.3g} m."
+                      .replace("e-0", "e-"), done.stdout)
+        # The largest force at the start: that of the first joint, which carries both rods where they are let go.
+        limit = 1e-3 * max(2 * 9.81 / 1, 9.81)
+        cheapest = min(int(r["evaluations"]) for r in rows if float(r["joint_reaction_error_max_N"]) < limit)
+        self.assertIn(f"on double_pendulum ({cheapest} right-hand sides).", done.stdout)
+
+    def test_methods_of_joints_need_joints(self):
+        refused = self.run_program("energy_drift", "--scenario", "dzhanibekov", "--integrator", "rattle", "--dt", "0.01", status=2)
+        self.assertIn("rattle: it solves the equations of joints, and the scenario has none", refused.stderr)
+        refused = self.run_program("energy_drift", "--scenario", "four_bar", "--integrator", "ida_ggl", "--stabilization", "both", status=2)
+        self.assertIn("leave --stabilization out", refused.stderr)
+        refused = self.run_program("energy_drift", "--scenario", "bricard", "--integrator", "ida_ggl", status=2)
+        self.assertIn("depend on each other", refused.stderr)
+        refused = self.run_program("energy_drift", "--scenario", "rolling_disk", "--integrator", "rattle", "--dt", "0.01", status=2)
+        self.assertIn("not holonomic", refused.stderr)
+
     def test_the_ledger_has_what_stabilization_puts_in(self):
         for how in ("none", "baumgarte", "both"):
             out = self.folder / how

@@ -9,8 +9,8 @@ from report_page_test import LARGEST
 
 PATIENCE = 1400  # s
 # The default study of methods takes half an hour and has its own tests.
-EXPERIMENTS = ["broad_phase", "certificate", "convergence", "energy_drift", "impact", "narrow_phase", "pile", "precision", "simulate",
-               "stability", "stack", "work_precision"]
+EXPERIMENTS = ["broad_phase", "certificate", "convergence", "energy_drift", "impact", "joints", "narrow_phase", "pile", "precision",
+               "simulate", "stability", "stack", "work_precision"]
 STATUS = {"work_precision": 3}  # a run of dmv has no solution
 
 

@@ -41,8 +41,8 @@ SKIPPED = {  # beginning of a command: reason
     "./run viewer": "it opens a window or needs an offscreen context; tests/viewer tests it",
     "POLHODE_BIN_DIR=build/release/bin python3 tests/benchmarks/many_runs.py": "it needs GNU parallel and Snakemake, and minutes",
 }
-STUDIES = ("certificate", "convergence", "energy_drift", "impact", "methods", "pile", "precision", "simulate", "stability", "stack",
-           "work_precision")
+STUDIES = ("certificate", "convergence", "energy_drift", "impact", "joints", "methods", "pile", "precision", "simulate", "stability",
+           "stack", "work_precision")
 SOME = {"--integrator": "rk4,mclachlan_reich", "--response": "sequential_impulses,simultaneous", "--broad-phase": "bvh,all_pairs"}
 SMALL = {
     "broad_phase": {"--bodies": "100,200", "--motion": "0.02"},
@@ -52,6 +52,7 @@ SMALL = {
     "convergence": {"--integrator": "rk4,mclachlan_reich", "--t-end": "1", "--no-figures": None},
     "energy_drift": {"--t-end": "1", "--no-figures": None},
     "impact": {"--integrator": "rk4", "--t-end": "1", "--no-figures": None},
+    "joints": {"--t-end": "0.2", "--no-figures": None},
     "methods": {"--scenario": "hairer_vilmart,lagrange_top", "--integrator": "rk4,odeint_dopri5",
                 "--angular-state": "velocity_body", "--orientation": "quaternion", "--no-figures": None},
     "pile": {"--scenario": "pile_10", "--t-end": "0.2", "--no-figures": None},

@@ -226,7 +226,7 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
       return reason;
   }
   if (entry->refusal) {
-    if (std::string reason = entry->refusal(scenario.problem, config.formulation); !reason.empty()) {
+    if (std::string reason = entry->refusal(scenario.problem, formulation_of(config)); !reason.empty()) {
       return config.integrator + ": " + reason;
     }
   }
