@@ -68,8 +68,7 @@ void add_paths(const TomlValue& root, std::set<std::string>& paths) {
   const TomlValue* said = root.find("contact");
   const bool contact = said && said->boolean;
   for (const TomlEntry& entry : root.entries) {
-    const bool elements =
-        (entry.key == "body" || entry.key == "force" || entry.key == "joint") && entry.value.type == Type::list;
+    const bool elements = is_list_of_tables(entry.key) && entry.value.type == Type::list;
     if (!elements) {
       if (!is_idle(root_keys(), entry.key, contact)) paths.insert(entry.key);
       continue;

@@ -20,9 +20,12 @@ def properties(m):
     if m["conserves_quadratics"]:
         orientation = "addition, and yet on its manifold: a quadratic invariant of the equations"
     rows.append(("update of the orientation", orientation))
+    rows.append(("equations of joints", f"solves {code(m['joints'])} itself" if m["joints"]
+                 else "by the index-1 form, with `--stabilization`"))
     kept = [words for key, words in (("conserves_energy", "energy"), ("conserves_momentum", "angular momentum in the world"),
                                      ("conserves_casimir", "length of the angular momentum in the body")) if m[key]]
-    rows.append(("conserves for bodies without forces", ", ".join(kept) or "none of them exactly"))
+    if not m["joints"]:
+        rows.append(("conserves for bodies without forces", ", ".join(kept) or "none of them exactly"))
     if m["conserves_quadratics"]:
         rows.append(("conserves in any motion", "every quadratic invariant of the flat equations"))
     shape = [words for key, words in (("symplectic", "symplectic"), ("symmetric", "symmetric in time")) if m[key]]
@@ -39,6 +42,8 @@ def properties(m):
 
 def trial(m):
     steps = "--tolerance 1e-10:1e-4:4:log" if m["adaptive"] else "--dt 1e-3:1e-1:5:log"
+    if m["joints"]:
+        return f"./run joints --scenario rod_pendulum,double_pendulum --integrator {m['name']} --stabilization none {steps}"
     return f"./run energy_drift --scenario hairer_vilmart --integrator {m['name']} {steps}\n./run certificate --integrator {m['name']}"
 
 
@@ -50,7 +55,8 @@ def page(m, text, bibliography):
         "```{math}\n\\begin{aligned}\n" + m["equation"] + "\n\\end{aligned}\n```\n",
         "[Notation](notation.md) explains the symbols.\n",
         table(["property", "declared"], properties(m)),
-        f"`./run certificate --integrator {m['name']}` measures whether it is what it declares.\n",
+        f"`./run certificate --integrator {m['name']}{' --scenario double_pendulum' if m['joints'] else ''}` measures whether it is "
+        "what it declares.\n",
         text.strip() + "\n",
         "## Try it\n",
         "```sh\n" + trial(m) + "\n```\n",

@@ -65,6 +65,17 @@ Json free_order(const Declaration& d) {
   return order > 0 ? Json(order) : Json(nullptr);
 }
 
+/// Equations of the joints that a method solves itself; null: none.
+Json joints_in_json(JointEquations joints) {
+  switch (joints) {
+    case JointEquations::acceleration: return "G v' = gamma";
+    case JointEquations::velocity: return "G v = 0";
+    case JointEquations::position: return "g(q) = 0";
+    case JointEquations::position_and_velocity: return "g(q) = 0 and G v = 0";
+    default: return nullptr;
+  }
+}
+
 Json integrator_in_json(const IntegratorEntry& e) {
   const Declaration& d = e.declaration;
   Json scalars = Json::array({"double"});
@@ -90,6 +101,7 @@ Json integrator_in_json(const IntegratorEntry& e) {
           {"conserves_energy", d.conserves_energy},
           {"conserves_momentum", d.conserves_momentum},
           {"conserves_casimir", d.conserves_casimir},
+          {"joints", joints_in_json(d.joints)},
           {"precisions", scalars},
           {"settings", list_of(d.settings, setting_in_json)}};
 }

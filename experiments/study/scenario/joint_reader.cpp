@@ -12,15 +12,6 @@
 #include "experiments/study/text/notation.hpp"
 
 namespace polhode::study::inline scenario {
-
-const NamedBody& read_body_name(const TomlCursor& name, const BodyIndex& index) {
-  const auto found = index.find(name.text("the name of a body"));
-  if (found != index.end()) return found->second;
-  std::vector<std::string_view> known;
-  for (const auto& body : index) known.push_back(body.first);
-  name.unknown("body", "There are", known);
-}
-
 namespace {
 
 constexpr double closed_to = 1e-9;  // m, rad, m/s, rad/s

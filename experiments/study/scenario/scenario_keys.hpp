@@ -32,4 +32,7 @@ const TomlValue& otherwise(const std::vector<ScenarioKey>& keys, std::string_vie
 
 TomlValue to_toml(const ParameterValue& value);
 
+/// True for the keys of a scenario that hold a list of tables.
+constexpr bool is_list_of_tables(std::string_view key) { return key == "body" || key == "force" || key == "joint"; }
+
 }  // namespace polhode::study::scenario

@@ -76,9 +76,6 @@ std::optional<double> plain_number(std::string_view text) {
   return number;
 }
 
-/// True for the keys of a scenario that hold a list of tables.
-bool is_list_of_tables(std::string_view key) { return key == "body" || key == "force" || key == "joint"; }
-
 /// The keys of an element of one of these lists: of a body, or of a force or joint of its kind.
 std::vector<ScenarioKey> keys_of(std::string_view list, const TomlValue& element) {
   if (list == "body") return body_keys();

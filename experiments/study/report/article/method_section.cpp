@@ -25,6 +25,7 @@ std::string properties(const Declaration& d) {
   if (d.conserves_momentum) conserved.push_back("angular momentum");
   if (d.conserves_casimir) conserved.push_back("the length of the angular momentum in body axes");
   std::string text = fmt::format("It is {}.", words(all));
+  if (d.solves_joints()) text += " It solves the equations of joints itself.";
   if (!conserved.empty()) text += fmt::format(" For free bodies it conserves {}.", words(conserved));
   return text;
 }
