@@ -157,7 +157,7 @@ class Papers(unittest.TestCase):
 
     def test_a_paper_that_is_not_there_is_bad_input(self):
         done = self.run_papers("--only", "detest_b6", status=2)
-        self.assertIn("no paper is called detest_b6; there are course_report", done.stderr)
+        self.assertIn("no paper is called detest_b6; there are andrews_squeezer", done.stderr)
 
 
 class Claims(unittest.TestCase):
