@@ -46,6 +46,7 @@
   METHOD(rattle_lie) \
   METHOD(generalized_alpha_index3) \
   METHOD(generalized_alpha_index2) \
+  METHOD(half_explicit4) \
   METHOD(cvode_adams) \
   METHOD(cvode_bdf) \
   METHOD(arkode_erk) \

@@ -16,7 +16,8 @@ int main(int argc, char** argv) {
                     {"t-end", "1"}},
        .reference = true,
        .more = {{.defaults = {{"integrator",
-                               "shake,rattle,generalized_alpha_index3,generalized_alpha_index2,ida_index1,ida_index2,"
+                               "shake,rattle,half_explicit4,generalized_alpha_index3,generalized_alpha_index2,ida_"
+                               "index1,ida_index2,"
                                "ida_index3,ida_ggl,ida_ah"},
                               {"stabilization", "none"}},
                  .reference = true,

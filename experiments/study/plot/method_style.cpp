@@ -57,6 +57,7 @@ constexpr std::array style_table = {
     NamedStyle{"rattle_lie", {3, 11, 1}},
     NamedStyle{"generalized_alpha_index3", {5, 2, 1}},
     NamedStyle{"generalized_alpha_index2", {4, 6, 2}},
+    NamedStyle{"half_explicit4", {6, 10, 4}},
     NamedStyle{"cvode_adams", {6, 6, 0}},
     NamedStyle{"cvode_bdf", {7, 8, 0}},
     NamedStyle{"arkode_erk", {4, 2, 2}},
