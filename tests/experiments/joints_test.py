@@ -90,6 +90,12 @@ class Joints(unittest.TestCase):
         cheapest = min(int(r["evaluations"]) for r in rows if float(r["joint_reaction_error_max_N"]) < limit)
         self.assertIn(f"on double_pendulum ({cheapest} right-hand sides).", done.stdout)
 
+    def test_all_methods_are_those_that_fit(self):
+        for scenario, more, there in (("dzhanibekov", (), False), ("rod_pendulum", ("--stabilization", "both"), False),
+                                      ("rod_pendulum", ("--stabilization", "none,both"), True)):
+            said = self.run_program("energy_drift", "--scenario", scenario, "--integrator", "all", *more, "--dry-run").stdout
+            self.assertEqual("will be refused" in said, there, said)
+
     def test_methods_of_joints_need_joints(self):
         refused = self.run_program("energy_drift", "--scenario", "dzhanibekov", "--integrator", "rattle", "--dt", "0.01", status=2)
         self.assertIn("rattle: it solves the equations of joints, and the scenario has none", refused.stderr)

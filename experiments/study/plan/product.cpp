@@ -28,6 +28,14 @@ void leave_out(StudyAxes& study, const std::function<bool(const Declaration&)>& 
   said->second = fitting;
 }
 
+/// True if the study leaves the axis at its default, or has the value on it.
+bool allows(const StudyAxes& study, const std::string& axis, const std::string& value) {
+  const auto said = study.axes.find(axis);
+  if (said == study.axes.end() || study.table_with(axis)) return true;
+  const auto values = axis_values(run_option(axis), said->second, study.label(axis));
+  return std::any_of(values.begin(), values.end(), [&](const OptionValue& v) { return text_of(v) == value; });
+}
+
 /// Rejects several durations, and samples, if the experiment derives the duration of a run from its step.
 void check_durations(const Experiment& experiment, const StudyAxes& study) {
   if (!experiment.duration) return;
@@ -54,8 +62,10 @@ Product::Product(const Experiment& experiment, const StudyAxes& study, const Opt
   open_scenarios(dimensions(study_, true));
   const bool jointed = std::any_of(opened_.begin(), opened_.end(),
                                    [](const auto& one) { return !one->scenario->problem.joints.empty(); });
+  // A method that solves the equations of joints itself needs some, and takes no stabilization.
+  const bool fits_solvers = jointed && allows(study_, "stabilization", "none");
   leave_out(study_, [&](const Declaration& method) {
-    return (experiment.fixed_steps_only && method.adaptive) || (!jointed && method.solves_joints());
+    return (experiment.fixed_steps_only && method.adaptive) || (!fits_solvers && method.solves_joints());
   });
   counted_ = make_cells(true).count();
 }
