@@ -68,7 +68,8 @@ TEST_P(IntegratorLaw, HasTheDeclaredOrder) {
     for (; !extended && coarse < 1000 * floor && first > 3; coarse = difference(run(*system, 0, first).y, end))
       first /= 2;
     double order = 0, error = 1;
-    for (std::int64_t n = first; n <= 3840; n *= 2) {
+    const std::int64_t most = declared().solves_joints() ? 960 : 3840;  // their steps are long under sanitizers
+    for (std::int64_t n = first; n <= most; n *= 2) {
       const double next = extended ? difference(run(*exact, 0, n).y, end) : difference(run(*system, 0, n).y, end);
       if (next < (extended ? 1e-15 : floor)) break;
       order = std::log2(error / next);

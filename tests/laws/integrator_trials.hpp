@@ -107,6 +107,8 @@ class OverTheCatalogue : public testing::TestWithParam<std::string> {
     for (const Trial& trial : own_trials()) {
       for (const Formulation& f : gyroscopic_formulations()) {
         if (refuses(trial.problem, f)) continue;
+        // Joints are about rotations, which a quaternion that is not of unit length is not if it is taken as stored.
+        if (declared().solves_joints() && f.rotation_from == RotationFrom::stored) continue;
         SCOPED_TRACE(GetParam() + ", " + trial.name + ", " + label(f));
         check(trial, f);
       }
