@@ -7,6 +7,8 @@
 #include <cmath>
 #include <functional>
 
+#include "core/system/constraints.hpp"
+#include "core/system/joint_projection.hpp"
 #include "integrators/compensated.hpp"
 #include "tests/laws/integrator_trials.hpp"
 
@@ -207,6 +209,32 @@ TEST_P(IntegratorTrait, CasimirIsKept) {
                 const double start = casimir(system, system.start());
                 return std::abs(casimir(system, state) - start) / start;
               });
+}
+
+// Which equations of the joints the states of a method satisfy: of a fixed step those that it declares, to round-off,
+// and no others; of an adaptive one those that it declares, to a hundred times its tolerance.
+TEST_P(IntegratorTrait, EquationsOfJointsAreKept) {
+  const JointEquations kept = declared().joints;
+  if (!declared().solves_joints()) GTEST_SKIP() << "it leaves them to the formulation";
+  const auto system = build<double>(own_trials().front(), {});
+  const State<double> end = run(*system, 1e-8);
+  const auto motions = motions_of(*system, end.y);
+  double gap = 0, rate = 0;
+  for (std::size_t i = 0; i < system->constraints()->count(); ++i) {
+    const auto v = system->constraints()->violation(i, motions);
+    gap = std::max({gap, v.position, v.angle});
+    rate = std::max({rate, v.velocity, v.rate});
+  }
+  const auto expect = [&](bool is_declared, double size) {
+    if (is_declared) {
+      EXPECT_LT(size, adaptive() ? 1e-6 : 1e-11);
+    } else if (!adaptive()) {
+      EXPECT_GT(size, 1e-9);
+    }
+  };
+  const bool both = kept == JointEquations::position_and_velocity;
+  expect(both || kept == JointEquations::position, gap);
+  expect(both || kept == JointEquations::velocity, rate);
 }
 
 }  // namespace
