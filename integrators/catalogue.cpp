@@ -40,6 +40,11 @@
   METHOD(recipe_ode) \
   METHOD(recipe_bullet) \
   METHOD(recipe_simbody) \
+  METHOD(recipe_bullet_joints) \
+  METHOD(recipe_ode_step) \
+  METHOD(recipe_ode_quickstep) \
+  METHOD(recipe_dart_joints) \
+  METHOD(recipe_box2d_soft_step) \
   METHOD(shake) \
   METHOD(rattle) \
   METHOD(shake_lie) \

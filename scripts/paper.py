@@ -186,12 +186,13 @@ def draw(name, rows, out):
         values.append(f'set label "{ours:.10g}" at graph 1.02,first {i}')
         places.append(f"{max(-1.45, min(1.45, place)):.6g} {i}")
     left = max(470, 20 + 7 * max(len(label) for label in labels))  # pixels
-    script = [f"set terminal svg size {left + 530},{130 + 21 * len(rows)} font 'sans,12' background 'white'",
+    width = left + 570
+    script = [f"set terminal svg size {width},{130 + 21 * len(rows)} font 'sans,12' background 'white'",
               f"set output '{out / 'comparison.svg'}'", f"set title '{name}: our numbers beside theirs' noenhanced",
               "set xlabel '(ours − theirs)/allowed; of a bound: ours/upper, lower/ours. Between the dashed lines: as given'",
               "set xrange [-1.5:1.5]", f"set yrange [{len(rows) + 0.7}:0.3]", "set key off", "set grid y lc rgb '#e4e4e4'",
-              f"set ytics noenhanced ({', '.join(labels)})", f"set lmargin at screen {left / (left + 530):.6g}",
-              f"set rmargin at screen {(left + 410) / (left + 530):.6g}",
+              f"set ytics noenhanced ({', '.join(labels)})", f"set lmargin at screen {left / width:.6g}",
+              f"set rmargin at screen {(left + 410) / width:.6g}",
               "set arrow from -1,graph 0 to -1,graph 1 nohead dt 2", "set arrow from 1,graph 0 to 1,graph 1 nohead dt 2",
               "set label 'ours' at graph 1.02,first 0", *values,
               "plot '-' using 1:2 with points pt 7 ps 0.6 lc rgb '#1f5fa8'", *places, "e"]

@@ -27,7 +27,8 @@ enum class JointEquations {
   acceleration,    ///< G v̇ = γ
   velocity,        ///< G v = 0
   position,        ///< g(q) = 0
-  position_and_velocity
+  position_and_velocity,
+  impulses  ///< none: its impulses bring G v near a value that closes a share of g
 };
 
 /// Declared properties of a method. The conformance tests verify each of them by measurement.
@@ -59,6 +60,7 @@ struct Declaration {
   bool conserves_momentum = false;  ///< conserves the angular momentum in world axes
   bool conserves_casimir = false;   ///< conserves |IΩ|, the length of the angular momentum in body axes
   JointEquations joints = JointEquations::of_formulation;  ///< equations of the joints that it solves itself
+  bool refuses_joints = false;                             ///< its step has no place for reactions
   std::vector<Setting> settings{};  ///< settings of its own; the method reads them from IntegratorSettings
 
   bool solves_joints() const { return joints != JointEquations::of_formulation; }

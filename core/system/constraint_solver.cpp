@@ -100,6 +100,7 @@ template <int n>
 bool ConstraintSolver<S>::solve_small(const VectorX<S>& right, VectorX<S>& lambda) const {
   Eigen::Matrix<S, n, n> matrix = Eigen::Matrix<S, n, n>::Zero();
   add_terms([&](const Term& t, S value) { matrix(Eigen::Index(t.row), Eigen::Index(t.column)) += value; });
+  for (int i = 0; i < n; ++i) matrix(i, i) = soft(matrix(i, i));
   const Eigen::LLT<Eigen::Matrix<S, n, n>> factor(matrix);
   if (factor.info() != Eigen::Success) return false;
   for (int i = 0; i < n; ++i) {
@@ -115,6 +116,7 @@ template <class S>
 bool ConstraintSolver<S>::solve_dense(const VectorX<S>& right, VectorX<S>& lambda) {
   dense_.setZero();
   add_terms([&](const Term& t, S value) { dense_(Eigen::Index(t.row), Eigen::Index(t.column)) += value; });
+  for (Eigen::Index i = 0; i < dense_.rows(); ++i) dense_(i, i) = soft(dense_(i, i));
   diagonal_ = dense_.diagonal();
   const Eigen::LLT<Eigen::Ref<MatrixX>> factor(dense_);  // in place
   if (factor.info() != Eigen::Success) return false;
@@ -132,6 +134,10 @@ bool ConstraintSolver<S>::solve_sparse(const VectorX<S>& right, VectorX<S>& lamb
   S* values = sparse_.valuePtr();
   std::fill(values, values + sparse_.nonZeros(), S(0));
   add_terms([&](const Term& t, S value) { values[t.entry] += value; });
+  for (Eigen::Index i = 0; i < sparse_.cols(); ++i) {  // the diagonal entry comes first in the lower triangle
+    S& entry = values[sparse_.outerIndexPtr()[i]];
+    entry = soft(entry);
+  }
   sparse_factor_.factorize(sparse_);
   if (sparse_factor_.info() != Eigen::Success) return false;
   diagonal_ = sparse_.diagonal();
@@ -160,7 +166,8 @@ bool ConstraintSolver<S>::solve_independent(const VectorX<S>& right, VectorX<S>&
 
 template <class S>
 void ConstraintSolver<S>::solve(const VectorX<S>& right, VectorX<S>& lambda) {
-  if (dependent_ || !solve_independent(right, lambda)) solve_by_rank(right, lambda);
+  const bool by_rank = dependent_ && !(softness_ > S(0) || share_ > S(0));
+  if (by_rank || !solve_independent(right, lambda)) solve_by_rank(right, lambda);
 }
 
 /// G M^(−1/2) with rows of unit length in that metric, and the inverse lengths.

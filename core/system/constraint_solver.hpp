@@ -43,6 +43,12 @@ class ConstraintSolver {
   /// Rows that depend on each other everywhere: every solution is by rank.
   void expect_dependent_rows() { dependent_ = true; }
   bool dependent() const { return dependent_; }
+  /// Adds `softness` (1/kg, 1/(kg m²)) and `share` times itself to each diagonal entry of G M⁻¹ Gᵀ from now on. A soft
+  /// matrix is regular where rows depend on each other.
+  void soften(S softness, S share = S(0)) {
+    softness_ = softness;
+    share_ = share;
+  }
 
   /// The rank of the rows, the condition of the independent ones, and the indices of the others.
   struct Rank {
@@ -57,6 +63,14 @@ class ConstraintSolver {
     return {Vector3<S>(inverse_mass(body) * w.force), Vector3<S>(inverse_inertia_[body] * w.torque)};
   }
 
+  /// M u for a twist of the body.
+  Wrench<S> momentum(std::size_t body, const Wrench<S>& u) const {
+    const BodyConstants<S>& b = bodies_[body];
+    const Matrix3<S>& r = motions_[body].rotation;
+    const S mass = b.pinned ? S(0) : S(1) / b.inverse_mass;
+    return {Vector3<S>(mass * u.force), Vector3<S>(r * b.momentum(r.transpose() * u.torque))};
+  }
+
   /// G u for a twist u(i) = (v, ω) of each moving body, in world axes.
   template <class TwistOf>
   S product(std::size_t row, const TwistOf& u) const {
@@ -68,6 +82,25 @@ class ConstraintSolver {
     if (one_[row] != none) add(one_[row], rows_[row].first);
     if (two_[row] != none) add(two_[row], rows_[row].second);
     return sum;
+  }
+
+  /// G_i M⁻¹ G_jᵀ of two rows of one joint, without softness.
+  S coupling(std::size_t i, std::size_t j) const {
+    S sum(0);
+    if (one_[i] != none) sum += rows_[i].first.force.dot(first_[j].force) + rows_[i].first.torque.dot(first_[j].torque);
+    if (two_[i] != none)
+      sum += rows_[i].second.force.dot(second_[j].force) + rows_[i].second.torque.dot(second_[j].torque);
+    return sum;
+  }
+
+  /// Adds M⁻¹ G_kᵀ p of one row to the twists of its bodies.
+  void add_impulse(std::size_t k, S p, std::span<Wrench<S>> twists) const {
+    const auto add = [&](std::size_t i, const Wrench<S>& w) {
+      twists[i].force += p * w.force;
+      twists[i].torque += p * w.torque;
+    };
+    if (one_[k] != none) add(one_[k], first_[k]);
+    if (two_[k] != none) add(two_[k], second_[k]);
   }
 
   /// Adds Gᵀ λ, or M⁻¹ Gᵀ λ if `divided`, to the wrenches of the bodies.
@@ -103,12 +136,14 @@ class ConstraintSolver {
   void solve_by_rank(const VectorX<S>& right, VectorX<S>& lambda) const;
   std::pair<MatrixX, VectorX<S>> weighted_rows(Motions motions) const;
   S threshold() const;
+  S soft(S entry) const { return entry + softness_ + share_ * entry; }
   S inverse_mass(std::size_t i) const { return bodies_[i].pinned ? S(0) : bodies_[i].inverse_mass; }
 
   std::vector<BodyConstants<S>> bodies_;
   std::vector<std::size_t> one_, two_;
   std::vector<Term> terms_;
   bool dependent_ = false;
+  S softness_{0}, share_{0};
 
   // Of the last set().
   Motions motions_;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/joints/catalogue.hpp"
@@ -36,6 +38,15 @@ struct JointRows {
   std::vector<std::size_t> one, two;  ///< bodies of each row
 };
 
+/// The problem with bodies of mass 1 kg and of inertia 1 kg m² about every axis.
+inline Problem with_unit_masses(Problem problem) {
+  for (Body& body : problem.bodies) {
+    body.mass = 1;
+    body.inertia = Matrix3<double>::Identity();
+  }
+  return problem;
+}
+
 template <class S>
 struct Constraints<S>::Parts : JointRows<S> {
   Parts(const Problem& problem, const Formulation& f)
@@ -43,6 +54,15 @@ struct Constraints<S>::Parts : JointRows<S> {
     for (std::size_t i = 0; i < moving; ++i) bodies.emplace_back(problem.bodies[i]);
     right = lambda = rates = VectorX<S>::Zero(Eigen::Index(this->joint_of.size()));
     free.resize(moving);
+    if (formulation.joints.is_soft()) {
+      double mass = 0;  // of all bodies, kg
+      for (std::size_t i = 0; i < moving; ++i) mass += problem.bodies[i].mass;
+      softness = S(double(moving) / (formulation.joints.penalty * mass));
+    }
+    if (formulation.joints.metric == ProjectionMetric::unit) {
+      const Problem unit = with_unit_masses(problem);
+      unit_solver.emplace(unit, this->one, this->two);
+    }
   }
 
   void evaluate(Motions motions) {
@@ -71,7 +91,7 @@ struct Constraints<S>::Parts : JointRows<S> {
   /// γ − 2α G v − β² g of each row to `right`, G v to `rates`.
   void fill_right(Motions motions) {
     const S alpha = S(formulation.joints.alpha), beta = S(formulation.joints.beta);
-    const bool stabilized = formulation.joints.alpha != 0 || formulation.joints.beta != 0;
+    const bool stabilized = formulation.joints.has_baumgarte_terms();
     for (std::size_t k = 0; k < solver.rows().size(); ++k) {
       const Eigen::Index i = Eigen::Index(k);
       rates[i] = rate(k, motions);
@@ -96,23 +116,53 @@ struct Constraints<S>::Parts : JointRows<S> {
     for (std::size_t k = 0; k < solver.rows().size(); ++k) right[Eigen::Index(k)] -= product(k, free);
   }
 
-  /// Solves G M⁻¹ Gᵀ λ = −value(row). Returns the largest |value|.
+  /// λ of the index-1 form, or of a penalty.
+  void solve_for_reactions() {
+    if (!formulation.joints.is_soft()) return solver.solve(right, lambda);
+    solver.soften(softness);
+    solver.solve(right, lambda);
+    if (formulation.joints.stabilization == Stabilization::augmented_lagrangian) {
+      // (A + 1/a) δ = b − G v̇(λ), where b − G v̇(λ) = λ/a after the first solution and δ/a after each later one.
+      VectorX<S> change = lambda;
+      constexpr int most_iterations = 60;
+      for (int k = 0; k < most_iterations && change.norm() > S(8) * std::numeric_limits<S>::epsilon() * lambda.norm();
+           ++k) {
+        const VectorX<S> rest = softness * change;
+        solver.solve(rest, change);
+        lambda += change;
+      }
+    }
+    solver.soften(S(0));
+  }
+
+  /// The solver in whose metric projections are orthogonal, set to the motions.
+  ConstraintSolver<S>& metric(Motions motions) {
+    evaluate_and_divide(motions);
+    if (!unit_solver) return solver;
+    unit_solver->rows() = solver.rows();
+    unit_solver->set(motions);
+    return *unit_solver;
+  }
+
+  /// Solves G M⁻¹ Gᵀ λ = −value(row) in the metric of projections. Returns the largest |value|.
   template <class Value>
   S correct(Motions motions, const Value& value) {
     using std::abs;
-    evaluate_and_divide(motions);
+    ConstraintSolver<S>& of_metric = metric(motions);
     S worst(0);
     for (std::size_t k = 0; k < solver.rows().size(); ++k) {
       const S size = value(k);
       right[Eigen::Index(k)] = -size;
       if (!(abs(size) <= worst)) worst = abs(size);
     }
-    solver.solve(right, lambda);
+    of_metric.solve(right, lambda);
     return worst;
   }
 
   const Formulation formulation;
   ConstraintSolver<S> solver;
+  std::optional<ConstraintSolver<S>> unit_solver;  ///< for projections in the unit metric
+  S softness{};                                    ///< 1/a of penalty methods, 1/kg or 1/(kg m²)
   const std::size_t moving;
   std::vector<BodyConstants<S>> bodies;
   const VectorX<S>* prescribed = nullptr;
@@ -136,7 +186,9 @@ Constraints<S>::Constraints(const Problem& problem, const Formulation& formulati
   p.evaluate_and_divide(motions);
   if (p.solver.solve_independent(p.right, p.lambda)) return;  // the rank of many equations costs more than a run
   const auto at_start = p.solver.rank(motions);
-  if (at_start.rank < p.joint_of.size()) p.solver.expect_dependent_rows();
+  if (at_start.rank == p.joint_of.size()) return;
+  p.solver.expect_dependent_rows();
+  if (p.unit_solver) p.unit_solver->expect_dependent_rows();
 }
 
 template <class S>
@@ -176,7 +228,7 @@ void Constraints<S>::add_reactions(Motions motions, Wrenches wrenches) const {
   } else {
     p.fill_accelerations(motions, wrenches);
     p.subtract_accelerations();
-    p.solver.solve(p.right, p.lambda);
+    p.solve_for_reactions();
     p.solver.template spread<false>(p.lambda, wrenches);
   }
   p.last_power = S(0);
@@ -246,7 +298,7 @@ template <class S>
 S Constraints<S>::position_correction(Motions motions, Wrenches displacements) const {
   Parts& p = *parts_;
   const S worst = p.correct(motions, [&](std::size_t k) { return p.solver.rows()[k].residual; });
-  p.solver.template spread<true>(p.lambda, displacements);
+  (p.unit_solver ? *p.unit_solver : p.solver).template spread<true>(p.lambda, displacements);
   return worst;
 }
 
@@ -254,7 +306,12 @@ template <class S>
 S Constraints<S>::velocity_correction(Motions motions, Wrenches impulses) const {
   Parts& p = *parts_;
   const S worst = p.correct(motions, [&](std::size_t k) { return p.rate(k, motions); });
-  p.solver.template spread<false>(p.lambda, impulses);
+  if (!p.unit_solver) {
+    p.solver.template spread<false>(p.lambda, impulses);
+    return worst;
+  }
+  p.unit_solver->template spread<true>(p.lambda, impulses);
+  for (std::size_t i = 0; i < p.moving; ++i) impulses[i] = p.solver.momentum(i, impulses[i]);
   return worst;
 }
 
@@ -297,6 +354,11 @@ void Constraints<S>::divide_by_masses(Wrenches wrenches) const {
 template <class S>
 void Constraints<S>::solve(const VectorX<S>& right, VectorX<S>& lambda) const {
   parts_->solver.solve(right, lambda);
+}
+
+template <class S>
+ConstraintSolver<S>& Constraints<S>::solver() const {
+  return parts_->solver;
 }
 
 template <class S>

@@ -8,6 +8,10 @@
 // Baumgarte's. Sources: Hairer & Wanner, Solving Ordinary Differential Equations II, section VII.1; Baumgarte, Comput.
 // Methods Appl. Mech. Eng. 1 (1972).
 //
+// With a penalty a the multipliers are λ = −a (G v̇ − b), which makes the matrix G M⁻¹ Gᵀ + 1/a: no rank is needed. The
+// augmented Lagrangian method iterates λ ← λ − a (G v̇(λ) − b) until G v̇ = b. Source: Bayo, García de Jalón & Serna,
+// Comput. Methods Appl. Mech. Eng. 71 (1988).
+//
 // A method that solves for the multipliers itself prescribes them instead (PrescribedMultipliers).
 #pragma once
 
@@ -21,6 +25,9 @@
 #include "core/system/formulation.hpp"
 
 namespace polhode {
+
+template <class S>
+class ConstraintSolver;
 
 /// The rank of the constraint equations at one state.
 struct ConstraintRank {
@@ -74,11 +81,11 @@ class Constraints {
   };
   Violation violation(std::size_t joint, Motions motions) const;
 
-  /// The smallest displacement in the metric of the masses that satisfies the linearized position equations:
-  /// ξ = −M⁻¹ Gᵀ (G M⁻¹ Gᵀ)⁻¹ g. Returns the largest |g| before it, m or rad.
+  /// The smallest displacement, in the metric of the formulation, that satisfies the linearized position equations: of
+  /// the masses, ξ = −M⁻¹ Gᵀ (G M⁻¹ Gᵀ)⁻¹ g, or with 1 in place of M. Returns the largest |g| before it, m or rad.
   S position_correction(Motions motions, Wrenches displacements) const;
-  /// The smallest impulses (N s, N m s) in the metric of the masses after which G v = 0. Returns the largest |G v|
-  /// before them, m/s or rad/s.
+  /// The impulses (N s, N m s) of the smallest change of velocities, in the same metric, after which G v = 0. Returns
+  /// the largest |G v| before them, m/s or rad/s.
   S velocity_correction(Motions motions, Wrenches impulses) const;
 
   ConstraintRank rank(Motions motions) const;
@@ -96,6 +103,8 @@ class Constraints {
   void divide_by_masses(Wrenches wrenches) const;
   /// λ from G M⁻¹ Gᵀ λ = right.
   void solve(const VectorX<S>& right, VectorX<S>& lambda) const;
+  /// The solver of these equations, for methods that treat them row by row or make them soft.
+  ConstraintSolver<S>& solver() const;
   /// G v̇ − γ in the last add_reactions() with prescribed multipliers, m/s² or rad/s².
   VectorX<S> acceleration_defects() const;
 

@@ -26,22 +26,38 @@ enum class RotationFrom {
 /// Correction of states that have drifted off the equations of the joints.
 enum class Stabilization {
   none,
-  baumgarte,  ///< g̈ + 2α ġ + β² g = 0 in place of g̈ = 0
-  position,   ///< projection of the configuration onto g(q) = 0 after each step
-  velocity,   ///< projection of the velocity onto G v = 0 after each step
-  both        ///< projection of the configuration, then of the velocity
+  baumgarte,            ///< g̈ + 2α ġ + β² g = 0 in place of g̈ = 0
+  position,             ///< projection of the configuration onto g(q) = 0 after each step
+  velocity,             ///< projection of the velocity onto G v = 0 after each step
+  both,                 ///< projection of the configuration, then of the velocity
+  penalty,              ///< Baumgarte's equation with multipliers −a (g̈ + 2α ġ + β² g), a the penalty
+  augmented_lagrangian  ///< the same with iterations, after which λ changes no more
+};
+
+/// The metric in which a projection is orthogonal.
+enum class ProjectionMetric {
+  mass,  ///< of the kinetic energy
+  unit   ///< 1 for each m and rad of the reference points and rotations
 };
 
 /// How the equations of the joints are solved.
 struct JointTreatment {
   Stabilization stabilization = Stabilization::none;
-  double alpha = 0, beta = 0;  ///< parameters of Baumgarte's method, 1/s; 0 for the others
+  double alpha = 0, beta = 0;  ///< of Baumgarte's equation, 1/s; 0 for projections
+  double penalty = 0;          ///< a of penalty methods, in multiples of the mean mass of the bodies; 0 for the others
+  ProjectionMetric metric = ProjectionMetric::mass;
 
   bool projects_position() const {
     return stabilization == Stabilization::position || stabilization == Stabilization::both;
   }
   bool projects_velocity() const {
     return stabilization == Stabilization::velocity || stabilization == Stabilization::both;
+  }
+  /// Baumgarte's equation takes the place of g̈ = 0.
+  bool has_baumgarte_terms() const { return stabilization == Stabilization::baumgarte || is_soft(); }
+  /// λ does not satisfy the equations, but is proportional to what is left of them.
+  bool is_soft() const {
+    return stabilization == Stabilization::penalty || stabilization == Stabilization::augmented_lagrangian;
   }
   bool projects() const { return projects_position() || projects_velocity(); }
 };
@@ -61,9 +77,12 @@ constexpr std::string_view name(Stabilization s) {
     case Stabilization::baumgarte: return "baumgarte";
     case Stabilization::position: return "position";
     case Stabilization::velocity: return "velocity";
-    default: return "both";
+    case Stabilization::both: return "both";
+    case Stabilization::penalty: return "penalty";
+    default: return "augmented_lagrangian";
   }
 }
+constexpr std::string_view name(ProjectionMetric m) { return m == ProjectionMetric::mass ? "mass" : "unit"; }
 constexpr std::string_view name(RotationFrom r) { return r == RotationFrom::normalized ? "normalized" : "stored"; }
 
 /// Choice of variables and equations.

@@ -7,8 +7,6 @@
 // over the kick.
 // Source: Bullet, btRigidBody::computeGyroscopicImpulseImplicit_Body and btTransformUtil::integrateTransform; Catto,
 // Physics for Game Programmers: Numerical Methods, GDC 2015; Peters & Hsu, whose figures for Bullet it gives.
-#include <Eigen/LU>
-
 #include "integrators/recipes/engine_recipe.hpp"
 
 namespace polhode::inline integrators {
@@ -27,10 +25,7 @@ class BulletStep {
     if (system.formulation().gyroscopic) {
       // Free flow with an identity rotation, so that only the momentum changes.
       system.free_flow(h, spun_, [](const auto& body, S dt, Vector3<S>& m) {
-        const Vector3<S> w = body.inverse_moments.cwiseProduct(m);
-        Matrix3<S> jacobian = dt * (skew<S>(w) * body.moments.asDiagonal() - skew<S>(m));
-        jacobian.diagonal() += body.moments;
-        m += body.moments.cwiseProduct(Vector3<S>(jacobian.inverse() * Vector3<S>(-dt * w.cross(m))));
+        spin_by_newton_step(body, dt, m);
         return identity_quaternion<S>();
       });
     }

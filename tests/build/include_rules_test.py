@@ -28,7 +28,7 @@ MAY_INCLUDE = {
     "integrators/joints": "core/* integrators integrators/conserving integrators/lie_group",
     "integrators/lie_group": "core/* integrators",
     "integrators/odeint": "core/* integrators",
-    "integrators/recipes": "core/* integrators",
+    "integrators/recipes": "core/* integrators integrators/joints",
     "integrators/sundials": "core/* integrators integrators/joints",
     "integrators/textbook": "core/* integrators",
     "collision": "core/math",

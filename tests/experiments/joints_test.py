@@ -135,7 +135,7 @@ class Joints(unittest.TestCase):
     def test_options_that_make_no_sense_are_refused(self):
         for arguments, says in (
                 (["--scenario", "dzhanibekov", "--stabilization", "both"], "no scenario here has joints"),
-                (["--scenario", "rod_pendulum", "--baumgarte-alpha", "5"], "no run here is stabilized by Baumgarte's method"),
+                (["--scenario", "rod_pendulum", "--baumgarte-alpha", "5"], "no run here is stabilized by Baumgarte's equation"),
                 (["--scenario", "rod_pendulum", "--stabilization", "sometimes"], "none, baumgarte, position, velocity, both")):
             done = self.run_program("energy_drift", *arguments, "--integrator", "rk4", "--dt", "1e-2", "--out", self.folder / "x", status=2)
             self.assertIn(says, done.stderr)

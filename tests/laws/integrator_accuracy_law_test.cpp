@@ -75,7 +75,8 @@ TEST_P(IntegratorLaw, HasTheDeclaredOrder) {
       order = std::log2(error / next);
       error = next;
     }
-    EXPECT_LT(error, 0.01) << "it does not come near the exact motion";
+    const bool impulses = declared().joints == JointEquations::impulses;  // of order 1, and no step is very small
+    EXPECT_LT(error, impulses ? 0.1 : 0.01) << "it does not come near the exact motion";
     EXPECT_NEAR(order, expected, 0.25) << "error " << error;
   });
 }

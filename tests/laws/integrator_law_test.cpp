@@ -31,6 +31,7 @@ TEST_P(IntegratorLaw, DeclaresWhatItIs) {
   EXPECT_FALSE(d.summary.empty());
   EXPECT_FALSE(refuses(own_trials().front().problem, {})) << "every method accepts a body as it is by default";
   EXPECT_EQ(refuses(free_top(), {}), d.solves_joints()) << "a method of joints needs some";
+  EXPECT_EQ(refuses(jointed_rods(), {}), d.refuses_joints);
   ASSERT_TRUE(entry().make) << "every method works in double";
   if (adaptive()) {
     EXPECT_EQ(d.evaluations_per_step, 0) << "an adaptive method counts its evaluations";

@@ -88,6 +88,32 @@ inline Problem jointed_rods() {
   return p;
 }
 
+/// Rods of 1 m that hang in a vertical line from the world by ball joints, under gravity. Joint i is open by gaps[i]
+/// (m); the rods move along the line with `speeds` (m/s, upward).
+inline Problem hanging_rods(const std::vector<double>& masses, const std::vector<double>& gaps,
+                            const std::vector<double>& speeds) {
+  Problem p;
+  const Vector3<double> up(0, 0, 0.5), zero = Vector3<double>::Zero();
+  std::vector<std::size_t> all;
+  double z = 0;
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    z -= gaps[i];
+    p.bodies.push_back({.name = "rod_" + std::to_string(i),
+                        .mass = masses[i],
+                        .inertia = diagonal(masses[i] / 12, masses[i] / 12, masses[i] / 100)});
+    p.starts.push_back({.position = {0, 0, z - 0.5}, .velocity = {0, 0, speeds[i]}});
+    z -= 1;
+    std::vector<std::size_t> ends = {i};
+    if (i > 0) ends.push_back(i - 1);
+    p.joints.push_back(
+        {"joint_" + std::to_string(i),
+         {"ball", ends, {{"anchor_body", up}, {"anchor_world", zero}, {"anchor_body_2", Vector3<double>(-up)}}}});
+    all.push_back(i);
+  }
+  p.forces.push_back(force("uniform_gravity", all, {{"acceleration", Vector3<double>(0, 0, -9.81)}}));
+  return p;
+}
+
 /// One free body on a damped spring fixed at a corner, with gravity and a torque fixed in the body.
 inline Problem box_on_spring(const Matrix3<double>& inertia = diagonal(0.5, 0.8, 1.1)) {
   Problem p;

@@ -185,6 +185,22 @@ MotionScales along_steps(const Scenario& scenario, const RunConfig& config, cons
   return largest.found();
 }
 
+/// Sums over the moving bodies.
+struct MassAndInertia {
+  double mass = 0, inertia = 0;  ///< kg; kg m², traces
+};
+MassAndInertia moving_mass(const Scenario& scenario) {
+  MassAndInertia sum;
+  for (std::size_t i = 0; i < scenario.problem.moving(); ++i) {
+    sum.mass += scenario.problem.bodies[i].mass;
+    sum.inertia += scenario.problem.bodies[i].inertia.trace();
+  }
+  return sum;
+}
+
+/// Energies up to it are rounding errors, J.
+double no_motion(const MotionScales& scales) { return 1e3 * epsilon(Precision::double_precision) * scales.force_terms; }
+
 MotionScales along_rk4(const Scenario& scenario, double t_end, const std::atomic<bool>* stop) {
   constexpr std::int64_t fewest = 64, most = 1 << 18;
   constexpr double close = 1e-3;
@@ -193,14 +209,19 @@ MotionScales along_rk4(const Scenario& scenario, double t_end, const std::atomic
   config.formulation.angular_state = AngularState::velocity_body;
   config.t_end = t_end;
   if (!scenario.problem.joints.empty()) config.joints.emplace().stabilization = Stabilization::both;
+  const MassAndInertia sum = moving_mass(scenario);
   MotionScales coarse;
   bool known = false;
   for (std::int64_t steps = fewest; steps <= most && !(stop && *stop); steps *= 2) {
     config.dt = t_end / static_cast<double>(steps);
     const MotionScales fine = along_steps(scenario, config, stop);
-    const auto agree = [](double a, double b) { return std::abs(a - b) <= close * b; };
-    const bool settled = known && agree(coarse.energy, fine.energy) && agree(coarse.linear, fine.linear) &&
-                         agree(coarse.angular, fine.angular);
+    const auto agree = [](double a, double b, double least) {
+      return std::abs(a - b) <= close * b || std::max(a, b) <= least;
+    };
+    const double least = no_motion(fine);
+    const bool settled = known && agree(coarse.energy, fine.energy, least) &&
+                         agree(coarse.linear, fine.linear, std::sqrt(2 * sum.mass * least)) &&
+                         agree(coarse.angular, fine.angular, std::sqrt(2 * sum.inertia * least));
     coarse = fine;
     if (settled) break;
     known = true;
@@ -242,14 +263,9 @@ double steps_of_contact_scales(const Scenario& scenario, double t_end) {
 
 MotionScales motion_scales(const Scenario& scenario, double t_end, const std::atomic<bool>* stop) {
   MotionScales scales = along_true_motion(scenario, t_end, stop);
-  // Energies within rounding errors are no motion.
-  if (scales.energy <= 1e3 * epsilon(Precision::double_precision) * scales.force_terms) scales.energy = 0;
+  if (scales.energy <= no_motion(scales)) scales.energy = 0;
   if (scenario.energy_scale) scales.energy = *scenario.energy_scale;
-  double mass = 0, inertia = 0;
-  for (std::size_t i = 0; i < scenario.problem.moving(); ++i) {
-    mass += scenario.problem.bodies[i].mass;
-    inertia += scenario.problem.bodies[i].inertia.trace();
-  }
+  const auto [mass, inertia] = moving_mass(scenario);
   if (scales.linear == 0) scales.linear = std::sqrt(2 * mass * scales.energy);
   if (scales.angular == 0) scales.angular = std::sqrt(2 * inertia * scales.energy);
   return scales;

@@ -72,6 +72,7 @@ Json joints_in_json(JointEquations joints) {
     case JointEquations::velocity: return "G v = 0";
     case JointEquations::position: return "g(q) = 0";
     case JointEquations::position_and_velocity: return "g(q) = 0 and G v = 0";
+    case JointEquations::impulses: return "by impulses";
     default: return nullptr;
   }
 }

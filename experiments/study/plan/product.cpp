@@ -60,12 +60,14 @@ Product::Product(const Experiment& experiment, const StudyAxes& study, const Opt
   }
   for (const Condition& condition : study_.where) conditions_.emplace_back(condition.text, condition.label);
   open_scenarios(dimensions(study_, true));
-  const bool jointed = std::any_of(opened_.begin(), opened_.end(),
-                                   [](const auto& one) { return !one->scenario->problem.joints.empty(); });
+  const auto has_joints = [](const auto& one) { return !one->scenario->problem.joints.empty(); };
   // A method that solves the equations of joints itself needs some, and takes no stabilization.
-  const bool fits_solvers = jointed && allows(study_, "stabilization", "none");
+  const bool fits_solvers =
+      std::any_of(opened_.begin(), opened_.end(), has_joints) && allows(study_, "stabilization", "none");
+  const bool always_joints = std::all_of(opened_.begin(), opened_.end(), has_joints);
   leave_out(study_, [&](const Declaration& method) {
-    return (experiment.fixed_steps_only && method.adaptive) || (!fits_solvers && method.solves_joints());
+    return (experiment.fixed_steps_only && method.adaptive) || (!fits_solvers && method.solves_joints()) ||
+           (always_joints && method.refuses_joints);
   });
   counted_ = make_cells(true).count();
 }

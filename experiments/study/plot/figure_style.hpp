@@ -19,7 +19,7 @@ struct Marker {
   int gnuplot;
   std::string_view pgf;
 };
-inline constexpr std::array<Marker, 12> markers = {{{7, "*"},
+inline constexpr std::array<Marker, 13> markers = {{{7, "*"},
                                                     {5, "square*"},
                                                     {9, "triangle*"},
                                                     {13, "diamond*"},
@@ -30,7 +30,8 @@ inline constexpr std::array<Marker, 12> markers = {{{7, "*"},
                                                     {12, "diamond"},
                                                     {14, "pentagon"},
                                                     {1, "+"},
-                                                    {2, "x"}}};
+                                                    {2, "x"},
+                                                    {3, "asterisk"}}};
 
 struct Dash {
   std::string_view gnuplot, pgf;

@@ -366,17 +366,14 @@ RunOption of_joints(RunOption option) {
 
 std::vector<RunOption> options_of_joints() {
   const auto has_joints = [](const RunConfig& c) { return c.joints.has_value(); };
-  const auto baumgarte = [](const RunConfig& c) {
-    return c.joints && c.joints->stabilization == Stabilization::baumgarte;
+  const auto treatment = [](bool (JointTreatment::*is)() const) {
+    return [is](const RunConfig& c) { return c.joints && (JointTreatment{c.joints->stabilization}.*is)(); };
   };
-  const std::string no_joints = "no scenario here has joints",
-                    no_baumgarte = "no run here is stabilized by Baumgarte's method";
   RunOption stabilization = choice(
       {.name = "stabilization",
-       .values = "none|baumgarte|position|velocity|both",
-       .help =
-           "correction of joints that drift open: Baumgarte's method, or projection of positions, velocities or both "
-           "after each step (default: none)",
+       .values = "none|baumgarte|position|velocity|both|penalty|augmented_lagrangian",
+       .help = "correction of joints that drift open: Baumgarte's method, projection of positions, velocities or both "
+               "after each step, or Baumgarte's equation by penalty or augmented Lagrangian (default: none)",
        .column = "stabilization",
        .on_demand = true,
        .header = "stabilization",
@@ -389,35 +386,63 @@ std::vector<RunOption> options_of_joints() {
        .remedy = "or take a scenario with joints"},
       [](auto& c) -> auto& { return c.joints->stabilization; },
       names_of({Stabilization::none, Stabilization::baumgarte, Stabilization::position, Stabilization::velocity,
-                Stabilization::both}));
-  const auto parameter = [&](const char* name, std::string help, std::string column, const char* header,
-                             const char* unit, auto member) {
-    return optional({.name = std::string("baumgarte-") + name,
+                Stabilization::both, Stabilization::penalty, Stabilization::augmented_lagrangian}));
+  RunOption metric = choice(
+      {.name = "projection-metric",
+       .values = "mass|unit",
+       .help = "metric in which projections of joints are orthogonal: that of the masses, or 1 for each m and rad "
+               "(default: mass)",
+       .column = "projection_metric",
+       .on_demand = true,
+       .header = "projection metric",
+       .term = "metric of projections",
+       .word = "metric",
+       .usual = std::string("mass"),
+       .applies = treatment(&JointTreatment::projects),
+       .no_effect = "no run here projects its joints",
+       .remedy = "or take --stabilization position, velocity or both"},
+      [](auto& c) -> auto& { return c.joints->metric; }, names_of({ProjectionMetric::mass, ProjectionMetric::unit}));
+  struct Texts {
+    std::string name, help, column, header, unit, no_effect, remedy;
+  };
+  const auto parameter = [](const Texts& said, auto applies, auto member) {
+    return optional({.name = said.name,
                      .values = "X",
-                     .help = std::move(help),
+                     .help = said.help,
                      .kind = Kind::number,
-                     .of_unit = *unit ? std::string(" of ") + unit : "",
-                     .column = std::move(column),
+                     .of_unit = said.unit.empty() ? "" : " of " + said.unit,
+                     .column = said.column,
                      .on_demand = true,
-                     .header = header,
-                     .unit = unit,
-                     .applies = baumgarte,
-                     .no_effect = "no run here is stabilized by Baumgarte's method",
-                     .remedy = "or take --stabilization baumgarte"},
+                     .header = said.header,
+                     .unit = said.unit,
+                     .applies = applies,
+                     .no_effect = said.no_effect,
+                     .remedy = said.remedy},
                     member);
   };
-  const std::string equation = " of g'' + 2 alpha g' + beta^2 g = 0, in 1/s (default: 10)";
+  const auto baumgarte = treatment(&JointTreatment::has_baumgarte_terms);
+  const std::string equation = " of g'' + 2 alpha g' + beta^2 g = 0, in 1/s (default: 10)",
+                    no_baumgarte = "no run here is stabilized by Baumgarte's equation",
+                    take_baumgarte = "or take --stabilization baumgarte";
   std::vector<RunOption> options = {
       stabilization,
+      metric,
       parameter(
-          "alpha", "alpha" + equation, "baumgarte_alpha_per_s", "Baumgarte alpha", "1/s",
-          [](auto& c) -> auto& { return c.joints->alpha; }),
+          {"baumgarte-alpha", "alpha" + equation, "baumgarte_alpha_per_s", "Baumgarte alpha", "1/s", no_baumgarte,
+           take_baumgarte},
+          baumgarte, [](auto& c) -> auto& { return c.joints->alpha; }),
       parameter(
-          "beta", "beta" + equation, "baumgarte_beta_per_s", "Baumgarte beta", "1/s",
-          [](auto& c) -> auto& { return c.joints->beta; }),
+          {"baumgarte-beta", "beta" + equation, "baumgarte_beta_per_s", "Baumgarte beta", "1/s", no_baumgarte,
+           take_baumgarte},
+          baumgarte, [](auto& c) -> auto& { return c.joints->beta; }),
       parameter(
-          "per-step", "alpha = beta = X/h in their place, for methods of a fixed step h", "baumgarte_per_step",
-          "Baumgarte alpha h", "", [](auto& c) -> auto& { return c.joints->alpha_per_step; })};
+          {"baumgarte-per-step", "alpha = beta = X/h in their place, for methods of a fixed step h",
+           "baumgarte_per_step", "Baumgarte alpha h", "", no_baumgarte, take_baumgarte},
+          baumgarte, [](auto& c) -> auto& { return c.joints->alpha_per_step; }),
+      parameter(
+          {"penalty", "of penalty and augmented_lagrangian, in multiples of the mean mass (default: 1e7)", "penalty",
+           "penalty", "", "no run here has a penalty", "or take --stabilization penalty"},
+          treatment(&JointTreatment::is_soft), [](auto& c) -> auto& { return c.joints->penalty; })};
   for (RunOption& option : options) option = of_joints(std::move(option));
   return options;
 }

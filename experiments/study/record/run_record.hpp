@@ -49,8 +49,10 @@ struct ContactConfig {
 /// How a run solves the equations of the joints.
 struct JointConfig {
   Stabilization stabilization = Stabilization::none;
-  std::optional<double> alpha, beta;     ///< parameters of Baumgarte's method, 1/s; absent: 10
+  std::optional<double> alpha, beta;     ///< of Baumgarte's equation, 1/s; absent: 10
   std::optional<double> alpha_per_step;  ///< a, α = β = a/h in place of them; fixed-step methods only
+  std::optional<double> penalty;         ///< of penalty methods, in multiples of the mean mass; absent: 1e7
+  ProjectionMetric metric = ProjectionMetric::mass;
 };
 
 /// The configuration of one run. run_options.hpp names, reads and prints each member.

@@ -24,8 +24,10 @@ Formulation formulation_of(const RunConfig& config) {
   if (!config.joints) return formulation;
   JointTreatment& joints = formulation.joints;
   joints.stabilization = config.joints->stabilization;
-  if (joints.stabilization != Stabilization::baumgarte) return formulation;
-  constexpr double usual = 10;  // 1/s
+  joints.metric = config.joints->metric;
+  constexpr double usual = 10, usual_penalty = 1e7;  // 1/s; times the mean mass
+  if (joints.is_soft()) joints.penalty = config.joints->penalty.value_or(usual_penalty);
+  if (!joints.has_baumgarte_terms()) return formulation;
   if (config.joints->alpha_per_step && config.dt) {
     joints.alpha = joints.beta = *config.joints->alpha_per_step / *config.dt;
   } else {
