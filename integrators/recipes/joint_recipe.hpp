@@ -134,8 +134,8 @@ class JointRecipe : public JointMethod {
 
 /// Why a recipe for joints does not apply; empty if it does.
 inline std::string joint_recipe_refusal(const Problem& problem, const Formulation& formulation) {
-  const std::string why = needs_an_engine_state(problem, formulation);
-  return why.empty() ? joint_refusal(problem, formulation, Rows::may_depend) : why;
+  const std::string why = joint_refusal(problem, formulation, Rows::may_depend);
+  return why.empty() ? needs_an_engine_state(problem, formulation) : why;
 }
 
 }  // namespace polhode::integrators
