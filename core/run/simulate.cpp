@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/run/run_samples.hpp"
+#include "core/system/constraints.hpp"
 #include "core/system/joint_projection.hpp"
 
 namespace polhode {
@@ -81,7 +82,10 @@ class Loop {
     } else if (contact_) {
       throw std::invalid_argument("contact works in double only");
     }
-    integrator_.begin(state_);
+    {
+      const JointSolves counted(*this);
+      integrator_.begin(state_);
+    }
     const Sample start = measure(state_);
     tell_multipliers();
     observer_.on_start(view_.of(state_), start);
@@ -99,6 +103,20 @@ class Loop {
   }
 
  private:
+  /// Counts the linear systems of the joints that are solved while it lives; those of observers are not.
+  class JointSolves {
+   public:
+    explicit JointSolves(Loop& loop) : loop_(loop), before_(loop.joint_systems()) {}
+    ~JointSolves() { loop_.outcome_.joint_solves += loop_.joint_systems() - before_; }
+    JointSolves(const JointSolves&) = delete;
+    JointSolves& operator=(const JointSolves&) = delete;
+
+   private:
+    Loop& loop_;
+    const std::int64_t before_;
+  };
+  std::int64_t joint_systems() const { return system_.has_joints() ? system_.constraints()->solved() : 0; }
+
   Sample measure(const State<S>& state) {
     const State<double>& seen = view_.of(state);
     return {.t = seen.t,
@@ -141,6 +159,7 @@ class Loop {
   /// Calls the method for some steps. Returns false if it fails or throws; the outcome then holds the reason.
   template <class Steps>
   bool done(const Steps& steps) {
+    const JointSolves counted(*this);
     std::string why;
     try {
       why = steps().failure;
@@ -186,6 +205,7 @@ class Loop {
     if (const NativeProjection* native = integrator_.native_projection()) {
       projection_energy_ = native->projection_energy();
     } else if (schedule_.normalize || projects_joints_) {
+      const JointSolves counted(*this);
       const double before = account_ ? energy() : 0.0;
       if (schedule_.normalize) system_.project(state_.y);
       if (projects_joints_) project_joints(system_, state_.y);

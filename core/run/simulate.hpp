@@ -49,6 +49,8 @@ struct RunOutcome {
   double t = 0;                  ///< time reached, s
   std::int64_t steps = 0;        ///< number of steps taken
   std::int64_t evaluations = 0;  ///< number of right-hand side evaluations
+  std::int64_t joint_solves =
+      0;  ///< number of linear systems of the joints that the method and projections have solved
 };
 
 /// Division of a run into fixed steps: `whole` steps of dt, then one step of `last` (s) unless that is 0.

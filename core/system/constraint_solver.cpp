@@ -166,6 +166,7 @@ bool ConstraintSolver<S>::solve_independent(const VectorX<S>& right, VectorX<S>&
 
 template <class S>
 void ConstraintSolver<S>::solve(const VectorX<S>& right, VectorX<S>& lambda) {
+  ++solved_;
   const bool by_rank = dependent_ && !(softness_ > S(0) || share_ > S(0));
   if (by_rank || !solve_independent(right, lambda)) solve_by_rank(right, lambda);
 }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <Eigen/SparseCholesky>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -35,6 +36,9 @@ class ConstraintSolver {
   /// Sets the rotations of the bodies, and divides the rows by the masses. The motions must live as long as solve() is
   /// called.
   void set(Motions motions);
+
+  /// Number of systems solved since construction.
+  std::int64_t solved() const { return solved_; }
 
   /// λ from G M⁻¹ Gᵀ λ = right.
   void solve(const VectorX<S>& right, VectorX<S>& lambda);
@@ -144,6 +148,7 @@ class ConstraintSolver {
   std::vector<Term> terms_;
   bool dependent_ = false;
   S softness_{0}, share_{0};
+  std::int64_t solved_ = 0;
 
   // Of the last set().
   Motions motions_;

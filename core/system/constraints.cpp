@@ -236,6 +236,11 @@ void Constraints<S>::add_reactions(Motions motions, Wrenches wrenches) const {
 }
 
 template <class S>
+std::int64_t Constraints<S>::solved() const {
+  return parts_->solver.solved() + (parts_->unit_solver ? parts_->unit_solver->solved() : 0);
+}
+
+template <class S>
 const VectorX<S>& Constraints<S>::multipliers() const {
   return parts_->lambda;
 }

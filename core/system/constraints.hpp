@@ -15,6 +15,7 @@
 // A method that solves for the multipliers itself prescribes them instead (PrescribedMultipliers).
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -56,6 +57,9 @@ class Constraints {
 
   /// Adds the reactions to the wrenches of the forces, at the motions of all bodies.
   void add_reactions(Motions motions, Wrenches wrenches) const;
+
+  /// Number of linear systems solved since construction.
+  std::int64_t solved() const;
 
   /// λ of the last add_reactions(), in the order of the rows: N or N m.
   const VectorX<S>& multipliers() const;

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scenarios with joints as a user meets them: reactions written, energy accounted for, options refused with the reason."""
 import math
+import shutil
 import unittest
 
 import h5py
@@ -89,6 +90,22 @@ class Joints(unittest.TestCase):
         limit = 1e-3 * max(2 * 9.81 / 1, 9.81)
         cheapest = min(int(r["evaluations"]) for r in rows if float(r["joint_reaction_error_max_N"]) < limit)
         self.assertIn(f"on double_pendulum ({cheapest} right-hand sides).", done.stdout)
+
+    def test_linear_systems_of_joints_are_counted(self):
+        out = self.folder / "out"
+        for kept in ((), ("--trajectory", "csv")):  # what is written of a run is not its cost
+            shutil.rmtree(out, ignore_errors=True)
+            self.run_program("energy_drift", "--scenario", "double_pendulum", "--integrator", "rk4,recipe_ode_step,recipe_bullet_joints",
+                             "--stabilization", "none,both,augmented_lagrangian", "--where",
+                             "integrator == 'rk4' or stabilization == 'none'", "--dt", "1e-2", "--t-end", "1", *kept, "--out", out)
+            rows = {(r["integrator"], r["stabilization"]): r for r in read(out / "runs.csv")}
+            solves = {key: int(float(r["joint_solves"])) for key, r in rows.items()}
+            self.assertEqual(solves["rk4", "none"], int(rows["rk4", "none"]["rhs_evaluations"]))
+            self.assertEqual(solves["rk4", "none"], 400)  # four in each of 100 steps
+            self.assertGreaterEqual(solves["rk4", "both"], 400 + 100 * 4)  # two of positions at least, two of velocities
+            self.assertGreaterEqual(solves["rk4", "augmented_lagrangian"], 800)
+            self.assertEqual(solves["recipe_ode_step", "none"], 1 + 100)  # the start, and one in each step
+            self.assertEqual(solves["recipe_bullet_joints", "none"], 1)  # sweeps solve none
 
     def test_all_methods_are_those_that_fit(self):
         for scenario, more, there in (("dzhanibekov", (), False), ("rod_pendulum", ("--stabilization", "both"), False),

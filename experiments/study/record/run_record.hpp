@@ -120,6 +120,7 @@ struct JointMeasures {
   std::optional<double> work;           ///< work of the joints until the end of the run, J; 0 for exact reactions
   std::optional<double> projection;     ///< energy injected by projections until the end of the run, J
   std::optional<double> rank;           ///< least rank of the constraint equations
+  std::optional<double> solves;         ///< linear systems of the joints solved by the method and by projections
   std::optional<double> condition_max;  ///< largest condition of the independent equations, in the metric of the masses
   // Against the exact motion or a reference.
   std::optional<double> speed_error_max;            ///< of the velocities of mass centres, m/s

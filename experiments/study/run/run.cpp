@@ -143,7 +143,10 @@ RunResult measured(const RunConfig& config, const Scenario& scenario, const Traj
   if (writer && outcome.status != RunStatus::interrupted) writer->close();  // else it stays unfinished by name
   RunResult result = result_of(outcome, meter, seconds);
   if (contact_meter) contact_meter->report(result);
-  if (joint_meter) joint_meter->report(result);
+  if (joint_meter) {
+    joint_meter->report(result);
+    result.joints.solves = static_cast<double>(outcome.joint_solves);
+  }
   return result;
 }
 
