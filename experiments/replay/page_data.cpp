@@ -65,7 +65,7 @@ Json scene_json(const Scene& scene) {
   Json bodies = Json::array(), springs = Json::array(), surfaces = Json::array();
   for (const Surface& surface : scene.surfaces) surfaces.push_back(surface_json(surface));
   for (const SceneBody& body : scene.bodies) bodies.push_back(body_json(body));
-  for (const SceneSpring& s : scene.springs) {
+  for (const SceneLink& s : scene.springs) {
     springs.push_back({{"body", s.body},
                        {"other", s.other ? Json(*s.other) : Json()},
                        {"anchor", list(s.anchor)},

@@ -52,8 +52,9 @@ class SceneMaker {
     for (std::size_t i = 0; i < problem.bodies.size(); ++i)
       add_body(problem.bodies[i], problem.starts[i], scenario.shapes[i]);
     for (const ForceParameters& force : problem.forces) {
-      if (force.kind == "spring" || force.kind == "damper") add_spring(force);
+      if (force.kind == "spring" || force.kind == "damper") scene_.springs.push_back(link(force));
     }
+    for (const JointParameters& joint : problem.joints) add_joint(joint, problem);
   }
 
   Scene scene() { return std::move(scene_); }
@@ -95,12 +96,32 @@ class SceneMaker {
     return least;
   }
 
-  void add_spring(const ForceParameters& force) {
-    SceneSpring& s = scene_.springs.emplace_back();
-    s.body = force.bodies[0];
-    s.anchor = force.vector("anchor_body");
-    if (force.bodies.size() == 2) s.other = force.bodies[1];
-    s.anchor_other = force.vector(s.other ? "anchor_body_2" : "anchor_world");
+  static SceneLink link(const ForceParameters& of) {
+    SceneLink l;
+    l.body = of.bodies[0];
+    l.anchor = of.vector("anchor_body");
+    if (of.bodies.size() == 2) l.other = of.bodies[1];
+    l.anchor_other = of.vector(l.other ? "anchor_body_2" : "anchor_world");
+    return l;
+  }
+
+  void add_joint(const JointParameters& joint, const Problem& problem) {
+    const ForceParameters& of = joint.of;
+    const bool rolls = of.kind == "rolling";
+    SceneJoint& j = scene_.joints.emplace_back();
+    j.name = joint.name;
+    j.ends = link(of);
+    j.on_plane = rolls || of.kind == "planar";
+    const auto unit = [&](const char* key) {
+      return of.values.contains(key) ? of.vector(key).normalized() : Vector3<double>(Vector3<double>::Zero());
+    };
+    j.axis = unit("axis_body");
+    j.axis_other = unit("axis_body_2");
+    if (!rolls) return;
+    j.radius = of.number("radius");
+    j.normal = unit("normal");
+    if (j.ends.other)
+      j.normal = rotation_matrix(problem.starts[*j.ends.other].orientation).transpose() * j.normal.eval();
   }
 
   Scene scene_;

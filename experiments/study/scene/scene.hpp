@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The drawable contents of a scenario: the surface of each body as triangles, and the springs between bodies.
+// The drawable contents of a scenario: the surface of each body as triangles, and the springs and joints between
+// bodies.
 #pragma once
 
 #include <optional>
@@ -26,19 +27,30 @@ struct SceneBody {
   Matrix3<double> inertia = Matrix3<double>::Identity();   ///< kg m², body axes, about the reference point
 };
 
-/// A spring, drawn as a line from a point of one body to a point of another or of the world.
-struct SceneSpring {
+/// A point of one body and a point of another or of the world. Between them is a spring or a joint.
+struct SceneLink {
   std::size_t body = 0;
   std::optional<std::size_t> other;
   Vector3<double> anchor = Vector3<double>::Zero();        ///< m, in the body's axes from its reference point
   Vector3<double> anchor_other = Vector3<double>::Zero();  ///< m, in the other's axes, or in the world
 };
 
+struct SceneJoint {
+  std::string name;
+  SceneLink ends;
+  bool on_plane = false;                                 ///< the second anchor only says where a plane is
+  Vector3<double> axis = Vector3<double>::Zero();        ///< unit, in the body's axes; zero: the joint has none
+  Vector3<double> axis_other = Vector3<double>::Zero();  ///< unit, in the other's axes or in the world; zero: none
+  double radius = 0;  ///< m, of a disk or sphere that rolls on the plane; 0: a joint that does not roll
+  Vector3<double> normal = Vector3<double>::Zero();  ///< of the plane: unit, in the other's axes or in the world
+};
+
 struct Scene {
   std::string title;
   std::vector<Surface> surfaces;  ///< each surface once, even if several bodies have it
   std::vector<SceneBody> bodies;  ///< all bodies of the problem, in its order
-  std::vector<SceneSpring> springs;
+  std::vector<SceneLink> springs;
+  std::vector<SceneJoint> joints;  ///< all joints of the problem, in its order
 };
 
 Scene scene_of(const Scenario& scenario);

@@ -32,7 +32,7 @@ std::vector<Ball> balls_of(const study::Scene& scene, std::span<const Frame> fra
       if (!center.isZero()) add(body.position - rotation_matrix(body.orientation) * center, 0.1 * cast.radius[i]);
     }
   }
-  for (const study::SceneSpring& spring : scene.springs) {
+  for (const study::SceneLink& spring : scene.springs) {
     if (!spring.other) add(spring.anchor_other, 0.1 * cast.typical_radius);
   }
   return balls;

@@ -102,7 +102,7 @@ void Marks::add_springs(const study::Scene& scene, const Cast& cast, const Frame
     const BodySnapshot<double>& b = frame.bodies[std::size_t(found - cast.moving.begin())];
     return b.position + rotation_matrix(b.orientation) * from_center;
   };
-  for (const study::SceneSpring& spring : scene.springs) {
+  for (const study::SceneLink& spring : scene.springs) {
     const Vector3<double> from = spring.other ? point_of(*spring.other, spring.anchor_other) : spring.anchor_other;
     const Vector3<double> to = point_of(spring.body, spring.anchor);
     if (!((to - from).squaredNorm() > 0)) continue;

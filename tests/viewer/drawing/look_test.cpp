@@ -20,7 +20,7 @@ class LookStage : public Stage {
     scene_.bodies[0].inertia = Vector3<double>(1, 2, 3).asDiagonal();
     scene_.bodies[1].center_of_mass = {0, 0, 0.8};
     add_floor(scene_, -0.6);
-    study::SceneSpring spring;
+    study::SceneLink spring;
     spring.anchor_other = {0, -1.5, 1.5};
     scene_.springs.push_back(spring);
     frame_ = standing_at({{0, 0, 0}, {0, 1, 0.5}});

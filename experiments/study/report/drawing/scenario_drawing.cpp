@@ -118,7 +118,7 @@ class Drawer {
         for (const auto& x : pieces_.back().points) bodies_.extend(x);
       }
     }
-    for (const SceneSpring& spring : scene_.springs) {
+    for (const SceneLink& spring : scene_.springs) {
       for (const auto& end : ends_of(spring)) bodies_.extend(end);
     }
     for (const JointParameters& joint : problem_.joints) {
@@ -136,7 +136,7 @@ class Drawer {
     return all;
   }
 
-  std::array<Vector3<double>, 2> ends_of(const SceneSpring& spring) const {
+  std::array<Vector3<double>, 2> ends_of(const SceneLink& spring) const {
     return {world_point(spring.body, spring.anchor),
             spring.other ? world_point(*spring.other, spring.anchor_other) : spring.anchor_other};
   }
@@ -332,7 +332,7 @@ class Drawer {
     std::size_t k = 0;
     for (const ForceParameters& force : problem_.forces) {
       if (force.kind != "spring" && force.kind != "damper") continue;
-      const SceneSpring& spring = scene_.springs[k++];
+      const SceneLink& spring = scene_.springs[k++];
       const auto ends = ends_of(spring);
       const PagePoint from = view_.on_page(ends[0]), to = view_.on_page(ends[1]);
       if (force.kind == "spring") marks.spring(from, to);

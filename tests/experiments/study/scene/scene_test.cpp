@@ -238,6 +238,55 @@ anchor_world = [0, 0, 3]
   EXPECT_EQ(scene.springs[1].anchor_other, Vector(0, 0, 3));
 }
 
+TEST(Scene, HasTheAnchorsAndAxesOfItsJoints) {
+  const Scene scene = scene_of(scenario_of(R"(
+t_end = 1
+[[body]]
+name = "disk"
+mass = 1
+inertia = [1, 1, 1.5]
+[[body]]
+name = "floor"
+static = true
+orientation = [0.7071067811865476, 0.7071067811865476, 0, 0]
+[[joint]]
+name = "cross"
+kind = "universal"
+bodies = ["disk"]
+anchor_body = [0, 0, 1]
+anchor_world = [0, 0, 1]
+axis_body = [2, 0, 0]
+axis_body_2 = [0, 3, 0]
+[[joint]]
+name = "plane"
+kind = "planar"
+bodies = ["disk"]
+axis_body = [0, 0, 1]
+[[joint]]
+name = "contact"
+kind = "rolling"
+bodies = ["disk", "floor"]
+anchor_body_2 = [0, -2, 0]
+radius = 2
+normal = [0, 0, 5]
+)"));
+  ASSERT_EQ(scene.joints.size(), 3u);
+  const SceneJoint &cross = scene.joints[0], &plane = scene.joints[1], &contact = scene.joints[2];
+  EXPECT_EQ(cross.name, "cross");
+  EXPECT_FALSE(cross.ends.other);
+  EXPECT_FALSE(cross.on_plane);
+  EXPECT_EQ(cross.ends.anchor, Vector(0, 0, 1));
+  EXPECT_EQ(cross.ends.anchor_other, Vector(0, 0, 1));
+  EXPECT_EQ(cross.axis, Vector(1, 0, 0));
+  EXPECT_EQ(cross.axis_other, Vector(0, 1, 0));
+  EXPECT_TRUE(plane.on_plane);
+  EXPECT_EQ(plane.radius, 0);
+  EXPECT_TRUE(contact.on_plane);
+  EXPECT_EQ(contact.ends.other, 1u);
+  EXPECT_EQ(contact.radius, 2);
+  EXPECT_LT((contact.normal - Vector(0, 1, 0)).norm(), 1e-12) << "in the axes of the floor, z is its y";
+}
+
 TEST(Scene, OfEveryBuiltInScenarioShowsEachBody) {
   for (const BuiltinScenario& b : builtin_scenarios()) {
     const Scenario scenario = ScenarioSource::open(std::string(b.name)).resolve();
