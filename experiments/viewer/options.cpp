@@ -42,7 +42,7 @@ struct Said {
   std::string drive = "accumulator";
   std::map<std::string, std::string> options;  ///< of run_arguments, by name; empty: not given
   std::vector<std::string> vary;
-  std::string size = "1280x720", show = "trails,contacts";
+  std::string size = "1280x720", show = "trails,contacts,joints,reactions";
   std::optional<double> t_end, azimuth, elevation;
 };
 
@@ -79,15 +79,12 @@ void read_size(const std::string& text, int& width, int& height) {
 
 Shown read_shown(const std::string& list) {
   Shown shown;
-  shown.trails = shown.contacts = false;
-  const std::map<std::string_view, bool Shown::*> known = {{"axes", &Shown::axes},
-                                                           {"omega", &Shown::angular_velocity},
-                                                           {"momentum", &Shown::angular_momentum},
-                                                           {"trails", &Shown::trails},
-                                                           {"polhode", &Shown::polhode},
-                                                           {"poinsot", &Shown::poinsot},
-                                                           {"contacts", &Shown::contacts},
-                                                           {"cells", &Shown::cells}};
+  shown.trails = shown.contacts = shown.joints = shown.reactions = false;
+  const std::map<std::string_view, bool Shown::*> known = {
+      {"axes", &Shown::axes},         {"omega", &Shown::angular_velocity}, {"momentum", &Shown::angular_momentum},
+      {"trails", &Shown::trails},     {"polhode", &Shown::polhode},        {"poinsot", &Shown::poinsot},
+      {"contacts", &Shown::contacts}, {"joints", &Shown::joints},          {"reactions", &Shown::reactions},
+      {"cells", &Shown::cells}};
   if (list == "none") return shown;
   for (const std::string& word : study::split_list(list, ',', "--show")) shown.*one_of("--show", word, known) = true;
   return shown;
@@ -176,8 +173,8 @@ Options parse(const std::string& question, int argc, const char* const* argv) {
   const char* const look = "What is seen";
   add("--size", said.size, "in pixels (default: 1280x720)", "WxH", look);
   add("--show", said.show,
-      "axes, omega, momentum, trails, polhode, poinsot (rolling on its plane), contacts, cells, or none (default: "
-      "trails,contacts)",
+      "axes, omega, momentum, trails, polhode, poinsot (rolling on its plane), contacts, joints, reactions, cells, or "
+      "none (default: trails,contacts,joints,reactions)",
       "LIST", look);
   add("--azimuth", said.azimuth, "of the camera about z in rad (default: as the scene asks for)", "RAD", look);
   add("--elevation", said.elevation, "of the camera in rad", "RAD", look);

@@ -75,7 +75,7 @@ class Viewer(unittest.TestCase):
 
     def test_every_control(self):
         self.window("every_control.txt")
-        for name in ("several.png", "collision.png", "results/viewer-dzhanibekov/picture_1.png"):
+        for name in ("several.png", "collision.png", "joints.png", "results/viewer-dzhanibekov/picture_1.png"):
             self.assert_not_blank(self.folder / name)
         for session in sorted(self.folder.glob("results/*/session_*.toml")):
             with self.subTest(session=session.name):

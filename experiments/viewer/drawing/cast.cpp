@@ -5,6 +5,19 @@
 
 namespace polhode::viewer::inline drawing {
 
+namespace {
+
+/// Distance (m) between the points of a link at the start.
+double start_distance(const study::Scene& scene, const study::SceneLink& link) {
+  const auto place = [&](std::size_t i, const Vector3<double>& anchor) {
+    return scene.bodies[i].start.to_world(anchor - scene.bodies[i].center_of_mass);
+  };
+  return (place(link.body, link.anchor) - (link.other ? place(*link.other, link.anchor_other) : link.anchor_other))
+      .norm();
+}
+
+}  // namespace
+
 Cast cast_of(const study::Scene& scene) {
   std::vector<double> of_surface;
   for (const study::Surface& surface : scene.surfaces) {
@@ -24,7 +37,10 @@ Cast cast_of(const study::Scene& scene) {
   std::vector<double> sorted = cast.radius;
   const auto middle = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
-  cast.typical_radius = *middle;
+  cast.typical_radius = cast.joint_size = *middle;
+  for (const study::SceneJoint& joint : scene.joints) {
+    if (!joint.on_plane) cast.joint_size = std::max(cast.joint_size, start_distance(scene, joint.ends) / 2);
+  }
   return cast;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "experiments/viewer/drawing/marks.hpp"
+#include "experiments/viewer/drawing/places.hpp"
 
 namespace polhode::viewer::inline drawing {
 
@@ -30,6 +31,12 @@ std::vector<Ball> balls_of(const study::Scene& scene, std::span<const Frame> fra
       add(body.position, std::max(look.axes ? axis_length(cast.radius[i]) : cast.radius[i], arrows));
       const Vector3<double>& center = scene.bodies[cast.moving[i]].center_of_mass;
       if (!center.isZero()) add(body.position - rotation_matrix(body.orientation) * center, 0.1 * cast.radius[i]);
+    }
+    const Places places(scene, cast, frame);
+    for (const study::SceneJoint& joint : scene.joints) {
+      const double around = look.reactions ? longest_reaction * cast.joint_size : 0.1 * cast.typical_radius;
+      if (look.joints || look.reactions) add(places.from(joint.ends), joint.radius + around);
+      if (look.joints && !joint.on_plane) add(places.to(joint.ends), 0.1 * cast.typical_radius);
     }
   }
   for (const study::SceneLink& spring : scene.springs) {

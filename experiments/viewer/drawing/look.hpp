@@ -20,9 +20,11 @@ struct Look {
   bool shadows = true;  ///< shadows of bodies on the floor
   bool edges = true;    ///< edges of polyhedra
   bool springs = true;
-  bool contacts = true;  ///< contact points, normals and depths, if the frame has them
-  bool cells = true;     ///< cells of the broad phase, if the frame has them
-  bool axes = false;     ///< x, y and z axes of each moving body
+  bool joints = true;     ///< anchors and axes of joints
+  bool reactions = true;  ///< forces of joints on their first bodies, if the frame has them
+  bool contacts = true;   ///< contact points, normals and depths, if the frame has them
+  bool cells = true;      ///< cells of the broad phase, if the frame has them
+  bool axes = false;      ///< x, y and z axes of each moving body
   bool angular_velocity = false;
   bool angular_momentum = false;
   bool trails = true;      ///< the trails passed to the renderer

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "experiments/viewer/drawing/places.hpp"
+
 namespace polhode::viewer::inline drawing {
 
 namespace {
@@ -66,6 +68,9 @@ void VectorScales::see(const Frame& frame) {
     fastest = std::max(fastest, body.angular_velocity.norm());
     most = std::max(most, body.angular_momentum.norm());
   }
+  double strongest = 0;
+  for (const FrameReaction& reaction : frame.reactions) strongest = std::max(strongest, reaction.force.norm());
+  if (strongest > 0) force.see(strongest);
   angular_velocity.see(fastest);
   angular_momentum.see(most);
 }
@@ -76,6 +81,13 @@ Vector3<double> angular_velocity_arrow(const BodySnapshot<double>& body, const C
 
 Vector3<double> angular_momentum_arrow(const BodySnapshot<double>& body, const Cast& cast, const VectorScales& scales) {
   return arrow(body, body.angular_momentum, scales.angular_momentum, longest_angular_momentum, cast);
+}
+
+Vector3<double> reaction_arrow(const FrameReaction& reaction, const Cast& cast, const VectorScales& scales) {
+  constexpr double least = 0.02;  // share of the scale; shorter arrows are dots
+  const double force = reaction.force.norm(), share = scales.force.share(force);
+  if (!(share > least)) return Vector3<double>::Zero();
+  return reaction.force * (longest_reaction * cast.joint_size * share / force);
 }
 
 void Marks::clear() {
@@ -95,16 +107,9 @@ void Marks::add_arrow(const Vector3<double>& from, const Vector3<double>& way, d
 }
 
 void Marks::add_springs(const study::Scene& scene, const Cast& cast, const Frame& frame, const ViewState& view) {
-  const auto point_of = [&](std::size_t body, const Vector3<double>& anchor) -> Vector3<double> {
-    const auto found = std::lower_bound(cast.moving.begin(), cast.moving.end(), body);
-    const Vector3<double> from_center = anchor - scene.bodies[body].center_of_mass;
-    if (found == cast.moving.end() || *found != body) return scene.bodies[body].start.to_world(from_center);
-    const BodySnapshot<double>& b = frame.bodies[std::size_t(found - cast.moving.begin())];
-    return b.position + rotation_matrix(b.orientation) * from_center;
-  };
+  const Places places(scene, cast, frame);
   for (const study::SceneLink& spring : scene.springs) {
-    const Vector3<double> from = spring.other ? point_of(*spring.other, spring.anchor_other) : spring.anchor_other;
-    const Vector3<double> to = point_of(spring.body, spring.anchor);
+    const Vector3<double> from = places.to(spring), to = places.from(spring);
     if (!((to - from).squaredNorm() > 0)) continue;
     const double radius = 0.13 * cast.typical_radius;
     const auto width =
@@ -145,6 +150,39 @@ void Marks::add_contacts(const Frame& frame, const Cast& cast, double depth_scal
     over.push_back({low, high, colours::depth, colours::depth, 5, 0});
     add_dot(over, view.from_eye(contact.point), 8, colours::contact, {255, 255, 255});
     add_arrow(contact.point, length * contact.normal, 0.022 * cast.typical_radius, colours::normal, view);
+  }
+}
+
+void Marks::add_joints(const study::Scene& scene, const Cast& cast, const Frame& frame, const ViewState& view) {
+  const Places places(scene, cast, frame);
+  const double half_axis = 0.3 * cast.joint_size;
+  const auto dot = [&](const Vector3<double>& at) {
+    add_dot(over, view.from_eye(at), 9, colours::ink, {255, 255, 255});
+  };
+  const auto axis = [&](const Vector3<double>& at, const Vector3<double>& along) {
+    if (along.isZero()) return;
+    add_line(over, view.from_eye(at - half_axis * along), view.from_eye(at + half_axis * along), colours::ink, 2.5f);
+  };
+  for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+    const study::SceneJoint& joint = scene.joints[i];
+    if (joint.radius > 0) {
+      if (i < frame.reactions.size()) dot(frame.reactions[i].point);
+      continue;
+    }
+    const Vector3<double> from = places.from(joint.ends), to = joint.on_plane ? from : places.to(joint.ends);
+    const auto& other = joint.ends.other;
+    axis(from, places.direction(joint.ends.body, joint.axis));
+    axis(from, other ? places.direction(*other, joint.axis_other) : joint.axis_other);
+    add_line(over, view.from_eye(from), view.from_eye(to), colours::ink, 2.5f);
+    dot(to);
+    dot(from);
+  }
+}
+
+void Marks::add_reactions(const Frame& frame, const Cast& cast, const VectorScales& scales, const ViewState& view) {
+  for (const FrameReaction& reaction : frame.reactions) {
+    const Vector3<double> way = reaction_arrow(reaction, cast, scales);
+    add_arrow(reaction.point, way, 0.022 * cast.joint_size, colours::reaction, view);
   }
 }
 

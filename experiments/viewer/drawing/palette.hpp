@@ -37,6 +37,7 @@ constexpr Colour angular_momentum = {160, 70, 140};
 constexpr Colour contact = {38, 44, 52};
 constexpr Colour normal = {213, 94, 0};
 constexpr Colour depth = {204, 0, 102};
+constexpr Colour reaction = {190, 20, 60};
 constexpr Colour spring = {88, 96, 108};
 constexpr Colour cell = {0, 114, 178};
 constexpr Colour polhode = {200, 16, 80};

@@ -102,6 +102,8 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Look& look, 
   marks_.clear();
   if (look.springs) marks_.add_springs(scene_, cast_, frame, view);
   if (look.springs) marks_.add_pivots(scene_, cast_, frame, view);
+  if (look.joints) marks_.add_joints(scene_, cast_, frame, view);
+  if (look.reactions) marks_.add_reactions(frame, cast_, scales_, view);
   if (look.contacts) marks_.add_contacts(frame, cast_, look.depth_scale, view);
   if (look.cells) marks_.add_cells(frame, view);
   if (look.trails) marks_.add_trails(past.trails, view);
@@ -192,6 +194,13 @@ std::vector<Label> Renderer::labels(const Frame& frame, const Camera& camera, co
     };
     vector(look.angular_velocity, "ω", colours::angular_velocity, angular_velocity_arrow(body, cast_, scales_));
     vector(look.angular_momentum, "L", colours::angular_momentum, angular_momentum_arrow(body, cast_, scales_));
+  }
+  constexpr std::size_t few_joints = 8;  // more labels would hide the bodies
+  for (const FrameReaction& reaction : frame.reactions) {
+    const Vector3<double> way = reaction_arrow(reaction, cast_, scales_);
+    if (!look.reactions || way.isZero() || frame.reactions.size() > few_joints) continue;
+    const std::string text = fmt::format("{:.3g} N", reaction.force.norm());
+    add(text.c_str(), colours::reaction, at_tip(reaction.point, way), camera, area);
   }
   if (const auto shown = ellipsoid(frame, look)) {
     of_bodies = false;

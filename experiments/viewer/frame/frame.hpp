@@ -17,11 +17,17 @@ struct FrameContact {
   double depth = 0;                                  ///< m, positive when overlapping
 };
 
+struct FrameReaction {
+  Vector3<double> point = Vector3<double>::Zero();  ///< anchor of the joint on its first body, m
+  Vector3<double> force = Vector3<double>::Zero();  ///< of the joint on its first body, N
+};
+
 struct Frame {
   double t = 0;                              ///< s
   std::int64_t step = 0;                     ///< of the session, from its start
   std::vector<BodySnapshot<double>> bodies;  ///< the moving ones, in the problem's order
   std::vector<FrameContact> contacts;        ///< where they are asked for, or where the run paused at a collision
+  std::vector<FrameReaction> reactions;      ///< of each joint in the problem's order, where they are asked for
   std::vector<Bounds> cells;                 ///< of the broad phase, where they are asked for
   double kinetic = 0, potential = 0;         ///< J
   double energy_drift = 0;                   ///< J, what the ledger cannot explain

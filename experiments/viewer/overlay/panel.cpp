@@ -251,6 +251,10 @@ void Panel::shown(Stage& stage, Controls& controls) {
   check(controls, "broad-phase cells", "cells", stage.cells);
   beside();
   if (check(controls, "Poinsot's plane", "poinsot", look.poinsot) && look.poinsot) look.polhode = true;
+  if (stage.scene().joints.empty()) return;
+  check(controls, "joints (J)", "joints", look.joints);
+  beside();
+  check(controls, "reactions (R)", "reactions", look.reactions);
 }
 
 void Panel::numbers(Stage& stage) {
@@ -264,6 +268,9 @@ void Panel::numbers(Stage& stage) {
   ImGui::Text("orientation defect %.3g", frame.defect);
   ImGui::Text("%zu contacts", frame.contacts.size());
   ImGui::Text("%.0f frames per second", double(ImGui::GetIO().Framerate));
+  const std::vector<study::SceneJoint>& joints = stage.scene().joints;
+  for (std::size_t i = 0; i < std::min(joints.size(), frame.reactions.size()); ++i)
+    ImGui::Text("%s %.4g N", joints[i].name.c_str(), frame.reactions[i].force.norm());
 }
 
 }  // namespace polhode::viewer::overlay

@@ -22,6 +22,7 @@ std::optional<Kept> state_at_impact(const System<double>& system, const study::R
   const auto method = study::integrator_of<double>(run, system);
   Kept there = present;
   there.state = segment.before();
+  there.multipliers = {};
   method->begin(there.state);
   const double close = 1e-15 * t;  // shortest remaining time, s; some methods cannot make a shorter step
   while (t - there.state.t > close) {

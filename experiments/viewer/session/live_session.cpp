@@ -254,7 +254,8 @@ void LiveSession::begin_again() {
                   .place = {++segment_number_, 0},
                   .step = 0,
                   .sample = sample,
-                  .losses = {}};
+                  .losses = {},
+                  .multipliers = {}};
   memory_.begin(kept);
   begin_segment(kept, true, {});
 }
@@ -277,6 +278,7 @@ void LiveSession::publish() {
   const Kept& shown = past_ ? *past_ : collision_.state() ? *collision_.state() : present;
   view->frame = memory_.frame(shown);
   or_say([&] {
+    if (wanted_.reactions) view->frame.reactions = memory_.reactions(shown);
     const System<double>& system = memory_.system(shown.formulation);
     collision_.show(wanted_, collision_.paused() && !past_, system, shown.state.y, view->frame);
   });

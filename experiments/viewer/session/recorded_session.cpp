@@ -8,8 +8,10 @@
 
 #include "experiments/study/text/csv_reader.hpp"
 #include "experiments/study/text/input_error.hpp"
+#include "experiments/study/trajectory/reaction_reader.hpp"
 #include "experiments/study/trajectory/trajectory_reader.hpp"
 #include "experiments/viewer/session/contact_lookout.hpp"
+#include "experiments/viewer/session/reactions.hpp"
 #include "experiments/viewer/session/session.hpp"
 #include "experiments/viewer/session/state_conversion.hpp"
 
@@ -40,6 +42,8 @@ class RecordedSession final : public Session {
     configuration_.run.t_end = motion_.times.back();
     if (configuration_.run.contact) lookout_.emplace(scenario_, *configuration_.run.contact);
     t_ = motion_.times.front();
+    forces_ = study::read_reactions(std::filesystem::path(trajectory).parent_path(), motion_.times,
+                                    scenario_.problem.joints.size());
     measure(trajectory);
   }
 
@@ -215,6 +219,7 @@ class RecordedSession final : public Session {
       frame.bodies.push_back(system_->snapshot(y, i));
     }
     if (lookout_ && (wanted_.contacts || collided_)) frame.contacts = lookout_->contacts(*system_, y);
+    if (wanted_.reactions) frame.reactions = reactions(k, s, y);
     if (lookout_ && wanted_.cells) frame.cells = lookout_->cells(*system_, y);
     view->plot = plot_;
     for (const std::size_t i : wanted_.traced) {
@@ -237,6 +242,16 @@ class RecordedSession final : public Session {
     return view;
   }
 
+  /// The recorded forces, or those that follow from the state y, which lies between samples k and k + 1 at the
+  /// fraction s.
+  std::vector<FrameReaction> reactions(std::size_t k, double s, const VectorX<double>& y) const {
+    std::vector<FrameReaction> all = reactions_of(*system_, {.t = t_, .y = y});
+    const std::size_t next = s > 0 ? k + 1 : k;
+    for (std::size_t i = 0; i < all.size() && !forces_.empty(); ++i)
+      all[i].force = (1 - s) * forces_[k * all.size() + i] + s * forces_[next * all.size() + i];
+    return all;
+  }
+
   Trace trace(std::size_t i) const {
     Trace out{i, {}};
     const std::size_t stride = (sample_ + most_points) / most_points;
@@ -256,7 +271,8 @@ class RecordedSession final : public Session {
   Wanted wanted_;
   Vector3<double> momentum_start_ = Vector3<double>::Zero();
   double energy_start_ = 0;
-  std::vector<double> drift_;  ///< energy drift at each instant, J; empty: unknown
+  std::vector<double> drift_;            ///< energy drift at each instant, J; empty: unknown
+  std::vector<Vector3<double>> forces_;  ///< of the joints at each instant, N; empty: not recorded
   std::vector<PlotPoint> plot_;
   double t_ = 0, speed_ = 1;
   std::size_t sample_ = 0;  ///< index of the last sample at or before t_

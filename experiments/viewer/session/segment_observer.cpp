@@ -21,6 +21,7 @@ void SegmentObserver::begin_segment() {
   projection_before_ = present_.sample.projection;
   losses_before_ = present_.losses;
   losses_ = {};
+  multipliers_ = {};
 }
 
 std::size_t SegmentObserver::on_samples(std::span<const Sample> samples) {
@@ -58,6 +59,7 @@ void SegmentObserver::keep(const State<double>& state, const Sample& sample) {
   present_.sample = sample;
   present_.sample.projection += projection_before_;
   present_.losses = sum(losses_before_, losses_);
+  present_.multipliers = multipliers_;
 }
 
 }  // namespace polhode::viewer::session

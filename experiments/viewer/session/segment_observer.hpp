@@ -32,6 +32,9 @@ class SegmentObserver final : public Observer {
   void on_start(const State<double>& state, const Sample& sample) override;
   std::size_t on_samples(std::span<const Sample> samples) override;
   void on_state(const State<double>& state, const Sample& sample) override;
+  void on_multipliers(std::span<const double> multipliers) override {
+    multipliers_ = Eigen::Map<const VectorX<double>>(multipliers.data(), Eigen::Index(multipliers.size()));
+  }
   void on_impacts(std::span<const Impact> impacts) override {
     impacts_.insert(impacts_.end(), impacts.begin(), impacts.end());
   }
@@ -46,6 +49,7 @@ class SegmentObserver final : public Observer {
   Kept present_;
   State<double> before_;
   std::vector<Impact> impacts_;
+  VectorX<double> multipliers_;           ///< of the method at the state that is due
   double projection_before_ = 0;          ///< energy injected by projection in earlier segments, J
   ContactLosses losses_before_, losses_;  ///< losses in earlier segments, and in the present one
   bool fresh_ = true;                     ///< the segment is the start of the session

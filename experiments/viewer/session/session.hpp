@@ -70,6 +70,7 @@ struct SessionSetup {
 struct Wanted {
   bool contacts = false, cells = false;
   std::vector<std::size_t> traced;  ///< indices of the moving bodies to trace
+  bool reactions = false;           ///< of joints
   bool operator==(const Wanted&) const = default;
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "experiments/study/metrics/motion_scales.hpp"
+#include "experiments/viewer/session/reactions.hpp"
 
 namespace polhode::viewer::inline session {
 namespace {
@@ -14,7 +15,9 @@ constexpr std::size_t fewest_states = 16, most_states = 1 << 16;
 
 std::size_t states_in(std::size_t bytes, const Problem& problem) {
   constexpr std::size_t numbers_of_body = 18;  // length of a body's state in the longest formulation
-  const std::size_t each = sizeof(Kept) + sizeof(double) * numbers_of_body * problem.moving();
+  constexpr std::size_t numbers_of_joint = 6;  // most equations of a joint
+  const std::size_t each =
+      sizeof(Kept) + sizeof(double) * (numbers_of_body * problem.moving() + numbers_of_joint * problem.joints.size());
   return std::clamp(bytes / each, fewest_states, most_states);
 }
 
@@ -91,6 +94,10 @@ Frame SessionMemory::frame(const Kept& kept) {
   frame.momentum_drift = point.momentum_drift;
   frame.defect = point.defect;
   return frame;
+}
+
+std::vector<FrameReaction> SessionMemory::reactions(const Kept& kept) {
+  return reactions_of(system(kept.formulation), kept.state, kept.multipliers);
 }
 
 PlotPoint SessionMemory::plot_point(const Kept& kept) const {

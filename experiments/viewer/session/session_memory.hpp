@@ -24,6 +24,8 @@ struct Kept {
   std::int64_t step = 0;    ///< number of steps since the start of the session
   Sample sample;            ///< its projection, like the losses below, is summed since the start of the session
   ContactLosses losses;
+  /// Multipliers (N or N m) of the joints from a method that solves for them itself; of other methods empty.
+  VectorX<double> multipliers;
 };
 
 class SessionMemory {
@@ -51,6 +53,7 @@ class SessionMemory {
   const Kept& nearest(double t, const Kept& now) const;
 
   Frame frame(const Kept& kept);
+  std::vector<FrameReaction> reactions(const Kept& kept);
 
   void trace(std::span<const std::size_t> bodies);
   std::vector<PlotPoint> plot() const;

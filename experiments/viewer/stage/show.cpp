@@ -10,6 +10,8 @@ void show(const Shown& shown, Stage& stage) {
   stage.look.polhode = shown.polhode || shown.poinsot;
   stage.look.poinsot = shown.poinsot;
   stage.look.contacts = shown.contacts;
+  stage.look.joints = shown.joints;
+  stage.look.reactions = shown.reactions;
   stage.trails = shown.trails;
   stage.cells = shown.cells;
 }

@@ -11,7 +11,7 @@ namespace polhode::viewer::inline stage {
 /// Initial choices of the view.
 struct Shown {
   bool axes = false, angular_velocity = false, angular_momentum = false, trails = true, polhode = false,
-       poinsot = false, contacts = true, cells = false;
+       poinsot = false, contacts = true, cells = false, joints = true, reactions = true;
   std::optional<double> azimuth, elevation;  ///< rad; absent: those of the scene
   double zoom = 1;                           ///< factor by which the camera is nearer
 };

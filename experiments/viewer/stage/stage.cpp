@@ -110,6 +110,7 @@ void Stage::want() {
   Wanted wanted;
   wanted.contacts = look.contacts;
   wanted.cells = cells;
+  wanted.reactions = look.joints || look.reactions;
   if (trails && moving_.size() <= most_trails) {
     for (std::size_t i = 0; i < moving_.size(); ++i) wanted.traced.push_back(i);
   } else if (trails || look.polhode) {

@@ -22,7 +22,11 @@ namespace {
 const std::map<std::string, std::vector<std::size_t>> commands = {
     {"click", {1}},     {"choose", {2}}, {"drag", {2}}, {"type", {2}},    {"wait", {1}},  {"until", {1, 2}},
     {"expect", {2, 3}}, {"pull", {2}},   {"key", {1}},  {"picture", {1}}, {"places", {1}}};
-const std::map<std::string, int> keys = {{"space", GLFW_KEY_SPACE}, {"right", GLFW_KEY_RIGHT}, {"home", GLFW_KEY_HOME}};
+const std::map<std::string, int> keys = {{"space", GLFW_KEY_SPACE},
+                                         {"right", GLFW_KEY_RIGHT},
+                                         {"home", GLFW_KEY_HOME},
+                                         {"j", GLFW_KEY_J},
+                                         {"r", GLFW_KEY_R}};
 constexpr int most_frames = 20000;   // longest wait
 constexpr int patience = 300;        // frames until what is expected must hold; runs are threads of their own
 constexpr float double_click_s = 5;  // longest time between its clicks: frames of a loaded machine are slow
@@ -71,8 +75,8 @@ void Script::before_frame() {
   io.MouseDoubleClickTime = double_click_s;
   io.MousePos = {now_.x, now_.y};
   io.MouseDown[0] = now_.pressed;
-  for (const int key : {GLFW_KEY_ENTER, GLFW_KEY_SPACE, GLFW_KEY_RIGHT, GLFW_KEY_HOME})
-    io.KeysDown[key] = key == now_.key;
+  io.KeysDown[GLFW_KEY_ENTER] = now_.key == GLFW_KEY_ENTER;
+  for (const auto& [name, key] : keys) io.KeysDown[key] = key == now_.key;
   if (!now_.typed.empty()) io.AddInputCharactersUTF8(now_.typed.c_str());
 }
 
@@ -164,7 +168,7 @@ void Script::take(Stage& stage, Controls& controls) {
     inputs_.push_back(at);
   } else if (w[0] == "key") {
     const auto found = keys.find(w[1]);
-    if (found == keys.end()) fail("no key '" + w[1] + "'; there are home, right and space");
+    if (found == keys.end()) fail("no key '" + w[1] + "'; there are home, j, r, right and space");
     Input at = now_;
     at.key = found->second;
     inputs_.push_back(at);
@@ -213,6 +217,9 @@ std::string Script::value(Stage& stage, const std::string& of) const {
       {"trails", [&] { return truth(stage.trails); }},
       {"polhode", [&] { return truth(stage.look.polhode); }},
       {"contacts_shown", [&] { return truth(stage.look.contacts); }},
+      {"joints_shown", [&] { return truth(stage.look.joints); }},
+      {"reactions_shown", [&] { return truth(stage.look.reactions); }},
+      {"reactions", [&] { return std::to_string(view.frame.reactions.size()); }},
       {"poinsot", [&] { return truth(stage.look.poinsot); }},
       {"azimuth", [&] { return fmt::format("{}", stage.camera.azimuth); }},
   };

@@ -11,7 +11,7 @@
 //   expect integrator heun     else the script fails; see Script::value() for what can be asked
 //   expect t < 0.5
 //   pull 100 -30               with the left button, so many pixels right and down, in the middle of the runs
-//   key space                  space, right, home
+//   key space                  space, right, home, j, r
 //   picture FILE
 //   places FILE                CSV: run, body, the pixel where its mass centre is in the picture, and its colour
 #pragma once

@@ -91,7 +91,7 @@ Picture read_window(int width, int height) {
   return picture;
 }
 
-/// Applies mouse and keys that no control uses: the mouse moves the camera, keys change the time.
+/// Applies mouse and keys that no control uses: the mouse moves the camera, keys change the time and what is shown.
 void steer(Stage& stage) {
   const ImGuiIO& io = ImGui::GetIO();
   if (!io.WantCaptureMouse) {
@@ -110,6 +110,8 @@ void steer(Stage& stage) {
   }
   if (ImGui::IsKeyPressed(GLFW_KEY_RIGHT)) stage.each([](Session& s) { s.step(); });
   if (ImGui::IsKeyPressed(GLFW_KEY_HOME, false)) stage.each([](Session& s) { s.reset(); });
+  if (ImGui::IsKeyPressed(GLFW_KEY_J, false)) stage.look.joints = !stage.look.joints;
+  if (ImGui::IsKeyPressed(GLFW_KEY_R, false)) stage.look.reactions = !stage.look.reactions;
 }
 
 /// A window that shows one stage after another.

@@ -46,6 +46,18 @@ TEST(DefaultCamera, SeesWhereTheyGo) {
   expect_fit(cubes(1), frames);
 }
 
+TEST(DefaultCamera, SeesTheEndsOfJointsAndTheirReactions) {
+  study::Scene scene = cubes(1);
+  study::SceneJoint& rod = scene.joints.emplace_back();
+  rod.ends.anchor_other = {0, 0, 3};
+  const std::vector<Frame> frames = {standing_at({{0, 0, 0}})};
+  const Camera camera = default_camera(scene, frames, 1.5);
+  for (const Vector3<double>& x : {Vector3<double>(0, 0, 3), Vector3<double>(0, 1.5, 0), Vector3<double>(0, 0, -1.5)}) {
+    const Eigen::Vector2d at = camera.pixel(x, 1500, 1000).value();
+    EXPECT_TRUE(at[0] > 0 && at[0] < 1500 && at[1] > 0 && at[1] < 1000) << x.transpose();
+  }
+}
+
 TEST(DefaultCamera, AFloorAndWhatIsNotFiniteDoNotCount) {
   study::Scene scene = cubes(2);
   const std::vector<Frame> frames = {standing_at({{0, 0, 0}, {1, 1, 0}})};

@@ -38,7 +38,7 @@ class LookStage : public Stage {
                      const std::vector<Vector3<double>>& kept) {
     if (!offscreen_) return;
     Look off;
-    off.springs = off.contacts = off.cells = off.trails = off.shadows = off.edges = false;
+    off.springs = off.joints = off.reactions = off.contacts = off.cells = off.trails = off.shadows = off.edges = false;
     Look on = off;
     turn(on, true);
     turn(off, false);
@@ -123,6 +123,56 @@ TEST_F(LookStage, ContactPointsNormalsAndDepths) {
         look.depth_scale = on ? 4 : 1;
       },
       {point - Vector3<double>(0, 0, 0.15)}, {sky, point - Vector3<double>(0, 0, 0.3)});
+}
+
+TEST_F(LookStage, JointsHaveAnchorsALineBetweenThemAndAnAxis) {
+  study::SceneJoint open_hinge;
+  open_hinge.ends.anchor = {0, 0, 0.6};
+  open_hinge.ends.anchor_other = {0, 0, 1.6};
+  open_hinge.axis = {0, 1, 0};
+  scene_.joints.push_back(open_hinge);
+  const Vector3<double> axis(0, 0.13, 0.6), between(0, 0, 1.1);
+  expect_switch([](Look& look, bool on) { look.joints = on; }, {{0, 0, 0.6}, {0, 0, 1.6}, axis, between},
+                {sky, {0, 0.13, 1.6}, {0, 0, 1.8}, {0, 0.25, 0.6}});
+  if (!offscreen_) return;
+  EXPECT_LT(darkest(axis), 60);
+  EXPECT_LT(darkest(between), 60);
+}
+
+TEST_F(LookStage, AJointOnAPlaneHasNoSecondAnchor) {
+  study::SceneJoint planar;
+  planar.ends.anchor = {0, 0, 0.6};
+  planar.ends.anchor_other = {0, 0, 1.2};
+  planar.on_plane = true;
+  scene_.joints.push_back(planar);
+  expect_switch([](Look& look, bool on) { look.joints = on; }, {{0, 0, 0.6}}, {sky, {0, 0, 1.2}, {0, 0, 0.9}});
+}
+
+TEST_F(LookStage, ABodyThatRollsTouchesWhereTheReactionIs) {
+  study::SceneJoint rolling;
+  rolling.on_plane = true;
+  rolling.radius = 0.6;
+  scene_.joints.push_back(rolling);
+  frame_.reactions.push_back({{0, -0.8, -0.6}, {0, 0, 1}});
+  expect_switch([](Look& look, bool on) { look.joints = on; }, {{0, -0.8, -0.6}}, {sky, {0, 0, 0.6}});
+}
+
+TEST_F(LookStage, ReactionsAreArrowsToOneScaleWithTheirForces) {
+  frame_.reactions.push_back({{0, -0.8, 0.4}, {0, 0, 20}});
+  frame_.reactions.push_back({{0, -1.2, 0.4}, {0, 0, -10}});
+  const double longest = longest_reaction * 0.2 * std::sqrt(3.0);
+  const Vector3<double> up(0, -0.8, 0.4 + 0.8 * longest), half_way_down(0, -1.2, 0.4 - 0.3 * longest);
+  expect_switch([](Look& look, bool on) { look.reactions = on; }, {up, half_way_down},
+                {sky, {0, -0.8, 0.3}, {0, -1.2, 0.4 - 0.6 * longest}});
+  if (!offscreen_) return;
+  EXPECT_TRUE(has(colours::reaction, up));
+  EXPECT_TRUE(has(colours::reaction, half_way_down));
+  Renderer renderer(scene_);
+  draw(renderer, frame_, camera_);
+  const auto labels = renderer.labels(frame_, camera_, {}, whole);
+  ASSERT_EQ(labels.size(), 2u);
+  EXPECT_EQ(labels[0].text, "20 N");
+  EXPECT_EQ(labels[1].text, "10 N");
 }
 
 TEST_F(LookStage, CellsOfTheBroadPhase) {

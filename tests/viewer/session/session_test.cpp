@@ -32,6 +32,8 @@ INSTANTIATE_TEST_SUITE_P(Sessions, SameBytes,
                                          Case{"bouncing_ball", "rk4", 1e-2, 3, "event_located"},
                                          Case{"bouncing_ball", "cvode_adams", 0, 2, "event_located"},
                                          Case{"peters_hsu", "cvode_adams", 0, 3},
+                                         Case{"double_pendulum", "rk4", 1e-2, 1},
+                                         Case{"double_pendulum", "rattle", 1e-2, 1},
                                          Case{"two_bodies", "odeint_dopri5", 0, 1}),
                          [](const auto& param_info) {
                            const Case& c = param_info.param;
@@ -47,7 +49,7 @@ void play_wildly(Session& session, PortableRandom& random) {
       case 0: session.pause(); break;
       case 1: session.step(random.below(5)); break;
       case 2: session.set_speed(random.uniform(0.1, 30)); break;
-      case 3: session.want({random.below(2) == 0, random.below(2) == 0, {0}}); break;
+      case 3: session.want({random.below(2) == 0, random.below(2) == 0, {0}, random.below(2) == 0}); break;
       case 4:
         session.scrub(random.uniform(0, 1));  // a look back
         session.scrub(1e9);
