@@ -58,7 +58,8 @@ Motion carried_out(const ReplayOptions& options) {
       continue;
     }
     // Four times as many instants as can fit, from which the page chooses evenly.
-    const double fit = options.limit_bytes / (26 * double(run.scenario->problem.moving()) + 12);
+    const double fit = options.limit_bytes / (26 * double(run.scenario->problem.moving()) +
+                                              12 * double(run.scenario->problem.joints.size()) + 12);
     motion.recordings.push_back(record(run, std::size_t(4 * fit) + 16));
   }
   motion.words.answer = energy_answer(motion.recordings);
@@ -106,6 +107,7 @@ void fit(Motion& motion, double limit, const ThreeJs& three) {
     r.impacts.clear();
     r.times.clear();
     r.placements.clear();
+    r.reactions.clear();
     r.energy_drift.clear();
     r.momentum_drift.clear();
   }

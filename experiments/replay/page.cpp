@@ -65,7 +65,7 @@ ThreeJs read_three(const std::filesystem::path& folder) {
 
 std::string page_of(const PageWords& words, const std::vector<Recording>& recordings, const ThreeJs& three) {
   std::string script;
-  for (const char* name : {"motion", "bodies", "view", "plot", "player"}) script += part(name);
+  for (const char* name : {"motion", "bodies", "joints", "view", "plot", "player"}) script += part(name);
   return filled(part("page"), {{"mark", std::string(mark)},
                                {"title", html(words.title)},
                                {"style", std::string(part("style"))},

@@ -61,17 +61,26 @@ Json body_json(const SceneBody& body) {
   return b;
 }
 
+Json link_json(const SceneLink& l) {
+  return {{"body", l.body},
+          {"other", l.other ? Json(*l.other) : Json()},
+          {"anchor", list(l.anchor)},
+          {"anchorOther", list(l.anchor_other)}};
+}
+
+Json joint_json(const SceneJoint& joint) {
+  return {{"name", joint.name},          {"ends", link_json(joint.ends)},       {"onPlane", joint.on_plane},
+          {"axis", list(joint.axis)},    {"axisOther", list(joint.axis_other)}, {"radius", joint.radius},
+          {"normal", list(joint.normal)}};
+}
+
 Json scene_json(const Scene& scene) {
-  Json bodies = Json::array(), springs = Json::array(), surfaces = Json::array();
+  Json bodies = Json::array(), springs = Json::array(), joints = Json::array(), surfaces = Json::array();
   for (const Surface& surface : scene.surfaces) surfaces.push_back(surface_json(surface));
   for (const SceneBody& body : scene.bodies) bodies.push_back(body_json(body));
-  for (const SceneLink& s : scene.springs) {
-    springs.push_back({{"body", s.body},
-                       {"other", s.other ? Json(*s.other) : Json()},
-                       {"anchor", list(s.anchor)},
-                       {"anchorOther", list(s.anchor_other)}});
-  }
-  return {{"surfaces", surfaces}, {"bodies", bodies}, {"springs", springs}};
+  for (const SceneLink& s : scene.springs) springs.push_back(link_json(s));
+  for (const SceneJoint& j : scene.joints) joints.push_back(joint_json(j));
+  return {{"surfaces", surfaces}, {"bodies", bodies}, {"springs", springs}, {"joints", joints}};
 }
 
 std::string impacts_packed(const Recording& r) {
@@ -140,6 +149,8 @@ Json run_json(const Recording& r, const std::vector<Recording>& all) {
     for (const double c : q) orientations.push_back(step_of(c));
     for (const double w : p.angular_velocity) rates.push_back(step_of(fastest > 0 ? w / fastest : 0));
   }
+  std::vector<float> reactions;
+  for (const Vector3<double>& force : r.reactions) reactions.insert(reactions.end(), force.begin(), force.end());
   Json facts = Json::array();
   for (const auto& [name, cell] : facts_of(r.config)) {
     if (!cell.empty()) facts.push_back({name, cell});
@@ -165,6 +176,7 @@ Json run_json(const Recording& r, const std::vector<Recording>& all) {
           {"positions", packed(positions)},
           {"orientations", packed(orientations)},
           {"rates", packed(rates)},
+          {"reactions", packed(reactions)},
           {"energy", packed(singles(r.energy_drift))},
           {"momentumDrift", r.momentum == ShownMomentum::none ? "" : packed(singles(r.momentum_drift))},
           {"impacts", impacts_packed(r)}};
@@ -174,7 +186,7 @@ Json run_json(const Recording& r, const std::vector<Recording>& all) {
 
 double bytes_of_instant(const Recording& r) {
   const double series = r.momentum == ShownMomentum::none ? 8 + 4 : 8 + 4 + 4;
-  return 4.0 / 3 * (series + double(r.moving) * (3 * 4 + 4 * 2 + 3 * 2));
+  return 4.0 / 3 * (series + double(r.moving) * (3 * 4 + 4 * 2 + 3 * 2) + double(r.joints) * 3 * 4);
 }
 
 std::string page_data(const PageWords& words, const std::vector<Recording>& recordings) {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/system/joint_reactions.hpp"
 #include "experiments/study/metrics/references.hpp"
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/text/csv.hpp"
@@ -24,6 +25,10 @@ class Recorder final : public TrajectoryWriter {
     recording_.impacts.insert(recording_.impacts.end(), impacts.begin(), impacts.end());
     recording_.impacts_seen += std::int64_t(impacts.size());
     if (recording_.impacts.size() > 2 * most_) keep_impacts(recording_, most_);
+  }
+
+  void on_multipliers(std::span<const double> multipliers) override {
+    multipliers_ = Eigen::Map<const VectorX<double>>(multipliers.data(), Eigen::Index(multipliers.size()));
   }
 
   void on_contact_energy(const ContactLosses& losses) override { contact_ = losses; }
@@ -47,6 +52,7 @@ class Recorder final : public TrajectoryWriter {
  private:
   void start(const Sample& sample) {
     recording_.moving = system_.moving();
+    recording_.joints = recording_.scene.joints.size();
     energy_start_ = sample.ledger(contact_.total());
     momentum_start_ = momentum(sample);
   }
@@ -69,23 +75,16 @@ class Recorder final : public TrajectoryWriter {
       const BodySnapshot<double> s = system_.snapshot(last_state_.y, i);
       recording_.placements.push_back({s.position, s.orientation, s.angular_velocity});
     }
+    if (recording_.joints == 0) return;
+    for (const Wrench<double>& w : joint_reactions(system_, last_state_.t, last_state_.y, multipliers_))
+      recording_.reactions.push_back(w.force);
   }
 
   void halve() {
-    const std::size_t moving = recording_.moving;
-    std::size_t n = 0;
-    for (std::size_t k = 0; k < recording_.times.size(); k += 2, ++n) {
-      recording_.times[n] = recording_.times[k];
-      recording_.energy_drift[n] = recording_.energy_drift[k];
-      recording_.momentum_drift[n] = recording_.momentum_drift[k];
-      std::copy_n(recording_.placements.begin() + std::ptrdiff_t(k * moving), moving,
-                  recording_.placements.begin() + std::ptrdiff_t(n * moving));
-    }
-    last_kept_ = recording_.times[n - 1] == last_state_.t;
-    recording_.times.resize(n);
-    recording_.energy_drift.resize(n);
-    recording_.momentum_drift.resize(n);
-    recording_.placements.resize(n * moving);
+    std::vector<std::size_t> even;
+    for (std::size_t k = 0; k < recording_.times.size(); k += 2) even.push_back(k);
+    keep_these(recording_, even);
+    last_kept_ = recording_.times.back() == last_state_.t;
     stride_ *= 2;
   }
 
@@ -94,6 +93,7 @@ class Recorder final : public TrajectoryWriter {
   Recording& recording_;
   MotionScales scales_;
   ContactLosses contact_;
+  VectorX<double> multipliers_;  ///< of the method at the last state
   double energy_start_ = 0;
   Vector3<double> momentum_start_ = Vector3<double>::Zero();
   std::int64_t stride_ = 1;

@@ -33,21 +33,25 @@ ShownMomentum shown_momentum(const System<double>& system, const Scenario& scena
   return conserved.angular ? ShownMomentum::angular : conserved.linear ? ShownMomentum::linear : ShownMomentum::none;
 }
 
+void keep_these(Recording& recording, std::span<const std::size_t> instants) {
+  const auto keep = [&](auto& all, std::size_t each) {
+    for (std::size_t i = 0; i < instants.size(); ++i)
+      std::copy_n(all.begin() + std::ptrdiff_t(instants[i] * each), each, all.begin() + std::ptrdiff_t(i * each));
+    all.resize(instants.size() * each);
+  };
+  keep(recording.times, 1);
+  keep(recording.energy_drift, 1);
+  keep(recording.momentum_drift, 1);
+  keep(recording.placements, recording.moving);
+  keep(recording.reactions, recording.joints);
+}
+
 void keep_instants(Recording& recording, std::size_t n) {
-  const std::size_t all = recording.times.size(), moving = recording.moving;
+  const std::size_t all = recording.times.size();
   if (all <= n) return;
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t k = (i * (all - 1) + (n - 1) / 2) / (n - 1);
-    recording.times[i] = recording.times[k];
-    recording.energy_drift[i] = recording.energy_drift[k];
-    recording.momentum_drift[i] = recording.momentum_drift[k];
-    std::copy_n(recording.placements.begin() + std::ptrdiff_t(k * moving), moving,
-                recording.placements.begin() + std::ptrdiff_t(i * moving));
-  }
-  recording.times.resize(n);
-  recording.energy_drift.resize(n);
-  recording.momentum_drift.resize(n);
-  recording.placements.resize(n * moving);
+  std::vector<std::size_t> instants(n);
+  for (std::size_t i = 0; i < n; ++i) instants[i] = (i * (all - 1) + (n - 1) / 2) / (n - 1);
+  keep_these(recording, instants);
 }
 
 void keep_impacts(Recording& recording, std::size_t n) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +36,8 @@ struct Recording {
   std::size_t moving = 0;
   std::vector<double> times;                         ///< times of the instants, s
   std::vector<Placement> placements;                 ///< `moving` placements for each instant
+  std::size_t joints = 0;                            ///< number of joints with reactions
+  std::vector<Vector3<double>> reactions;            ///< `joints` forces for each instant, on first bodies, world, N
   std::vector<double> energy_drift;                  ///< at each instant: relative, signed
   std::vector<double> momentum_drift;                ///< at each instant: relative; 0 if no momentum is shown
   std::vector<Impact> impacts;                       ///< sorted by time
@@ -54,6 +57,9 @@ inline double relative(double drift, double scale) { return scale > 0 ? drift / 
 /// The momentum to show: the angular one if it is conserved, else the linear one if it is; none if bodies can touch
 /// fixed bodies.
 ShownMomentum shown_momentum(const System<double>& system, const Scenario& scenario);
+
+/// Reduces the recording to these instants, whose numbers increase.
+void keep_these(Recording& recording, std::span<const std::size_t> instants);
 
 /// Reduces the recording to n instants (n ≥ 2), spread evenly by number, including the first and the last.
 void keep_instants(Recording& recording, std::size_t n);

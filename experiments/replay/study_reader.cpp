@@ -18,6 +18,7 @@
 #include "experiments/study/text/text_file.hpp"
 #include "experiments/study/text/value_lists.hpp"
 #include "experiments/study/trajectory/kept_trajectory.hpp"
+#include "experiments/study/trajectory/reaction_reader.hpp"
 #include "experiments/study/trajectory/trajectory_reader.hpp"
 
 namespace polhode::study::replay {
@@ -267,6 +268,8 @@ Recording read_recording(const KeptRun& run, const Scenario& scenario, Reference
   for (const BodySnapshot<double>& b : trajectory.bodies) {
     r.placements.push_back({b.position, b.orientation, b.angular_velocity});
   }
+  r.reactions = read_reactions(run.motion, r.times, r.scene.joints.size());
+  r.joints = r.reactions.empty() ? 0 : r.scene.joints.size();
   read_energy(run.motion / "energy.csv", scales.energy, r);
   read_impacts(run.motion / "events.csv", scenario.problem.bodies.size(), r);
   const bool linear = r.momentum == ShownMomentum::linear;

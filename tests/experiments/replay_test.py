@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """replay as a user meets it: pages of runs and of studies, how large they are and what they say, and played in a browser
 that has no network. POLHODE_BIN_DIR is the folder of replay, energy_drift and simulate."""
+import base64
 import csv
 import json
 import math
 import pathlib
 import random
 import re
+import struct
 import unittest
 
 from browser import PROGRAM, Browser
@@ -21,6 +23,11 @@ STUDY = ["--scenario", "dzhanibekov", "--integrator", "rk4,semi_implicit_euler",
 
 def data_of(page):
     return json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', page.read_text(), re.S)[1])
+
+
+def numbers_of(kind, text):
+    raw = base64.b64decode(text)
+    return struct.unpack(f"<{len(raw) // struct.calcsize(kind)}{kind}", raw)
 
 
 @unittest.skipUnless(THREE.exists(), WITHOUT_THREE)
@@ -97,6 +104,26 @@ class Pages(unittest.TestCase):
         kept, run = (data_of(self.folder / name)["runs"][0] for name in ("kept.html", "run.html"))
         for part in ("times", "positions", "orientations", "rates", "impacts", "instants", "momentum", "energy", "facts"):
             self.assertEqual(kept[part], run[part], part)
+
+    def test_reactions_are_those_that_studies_record(self):
+        for method in ("rk4", "rattle"):  # of the state, and of the method
+            with self.subTest(method):
+                axes = ["--scenario", "double_pendulum", "--integrator", method, "--dt", "0.0002", "--t-end", "2"]
+                call("simulate", *axes, "--no-figures", "--out", method, folder=self.folder)
+                whole = {(row["t_s"], row["joint"]): [float(row[name]) for name in ("fx_N", "fy_N", "fz_N")]
+                         for row in read(self.folder / method / "reactions.csv")}
+                for source in (["--results", method], axes):
+                    call("replay", *source, "--limit", "1.3", "--out", "page.html", "--force", folder=self.folder)
+                    (run,) = data_of(self.folder / "page.html")["runs"]
+                    times, forces = numbers_of("d", run["times"]), numbers_of("f", run["reactions"])
+                    self.assertLess(run["instants"], 10001, "it is thinned")
+                    self.assertEqual(len(forces), 6 * run["instants"])
+                    at = {(float(t), int(joint)): force for (t, joint), force in whole.items()}
+                    for k in range(0, len(times), 97):
+                        for joint in (0, 1):
+                            force = forces[6 * k + 3 * joint:][:3]
+                            for seen, is_there in zip(force, at[times[k], joint]):
+                                self.assertAlmostEqual(seen, is_there, delta=1e-6 * math.hypot(*force))
 
     def test_columns_go_by_their_names_in_any_order(self):
         axes = ["--scenario", "two_cubes", "--integrator", "rk4", "--dt", "0.01", "--t-end", "2", "--vary", "body.0.mass=1,2",
@@ -284,6 +311,71 @@ class Played(unittest.TestCase):
         self.browser.run(f"(replay.seek({first - 0.2}), replay.play())")
         self.browser.wait_for("!replay.playing")
         self.assertAlmostEqual(self.browser.run("replay.time"), first, delta=1e-6)
+        self.check_quiet()
+
+    def pixels(self, condition):
+        """How many pixels fulfil it, and the mean of their rows from the upper edge."""
+        self.browser.frames(2)
+        return self.browser.run(f"""(() => {{
+            const from = document.getElementById("scene"), copy = document.createElement("canvas");
+            copy.width = from.width; copy.height = from.height;
+            const pen = copy.getContext("2d");
+            pen.drawImage(from, 0, 0);
+            const all = pen.getImageData(0, 0, copy.width, copy.height).data;
+            let n = 0, rows = 0;
+            for (let i = 0; i < all.length; i += 4) {{
+                const [red, green, blue] = all.slice(i, i + 3);
+                if ({condition}) {{ ++n; rows += Math.floor(i / 4 / copy.width); }}
+            }}
+            return [n, rows / n];
+        }})()""")
+
+    def test_joints_and_reactions(self):
+        call("replay", "--scenario", "rod_pendulum", "--vary", "gravity=[0,0,-9.81]", "--vary", "body.0.position=[0,0,-1]",
+             "--integrator", "rk4", "--dt", "0.01", "--t-end", "1", "--out", "hanging.html", folder=self.folder)
+        self.open(self.folder / "hanging.html")
+        seen = self.browser.run("(replay.seek(0.505), replay.joint(0, 0))")
+        self.assertEqual(seen["name"], "rod")
+        for have, expected in zip(seen["force"] + seen["point"], (0, 0, 9.81, 0, 0, -1)):  # on the bob, and up
+            self.assertAlmostEqual(have, expected, delta=1e-6)
+        words = "[...document.querySelectorAll('.view dl > *')].filter((e) => !e.hidden).map((e) => e.textContent)"
+        self.assertEqual(self.browser.run(words)[-2:], ["rod", "9.81 N"])
+        arrow, bob = "red > 100 && green < 0.3 * red && blue < 0.5 * red", "blue > 120 && red < 0.7 * blue && green > red"
+        red, row = self.pixels(arrow)
+        self.assertGreater(red, 50)
+        self.assertLess(row + 10, self.pixels(bob)[1], "it points up")
+        self.browser.run("document.getElementById('show-reactions').click()")
+        self.assertEqual(self.pixels(arrow)[0], 0)
+        self.assertNotIn("rod", self.browser.run(words))
+        dark = "red + green + blue < 400"  # the rod, and some of the bob
+        with_rod = self.pixels(dark)[0]
+        self.browser.run("document.getElementById('show-joints').click()")
+        self.assertLess(self.pixels(dark)[0], with_rod - 300)
+        self.check_quiet()
+
+    def test_a_disk_touches_the_plane_on_which_it_rolls(self):
+        call("replay", "--scenario", "rolling_disk", "--integrator", "rk4", "--dt", "0.001", "--t-end", "0.5", "--out", "disk.html",
+             folder=self.folder)
+        self.open(self.folder / "disk.html")
+        for t in (0, 0.2, 0.4):
+            point = self.browser.run(f"(replay.seek({t}), replay.joint(0, 0).point)")
+            center = self.browser.run("replay.body(0, 0).position")
+            self.assertAlmostEqual(point[2], 0, delta=1e-4)
+            self.assertAlmostEqual(math.dist(point, center), 1, delta=1e-6)
+        self.check_quiet()
+
+    def test_a_page_of_many_joints_names_the_one_with_the_largest_reaction(self):
+        call("simulate", "--scenario", "squeezer", "--integrator", "rk4", "--dt", "0.0001", "--t-end", "0.01", "--no-figures",
+             "--out", "squeezer", folder=self.folder)
+        call("replay", "--results", "squeezer", folder=self.folder)
+        self.open(self.folder / "squeezer" / "replay.html")
+        rows = read(self.folder / "squeezer" / "reactions.csv")
+        last = [math.hypot(*(float(row[n]) for n in ("fx_N", "fy_N", "fz_N"))) for row in rows if row["t_s"] == rows[-1]["t_s"]]
+        joint = max(range(len(last)), key=last.__getitem__)
+        self.browser.run("replay.seek(1)")
+        self.browser.frames(2)
+        words = self.browser.run("[...document.querySelectorAll('.view dl > *')].map((e) => e.textContent)")
+        self.assertEqual(words[-2:], [self.browser.run(f"replay.joint(0, {joint}).name"), f"{last[joint]:.3g} N"])
         self.check_quiet()
 
     def test_a_run_that_is_lost_stands_still_and_says_so(self):

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is seen of a run: bodies with their axes and vectors, what stands still, springs, trails, marks where bodies meet.
 
-const AXES = ["#d55e00", "#009e73", "#0072b2"], OMEGA = "#e69f00", MOMENTUM = "#a0468c", MARK = "#d55e00";
+const AXES = ["#d55e00", "#009e73", "#0072b2"], OMEGA = "#e69f00", MOMENTUM = "#a0468c", MARK = "#d55e00", REACTION = "#be143c";
 const HUES = ["#77aadd", "#ee8866", "#44bb99", "#eedd88", "#ffaabb", "#99ddff", "#bbcc33", "#aaaa00"];  // experiments/study/scene/body_colours.hpp
 const FEW = 40, MANY = 250;       // bodies with trails and vectors; with edges and shadows
 const TRAIL_POINTS = 300, MOST_MARKS = 64;
@@ -167,6 +167,27 @@ function polhodeOf(motion, body, scale) {
   return line;
 }
 
+/// Where points and directions of bodies are, world; of the world itself, whose number is null, as given.
+class Places {
+  constructor(data, bodies) {
+    this.data = data;
+    this.bodies = bodies;
+  }
+  direction(number, inBody) {
+    const out = new THREE.Vector3(...inBody);
+    if (number === null) return out;
+    const body = this.bodies[number];
+    return out.applyQuaternion(body ? body.group.quaternion : quaternionOf(this.data[number]));
+  }
+  /// Anchors are from the reference point, which is the pivot of a pinned body.
+  point(number, anchor) {
+    const body = this.bodies[number], out = new THREE.Vector3(...anchor);
+    if (number === null) return out;
+    if (!body) return this.direction(number, anchor).add(new THREE.Vector3(...this.data[number].position));
+    return out.sub(body.center).applyQuaternion(body.group.quaternion).add(body.group.position);
+  }
+}
+
 /// A coil along z from 0 to 1, of radius 1 across.
 function coilGeometry() {
   class Coil extends THREE.Curve {
@@ -180,27 +201,19 @@ function coilGeometry() {
 }
 
 class Spring {
-  constructor(data, bodies, scene, view) {
+  constructor(data, places, scene, view) {
     this.data = data;
-    this.bodies = bodies;
+    this.places = places;
     this.view = view;
     this.line = new THREE.Line(Spring.coil || (Spring.coil = coilGeometry()), new THREE.LineBasicMaterial({ color: theme.ink }));
     this.line.frustumCulled = false;
     this.ball = new THREE.Mesh(new THREE.SphereBufferGeometry(0.008 * view, 16, 12), new THREE.MeshLambertMaterial({ color: theme.still }));
     scene.add(this.line, this.ball);
   }
-  /// Anchors are from the reference point, which is the pivot of a pinned body.
-  end(number, anchor, out) {
-    out.fromArray(anchor);
-    if (number === null) return out;
-    const body = this.bodies[number];
-    if (!body) return out.applyQuaternion(quaternionOf(this.data.plane)).add(new THREE.Vector3(...this.data.plane.position));
-    return out.sub(body.center).applyQuaternion(body.group.quaternion).add(body.group.position);
-  }
   stretch(shown) {
     this.line.visible = this.ball.visible = shown;
-    const from = this.end(this.data.body, this.data.anchor, new THREE.Vector3());
-    const to = this.end(this.data.other, this.data.anchorOther, new THREE.Vector3());
+    const from = this.places.point(this.data.body, this.data.anchor);
+    const to = this.places.point(this.data.other, this.data.anchorOther);
     const d = to.clone().sub(from), length = d.length(), across = Math.min(0.02 * this.view, 0.25 * length + 1e-9);
     this.line.position.copy(from);
     if (length > 0) this.line.quaternion.setFromUnitVectors(Arrow.up, d.multiplyScalar(1 / length));

@@ -17,6 +17,8 @@ class Motion {
     this.positions = new Float32Array(bytesOf(run.positions));
     this.orientations = new Int16Array(bytesOf(run.orientations));
     this.rates = new Int16Array(bytesOf(run.rates));
+    this.reactions = new Float32Array(bytesOf(run.reactions));
+    this.joints = this.reactions.length / 3 / this.times.length;  // with reactions
     this.energy = new Float32Array(bytesOf(run.energy));
     this.momentumDrift = run.momentumDrift ? new Float32Array(bytesOf(run.momentumDrift)) : null;
     this.impacts = new Float32Array(bytesOf(run.impacts));
@@ -78,6 +80,13 @@ class Motion {
   angularVelocity(at, body, out) {
     const i = 3 * (at.k * this.moving + body), j = at.part > 0 ? i + 3 * this.moving : i, w = this.rates, s = this.run.fastest / 32767;
     const mix = (n) => s * (w[i + n] + at.part * (w[j + n] - w[i + n]));
+    return out.set(mix(0), mix(1), mix(2));
+  }
+
+  /// N, world, of a joint on its first body.
+  reaction(at, joint, out) {
+    const i = 3 * (at.k * this.joints + joint), j = at.part > 0 ? i + 3 * this.joints : i, f = this.reactions;
+    const mix = (n) => f[i + n] + at.part * (f[j + n] - f[i + n]);
     return out.set(mix(0), mix(1), mix(2));
   }
 

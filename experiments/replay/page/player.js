@@ -29,6 +29,8 @@ const TOGGLES = [
   { key: "trails", label: "trails", title: "of the mass centre, or where that stays, of the tip of ω", on: motions[0].moving <= 12, has: vectors },
   { key: "polhode", label: "polhode", title: "the curve of ω on the inertia ellipsoid, in the body", on: false, has: vectors && rotates, colour: OMEGA },
   { key: "springs", label: "springs", on: true, has: anyMoves((s) => s.springs.length > 0) },
+  { key: "joints", label: "joints", title: "anchors, axes, and where bodies roll", on: true, has: anyMoves((s) => s.joints.length > 0) },
+  { key: "reactions", label: "reactions", title: "force of each joint on its first body", on: true, has: motions.some((m) => m.joints > 0), colour: REACTION },
   { key: "floor", label: "floor", on: true, has: anyMoves((s) => s.bodies.some((b) => b.normal)) },
   { key: "follow", label: "follow the bodies", on: true, get has() { return sizes !== null && sizes.follows; } },
   { key: "marks", label: "contact marks", on: true, has: motions.some((m) => m.impactCount() > 0), colour: MARK },
@@ -38,8 +40,8 @@ const TOGGLES = [
 const shown = {};
 
 const state = { t: start, playing: false, speed: 1, dirty: true, last: 0 };
-let renderer = null, camera = null, controls = null, views = [], scales = { omega: 0, momentum: 0 }, sizes = null, plot = null;
-const panels = [];
+let renderer = null, camera = null, controls = null, views = [], scales = { omega: 0, momentum: 0, force: 0 }, sizes = null, plot = null;
+const panels = [], FEW_JOINTS = 6;  // with a line for each
 
 function number(x) {
   if (!isFinite(x)) return String(x);
@@ -72,15 +74,36 @@ function writeWords() {
   element("made").textContent = `Made by ${data.madeBy}, with three.js ${THREE.REVISION}. SI units throughout.`;
 }
 
+/// A line for each joint, or where there are many, for the one with the largest reaction: the cells of names and of forces.
+function addForces(list, motion, joints) {
+  if (motion.joints === 0) return [];
+  return joints.slice(0, joints.length > FEW_JOINTS ? 1 : joints.length).map((joint) => {
+    const line = { name: make("dt", { textContent: joint.name }), force: make("dd", {}) };
+    list.append(line.name, line.force);
+    return line;
+  });
+}
+
+function writeForces(lines, motion, joints, t) {
+  const at = motion.at(t), all = joints.map((j, i) => ({ name: j.name, force: motion.reaction(at, i, new THREE.Vector3()).length() }));
+  if (lines.length < joints.length) all.sort((a, b) => b.force - a.force);
+  lines.forEach((line, i) => {
+    line.name.hidden = line.force.hidden = !shown.reactions;
+    line.name.textContent = all[i].name;
+    line.force.textContent = `${number(all[i].force)} N`;
+  });
+}
+
 function makePanels() {
   data.runs.forEach((run, i) => {
     const swatch = make("span", {}), title = make("h3", {}, swatch, run.label), ended = make("p", { className: "ended" });
     const energy = make("dd", {}), momentum = make("dd", {}), list = make("dl", {}, make("dt", { textContent: "energy drift" }), energy);
     if (run.momentum) list.append(make("dt", { textContent: `${run.momentum} momentum drift` }), momentum);
+    const forces = addForces(list, motions[i], data.scenes[run.scene].joints);
     element("views").append(make("div", { className: "view" }, title, make("p", { className: "detail", textContent: run.detail }), ended, list));
     const value = make("b", {}), dot = make("span", { className: "swatch" });
     element("legend").append(make("li", {}, dot, run.label + (run.detail ? `, ${run.detail}` : ""), value));
-    panels.push({ ended, energy, momentum, value, swatches: [swatch, dot] });
+    panels.push({ ended, energy, momentum, forces, value, swatches: [swatch, dot] });
   });
 }
 
@@ -234,6 +257,7 @@ function show() {
   motions.forEach((m, i) => {
     const k = m.instant(t), p = panels[i], run = data.runs[i];
     p.energy.textContent = p.value.textContent = number(m.energy[k]);
+    if (p.forces.length > 0) writeForces(p.forces, m, data.scenes[run.scene].joints, t);
     if (m.momentumDrift) p.momentum.textContent = number(m.momentumDrift[k]);
     const over = t > m.end || (t >= m.end && m.end < end);
     p.ended.textContent = over || (run.status !== "ok" && t >= m.end) ? `${run.status === "ok" ? "ended" : run.status} at ${seconds(m.end)}` : "";
@@ -332,7 +356,7 @@ window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () 
 });
 requestAnimationFrame((now) => { state.last = now; frame(now); });
 
-/// For the console, and for pages that show this one: where time is, and where a body of a view is drawn.
+/// For the console, and for pages that show this one: where time is, and where a body or a joint of a view is drawn.
 window.replay = {
   start, end, seek, play: () => setPlaying(true), pause: () => setPlaying(false),
   get time() { return state.t; },
@@ -342,5 +366,10 @@ window.replay = {
     motions[view].position(at, body, p);
     motions[view].orientation(at, body, q);
     return { position: p.toArray(), orientation: [q.w, q.x, q.y, q.z] };
+  },
+  joint(view, joint) {
+    show();
+    const shownJoint = views[view].joints[joint], at = motions[view].at(state.t);
+    return { name: shownJoint.data.name, point: shownJoint.point().toArray(), force: shownJoint.force(at).toArray() };
   },
 };

@@ -36,8 +36,8 @@ function sizesOf(data, motions) {
   const still = [];
   let radius = 0, stands = false;
   motions.forEach((m) => {
-    const { bodies, springs } = data.scenes[m.run.scene];
-    springs.forEach((s) => s.other === null && still.push(new THREE.Vector3(...s.anchorOther)));
+    const { bodies, springs, joints } = data.scenes[m.run.scene], links = [...springs, ...joints.filter((j) => !j.onPlane).map((j) => j.ends)];
+    links.forEach((l) => l.other === null && still.push(new THREE.Vector3(...l.anchorOther)));
     bodies.forEach((b) => {
       stands = stands || b.fixed;
       if (b.surface !== undefined && !b.fixed) radius = Math.max(radius, b.radius);
@@ -53,10 +53,10 @@ function sizesOf(data, motions) {
   return { box, radius, level, follows, view: length(box), center: box.getCenter(new THREE.Vector3()) };
 }
 
-/// The largest |ω| and |L| of the bodies with vectors: arrows are relative to them.
+/// The largest |ω| and |L| of the bodies with vectors, and the largest reaction: arrows are relative to them.
 function vectorScales(views) {
-  const scales = { omega: 0, momentum: 0 }, l = new THREE.Vector3(), omega = new THREE.Vector3();
-  for (const { motion, moving } of views) {
+  const scales = { omega: 0, momentum: 0, force: 0 }, l = new THREE.Vector3(), omega = new THREE.Vector3();
+  for (const { motion, moving, joints } of views) {
     const stride = Math.ceil(motion.times.length / 500);
     for (let k = 0; k < motion.times.length; k += stride) {
       for (const body of moving) {
@@ -65,6 +65,7 @@ function vectorScales(views) {
         motion.kept(k, body.number, body.group.quaternion);
         scales.momentum = Math.max(scales.momentum, body.angularMomentum(omega, l).length());
       }
+      if (motion.joints > 0) joints.forEach((j) => { scales.force = Math.max(scales.force, j.force({ k, part: 0 }).length()); });
     }
   }
   return scales;
@@ -200,7 +201,9 @@ class View {
     this.tile = 0;
     this.planes = planes.map((p) => planeMesh(p, planes.filter((o) => o !== p), sizes)).filter((p) => p);
     this.planes.forEach((p) => { this.scene.add(p); this.tile = this.tile || p.tile; });
-    this.springs = setting.springs.map((s) => new Spring({ ...s, plane: setting.bodies[s.other] }, this.bodies, this.scene, sizes.view));
+    const places = new Places(setting.bodies, this.bodies);
+    this.springs = setting.springs.map((s) => new Spring(s, places, this.scene, sizes.view));
+    this.joints = setting.joints.map((j, i) => new Joint(j, i, motion, places, this.scene, sizes.view));
     this.marks = new Marks(motion, this.scene, sizes.radius);
     this.window = Math.min(duration, Math.max(2, duration / 6));
     this.trails = this.moving.map((b) => {
@@ -279,6 +282,7 @@ class View {
       if (b.polhode) b.polhode.visible = shown.polhode;
     });
     this.springs.forEach((s) => s.stretch(shown.springs));
+    this.joints.forEach((j) => j.show(at, shown, scales));
     this.planes.forEach((p) => { p.visible = shown.floor; });
     this.marks.show(now, life, shown.marks);
     if (shown.follow) this.motion.middle(at, this.middle);
