@@ -60,7 +60,8 @@ struct Declaration {
   bool conserves_momentum = false;  ///< conserves the angular momentum in world axes
   bool conserves_casimir = false;   ///< conserves |IΩ|, the length of the angular momentum in body axes
   JointEquations joints = JointEquations::of_formulation;  ///< equations of the joints that it solves itself
-  bool refuses_joints = false;                             ///< its step has no place for reactions
+  int multiplier_order = 0;         ///< order of its own multipliers of the joints; 0: same as `order`
+  bool refuses_joints = false;      ///< its step has no place for reactions
   std::vector<Setting> settings{};  ///< settings of its own; the method reads them from IntegratorSettings
 
   bool solves_joints() const { return joints != JointEquations::of_formulation; }

@@ -21,25 +21,47 @@ namespace {
 
 constexpr std::size_t most_items = 16;  // largest number of items of a sentence
 
-bool is_attitude(const Quantity& quantity) { return quantity.unit == " rad"; }
+/// What an error is of.
+enum class Of { attitude, position, velocity, reactions };
+
+std::string word_of(Of of) {
+  switch (of) {
+    case Of::attitude: return "attitude";
+    case Of::position: return "position";
+    case Of::velocity: return "velocity";
+    case Of::reactions: break;
+  }
+  return "reactions";
+}
+
+Quantity quantity_of(Of of) {
+  switch (of) {
+    case Of::attitude: return quantity::attitude_error();
+    case Of::position: return quantity::position_error();
+    case Of::velocity: return quantity::velocity_error();
+    case Of::reactions: break;
+  }
+  return quantity::reaction_error();
+}
 
 struct Order {
   const Curve* curve;
+  Of of;
   Quantity quantity;
   std::optional<double> declared;  ///< declared order, 1 for an adaptive method; absent: exact
   OrderEstimate estimate;
   OrderVerdict verdict;
 };
 
-Order order_of(const Curve& curve, const Quantity& quantity, std::optional<double> declared) {
+Order order_of(const Curve& curve, Of of, const Quantity& quantity, std::optional<double> declared) {
   const auto estimate = observed_order(curve, quantity);
-  return {&curve, quantity, declared, estimate, judge(estimate, declared)};
+  return {&curve, of, quantity, declared, estimate, judge(estimate, declared)};
 }
 
 /// The analysis:
 /// 1. group(): curves of runs that differ only in the step or the tolerance.
-/// 2. add(): for each curve the observed order of the attitude and the position error, and its verdict beside the
-///    declared order.
+/// 2. add(): for each curve the observed order of the attitude and the position error, with joints also of the velocity
+///    and the reactions, and its verdict beside the declared order.
 /// 3. drop_trivial(): removes the position errors of motions that every method computes exactly.
 /// 4. analysis(): sentences, the table of orders, orders.csv.
 class Orders {
@@ -75,13 +97,20 @@ class Orders {
                                        [&](const auto& s) { return s.name == config.scenario; });
     // Runs without the gyroscopic term solve another equation: their distance from the exact motion has no order.
     if (entry == nullptr || scenario == study_.scenarios.end() || !config.formulation.gyroscopic) return;
-    for (const auto& quantity : {quantity::attitude_error(), quantity::position_error()}) {
+    for (const Of of : {Of::attitude, Of::position, Of::velocity, Of::reactions}) {
+      const Quantity quantity = quantity_of(of);
       const bool measured = std::any_of(curve.runs.begin(), curve.runs.end(),
                                         [&](const auto* run) { return quantity.of(run->result).has_value(); });
       if (!measured) continue;
-      const auto declared = curve.adaptive ? 1 : declared_order(entry->declaration, *scenario, is_attitude(quantity));
-      orders_.push_back(order_of(curve, quantity, declared));
+      orders_.push_back(order_of(curve, of, quantity, declared(curve, *entry, *scenario, of)));
     }
+  }
+
+  static std::optional<double> declared(const Curve& curve, const IntegratorEntry& entry, const Scenario& scenario,
+                                        Of of) {
+    if (curve.adaptive) return 1;
+    if (of == Of::reactions) return declared_reaction_order(entry.declaration, scenario);
+    return declared_order(entry.declaration, scenario, of == Of::attitude);
   }
 
   /// Removes the position errors of motions that every method computes exactly, such as those of a body at rest.
@@ -91,17 +120,17 @@ class Orders {
       if (!o.estimate.exact) seen.emplace(o.curve->case_index, o.quantity.column);
     }
     std::erase_if(orders_, [&](const Order& o) {
-      return !is_attitude(o.quantity) && !seen.contains({o.curve->case_index, o.quantity.column});
+      return o.of != Of::attitude && !seen.contains({o.curve->case_index, o.quantity.column});
     });
   }
 
   const std::string& method(const Order& o) const { return grouping_.methods[o.curve->method_index]; }
 
-  /// "rk4 (matrix) on hairer_vilmart", with ", position" for the position error.
+  /// "rk4 (matrix) on hairer_vilmart", with ", position" for the position error, and so on.
   std::string label(const Order& o) const {
     std::string text = grouping_.label(*o.curve);
     if (grouping_.cases.size() > 1) text += " on " + grouping_.cases[o.curve->case_index].label();
-    if (!is_attitude(o.quantity)) text += ", position";
+    if (o.of != Of::attitude) text += ", " + word_of(o.of);
     return text;
   }
 
@@ -133,7 +162,7 @@ class Orders {
     for (const Order& o : orders_) {
       if (o.verdict != OrderVerdict::exact_here) continue;
       std::string place = grouping_.cases[o.curve->case_index].label();
-      if (!is_attitude(o.quantity)) place += ", position";
+      if (o.of != Of::attitude) place += ", " + word_of(o.of);
       places[place].push_back(grouping_.label(*o.curve));
     }
     std::vector<std::string> all;
@@ -258,14 +287,12 @@ class Orders {
                             {"from … to", "", Kind::text},
                             {"left out", "", Kind::text}},
                 .rows = {}};
-    const bool positions =
-        std::any_of(orders_.begin(), orders_.end(), [](const auto& o) { return !is_attitude(o.quantity); });
+    const bool others = std::any_of(orders_.begin(), orders_.end(), [](const auto& o) { return o.of != Of::attitude; });
     const bool adaptive = std::any_of(orders_.begin(), orders_.end(), [](const auto& o) { return o.curve->adaptive; });
     for (const Order& o : orders_) {
       const auto& line = o.estimate.line;
       table.rows.push_back({method(o), grouping_.cases.size() > 1 ? grouping_.cases[o.curve->case_index].label() : "",
-                            grouping_.variants[o.curve->variant_index],
-                            positions ? (is_attitude(o.quantity) ? "attitude" : "position") : "",
+                            grouping_.variants[o.curve->variant_index], others ? word_of(o.of) : "",
                             adaptive ? against(o) : "", declared(o),
                             line               ? fmt::format("{:.2f}", line->order)
                             : o.estimate.exact ? "exact"

@@ -276,6 +276,7 @@ Declaration declaration(std::string name, std::string summary, std::string equat
       .multi_step = true,
       .lie_group = true,
       .joints = joints,
+      .multiplier_order = joints == JointEquations::position ? 1 : 2,
       .settings = std::move(settings)};
 }
 

@@ -108,7 +108,8 @@ c &= \bigl(0, \tfrac{3}{10}, \tfrac{4 - \sqrt 6}{10}, \tfrac{4 + \sqrt 6}{10}, 1
   b = \bigl(0, 0, \tfrac{16 - \sqrt 6}{36}, \tfrac{16 + \sqrt 6}{36}, \tfrac19\bigr))",
        .sources = {"braseyHairer1993", "hairerWanner1996"},
        .order = 4,
-       .joints = JointEquations::velocity},
+       .joints = JointEquations::velocity,
+       .multiplier_order = 2},
       [](const Problem& p, const Formulation& f) { return joint_refusal(p, f, Rows::may_depend); });
 }
 

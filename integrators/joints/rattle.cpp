@@ -189,7 +189,8 @@ IntegratorEntry entry(std::string name, std::string summary, std::string equatio
        .multi_step = !projected,
        .lie_group = true,
        .symmetric = projected,
-       .joints = projected ? JointEquations::position_and_velocity : JointEquations::position},
+       .joints = projected ? JointEquations::position_and_velocity : JointEquations::position,
+       .multiplier_order = projected ? 1 : 2},
       [](const Problem& p, const Formulation& f) {
         if (std::string why = joint_refusal(p, f, Rows::may_depend); !why.empty()) return why;
         const Constraints<double> joints(p, f);

@@ -60,6 +60,19 @@ class Convergence(unittest.TestCase):
     def test_a_body_that_stays_where_it_is_has_no_order_of_its_position(self):
         self.assertFalse([r for r in self.rows if r["scenario"] == "hairer_vilmart" and r["error_of"].startswith("pos")])
 
+    def test_with_joints_velocities_and_reactions_have_orders_of_their_own(self):
+        out = self.folder / "joints"
+        self.run_program("--scenario", "double_pendulum", "--integrator", "rk4,shake,rattle,half_explicit4,generalized_alpha_index2",
+                         "--dt", "0.02,0.01,0.005,0.0025,0.00125", "--t-end", "0.5", "--reference", "--out", out)
+        reactions = {"rk4": 4, "shake": 2, "rattle": 1, "half_explicit4": 2, "generalized_alpha_index2": 2}
+        motion = {**reactions, "rattle": 2, "half_explicit4": 4}
+        rows = {(r["integrator"], r["error_of"]): r for r in read(out / "orders.csv")}
+        for column, orders in (("velocity_error_max_m_per_s", motion), ("joint_reaction_error_max_N", reactions)):
+            for method, order in orders.items():
+                row = rows[method, column]
+                self.assertEqual((row["declared_order"], row["verdict"]), (str(order), "as declared"), row)
+                self.assertAlmostEqual(float(row["observed_order"]), order, delta=0.15)
+
     def test_what_has_no_exact_solution_is_named(self):
         self.assertFalse([r for r in self.rows if r["scenario"] == "kovalevskaya_top"])
         self.assertIn("No error was measured on kovalevskaya_top", self.printed)

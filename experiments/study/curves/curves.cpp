@@ -218,6 +218,19 @@ Quantity position_error() {
   Quantity error = of_metric(metric_of_column("position_error_max_m"), "position error", "largest position error");
   error.round_off = 1e-10;  // positions of some hundred metres carry rounding of 1e-13 m a step
   error.bounded = false;    // a metre has no scale of its own
+  error.of_place = true;
+  return error;
+}
+Quantity velocity_error() {
+  Quantity error =
+      of_metric(metric_of_column("velocity_error_max_m_per_s"), "velocity error", "largest velocity error");
+  error.bounded = false;
+  return error;
+}
+Quantity reaction_error() {
+  Quantity error =
+      of_metric(metric_of_column("joint_reaction_error_max_N"), "error of reactions", "largest error of a reaction");
+  error.bounded = false;
   return error;
 }
 Quantity attitude_error() {
@@ -277,7 +290,8 @@ double round_off_level(const RunRecord& run, const Quantity& quantity) {
 }
 
 double lost_level(const Curve& curve, const Quantity& quantity) {
-  return quantity.bounded ? motion_lost : curve.motion_size;
+  if (quantity.bounded) return motion_lost;
+  return quantity.of_place ? curve.motion_size : std::numeric_limits<double>::infinity();
 }
 
 bool follows(const RunRecord& run, const Curve& curve, const Quantity& quantity) {

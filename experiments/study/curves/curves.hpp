@@ -46,12 +46,13 @@ Grouping group(const StudyView& study);
 
 /// A metric (record/metric_table.hpp) that figures and sentences use, with its names there.
 struct Quantity {
-  std::string column;    ///< column of runs.csv
-  std::string words;     ///< "energy drift"
-  std::string axis;      ///< label of an axis, with its unit
-  std::string unit;      ///< unit after a number in a sentence: " rad"
-  double round_off = 0;  ///< values below this are round-off, for any number of steps
-  bool bounded = true;   ///< relative drift, defect or angle: a value of 1 or more means that the motion is lost
+  std::string column;     ///< column of runs.csv
+  std::string words;      ///< "energy drift"
+  std::string axis;       ///< label of an axis, with its unit
+  std::string unit;       ///< unit after a number in a sentence: " rad"
+  double round_off = 0;   ///< values below this are round-off, for any number of steps
+  bool bounded = true;    ///< relative drift, defect or angle: a value of 1 or more means that the motion is lost
+  bool of_place = false;  ///< a length: the motion is lost where it reaches the extent of the motion
   std::function<std::optional<double>(const RunResult&)> of;
   /// The level of round-off of a run, if its result states one; may be empty.
   std::function<std::optional<double>(const RunResult&)> round_off_of{};
@@ -63,6 +64,8 @@ Quantity angular_momentum_drift();
 Quantity orientation_defect();
 Quantity position_error();
 Quantity attitude_error();
+Quantity velocity_error();  ///< of runs with joints
+Quantity reaction_error();  ///< likewise, of the forces of joints
 Quantity invariant_drift(const std::string& name);
 }  // namespace quantity
 
@@ -88,7 +91,7 @@ double round_off_level(const RunRecord& run);
 double round_off_level(const RunRecord& run, const Quantity& quantity);
 
 /// The level from which the motion is lost (angles are wrapped, so the smaller of two errors is smaller by chance): 1
-/// rad for an attitude, the extent of the motion for a position, 1 for relative quantities.
+/// rad for an attitude, the extent of the motion for a position, 1 for relative quantities; +inf for others.
 double lost_level(const Curve& curve, const Quantity& quantity);
 /// True if the run was completed and its value is below the lost level.
 bool follows(const RunRecord& run, const Curve& curve, const Quantity& quantity);

@@ -23,6 +23,10 @@ std::optional<double> declared_order(const Declaration& method, const Scenario& 
   return order == Declaration::exact_order ? std::nullopt : std::optional<double>(order);
 }
 
+std::optional<double> declared_reaction_order(const Declaration& method, const Scenario& scenario) {
+  return method.multiplier_order > 0 ? method.multiplier_order : declared_order(method, scenario, false);
+}
+
 std::optional<double> declared_order(const Declaration& method, const RunRecord& run, bool attitude) {
   return run.scenario ? declared_order(method, *run.scenario, attitude) : std::optional<double>(method.order);
 }

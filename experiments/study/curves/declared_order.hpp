@@ -13,6 +13,9 @@ namespace polhode::study::inline curves {
 /// torques; otherwise the order under forces. Absent: the method is exact.
 std::optional<double> declared_order(const Declaration& method, const Scenario& scenario, bool attitude);
 
+/// The order of the reactions of joints: that of the method's own multipliers, if it has some, else of its motion.
+std::optional<double> declared_reaction_order(const Declaration& method, const Scenario& scenario);
+
 /// The order for a run's own motion; the order under forces if its scenario is not known.
 std::optional<double> declared_order(const Declaration& method, const RunRecord& run, bool attitude);
 

@@ -13,14 +13,17 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
+/// A velocity or a force has no scale of its own: it is too large where the motion is lost.
 bool is_too_large(const RunRecord& run, const Curve& curve, const Quantity& quantity) {
+  if (!quantity.bounded && !quantity.of_place) return off_the_motion(run, curve);
   const auto found = value(run, quantity);
   return found && !(*found < lost_to_fits / motion_lost * lost_level(curve, quantity));
 }
 
 std::string too_large_words(const Quantity& quantity) {
   if (quantity.unit == " rad") return "the attitude is off by more than half a radian";
-  if (!quantity.bounded) return "the position is off by more than half of the way that the motion goes";
+  if (quantity.of_place) return "the position is off by more than half of the way that the motion goes";
+  if (!quantity.bounded) return "the motion is lost";
   return fmt::format("the {} is above 0.5", quantity.words);
 }
 

@@ -58,6 +58,12 @@ Json setting_in_json(const Setting& s) {
           {"choices", s.choices}, {"range", s.range()}};
 }
 
+/// Null: the method has no multipliers of its own, or their order varies.
+Json multiplier_order(const Declaration& d) {
+  const int order = d.multiplier_order > 0 ? d.multiplier_order : d.order;
+  return d.solves_joints() && order > 0 ? Json(order) : Json(nullptr);
+}
+
 /// Name of the order for free bodies: a number, "exact", or null for a variable order.
 Json free_order(const Declaration& d) {
   if (d.free_order == Declaration::exact_order) return "exact";
@@ -89,6 +95,7 @@ Json integrator_in_json(const IntegratorEntry& e) {
           {"sources", d.sources},
           {"order", d.order > 0 ? Json(d.order) : Json(nullptr)},
           {"free_order", free_order(d)},
+          {"multiplier_order", multiplier_order(d)},
           {"adaptive", d.adaptive},
           {"implicit", d.implicit},
           {"evaluations_per_step", d.evaluations_per_step > 0 ? Json(d.evaluations_per_step) : Json(nullptr)},

@@ -233,7 +233,8 @@ class Figures {
   }
 
   void error_against_step() {
-    const auto quantities = without_zeros(defined({quantity::attitude_error(), quantity::position_error()}));
+    const auto quantities = without_zeros(defined({quantity::attitude_error(), quantity::position_error(),
+                                                   quantity::velocity_error(), quantity::reaction_error()}));
     const bool by_reference = std::any_of(study_.runs.begin(), study_.runs.end(), used_reference);
     Figure figure{
         .name = "error_against_step",
