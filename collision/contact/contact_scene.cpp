@@ -52,6 +52,11 @@ ContactScene::ContactScene(const Problem& problem, std::vector<Collider> collide
                                   "' has a shape without end and must be static");
     }
   }
+  for (const JointParameters& joint : problem.joints) {
+    const auto& [one, two] = std::minmax(joint.of.bodies.front(), joint.of.bodies.back());
+    if (one != two) jointed_.push_back({std::uint32_t(one), std::uint32_t(two)});
+  }
+  std::sort(jointed_.begin(), jointed_.end());
   bounds_.resize(colliders_.size());
 }
 
@@ -76,6 +81,7 @@ std::span<const BodyPair> ContactScene::near_pairs(std::span<const Pose> from, s
   auto old = before_.begin();
   for (const BodyPair& p : broad_->pairs()) {
     if (p.a >= moving_ || !colliders_[p.a].shape || !colliders_[p.b].shape) continue;
+    if (std::binary_search(jointed_.begin(), jointed_.end(), p)) continue;
     if (pairs_.size() == most_near_pairs) {
       std::string why = "more than ";
       why += std::to_string(most_near_pairs) + " pairs of " + std::to_string(colliders_.size());

@@ -18,8 +18,8 @@ namespace polhode::inline collision {
 
 class ContactScene {
  public:
-  /// Takes one collider for each body of the problem. Throws std::invalid_argument for unknown names of broad and
-  /// narrow phases and for a wrong number of colliders.
+  /// Takes one collider for each body of the problem. Bodies that a joint connects do not touch each other. Throws
+  /// std::invalid_argument for unknown names of broad and narrow phases and for a wrong number of colliders.
   ContactScene(const Problem& problem, std::vector<Collider> colliders, std::string_view broad_phase,
                std::string_view narrow_phase);
 
@@ -55,6 +55,7 @@ class ContactScene {
   std::uint32_t new_memory();
 
   std::size_t moving_;
+  std::vector<BodyPair> jointed_;  ///< sorted
   bool all_free_ = true;
   std::vector<Collider> colliders_;
   std::vector<double> radii_;

@@ -10,7 +10,7 @@ namespace polhode::inline collision {
 
 TimeStepping::TimeStepping(System<double>& system, ContactScene& scene, std::unique_ptr<Response> response,
                            Reflected reflected)
-    : system_(system), scene_(scene), response_(std::move(response)), reflected_(reflected) {
+    : system_(system), scene_(scene), response_(std::move(response)), joined_(system), reflected_(reflected) {
   auto forces = std::make_unique<ConstantContactForces>(scene.all_free());
   contact_forces_ = forces.get();
   system.add_force(std::move(forces));
@@ -18,6 +18,7 @@ TimeStepping::TimeStepping(System<double>& system, ContactScene& scene, std::uni
 
 void TimeStepping::begin(Integrator<double>&, const State<double>&) {
   response_->forget();
+  joined_.forget();
   contact_forces_->release();
   losses_ = {};
   impacts_.clear();
@@ -76,7 +77,7 @@ StepResult TimeStepping::step(Integrator<double>& method, State<double>& state, 
     state.t = free_.t;
     return result;
   }
-  response_->resolve(bodies_, contacts, h);
+  joined_.resolve(*response_, state.y, bodies_, contacts, h);
   contact_forces_->hold(contacts, start_, h);
   before_ = state;
   method.discard_history(state);

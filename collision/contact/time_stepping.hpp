@@ -8,6 +8,7 @@
 
 #include "collision/contact/constant_contact_forces.hpp"
 #include "collision/contact/contact_scene.hpp"
+#include "collision/contact/jointed_contacts.hpp"
 #include "core/run/contact_model.hpp"
 
 namespace polhode::inline collision {
@@ -36,6 +37,7 @@ class TimeStepping final : public ContactModel {
   System<double>& system_;
   ContactScene& scene_;
   std::unique_ptr<Response> response_;
+  JointedContacts joined_;
   Reflected reflected_;
   ConstantContactForces* contact_forces_;
   ContactLosses losses_;

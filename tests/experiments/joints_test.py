@@ -107,6 +107,23 @@ class Joints(unittest.TestCase):
             self.assertEqual(solves["recipe_ode_step", "none"], 1 + 100)  # the start, and one in each step
             self.assertEqual(solves["recipe_bullet_joints", "none"], 1)  # sweeps solve none
 
+    def test_a_chain_falls_on_a_floor(self):
+        out = self.folder / "out"
+        self.run_program("energy_drift", "--scenario", "falling_chain", "--integrator", "semi_implicit_euler,rk4", "--stabilization",
+                         "none,both", "--dt", "2e-3", "--out", out)
+        for r in read(out / "runs.csv"):
+            self.assertEqual(r["status"], "ok", r)
+            if r["stabilization"] == "both":
+                self.assertLess(float(r["joint_gap_max_m"]), 1e-13, r)
+            self.assertLess(float(r["energy_drift_max_rel"]), 0.02, r)  # of the ledger: what contact takes is in it
+        for more, reason in ((("--integrator", "cvode_bdf"), "chooses its own steps"),
+                             (("--integrator", "rk4", "--impact-timing", "event_located"), "follows the flight of single bodies"),
+                             (("--integrator", "rattle"), "in a way of its own, without contacts"),
+                             (("--integrator", "rk4", "--stabilization", "penalty"), "makes the joints soft")):
+            steps = ("--tolerance", "1e-6") if "cvode_bdf" in more else ("--dt", "1e-3")
+            done = self.run_program("simulate", "--scenario", "falling_chain", *more, *steps, "--out", self.folder / "refused", status=2)
+            self.assertIn(reason, done.stderr)
+
     def test_all_methods_are_those_that_fit(self):
         for scenario, more, there in (("dzhanibekov", (), False), ("rod_pendulum", ("--stabilization", "both"), False),
                                       ("rod_pendulum", ("--stabilization", "none,both"), True)):

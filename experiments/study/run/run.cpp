@@ -184,6 +184,28 @@ std::vector<RunResult> side_by_side(std::span<const LanedRun> runs, const std::a
   return results;
 }
 
+/// The reason for which a method and options cannot answer contacts and joints together; empty if they can.
+std::string refusal_of_contact_with_joints(const RunConfig& config, const Declaration& declared) {
+  if (!config.contact || !config.joints || config.contact->impact_timing.empty()) return {};
+  if (declared.adaptive)
+    return config.integrator +
+           " chooses its own steps, and contacts are answered together with joints at the steps; take a method of "
+           "fixed steps, or --response compliant";
+  if (!find_impact_timing(config.contact->impact_timing)->fixed_steps_only)
+    return config.contact->impact_timing +
+           " follows the flight of single bodies, which joints hold; take --impact-timing time_stepping, or --response "
+           "compliant";
+  if (declared.solves_joints())
+    return config.integrator +
+           " solves the equations of joints in a way of its own, without contacts; take a method that integrates the "
+           "index-1 form, or --response compliant";
+  if (formulation_of(config).joints.is_soft())
+    return std::string(name(config.joints->stabilization)) +
+           " makes the joints soft, and contacts are answered together with rigid ones; take another --stabilization, "
+           "or --response compliant";
+  return {};
+}
+
 }  // namespace
 
 std::string refusal(const RunConfig& config, const Scenario& scenario) {
@@ -217,6 +239,7 @@ std::string refusal(const RunConfig& config, const Scenario& scenario) {
     if (config.precision != Precision::double_precision)
       return "contact works in double only, not in " + std::string(name(config.precision));
     if (config.reference) return "no reference can be made of a motion with contact; leave --reference out";
+    if (std::string reason = refusal_of_contact_with_joints(config, declared); !reason.empty()) return reason;
     const std::string& timing = config.contact->impact_timing;
     if (declared.adaptive && !timing.empty() && find_impact_timing(timing)->fixed_steps_only) {
       return config.integrator + " chooses its own steps, and " + timing +

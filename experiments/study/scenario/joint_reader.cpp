@@ -140,7 +140,6 @@ void read_joints(const TomlCursor& root, const BodyIndex& index, Scenario& scena
     const TomlCursor table = list.item(i);
     problem.joints.push_back(read_joint(table, i, index, problem));
   }
-  if (!scenario.colliders.empty()) list.fail("a scenario has joints or contact = true, not both");
   if (assembled) assemble(*make_system<double>(problem, {}), scenario);
   const auto system = make_system<double>(problem, {});
   const auto motions = motions_of(*system, system->start().y);
