@@ -24,7 +24,7 @@ import paper_claims  # noqa: E402
 import paper_quantities  # noqa: E402
 
 BIN = pathlib.Path(os.environ.get("POLHODE_BIN_DIR", "."))
-HEAVY = ("andrews_squeezer", "engine_joints", "impact_orders")  # papers_slow_test.py runs them
+HEAVY = ("andrews_squeezer", "engine_joints", "iftomm_benchmarks", "impact_orders")  # papers_slow_test.py runs them
 NAMES = sorted(p.parent.name for p in ROOT.glob("papers/*/study.toml"))
 
 

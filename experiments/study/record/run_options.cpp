@@ -487,7 +487,7 @@ std::vector<RunOption> options_of_contact() {
 }
 
 struct OptionTable {
-  std::vector<RunOption> options;
+  std::deque<RunOption> options;  // an added option moves no other: plans hold pointers to them
   std::vector<const RunOption*> by_column;
 
   OptionTable() {
@@ -534,7 +534,7 @@ bool has_column(const RunOption& option, const NamedOptions& named, Roles withou
 
 }  // namespace
 
-const std::vector<RunOption>& run_options() { return table().options; }
+const std::deque<RunOption>& run_options() { return table().options; }
 
 const std::vector<const RunOption*>& options_by_column() { return table().by_column; }
 

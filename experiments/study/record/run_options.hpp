@@ -7,6 +7,7 @@
 // ids. The settings that methods declare (core/run/setting.hpp) are in the table by themselves.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <initializer_list>
 #include <string>
@@ -67,7 +68,7 @@ struct RunOption {
 };
 
 /// All options, in the order in which the planner varies them (slowest first) and --help lists them.
-const std::vector<RunOption>& run_options();
+const std::deque<RunOption>& run_options();
 
 /// All options in the order of the columns of runs.csv: options on demand come last, sorted by column name.
 const std::vector<const RunOption*>& options_by_column();
