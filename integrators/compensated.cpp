@@ -43,6 +43,7 @@ class Compensated final : public Integrator<S> {
   }
 
   std::int64_t evaluations() const override { return method_->evaluations(); }
+  std::optional<std::int64_t> iterations() const override { return method_->iterations(); }
 
   void discard_history(const State<S>& state) override {
     carried_.setZero();

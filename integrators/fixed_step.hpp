@@ -9,6 +9,7 @@
 //   static_assert(…)         states the concept of core/system/concepts.hpp that the method uses, for example
 //                            LieGroup<System>.
 //   evaluations()            optional: number of right-hand side evaluations, if it differs from step to step.
+//   iterations()             optional: number of iterations, if it solves equations by iteration.
 //   static constexpr bool remembers_nothing = true;
 //                            optional, if all members are scratch storage: the stages of one body then stay in
 //                            registers.
@@ -74,6 +75,11 @@ class FixedStep final : public Integrator<typename System::Scalar> {
   std::int64_t evaluations() const override {
     if constexpr (requires { method_.evaluations(); }) return method_.evaluations();
     else return steps_ * evaluations_per_step_;
+  }
+
+  std::optional<std::int64_t> iterations() const override {
+    if constexpr (requires { method_.iterations(); }) return method_.iterations();
+    else return std::nullopt;
   }
 
  private:

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -127,6 +128,9 @@ class DenseOutput {
   /// Writes the state at time t (s). Returns false if t lies outside the last step; `state` is then unchanged.
   virtual bool interpolate(double t, State<S>& state) const = 0;
 
+  /// Multipliers of the joints at the time of the last interpolation, as Integrator::multipliers().
+  virtual std::span<const S> interpolated_multipliers() const { return {}; }
+
  protected:
   ~DenseOutput() = default;
 };
@@ -195,12 +199,16 @@ class Integrator {
   /// Number of right-hand side evaluations since begin().
   virtual std::int64_t evaluations() const = 0;
 
+  /// Number of iterations since begin() in which the method has solved the equations of its steps, of all bodies
+  /// together. Absent: it solves none by iteration.
+  virtual std::optional<std::int64_t> iterations() const { return std::nullopt; }
+
   /// Discards the history of a multi-step method after the state was changed from outside, by a projection or an
   /// impact.
   virtual void discard_history(const State<S>&) {}
 
-  /// Multipliers of the joints as the method has solved for them, at the time of the last step or interpolation, in the
-  /// order of the rows, N or N m. Empty: they follow from the state by the index-1 form.
+  /// Multipliers of the joints as the method has solved for them, at the end of the last step, in the order of the
+  /// rows, N or N m. Empty: they follow from the state by the index-1 form.
   virtual std::span<const S> multipliers() const { return {}; }
 
   /// Abilities of the method in this run; null: the method does not have this one.

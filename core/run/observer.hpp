@@ -29,6 +29,12 @@ class Observer {
   /// one call before it.
   virtual double next_state() const { return std::numeric_limits<double>::infinity(); }
 
+  /// Receives states within the last step, for each step that ends at or after next_within_step() and whose method has
+  /// dense output: at a quarter, a half and three quarters of the step, as the method takes it, before a projection
+  /// that follows. Not in runs with a contact model.
+  virtual void on_state_within_step(const State<double>&) {}
+  virtual double next_within_step() const { return std::numeric_limits<double>::infinity(); }
+
   /// Receives the multipliers of the joints for the next full state, from a method that solves for them itself.
   virtual void on_multipliers(std::span<const double>) {}
 
@@ -62,6 +68,14 @@ class Observers final : public Observer {
   double next_state() const override {
     double next = std::numeric_limits<double>::infinity();
     for (const Observer* one : all_) next = std::min(next, one->next_state());
+    return next;
+  }
+  void on_state_within_step(const State<double>& state) override {
+    for (Observer* one : all_) one->on_state_within_step(state);
+  }
+  double next_within_step() const override {
+    double next = std::numeric_limits<double>::infinity();
+    for (const Observer* one : all_) next = std::min(next, one->next_within_step());
     return next;
   }
   void on_multipliers(std::span<const double> multipliers) override {

@@ -87,7 +87,7 @@ class Loop {
       integrator_.begin(state_);
     }
     const Sample start = measure(state_);
-    tell_multipliers();
+    tell_multipliers(integrator_.multipliers());
     observer_.on_start(view_.of(state_), start);
     if (take_samples({&start, 1}) && !interrupted()) {
       if (schedule_.adaptive) adaptive();
@@ -99,6 +99,7 @@ class Loop {
     const std::int64_t taken = outcome_.steps + surplus_steps_;
     outcome_.evaluations =
         surplus_steps_ > 0 ? integrator_.evaluations() / taken * outcome_.steps : integrator_.evaluations();
+    outcome_.iterations = integrator_.iterations();
     return outcome_;
   }
 
@@ -187,6 +188,7 @@ class Loop {
     const double before_step = state_.t;
     if (!done([&] { return step(h); })) return false;
     const bool ended = contact_ && contact_->ended();
+    if (!contact_ && state_.t >= observer_.next_within_step()) look_within_step(before_step);
     if (t_after && !ended) state_.t = *t_after;  // t_k = t0 + k h, without accumulated round-off
     if (contact_ && !contact_->impacts().empty()) observer_.on_impacts(contact_->impacts());
     if (contact_ && !contact_->transitions().empty()) observer_.on_slides_end(contact_->transitions());
@@ -221,21 +223,30 @@ class Loop {
 
   double energy() { return truth_.measure(view_.of(state_).y).energy(); }
 
-  void tell_multipliers() {
-    const auto multipliers = integrator_.multipliers();
+  void look_within_step(double start) {
+    const DenseOutput<S>* dense = integrator_.dense_output();
+    if (!dense) return;
+    State<S> between = state_;
+    for (const double part : {0.25, 0.5, 0.75}) {
+      if (dense->interpolate(start + part * (state_.t - start), between))
+        observer_.on_state_within_step(view_.of(between));
+    }
+  }
+
+  void tell_multipliers(std::span<const S> multipliers) {
     if (multipliers.empty()) return;
     multipliers_.assign(multipliers.begin(), multipliers.end());
     observer_.on_multipliers(multipliers_);
   }
 
-  bool observe_now() { return observe(state_); }
-  bool observe(const State<S>& state) {
+  bool observe_now() { return observe(state_, integrator_.multipliers()); }
+  bool observe(const State<S>& state, std::span<const S> multipliers) {
     const Sample sample = measure(state);
     observed_ = sample.t;
     if (contact_) observer_.on_contact_energy(contact_->losses());
     if (!take_samples({&sample, 1})) return false;
     if (sample.t < observer_.next_state()) return true;
-    tell_multipliers();
+    tell_multipliers(multipliers);
     observer_.on_state(view_.of(state), sample);
     return !interrupted();
   }
@@ -317,7 +328,7 @@ class Loop {
         if (sample_time(next) == state_.t) {
           if (!observe_now()) return;
         } else if (dense && dense->interpolate(sample_time(next), between)) {
-          if (!observe(between)) return;
+          if (!observe(between, dense->interpolated_multipliers())) return;
         } else {
           outcome_.status = RunStatus::failed;
           outcome_.message = at_time("no dense output", sample_time(next));

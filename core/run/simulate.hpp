@@ -45,10 +45,11 @@ enum class RunStatus {
 /// Outcome of a run.
 struct RunOutcome {
   RunStatus status = RunStatus::ok;
-  std::string message;           ///< reason for an early end; empty if the run is ok
-  double t = 0;                  ///< time reached, s
-  std::int64_t steps = 0;        ///< number of steps taken
-  std::int64_t evaluations = 0;  ///< number of right-hand side evaluations
+  std::string message;                       ///< reason for an early end; empty if the run is ok
+  double t = 0;                              ///< time reached, s
+  std::int64_t steps = 0;                    ///< number of steps taken
+  std::int64_t evaluations = 0;              ///< number of right-hand side evaluations
+  std::optional<std::int64_t> iterations{};  ///< number of iterations of the method; absent: it makes none
   std::int64_t joint_solves =
       0;  ///< number of linear systems of the joints that the method and projections have solved
 };

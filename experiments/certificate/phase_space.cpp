@@ -4,7 +4,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "core/system/joint_projection.hpp"
 #include "core/system/orientation_chart.hpp"
 
 namespace polhode::study::certificate {
@@ -97,7 +99,11 @@ PhasePoint<S> PhaseSpace<S>::moved(const PhasePoint<S>& from, const VectorX<S>& 
     if (free) body.momentum += action_ / lengths_[i] * next();
     body.body_momentum += action_ * next();
   }
-  return to;
+  if (!system_.has_joints()) return to;
+  VectorX<S> y = state(to);
+  project_joint_positions(system_, y);
+  project_joint_velocities(system_, y);
+  return point(std::move(y));
 }
 
 template <class S>

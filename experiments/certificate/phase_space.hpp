@@ -43,7 +43,8 @@ class PhaseSpace {
 
   PhasePoint<S> start() const { return point(system_.start().y); }
 
-  /// A point near the start without its symmetries: every coordinate is changed by up to a third.
+  /// A point near the start without its symmetries: every coordinate is changed by up to a third. Then joints are
+  /// closed again.
   PhasePoint<S> generic() const;
 
   /// The point of a state, whose orientations are first projected to their manifold.
@@ -52,7 +53,8 @@ class PhaseSpace {
   /// A state at this point; its accumulated work is 0.
   VectorX<S> state(const PhasePoint<S>& point) const;
 
-  /// The point displaced by coordinates `by`: x + δx, R exp(ξ), p + δp, π + δπ.
+  /// The point displaced by coordinates `by`: x + δx, R exp(ξ), p + δp, π + δπ, and then projected to the equations of
+  /// the joints.
   PhasePoint<S> moved(const PhasePoint<S>& from, const VectorX<S>& by) const;
 
   /// Coordinates of the displacement from `from` to `to`: x − x₀, log(R₀ᵀ R), p − p₀, π − π₀.

@@ -26,20 +26,23 @@ std::optional<double> symplecticity_defect(const PhaseSpace<S>& space, const Fla
   const int n = space.dimension();
   const auto end = image(space, map, at);
   if (!end) return std::nullopt;
-  MatrixX<S> derivative = MatrixX<S>::Zero(n, n);
+  MatrixX<S> derivative = MatrixX<S>::Zero(n, n), displacement = derivative;
   for (int k = 0; k < n; ++k) {
     for (const auto& [multiple, weight] : stencil) {
       for (const int side : {1, -1}) {
         VectorX<S> by = VectorX<S>::Zero(n);
         by[k] = S(side * multiple) * S(increment);
-        const auto moved = image(space, map, space.moved(at, by));
+        const PhasePoint<S> displaced = space.moved(at, by);
+        const auto moved = image(space, map, displaced);
         if (!moved) return std::nullopt;
         derivative.col(k) += S(side) * S(weight) * space.coordinates(*end, *moved);
+        displacement.col(k) += S(side) * S(weight) * space.coordinates(at, displaced);
       }
     }
   }
   derivative /= S(denominator) * S(increment);
-  const MatrixX<S> before = space.two_form(at);
+  displacement /= S(denominator) * S(increment);
+  const MatrixX<S> before = displacement.transpose() * space.two_form(at) * displacement;
   const MatrixX<S> after = derivative.transpose() * space.two_form(*end) * derivative;
   return static_cast<double>((after - before).norm() / before.norm());
 }

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Symplecticity defect of a step Φ: with D its derivative at z in the coordinates of PhaseSpace,
-//   defect = ‖Dᵀ ω(Φ(z)) D − ω(z)‖ / ‖ω(z)‖  (Frobenius norms).
-// If a step leaves the manifold of orientations, Φ includes the projection to it.
+// Symplecticity defect of a step Φ. z(u) is the point of the phase space displaced from z by the coordinates u and
+// projected to the equations of the joints, C its derivative and D that of Φ(z(u)) at u = 0, in the coordinates of
+// PhaseSpace:
+//   defect = ‖Dᵀ ω(Φ(z)) D − Cᵀ ω(z) C‖ / ‖Cᵀ ω(z) C‖  (Frobenius norms).
+// Without joints C = 1. With joints the columns of C span the tangent space of {g(q) = 0, G v = 0}, so that the form is
+// that of the cotangent bundle of g(q) = 0. If a step leaves the manifold of orientations, Φ includes the projection to
+// it.
 #pragma once
 
 #include <functional>

@@ -12,6 +12,10 @@ int main(int argc, char** argv) {
                     {"dt", "0.1,0.05,0.025,0.0125,0.00625,0.003125,0.0015625,0.00078125,0.000390625"},
                     {"tolerance", "1e-4,1e-5,1e-6,1e-7,1e-8,1e-9,1e-10,1e-11"},
                     {"t-end", "2"}},
+       .with_joints = {.defaults = {{"scenario", "double_pendulum"},
+                                    {"dt", "0.04,0.02,0.01,0.005,0.0025,0.00125,0.000625"},
+                                    {"t-end", "1"}},
+                       .reference = true},
        .analysis = polhode::study::convergence::observed_orders},
       argc, argv);
 }

@@ -71,6 +71,7 @@ bool CollocationSolver<S>::solve(S t, S h) {
   z_.setZero();
   S previous(0);
   for (int iteration = 0; iteration < 50; ++iteration) {
+    ++iterations_;
     delta_ = -z_;
     for (int j = 0; j < stages_; ++j) {
       stage_ = y_ + z_.segment(j * n, n);

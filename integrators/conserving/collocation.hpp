@@ -28,6 +28,7 @@ class CollocationSolver {
   /// Advances y from time t (s) by h (s). Returns null, or the reason of a failure.
   const char* step(S t, S h, S* y);
   std::int64_t evaluations() const { return evaluations_; }
+  std::int64_t iterations() const { return iterations_; }
 
  private:
   using Vector = VectorX<S>;
@@ -50,7 +51,7 @@ class CollocationSolver {
   S factored_h_{};
   bool jacobian_fits_ = false;
   Vector y_, z_, stage_, dy_, moved_, delta_;
-  std::int64_t evaluations_ = 0;
+  std::int64_t evaluations_ = 0, iterations_ = 0;
 };
 
 extern template class CollocationSolver<float>;
@@ -67,6 +68,7 @@ class GaussMethod {
   explicit GaussMethod(const System& system) : solver_(system, stages) {}
   const char* step(const System&, S t, S h, Flat& y) { return solver_.step(t, h, y.data()); }
   std::int64_t evaluations() const { return solver_.evaluations(); }
+  std::int64_t iterations() const { return solver_.iterations(); }
 
  private:
   CollocationSolver<S> solver_;

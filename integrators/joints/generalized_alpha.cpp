@@ -61,8 +61,10 @@ class GeneralizedAlpha final : public JointMethod, private StepEquations<double>
 
   void begin(const State<double>& state) override {
     evaluations_ = 0;
+    root_ = {};
     restart(state.t, state.y);
   }
+  std::optional<std::int64_t> iterations() const override { return root_.iterations(); }
   void discard_history(const State<double>& state) override { restart(state.t, state.y); }
 
  private:

@@ -36,8 +36,10 @@ class HalfExplicit final : public JointMethod, private StepEquations<double> {
 
   void begin(const State<double>& state) override {
     evaluations_ = 0;
+    root_ = {};
     discard_history(state);
   }
+  std::optional<std::int64_t> iterations() const override { return root_.iterations(); }
   /// The history is the guess of the multipliers.
   void discard_history(const State<double>& state) override {
     bodies_.rate(state.t, state.y, rates_[0]);

@@ -41,12 +41,14 @@ class Rattle final : public JointMethod, private StepEquations<double> {
 
   void begin(const State<double>& state) override {
     evaluations_ = 0;
+    root_ = {};
     Flat rate = bodies_.zero();
     bodies_.rate(state.t, state.y, rate);
     ++evaluations_;
     discard_history(state);
     lambda_ = multiplier_ = joints_.multipliers();
   }
+  std::optional<std::int64_t> iterations() const override { return root_.iterations(); }
   void discard_history(const State<double>&) override { known_for_ = 0; }
 
  private:

@@ -47,6 +47,7 @@ class MidpointStep {
   }
 
   std::int64_t evaluations() const { return work_.evaluations; }
+  std::int64_t iterations() const { return work_.root.iterations(); }
 
  private:
   struct Work {

@@ -53,6 +53,7 @@ bool RootFinder<S>::broyden(StepEquations<S>& equations, VectorX<S>& x, S scale)
   equations.residual(x, f_);
   steps_[0] = -f_;
   for (std::size_t k = 0; k < broyden_iterations; ++k) {
+    ++iterations_;
     x += steps_[k];
     if (progress.done(x, steps_[k])) return true;
     if (k == 0) first = progress.size();
@@ -77,6 +78,7 @@ bool RootFinder<S>::newton(StepEquations<S>& equations, VectorX<S>& x, S scale) 
   moved_.resizeLike(x);
   Progress<S> progress(scale);
   for (int k = 0; k < newton_iterations; ++k) {
+    ++iterations_;
     equations.residual(x, f_);
     if (!f_.allFinite()) return false;
     for (Eigen::Index j = 0; j < n; ++j) {

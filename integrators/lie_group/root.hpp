@@ -9,6 +9,7 @@
 // good update as a recurrence of steps).
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/math/linear_algebra.hpp"
@@ -34,6 +35,9 @@ class RootFinder {
   /// number to which x is added. Returns null, or the reason of a failure; x is then unspecified.
   const char* solve(StepEquations<S>& equations, VectorX<S>& x, S scale);
 
+  /// Number of iterations of both methods in all calls.
+  std::int64_t iterations() const { return iterations_; }
+
  private:
   bool broyden(StepEquations<S>& equations, VectorX<S>& x, S scale);
   bool newton(StepEquations<S>& equations, VectorX<S>& x, S scale);
@@ -42,6 +46,7 @@ class RootFinder {
   Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> jacobian_;
   std::vector<VectorX<S>> steps_;
   std::vector<S> squares_;
+  std::int64_t iterations_ = 0;
 };
 
 }  // namespace polhode::integrators

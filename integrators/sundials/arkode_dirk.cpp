@@ -62,6 +62,11 @@ class ArkodeDirk final : public SundialsIntegrator {
   int derivative(double t, N_Vector y) const override { return ARKStepGetDky(memory_.get(), t, 0, y); }
   int watch(int count) override { return ARKStepRootInit(memory_.get(), count, &find_roots); }
   int roots(int* signs) override { return ARKStepGetRootInfo(memory_.get(), signs); }
+  std::optional<long> iterations_counted() const override {
+    long count = 0;
+    check(ARKStepGetNumNonlinSolvIters(memory_.get(), &count), "ARKStepGetNumNonlinSolvIters");
+    return count;
+  }
   std::string flag_name(int flag) const override {
     const std::unique_ptr<char, decltype(&std::free)> name(ARKStepGetReturnFlagName(flag), &std::free);
     return name.get();

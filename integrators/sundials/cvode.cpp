@@ -73,6 +73,11 @@ class Cvode final : public SundialsIntegrator {
   int derivative(double t, N_Vector y) const override { return CVodeGetDky(memory_.get(), t, 0, y); }
   int watch(int count) override { return CVodeRootInit(memory_.get(), count, &find_roots); }
   int roots(int* signs) override { return CVodeGetRootInfo(memory_.get(), signs); }
+  std::optional<long> iterations_counted() const override {
+    long count = 0;
+    check(CVodeGetNumNonlinSolvIters(memory_.get(), &count), "CVodeGetNumNonlinSolvIters");
+    return count;
+  }
   std::string flag_name(int flag) const override {
     const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(flag), &std::free);
     return name.get();

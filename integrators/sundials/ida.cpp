@@ -61,6 +61,9 @@ class Ida final : public SundialsIntegrator {
         lambda_(m_) {}
 
   std::span<const double> multipliers() const override { return {lambda_.data(), std::size_t(m_)}; }
+  std::span<const double> interpolated_multipliers() const override {
+    return {between_lambda_.data(), std::size_t(between_lambda_.size())};
+  }
 
  private:
   bool two_multipliers() const { return form_ == Form::ggl || form_ == Form::ah; }
@@ -146,7 +149,7 @@ class Ida final : public SundialsIntegrator {
 
   int derivative(double t, N_Vector y) const override {
     if (const int flag = IDAGetDky(memory_.get(), t, form_ == Form::ah ? 1 : 0, between_.get()); flag != 0) return flag;
-    lambda_ = of(between_).segment(ny_, m_);
+    between_lambda_ = of(between_).segment(ny_, m_);
     if (form_ == Form::ah) {
       if (const int flag = IDAGetDky(memory_.get(), t, 0, between_.get()); flag != 0) return flag;
     }
@@ -156,6 +159,11 @@ class Ida final : public SundialsIntegrator {
 
   int watch(int count) override { return IDARootInit(memory_.get(), count, &root_function); }
   int roots(int* signs) override { return IDAGetRootInfo(memory_.get(), signs); }
+  std::optional<long> iterations_counted() const override {
+    long count = 0;
+    check(IDAGetNumNonlinSolvIters(memory_.get(), &count), "IDAGetNumNonlinSolvIters");
+    return count;
+  }
   std::string flag_name(int flag) const override {
     const std::unique_ptr<char, decltype(&std::free)> name(IDAGetReturnFlagName(flag), &std::free);
     return name.get();
@@ -253,7 +261,8 @@ class Ida final : public SundialsIntegrator {
   const Constraints<double>& joints_;
   const Eigen::Index ny_, m_, size_;  ///< numbers of the state, of equations and of unknowns
   VectorX<double> y_, dy_, shifted_, rate_of_shifted_, trial_lambda_;
-  mutable VectorX<double> lambda_;  ///< at the last step or interpolation
+  VectorX<double> lambda_;                  ///< at the end of the last step
+  mutable VectorX<double> between_lambda_;  ///< at the last interpolation
   std::vector<Wrench<double>> impulses_;
   Vector z_, dz_, between_, tolerances_, kinds_, moved_;
   Matrix matrix_;

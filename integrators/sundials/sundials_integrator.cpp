@@ -44,17 +44,19 @@ SundialsIntegrator::SundialsIntegrator(const System<double>& system, const Integ
 void SundialsIntegrator::begin(const State<double>& state) {
   work_.reset(N_VNew_Serial(state.y.size(), context_.get()));
   if (!work_) throw std::bad_alloc();
-  evaluations_ = 0;
+  evaluations_ = earlier_iterations_ = 0;
   injected_ = last_injected_ = 0;
   seen_ = state;
   copy_in(state);
   create(state.t, work_.get(), this);
+  iterations_ = iterations_counted();
   if (!events_.empty()) check(watch(int(events_.size())), "RootInit");
 }
 
 StepResult SundialsIntegrator::step(State<double>& state, double h) {
   double t = state.t;
   const int flag = evolve(state.t + h, work_.get(), &t);
+  if (const auto counted = iterations_counted()) iterations_ = earlier_iterations_ + *counted;
   if (flag < 0) return {std::string(library()) + " gave up (" + flag_name(flag) + ")"};
   if (!(t > state.t)) return {std::string(library()) + "'s step size fell to nothing"};
   const double* y = N_VGetArrayPointer(work_.get());
@@ -81,6 +83,8 @@ bool SundialsIntegrator::project(VectorX<double>& y) {
 void SundialsIntegrator::discard_history(const State<double>& state) {
   copy_in(state);
   restart(state.t, work_.get());
+  // The library counts from 0 again, at once or in its next step.
+  if (iterations_) earlier_iterations_ = *iterations_;
 }
 
 bool SundialsIntegrator::interpolate(double t, State<double>& state) const {

@@ -32,6 +32,7 @@ class SundialsIntegrator : public Integrator<double>,
   void begin(const State<double>& state) final;
   StepResult step(State<double>& state, double h) final;
   std::int64_t evaluations() const final { return evaluations_; }
+  std::optional<std::int64_t> iterations() const final { return iterations_; }
   void discard_history(const State<double>& state) final;
   const DenseOutput<double>* dense_output() const final { return this; }
   bool interpolate(double t, State<double>& state) const final;
@@ -52,6 +53,8 @@ class SundialsIntegrator : public Integrator<double>,
   virtual int derivative(double t, N_Vector y) const = 0;  ///< dense output: derivative of order 0 at t (s)
   virtual int watch(int count) = 0;                        ///< registers find_roots with `count` event functions
   virtual int roots(int* signs) = 0;
+  /// Number of nonlinear iterations since the last restart; absent: none are made.
+  virtual std::optional<long> iterations_counted() const { return std::nullopt; }
   virtual std::string flag_name(int flag) const = 0;
   virtual const char* library() const = 0;
   // Callbacks of the library. A right-hand side that is not finite is reported as recoverable: the library retries with
@@ -84,6 +87,8 @@ class SundialsIntegrator : public Integrator<double>,
   double tolerance_;
   double t_now_ = 0;
   std::int64_t evaluations_ = 0;
+  std::optional<std::int64_t> iterations_;
+  std::int64_t earlier_iterations_ = 0;  ///< before the last restart
   bool projects_ = false, projects_orientations_ = false;
   double injected_ = 0, last_injected_ = 0;  ///< energy injected by all steps and by the last projection, J
   std::vector<EventFunction<double>> events_;

@@ -107,6 +107,33 @@ class Joints(unittest.TestCase):
             self.assertEqual(solves["recipe_ode_step", "none"], 1 + 100)  # the start, and one in each step
             self.assertEqual(solves["recipe_bullet_joints", "none"], 1)  # sweeps solve none
 
+    def test_joints_are_measured_within_steps_and_iterations_are_counted(self):
+        out = self.folder / "out"
+        self.run_program("energy_drift", "--scenario", "double_pendulum", "--integrator", "cvode_bdf,ida_ggl,ida_index2,odeint_dopri5",
+                         "--stabilization", "none,both", "--where", "integrator != 'ida_ggl' and integrator != 'ida_index2' or "
+                         "stabilization == 'none'", "--tolerance", "1e-7", "--t-end", "1", "--out", out)
+        rows = {(r["integrator"], r["stabilization"]): r for r in read(out / "runs.csv")}
+        at = {key: float(r["joint_gap_max_m"]) for key, r in rows.items()}
+        within = {key: float(r["joint_gap_within_steps_m"]) for key, r in rows.items()}
+        for key in (("cvode_bdf", "both"), ("odeint_dopri5", "both"), ("ida_ggl", "none")):
+            self.assertLess(at[key], 1e-7, key)  # closed at the steps
+            self.assertGreater(within[key], at[key], key)  # less so between them
+            self.assertLess(within[key], 1e-4, key)
+        for key in (("cvode_bdf", "both"), ("odeint_dopri5", "both")):
+            self.assertLess(at[key], 1e-13, key)
+            self.assertGreater(within[key], 1e-9, key)
+        # Drift is in both.
+        self.assertGreater(within["odeint_dopri5", "none"], 0.5 * at["odeint_dopri5", "none"])
+        for key, r in rows.items():
+            self.assertEqual(r["iterations"] == "", key[0] == "odeint_dopri5", key)
+            if r["iterations"]:
+                self.assertGreaterEqual(int(float(r["iterations"])), int(r["steps"]), key)
+        self.run_program("energy_drift", "--scenario", "double_pendulum", "--integrator", "rk4,rattle", "--dt", "1e-2", "--t-end", "1",
+                         "--force", "--out", out)
+        rows = {r["integrator"]: r for r in read(out / "runs.csv")}
+        self.assertEqual([rows["rk4"]["joint_gap_within_steps_m"], rows["rk4"]["iterations"]], ["", ""])
+        self.assertGreaterEqual(int(float(rows["rattle"]["iterations"])), 200)  # λ and μ in each of 100 steps
+
     def test_a_chain_falls_on_a_floor(self):
         out = self.folder / "out"
         self.run_program("energy_drift", "--scenario", "falling_chain", "--integrator", "semi_implicit_euler,rk4", "--stabilization",

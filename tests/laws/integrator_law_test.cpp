@@ -220,6 +220,32 @@ TEST_P(IntegratorLaw, DenseOutputIsTheMotion) {
   });
 }
 
+// Iterations are counted from begin(), through restarts; a method that solves no equations counts none.
+TEST_P(IntegratorLaw, CountsItsIterations) {
+  everywhere([&](const Trial& trial, const Formulation& f) {
+    const auto system = build<double>(trial, f);
+    const auto integrator = make(*system);
+    State<double> state = system->start();
+    integrator->begin(state);
+    if (!integrator->iterations()) {
+      EXPECT_TRUE(!declared().implicit || GetParam() == "odeint_rosenbrock4" || GetParam().starts_with("dmv"))
+          << "its equations are neither linear nor those of one body";
+      return;
+    }
+    EXPECT_TRUE(declared().implicit || declared().solves_joints());
+    EXPECT_EQ(*integrator->iterations(), 0);
+    go(*integrator, state, 0.25, 4);
+    const std::int64_t first = *integrator->iterations();
+    EXPECT_GE(first, adaptive() ? 1 : 4);
+    integrator->discard_history(state);
+    EXPECT_EQ(*integrator->iterations(), first) << "a restart forgets no cost";
+    go(*integrator, state, 0.5, 4);
+    EXPECT_GT(*integrator->iterations(), first);
+    integrator->begin(state);
+    EXPECT_EQ(*integrator->iterations(), 0);
+  });
+}
+
 // A step goes exactly as far as it was asked to, an adaptive one at most; the end of a run is hit to the bit.
 TEST_P(IntegratorLaw, TimeGoesAsAsked) {
   everywhere([&](const Trial& trial, const Formulation& f) {

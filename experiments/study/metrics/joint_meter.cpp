@@ -39,33 +39,43 @@ std::size_t JointMeter::on_samples(std::span<const Sample> samples) {
   return samples.size();
 }
 
-double JointMeter::next_state() const {
+double JointMeter::time_of(std::int64_t instant) const {
   // Slightly early, so that a sample at the instant itself counts in spite of the rounding of its time.
   constexpr double early = 1 - 1e-12;
-  return early * t_end_ * static_cast<double>(instant_) / static_cast<double>(instants);
+  return early * t_end_ * static_cast<double>(instant) / static_cast<double>(instants);
+}
+
+std::int64_t JointMeter::reached(double t) const {
+  return static_cast<std::int64_t>(std::floor((1 + 1e-12) * t / t_end_ * static_cast<double>(instants)));
 }
 
 void JointMeter::on_state(const State<double>& state, const Sample&) {
-  const auto reached =
-      static_cast<std::int64_t>(std::floor((1 + 1e-12) * state.t / t_end_ * static_cast<double>(instants)));
-  if (reached < instant_ || !state.y.allFinite()) return;
+  const std::int64_t now = reached(state.t);
+  if (now < instant_ || !state.y.allFinite()) return;
   const auto motions = motions_of(system_, state.y);
-  measure_gaps(motions);
-  const auto due = [&](std::int64_t between) { return instant_ == 0 || reached / between > (instant_ - 1) / between; };
+  measure_gaps(motions, {found_.gap_max, found_.angle_max, found_.velocity_max, found_.rate_max});
+  const auto due = [&](std::int64_t between) { return instant_ == 0 || now / between > (instant_ - 1) / between; };
   if (due(between_ranks)) measure_rank(motions);
   if (due(between_errors)) measure_errors(state);
-  instant_ = reached + 1;
+  instant_ = now + 1;
 }
 
-void JointMeter::measure_gaps(std::span<const BodyMotion<double>> motions) {
+void JointMeter::on_state_within_step(const State<double>& state) {
+  if (!state.y.allFinite()) return;
+  measure_gaps(motions_of(system_, state.y),
+               {found_.gap_within, found_.angle_within, found_.velocity_within, found_.rate_within});
+  instant_within_ = std::max(instant_within_, reached(state.t) + 1);
+}
+
+void JointMeter::measure_gaps(std::span<const BodyMotion<double>> motions, const Opening& to) const {
   const Constraints<double>& constraints = *system_.constraints();
   for (std::size_t i = 0; i < constraints.count(); ++i) {
     const auto v = constraints.violation(i, motions);
-    raise(found_.gap_max, v.position);
-    raise(found_.velocity_max, v.velocity);
+    raise(to.gap, v.position);
+    raise(to.velocity, v.velocity);
     if (!constraints.has_angles(i)) continue;
-    raise(found_.angle_max, v.angle);
-    raise(found_.rate_max, v.rate);
+    raise(to.angle, v.angle);
+    raise(to.rate, v.rate);
   }
 }
 

@@ -15,7 +15,8 @@ namespace polhode::study::inline metrics {
 
 /// Joints are measured at 1000 instants spread evenly over the run (at the first sample at or after each) and at its
 /// end; rank and condition at every tenth of these, since each costs a rank-revealing factorization, and of at most 200
-/// equations. Errors are measured at every twentieth, since a reference costs more than a step.
+/// equations. Errors are measured at every twentieth, since a reference costs more than a step. Within steps the joints
+/// are measured in the first step that ends at or after each of the 1000 instants.
 class JointMeter final : public Observer {
  public:
   /// The system must outlive the meter. `reference` may be null; an exact motion then takes its place, if it is known.
@@ -24,13 +25,21 @@ class JointMeter final : public Observer {
   std::size_t on_samples(std::span<const Sample> samples) override;
   void on_state(const State<double>& state, const Sample& sample) override;
   void on_multipliers(std::span<const double> multipliers) override;
-  double next_state() const override;
+  double next_state() const override { return time_of(instant_); }
+  void on_state_within_step(const State<double>& state) override;
+  double next_within_step() const override { return time_of(instant_within_); }
 
   /// Fills the measures of the joints of the result.
   void report(RunResult& result) const { result.joints = found_; }
 
  private:
-  void measure_gaps(std::span<const BodyMotion<double>> motions);
+  /// By how much the joints are open, and how fast they open.
+  struct Opening {
+    std::optional<double>&gap, &angle, &velocity, &rate;
+  };
+  void measure_gaps(std::span<const BodyMotion<double>> motions, const Opening& to) const;
+  std::int64_t reached(double t) const;
+  double time_of(std::int64_t instant) const;
   void measure_rank(std::span<const BodyMotion<double>> motions);
   void measure_errors(const State<double>& state);
   template <class S>
@@ -40,8 +49,9 @@ class JointMeter final : public Observer {
   double t_end_;
   std::optional<ReferenceMotion::Follower> follower_;
   std::optional<ExactMotion> exact_;
-  VectorX<double> multipliers_;  ///< of the next state, from a method that solves for them; else empty
-  std::int64_t instant_ = 0;     ///< number of the next instant of measurement, 0 … 1000
+  VectorX<double> multipliers_;      ///< of the next state, from a method that solves for them; else empty
+  std::int64_t instant_ = 0;         ///< number of the next instant of measurement, 0 … 1000
+  std::int64_t instant_within_ = 0;  ///< likewise of the next measurement within a step
   JointMeasures found_;
 };
 

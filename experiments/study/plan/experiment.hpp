@@ -36,6 +36,8 @@ struct Experiment {
   std::string meaning{};  ///< meaning of the answer in one paragraph, for --help; empty: none
   /// Defaults of options, in the syntax of the command line: {"dt", "1e-3,1e-2"}.
   std::map<std::string, std::string> defaults;
+  /// Defaults in place of those if no scenario is named and each named method solves the equations of joints itself.
+  FurtherAxes with_joints{};
   /// Defaults of --vary: keys of the scenario and their values. Used only if the user gives neither a scenario nor a
   /// study file; --vary replaces a default for the same key.
   std::vector<std::pair<std::string, std::string>> vary{};

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/plan/options.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <map>
 #include <set>
@@ -10,15 +13,27 @@
 #include <utility>
 
 #include "experiments/study/plan/assignments.hpp"
+#include "experiments/study/plan/axis_values.hpp"
 #include "experiments/study/plan/figure_options.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/record/shown_runs.hpp"
 #include "experiments/study/text/command_line.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/value_lists.hpp"
+#include "integrators/catalogue.hpp"
 
 namespace polhode::study::inline plan {
 namespace {
+
+/// True if the study names methods and no scenario, and each method solves the equations of joints itself.
+bool are_methods_of_joints(const StudyAxes& study) {
+  const auto named = study.axes.find("integrator");
+  if (named == study.axes.end() || study.has("scenario")) return false;
+  const auto names = axis_values(run_option("integrator"), named->second, study.label("integrator"));
+  return std::all_of(names.begin(), names.end(), [](const OptionValue& name) {
+    return find_integrator(text_of(name))->declaration.solves_joints();
+  });
+}
 
 /// The words of the command line without these options, some of which take a value.
 std::vector<std::string> words_without(const std::set<std::string_view>& with_value,
@@ -153,7 +168,11 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   for (const RunOption& axis : run_options()) {
     std::string meaning = axis.help;
     const auto preset = experiment.defaults.find(axis.name);
-    if (preset != experiment.defaults.end()) meaning += " (default: " + preset->second + ")";
+    const auto jointed = experiment.with_joints.defaults.find(axis.name);
+    if (preset != experiment.defaults.end())
+      meaning += fmt::format(
+          " (default: {}{})", preset->second,
+          jointed == experiment.with_joints.defaults.end() ? "" : "; with methods of joints alone: " + jointed->second);
     app.add_option_function<std::string>(
            "--" + axis.name, [&given, name = axis.name](const std::string& text) { given[name] = text; }, meaning)
         ->type_name(axis.values)
@@ -275,6 +294,12 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   for (StudyAxes& study : file.studies) {
     override_by(said, study);
     study.reference = study.reference || reference;
+    if (are_methods_of_joints(study)) {
+      for (const auto& [name, text] : experiment.with_joints.defaults) {
+        if (!study.table_with(name)) study.axes.try_emplace(name, text);
+      }
+      study.reference = study.reference || experiment.with_joints.reference;
+    }
     for (const auto& [name, text] : experiment.defaults) {
       if (!study.table_with(name)) study.axes.try_emplace(name, text);
     }

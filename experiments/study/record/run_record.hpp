@@ -113,14 +113,20 @@ struct ContactMeasures {
 /// Measures of the joints of a run (joint_meter.hpp), the largest over all joints and instants. All absent for a run
 /// without joints.
 struct JointMeasures {
-  std::optional<double> gap_max;        ///< |g| of the lengths, m
-  std::optional<double> angle_max;      ///< |g| of the angles, rad
-  std::optional<double> velocity_max;   ///< |G v| of the lengths, m/s
-  std::optional<double> rate_max;       ///< |G v| of the angles, rad/s
-  std::optional<double> work;           ///< work of the joints until the end of the run, J; 0 for exact reactions
-  std::optional<double> projection;     ///< energy injected by projections until the end of the run, J
-  std::optional<double> rank;           ///< least rank of the constraint equations
-  std::optional<double> solves;         ///< linear systems of the joints solved by the method and by projections
+  std::optional<double> gap_max;       ///< |g| of the lengths, m
+  std::optional<double> angle_max;     ///< |g| of the angles, rad
+  std::optional<double> velocity_max;  ///< |G v| of the lengths, m/s
+  std::optional<double> rate_max;      ///< |G v| of the angles, rad/s
+  // The same within steps, by the dense output of the method; absent: it has none, or there was contact.
+  std::optional<double> gap_within;       ///< m
+  std::optional<double> angle_within;     ///< rad
+  std::optional<double> velocity_within;  ///< m/s
+  std::optional<double> rate_within;      ///< rad/s
+  std::optional<double> work;             ///< work of the joints until the end of the run, J; 0 for exact reactions
+  std::optional<double> projection;       ///< energy injected by projections until the end of the run, J
+  std::optional<double> rank;             ///< least rank of the constraint equations
+  std::optional<double> iterations;       ///< iterations of the method; absent: it makes none
+  std::optional<double> solves;           ///< linear systems of the joints solved by the method and by projections
   std::optional<double> condition_max;  ///< largest condition of the independent equations, in the metric of the masses
   // Against the exact motion or a reference.
   std::optional<double> speed_error_max;            ///< of the velocities of mass centres, m/s

@@ -146,6 +146,7 @@ RunResult measured(const RunConfig& config, const Scenario& scenario, const Traj
   if (joint_meter) {
     joint_meter->report(result);
     result.joints.solves = static_cast<double>(outcome.joint_solves);
+    if (outcome.iterations) result.joints.iterations = static_cast<double>(*outcome.iterations);
   }
   return result;
 }
