@@ -190,6 +190,7 @@ IntegratorEntry entry(std::string name, std::string summary, std::string equatio
        .implicit = true,
        .multi_step = !projected,
        .lie_group = true,
+       .symplectic = projected,
        .symmetric = projected,
        .joints = projected ? JointEquations::position_and_velocity : JointEquations::position,
        .multiplier_order = projected ? 1 : 2},

@@ -110,6 +110,22 @@ class Certificate(unittest.TestCase):
         self.assertEqual(rows["symplecticity"]["verdict"], "not applicable")
         self.assertIn("gyroscopic", rows["symplecticity"]["note"])
 
+    def test_methods_of_joints_have_a_scenario_of_joints(self):
+        out = self.folder / "jointed"
+        self.run_program("--integrator", "rattle,shake,half_explicit4", "--orientation", "quaternion", "--angular-state",
+                         "velocity_world", "--out", out)
+        verdicts, rows = {}, read(out / "certificate.csv")
+        for r in rows:
+            verdicts[r["integrator"], r["trait"]] = r["verdict"]
+            self.assertNotIn(r["verdict"], ("does not hold", "undecided"), r)
+        for method in ("rattle", "shake", "half_explicit4"):
+            for trait in ("order_forced", "order_time_dependent"):
+                self.assertEqual(verdicts[method, trait], "holds", (method, trait))
+        for trait in ("time_reversibility", "time_reversibility_many", "symplecticity"):
+            self.assertEqual(verdicts["rattle", trait], "holds", trait)  # on the states that satisfy the joints
+            self.assertEqual(verdicts["half_explicit4", trait], "not declared", trait)
+        self.assertEqual({r["scenario"] for r in rows if r["trait"] == "order_forced"}, {"double_pendulum"})
+
     def test_bad_input_is_one_line_and_writes_nothing(self):
         out = self.folder / "bad"
         done = self.run_program("--integrator", "no_such_method", "--out", out, status=2)

@@ -51,6 +51,17 @@ TEST(Symplecticity, OfTheExactFlowIsRoundOff) {
   EXPECT_GT(defect_of(laws::projectile(true), {}, [](const auto& s, auto& y) { flow(s, y, 0.1L); }), 1e-3);
 }
 
+// Likewise on the states at which joints are closed.
+TEST(Symplecticity, OfTheExactFlowOfJointedBodiesIsRoundOff) {
+  EXPECT_LT(defect_of(laws::jointed_rods(), {}, [](const auto& s, auto& y) { flow(s, y, 0.1L); }), 1e-14);
+  const auto euler = [](const System<Real>& s, VectorX<Real>& y) {
+    VectorX<Real> rate(y.size());
+    s.rate(0, y.data(), rate.data());
+    y += 0.01L * rate;
+  };
+  EXPECT_GT(defect_of(laws::jointed_rods(), {}, euler), 1e-6);
+}
+
 // Left and right turns of the whole body lift to symplectic maps; a turn of the attitude alone, which leaves L in the
 // world as it is, is none: ⟨π, ξ × ξ⟩ must be in the form for that.
 TEST(Symplecticity, TellsALiftedRotationFromATurnOfTheAttitude) {
