@@ -113,7 +113,7 @@ b &= \omega/a_1, \quad s = a_2/(1 + a_2), \quad a_1 = 2\zeta + h\omega, \quad a_
 q_{n+1} &= q_n + h N(q_n)\,v, \text{ quaternions divided by their lengths} \\
 p_{n+1} &: \text{for each joint, } p \leftarrow p - K^{-1} G_{n+1} v)",
        .sources = {"box2d", "catto2024"},
-       .order = 1,
+       .order = 1,  // down to the deflection of its springs under their load, which no smaller step reduces
        .multi_step = true,
        .normalizes = true,
        .joints = JointEquations::impulses,
