@@ -134,6 +134,16 @@ class Joints(unittest.TestCase):
         self.assertEqual([rows["rk4"]["joint_gap_within_steps_m"], rows["rk4"]["iterations"]], ["", ""])
         self.assertGreaterEqual(int(float(rows["rattle"]["iterations"])), 200)  # λ and μ in each of 100 steps
 
+    def test_reactions_at_the_end_do_not_depend_on_the_samples_before(self):
+        ends = []
+        for samples in ((), ("--samples", "1000"), ("--samples", "3")):
+            out = self.folder / ("end" + "_".join(samples))
+            self.run_program("simulate", "--scenario", "double_pendulum", "--integrator", "ida_ggl", "--tolerance", "1e-5", "--t-end", "0.5",
+                             *samples, "--trajectory", "csv", "--out", out)
+            ends.append(read(out / "reactions.csv")[-2:])
+        self.assertEqual(ends[1], ends[0])
+        self.assertEqual(ends[2], ends[0])
+
     def test_a_chain_falls_on_a_floor(self):
         out = self.folder / "out"
         self.run_program("energy_drift", "--scenario", "falling_chain", "--integrator", "semi_implicit_euler,rk4", "--stabilization",
