@@ -125,14 +125,14 @@ class Joints(unittest.TestCase):
         # Drift is in both.
         self.assertGreater(within["odeint_dopri5", "none"], 0.5 * at["odeint_dopri5", "none"])
         for key, r in rows.items():
-            self.assertEqual(r["iterations"] == "", key[0] == "odeint_dopri5", key)
-            if r["iterations"]:
-                self.assertGreaterEqual(int(float(r["iterations"])), int(r["steps"]), key)
+            self.assertEqual(r["nonlinear_iterations"] == "", key[0] == "odeint_dopri5", key)
+            if r["nonlinear_iterations"]:
+                self.assertGreaterEqual(int(float(r["nonlinear_iterations"])), int(r["steps"]), key)
         self.run_program("energy_drift", "--scenario", "double_pendulum", "--integrator", "rk4,rattle", "--dt", "1e-2", "--t-end", "1",
                          "--force", "--out", out)
         rows = {r["integrator"]: r for r in read(out / "runs.csv")}
-        self.assertEqual([rows["rk4"]["joint_gap_within_steps_m"], rows["rk4"]["iterations"]], ["", ""])
-        self.assertGreaterEqual(int(float(rows["rattle"]["iterations"])), 200)  # λ and μ in each of 100 steps
+        self.assertEqual([rows["rk4"]["joint_gap_within_steps_m"], rows["rk4"]["nonlinear_iterations"]], ["", ""])
+        self.assertGreaterEqual(int(float(rows["rattle"]["nonlinear_iterations"])), 200)  # λ and μ in each of 100 steps
 
     def test_reactions_at_the_end_do_not_depend_on_the_samples_before(self):
         ends = []

@@ -19,6 +19,7 @@
 
 #include "experiments/judge/judgement.hpp"
 #include "experiments/study/plan/listing.hpp"
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/record/study_view.hpp"
 #include "experiments/study/report/tables/results.hpp"
 #include "experiments/study/report/tables/summary.hpp"
@@ -221,6 +222,13 @@ TEST(MetricTable, ColumnsAreIdentifiersAndEachStandsOnce) {
     if (metric.unit.empty() || metric.unit == "1") continue;
     EXPECT_TRUE(metric.column.ends_with(ending)) << metric.column;
   }
+}
+
+TEST(MetricTable, NoMetricHasTheColumnOfAnOption) {
+  std::set<std::string> of_options;
+  for (const RunOption& option : run_options()) of_options.insert(option.column);
+  ASSERT_TRUE(of_options.contains("iterations"));
+  for (const Metric& metric : metric_table()) EXPECT_FALSE(of_options.contains(metric.column)) << metric.column;
 }
 
 TEST(MetricTable, EachMetricHasALineInTheListOrSharesThatOfAnother) {
