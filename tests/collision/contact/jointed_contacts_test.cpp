@@ -101,7 +101,7 @@ class JointedResponse : public testing::TestWithParam<std::string> {};
 
 TEST_P(JointedResponse, ObeysTheLawsOfContactsAndOfJoints) {
   if (GetParam() == "single_impulse") GTEST_SKIP() << "answers one contact of a pair";
-  for (const std::size_t links : {1, 2, 5}) {
+  for (const std::size_t links : {1UL, 2UL, 5UL}) {
     for (const double friction : {0.0, 0.6}) {
       for (const double restitution : {0.0, 0.5}) {
         const ContactRun run = chain(links, 1, true);
