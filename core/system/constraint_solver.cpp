@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -95,20 +96,37 @@ void ConstraintSolver<S>::add_terms(const Put& put) const {
   }
 }
 
+/// Cholesky's factorization, written out: as Eigen's for six sizes and three scalars it compiles in a minute.
 template <class S>
 template <int n>
 bool ConstraintSolver<S>::solve_small(const VectorX<S>& right, VectorX<S>& lambda) const {
-  Eigen::Matrix<S, n, n> matrix = Eigen::Matrix<S, n, n>::Zero();
-  add_terms([&](const Term& t, S value) { matrix(Eigen::Index(t.row), Eigen::Index(t.column)) += value; });
-  for (int i = 0; i < n; ++i) matrix(i, i) = soft(matrix(i, i));
-  const Eigen::LLT<Eigen::Matrix<S, n, n>> factor(matrix);
-  if (factor.info() != Eigen::Success) return false;
-  for (int i = 0; i < n; ++i) {
-    const S pivot = factor.matrixLLT()(i, i);
-    if (!(pivot * pivot > least_pivot<S>() * matrix(i, i))) return false;
+  using std::sqrt;
+  std::array<std::array<S, n>, n> factor{};  // the lower triangle
+  add_terms([&](const Term& t, S value) { factor[t.row][t.column] += value; });
+  for (std::size_t k = 0; k < n; ++k) {
+    const S diagonal = soft(factor[k][k]);
+    S sum(0);
+    for (std::size_t j = 0; j < k; ++j) sum += factor[k][j] * factor[k][j];
+    const S pivot = diagonal - sum;
+    if (!(pivot > least_pivot<S>() * diagonal)) return false;
+    factor[k][k] = sqrt(pivot);
+    for (std::size_t i = k + 1; i < n; ++i) {
+      S product(0);
+      for (std::size_t j = 0; j < k; ++j) product += factor[i][j] * factor[k][j];
+      factor[i][k] = (factor[i][k] - product) / factor[k][k];
+    }
   }
-  Eigen::Map<Eigen::Matrix<S, n, 1>> solution(lambda.data());
-  solution = factor.solve(Eigen::Map<const Eigen::Matrix<S, n, 1>>(right.data()));
+  std::array<S, n> x;
+  for (std::size_t i = 0; i < n; ++i) {
+    x[i] = right[Eigen::Index(i)];
+    for (std::size_t j = 0; j < i; ++j) x[i] -= factor[i][j] * x[j];
+    x[i] /= factor[i][i];
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t j = i + 1; j < n; ++j) x[i] -= factor[j][i] * x[j];
+    x[i] /= factor[i][i];
+    lambda[Eigen::Index(i)] = x[i];
+  }
   return true;
 }
 
