@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/archive/options.hpp"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "experiments/study/text/command_line.hpp"
@@ -11,20 +10,19 @@ namespace polhode::study::archive {
 
 ArchiveOptions parse_archive_options(int argc, const char* const* argv) {
   ArchiveOptions options;
-  CLI::App app{
+  CommandLine line{
       "What is there of the trajectories in a folder of results, and what can be saved of those that are not "
       "whole?\n\nThe exit status is 0 if all trajectories are whole (check), or if all that are not are saved as far "
       "as "
       "they go (repair); else 1.",
       "archive"};
-  app.get_formatter()->column_width(40);
   std::string action;
-  app.add_option("action", action,
-                 "check: say of each trajectory whether it is whole, unfinished or damaged; repair: copy what there is "
-                 "of those that are not whole into files called trajectory.recovered.csv or trajectory.recovered.h5")
-      ->type_name("check|repair");
-  app.add_option("folder", options.folder, "a folder of results, with all folders in it")->type_name("FOLDER");
-  options.exit_status = parse_command_line(app, argc, argv);
+  line.add("action", action,
+           "check: say of each trajectory whether it is whole, unfinished or damaged; repair: copy what there is "
+           "of those that are not whole into files called trajectory.recovered.csv or trajectory.recovered.h5")
+      .type_name("check|repair");
+  line.add("folder", options.folder, "a folder of results, with all folders in it").type_name("FOLDER");
+  options.exit_status = line.parse(argc, argv);
   if (options.exit_status) return options;
   if (action != "check" && action != "repair") {
     throw InputError((action.empty() ? "no action is named" : "there is no action '" + action + "'") +

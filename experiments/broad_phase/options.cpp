@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/broad_phase/options.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 
 #include "experiments/study/plan/figure_options.hpp"
@@ -54,54 +53,52 @@ void require(bool good, const std::string& what) {
 
 BroadPhaseOptions parse_broad_phase_options(int argc, const char* const* argv) {
   BroadPhaseOptions options;
-  CLI::App app{
+  CommandLine line{
       std::string(broad_phase_question) +
           "\n\nWithout --boxes: measures boxes that move about at a fixed density. With --boxes: answers recorded "
           "motion.",
-      "broad_phase"};
-  app.get_formatter()->column_width(32);
+      "broad_phase", 32};
   std::string phases, bodies = "100:100000:7:log", list;
-  app.add_option("--broad-phase", phases, "broad phases, or all (default; with --boxes one must be named)")
-      ->type_name("NAME,…");
-  const auto* boxes =
-      app.add_option("--boxes", options.boxes, "recorded motion: CSV with the columns step, id, hx, hy, hz, px, py, pz")
-          ->type_name("FILE");
-  app.add_option("--out", options.out,
-                 "with --boxes the file of pairs: step, a, b; otherwise the folder of results (default: "
-                 "results/broad_phase)")
-      ->type_name("PATH");
-  std::vector<CLI::Option*> measuring = {
-      app.add_option("--bodies", bodies, "how many boxes (default: " + bodies + ")")->type_name("N,…"),
-      app.add_option("--filling", options.filling, "part of the space that is within boxes (default: 0.1)")
-          ->type_name("X"),
-      app.add_option("--motion", options.motion, "mean path of a box in a step, over the mean edge (default: 0.02)")
-          ->type_name("X"),
-      app.add_option("--patience", options.patience,
-                     "leave out what is expected to take longer for a step, in s (default: 0.5)")
-          ->type_name("S"),
-      app.add_option("--seed", options.seed, "of the random boxes (default: 1)")->type_name("N"),
-      add_no_figures(app, options.figures),
-      add_article(app, options.article)};
-  add_look_options(app, options.look);
-  const CLI::Option* list_option =
-      app.add_option("--list", list, "print the catalogue: broad-phases, or what else the experiments list")
-          ->type_name("[WHAT]")
-          ->expected(0, 1);
-  options.exit_status = parse_command_line(app, argc, argv);
+  line.add("--broad-phase", phases, "broad phases, or all (default; with --boxes one must be named)")
+      .type_name("NAME,…");
+  const CommandLineOption boxes =
+      line.add("--boxes", options.boxes, "recorded motion: CSV with the columns step, id, hx, hy, hz, px, py, pz")
+          .type_name("FILE");
+  line.add("--out", options.out,
+           "with --boxes the file of pairs: step, a, b; otherwise the folder of results (default: "
+           "results/broad_phase)")
+      .type_name("PATH");
+  const std::vector<CommandLineOption> measuring = {
+      line.add("--bodies", bodies, "how many boxes (default: " + bodies + ")").type_name("N,…"),
+      line.add("--filling", options.filling, "part of the space that is within boxes (default: 0.1)").type_name("X"),
+      line.add("--motion", options.motion, "mean path of a box in a step, over the mean edge (default: 0.02)")
+          .type_name("X"),
+      line.add("--patience", options.patience,
+               "leave out what is expected to take longer for a step, in s (default: 0.5)")
+          .type_name("S"),
+      line.add("--seed", options.seed, "of the random boxes (default: 1)").type_name("N"),
+      add_no_figures(line, options.figures),
+      add_article(line, options.article)};
+  add_look_options(line, options.look);
+  const CommandLineOption list_option =
+      line.add("--list", list, "print the catalogue: broad-phases, or what else the experiments list")
+          .type_name("[WHAT]")
+          .value_may_be_absent();
+  options.exit_status = line.parse(argc, argv);
   if (options.exit_status) return options;
   options.command = command_text("broad_phase", argc, argv);
-  if (*list_option) options.list = list;
+  if (list_option.given()) options.list = list;
   if (options.list) return options;
-  if (*boxes) {
-    for (const CLI::Option* option : measuring) {
-      require(!*option, option->get_name() + " has no meaning with --boxes; leave it out");
+  if (boxes.given()) {
+    for (const CommandLineOption& option : measuring) {
+      require(!option.given(), option.name() + " has no meaning with --boxes; leave it out");
     }
     require(!options.boxes.empty(), "--boxes: no file is named");
     require(!phases.empty(), "--broad-phase is missing: it says which one answers --boxes; see --list broad-phases");
     require(!options.out.empty(), "--out is missing: it names the file for the pairs");
   }
   options.phases = phases_of(phases.empty() ? "all" : phases);
-  if (*boxes) require(options.phases.size() == 1, "--broad-phase: with --boxes it takes one name");
+  if (boxes.given()) require(options.phases.size() == 1, "--broad-phase: with --boxes it takes one name");
   options.bodies = counts_of(bodies);
   require(options.filling > 0 && options.filling <= 100, "--filling: take a number above 0, 100 at most");
   require(options.motion >= 0 && std::isfinite(options.motion), "--motion: take 0 or a finite number above");

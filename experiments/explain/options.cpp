@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/explain/options.hpp"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <utility>
 
@@ -12,18 +11,17 @@ namespace polhode::study::explain {
 
 ExplainOptions parse_explain_options(int argc, const char* const* argv) {
   ExplainOptions options;
-  CLI::App app{
+  CommandLine line{
       "What makes a stored run the run that it is, and in what do two runs differ?\n\nThe id of a run is a hash of the "
       "results version, of the scenario with its varied keys set, and of each option. With one id: all of these. With "
       "two: the keys that differ.",
       "explain"};
-  app.get_formatter()->column_width(40);
   std::vector<std::string> words;
-  app.add_option("words", words,
-                 "one or two ids of runs, or their first digits, and folders of results, or folders with such folders "
-                 "in them (default: results)")
-      ->type_name("ID [ID] FOLDER…");
-  options.exit_status = parse_command_line(app, argc, argv);
+  line.add("words", words,
+           "one or two ids of runs, or their first digits, and folders of results, or folders with such folders "
+           "in them (default: results)")
+      .type_name("ID [ID] FOLDER…");
+  options.exit_status = line.parse(argc, argv);
   if (options.exit_status) return options;
   for (std::string& word : words) {
     std::error_code none;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/figures/options.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include "experiments/study/plan/figure_options.hpp"
 #include "experiments/study/text/command_line.hpp"
 #include "experiments/study/text/input_error.hpp"
@@ -11,23 +9,21 @@ namespace polhode::study::figures_program {
 
 FiguresOptions parse_figures_options(int argc, const char* const* argv) {
   FiguresOptions options;
-  CLI::App app{
+  CommandLine line{
       "What do the figures of a stored study look like in another size, or together with another study?\n\nDraws the "
       "figures of stored runs again, from one store or several as one study, and carries out no run. Figures of an "
       "experiment's own analysis are drawn by the command of the study, which carries out no run either.",
       "figures"};
-  app.get_formatter()->column_width(40);
-  app.add_option("folder", options.folders, "folders of results, or folders with such folders in them")
-      ->type_name("FOLDER…");
-  app.add_option("--where", options.where, "draw runs of which this is true: \"integrator == 'rk4' and dt < 0.01\"")
-      ->type_name("CONDITION")
-      ->allow_extra_args(false)
-      ->group("Results");
-  app.add_option("--out", options.out, "the figures are written to FOLDER/figures (default: the folder of the study)")
-      ->type_name("FOLDER")
-      ->group("Results");
-  add_figure_options(app, options.choice, true, nullptr);
-  options.exit_status = parse_command_line(app, argc, argv);
+  line.add("folder", options.folders, "folders of results, or folders with such folders in them").type_name("FOLDER…");
+  line.add("--where", options.where, "draw runs of which this is true: \"integrator == 'rk4' and dt < 0.01\"")
+      .type_name("CONDITION")
+      .one_value_each_time()
+      .group("Results");
+  line.add("--out", options.out, "the figures are written to FOLDER/figures (default: the folder of the study)")
+      .type_name("FOLDER")
+      .group("Results");
+  add_figure_options(line, options.choice, true, nullptr);
+  options.exit_status = line.parse(argc, argv);
   if (options.exit_status) return options;
   if (options.folders.empty())
     throw InputError(

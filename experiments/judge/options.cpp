@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/judge/options.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "experiments/study/plan/figure_options.hpp"
@@ -12,31 +11,30 @@
 namespace polhode::study::judge {
 JudgeOptions parse_judge_options(int argc, const char* const* argv) {
   JudgeOptions options;
-  CLI::App app{
+  CommandLine line{
       std::string(judge_question) +
           "\n\nTrajectories are CSV files with the columns of trajectory.csv (experiments/judge/README.md), by "
           "name and in any order.",
       "judge"};
-  app.get_formatter()->column_width(40);
   std::vector<std::string> lists;
-  app.add_option("--scenario", options.scenario, "what the trajectories are of: a built-in scenario or a TOML file")
-      ->type_name("NAME|FILE");
-  app.add_option("--trajectory-file", lists, "trajectories, with commas between them")->type_name("FILE,…");
-  app.add_option("files", options.files, "the same, one by one")->type_name("FILE");
-  app.add_flag(
+  line.add("--scenario", options.scenario, "what the trajectories are of: a built-in scenario or a TOML file")
+      .type_name("NAME|FILE");
+  line.add("--trajectory-file", lists, "trajectories, with commas between them").type_name("FILE,…");
+  line.add("files", options.files, "the same, one by one").type_name("FILE");
+  line.add_flag(
       "--reference", options.reference,
       "where no exact solution is known, measure errors against a motion in extended precision that proves its "
       "digits by halving its step");
   std::string rotation = "normalized";
-  app.add_option("--rotation-from", rotation, "what a quaternion off the unit sphere stands for (default: normalized)")
-      ->type_name("normalized|stored")
-      ->check(CLI::IsMember({"normalized", "stored"}).description(""));
-  app.add_option("--out", options.out, "folder of the results (default: results/judge-<scenario>-<hash>)")
-      ->type_name("FOLDER");
-  app.add_flag("--force", options.force, "overwrite other results in that folder");
-  add_no_figures(app, options.figures);
-  add_look_options(app, options.look);
-  options.exit_status = parse_command_line(app, argc, argv);
+  line.add("--rotation-from", rotation, "what a quaternion off the unit sphere stands for (default: normalized)")
+      .type_name("normalized|stored")
+      .one_of({"normalized", "stored"});
+  line.add("--out", options.out, "folder of the results (default: results/judge-<scenario>-<hash>)")
+      .type_name("FOLDER");
+  line.add_flag("--force", options.force, "overwrite other results in that folder");
+  add_no_figures(line, options.figures);
+  add_look_options(line, options.look);
+  options.exit_status = line.parse(argc, argv);
   if (options.exit_status) return options;
   options.rotation_from = rotation == "stored" ? RotationFrom::stored : RotationFrom::normalized;
   for (const std::string& list : lists) {

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 
@@ -25,33 +24,32 @@ bool are_ids(const std::string& word) {
 
 PlotOptions parse_plot_options(int argc, const char* const* argv) {
   PlotOptions options;
-  CLI::App app{
+  CommandLine line{
       fmt::format(
           "How do the quantities of stored runs evolve, and what path does ω trace?\n\nCarries out runs of a store "
           "again, at most {}, and draws quantities of their motion: against time, against each other, or in "
           "space. Every state that the run measures is looked at.",
           most_runs),
       "plot"};
-  app.get_formatter()->column_width(40);
   std::vector<std::string> words;
-  app.add_option("words", words,
-                 "ids of runs, or their first digits, as `results FOLDER --columns run,integrator,dt` prints them "
-                 "(default: all that satisfy --where), and folders of results")
-      ->type_name("[RUN,…] FOLDER…");
+  line.add("words", words,
+           "ids of runs, or their first digits, as `results FOLDER --columns run,integrator,dt` prints them "
+           "(default: all that satisfy --where), and folders of results")
+      .type_name("[RUN,…] FOLDER…");
   std::string quantities = "energy,omega";
-  app.add_option("--quantity", quantities, "what is drawn, of --list (default: energy,omega)")->type_name("NAME,…");
-  app.add_option("--where", options.where, "runs of which this is true: \"integrator == 'rk4' and dt < 0.01\"")
-      ->type_name("CONDITION")
-      ->allow_extra_args(false);
-  app.add_option("--body", options.body,
-                 "of which omega, position and other quantities of one body are (default: the "
-                 "first that moves)")
-      ->type_name("NAME");
-  app.add_option("--out", options.out, "the figures are written to FOLDER/plots (default: the folder of the study)")
-      ->type_name("FOLDER");
-  app.add_flag("--list", options.list, "print the quantities");
-  add_look_options(app, options.look);
-  options.exit_status = parse_command_line(app, argc, argv);
+  line.add("--quantity", quantities, "what is drawn, of --list (default: energy,omega)").type_name("NAME,…");
+  line.add("--where", options.where, "runs of which this is true: \"integrator == 'rk4' and dt < 0.01\"")
+      .type_name("CONDITION")
+      .one_value_each_time();
+  line.add("--body", options.body,
+           "of which omega, position and other quantities of one body are (default: the "
+           "first that moves)")
+      .type_name("NAME");
+  line.add("--out", options.out, "the figures are written to FOLDER/plots (default: the folder of the study)")
+      .type_name("FOLDER");
+  line.add_flag("--list", options.list, "print the quantities");
+  add_look_options(line, options.look);
+  options.exit_status = line.parse(argc, argv);
   if (options.exit_status || options.list) return options;
   for (const std::string& name : split_list(quantities, ',', "--quantity")) {
     const PlotQuantity* quantity = &quantity_named(name);

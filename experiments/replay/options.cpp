@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/replay/options.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include "experiments/study/report/page/replay_link.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/value_lists.hpp"
@@ -24,31 +22,29 @@ ReplayOptions parse_replay_options(int argc, const char* const* argv) {
   ReplayOptions options;
   std::string out, results, runs, three = "/usr/share/javascript/three";
   double megabytes = 3;
-  const auto own = [&](CLI::App& app) {
+  const auto own = [&](CommandLine& line) {
     for (const char* name : {"--out", "--force", "--trajectory", "--reference", "--curves", "--no-figures", "--figure",
                              "--figure-width", "--figure-font", "--figure-title", "--figure-language", "--jobs",
                              "--seed", "--shard", "--merge", "--slurm", "--submit", "--dry-run"}) {
-      app.remove_option(app.get_option(name));
+      line.remove(name);
     }
-    app.add_option("--results", results,
-                   "play what a study with --trajectory csv, or simulate, has kept in this folder")
-        ->type_name("FOLDER")
-        ->group("Motion");
-    app.add_option("--runs", runs, "of that study: the runs with these ids (first column of runs.csv; default: all)")
-        ->type_name("ID,…")
-        ->group("Motion");
-    app.add_option("--out", out, "the page (default: replay.html, in the folder of --results)")
-        ->type_name("FILE")
-        ->group("Page");
-    app.add_flag("--force", options.force, "overwrite a file that is no replay page")->group("Page");
-    app.add_option("--limit", megabytes, "MB, how large the page may become; motion is thinned to fit (default: 3)")
-        ->type_name("MB")
-        ->group("Page");
-    app.add_option(
-           "--three", three,
-           "folder that holds three.min.js and examples/js/controls/OrbitControls.js (default: Debian's libjs-three)")
-        ->type_name("FOLDER")
-        ->group("Page");
+    line.add("--results", results, "play what a study with --trajectory csv, or simulate, has kept in this folder")
+        .type_name("FOLDER")
+        .group("Motion");
+    line.add("--runs", runs, "of that study: the runs with these ids (first column of runs.csv; default: all)")
+        .type_name("ID,…")
+        .group("Motion");
+    line.add("--out", out, "the page (default: replay.html, in the folder of --results)")
+        .type_name("FILE")
+        .group("Page");
+    line.add_flag("--force", options.force, "overwrite a file that is no replay page").group("Page");
+    line.add("--limit", megabytes, "MB, how large the page may become; motion is thinned to fit (default: 3)")
+        .type_name("MB")
+        .group("Page");
+    line.add("--three", three,
+             "folder that holds three.min.js and examples/js/controls/OrbitControls.js (default: Debian's libjs-three)")
+        .type_name("FOLDER")
+        .group("Page");
   };
   ParsedOptions parsed = parse_options(replay_experiment(), argc, argv, own);
   options.study = std::move(parsed.options);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/rerun/options.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include "experiments/study/text/command_line.hpp"
 #include "experiments/study/text/input_error.hpp"
 
@@ -10,25 +8,22 @@ namespace polhode::study::rerun {
 
 RerunOptions parse_rerun_options(int argc, const char* const* argv) {
   RerunOptions options;
-  CLI::App app{
+  CommandLine line{
       "Does a stored run have the same digits when it is carried out again?\n\nRepeats runs from their store alone and "
       "compares every digit of every metric, and of curves that are kept; wall times aside. The exit status is 0 if "
       "all are the same, 1 if one is different, 3 if one could not be repeated.",
       "rerun"};
-  app.get_formatter()->column_width(40);
   std::vector<std::string> words;
-  app.add_option("words", words,
-                 "id of the run, or its first digits, and folders of results, or folders with such folders in them "
-                 "(default: results)")
-      ->type_name("[ID] FOLDER…");
-  app.add_option("--random", options.random, "repeat so many runs, drawn at random")->type_name("N");
-  app.add_option("--seed", options.seed, "seed of that draw (default: 1)")->type_name("N");
+  line.add("words", words,
+           "id of the run, or its first digits, and folders of results, or folders with such folders in them "
+           "(default: results)")
+      .type_name("[ID] FOLDER…");
+  line.add("--random", options.random, "repeat so many runs, drawn at random").type_name("N");
+  line.add("--seed", options.seed, "seed of that draw (default: 1)").type_name("N");
   bool all = false;
-  app.add_flag("--all", all, "repeat all runs");
-  app.add_option("--jobs", options.jobs, "runs at a time (default: one for each core)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 4096).description(""));
-  options.exit_status = parse_command_line(app, argc, argv);
+  line.add_flag("--all", all, "repeat all runs");
+  line.add("--jobs", options.jobs, "runs at a time (default: one for each core)").type_name("N").range(1, 4096);
+  options.exit_status = line.parse(argc, argv);
   if (options.exit_status) return options;
   if (all && options.random) throw InputError("--all and --random: give one of them");
   if (options.random && *options.random == 0) throw InputError("--random: 0 runs show nothing; give a larger number");

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/results/options.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include "experiments/study/text/command_line.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/value_lists.hpp"
@@ -24,57 +22,52 @@ bool ResultsOptions::plain() const {
 
 ResultsOptions parse_results_options(int argc, const char* const* argv) {
   ResultsOptions options;
-  CLI::App app{
+  CommandLine line{
       "What do the results of studies say? Lists, filters, sorts, groups and exports the runs of folders of "
       "results.\n\nWith folders alone: a summary. `results best FOLDER…`: the least error for a cost, or the least "
       "cost for an error, of all methods. The exit status is 1 if damaged runs were left out.",
       "results"};
-  app.get_formatter()->column_width(40);
-  app.add_option("folder", options.folders,
-                 "folders of results, or folders with such folders in them (default: results)")
-      ->type_name("[best] FOLDER…");
-  app.add_option("--where", options.where, "runs of which this is true: \"integrator == 'rk4' and dt < 0.01\"")
-      ->type_name("CONDITION")
-      ->allow_extra_args(false)
-      ->group("Runs");
+  line.add("folder", options.folders, "folders of results, or folders with such folders in them (default: results)")
+      .type_name("[best] FOLDER…");
+  line.add("--where", options.where, "runs of which this is true: \"integrator == 'rk4' and dt < 0.01\"")
+      .type_name("CONDITION")
+      .one_value_each_time()
+      .group("Runs");
   std::string sort, columns, group, show, format;
-  app.add_option("--sort", sort, "order by these columns; a dash before a name: the largest first")
-      ->type_name("COLUMN,…")
-      ->group("Runs");
-  app.add_option("--limit", options.limit, "at most so many rows (default: 100 on the terminal, else all)")
-      ->type_name("N")
-      ->group("Runs");
-  app.add_option("--group", group, "one row for all runs that have the same values in these columns")
-      ->type_name("COLUMN,…")
-      ->group("Runs");
-  app.add_option("--columns", columns, "columns to show, or all (default: those that differ; all in CSV)")
-      ->type_name("COLUMN,…")
-      ->group("Output");
-  app.add_option("--show", show,
-                 "what to show of each group: count, or min, max, mean, median, sum or count of a column: "
-                 "median:attitude_error_max_rad,count (default: count)")
-      ->type_name("[WORD:]COLUMN,…")
-      ->group("Output");
-  app.add_option("--format", format, "table, csv, markdown or latex (default: table; all digits in csv, else five)")
-      ->type_name("FORMAT")
-      ->check(CLI::IsMember({"table", "csv", "markdown", "latex"}).description(""))
-      ->group("Output");
-  app.add_option("--out", options.out, "write this file (default: to the terminal)")
-      ->type_name("FILE")
-      ->group("Output");
+  line.add("--sort", sort, "order by these columns; a dash before a name: the largest first")
+      .type_name("COLUMN,…")
+      .group("Runs");
+  line.add("--limit", options.limit, "at most so many rows (default: 100 on the terminal, else all)")
+      .type_name("N")
+      .group("Runs");
+  line.add("--group", group, "one row for all runs that have the same values in these columns")
+      .type_name("COLUMN,…")
+      .group("Runs");
+  line.add("--columns", columns, "columns to show, or all (default: those that differ; all in CSV)")
+      .type_name("COLUMN,…")
+      .group("Output");
+  line.add("--show", show,
+           "what to show of each group: count, or min, max, mean, median, sum or count of a column: "
+           "median:attitude_error_max_rad,count (default: count)")
+      .type_name("[WORD:]COLUMN,…")
+      .group("Output");
+  line.add("--format", format, "table, csv, markdown or latex (default: table; all digits in csv, else five)")
+      .type_name("FORMAT")
+      .one_of({"table", "csv", "markdown", "latex"})
+      .group("Output");
+  line.add("--out", options.out, "write this file (default: to the terminal)").type_name("FILE").group("Output");
   bool list = false;
-  app.add_flag("--list", list, "print the names of all columns")->group("Output");
-  app.add_option(
-         "--by", options.by,
-         "best: the column whose least value wins (default: the error, or the cost if --at-most bounds an error)")
-      ->type_name("COLUMN")
-      ->group("Best");
-  app.add_option("--at-most", options.at_most,
-                 "best: runs whose value is not larger, as evaluations=1e5 or attitude_error_max_rad=1e-6 (default: "
-                 "none, and the runs are shown that no other run of their method beats in both)")
-      ->type_name("COLUMN=X")
-      ->group("Best");
-  options.exit_status = parse_command_line(app, argc, argv);
+  line.add_flag("--list", list, "print the names of all columns").group("Output");
+  line.add("--by", options.by,
+           "best: the column whose least value wins (default: the error, or the cost if --at-most bounds an error)")
+      .type_name("COLUMN")
+      .group("Best");
+  line.add("--at-most", options.at_most,
+           "best: runs whose value is not larger, as evaluations=1e5 or attitude_error_max_rad=1e-6 (default: "
+           "none, and the runs are shown that no other run of their method beats in both)")
+      .type_name("COLUMN=X")
+      .group("Best");
+  options.exit_status = line.parse(argc, argv);
   if (options.exit_status) return options;
   options.list = list;
   if (!options.folders.empty() && options.folders.front() == "best") {

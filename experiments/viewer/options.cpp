@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -145,10 +144,9 @@ Options parse(const std::string& question, int argc, const char* const* argv) {
   Said said;
   std::vector<std::string> trajectories;
   std::string list, out, film, record = "on", captions = "on";
-  CLI::App app{question, "viewer"};
-  app.get_formatter()->column_width(40);
-  const auto add = [&app](const std::string& name, auto& to, const char* help, const char* type, const char* group) {
-    return app.add_option(name, to, help)->type_name(type)->group(group);
+  study::CommandLine line{question, "viewer"};
+  const auto add = [&line](const std::string& name, auto& to, const char* help, const char* type, const char* group) {
+    return line.add(name, to, help).type_name(type).group(group);
   };
   const char* const scene = "What moves";
   add("--scenario", said.scenario, "scenario, built in or a TOML file, see --list scenarios (default: dzhanibekov)",
@@ -178,37 +176,37 @@ Options parse(const std::string& question, int argc, const char* const* argv) {
       "LIST", look);
   add("--azimuth", said.azimuth, "of the camera about z in rad (default: as the scene asks for)", "RAD", look);
   add("--elevation", said.elevation, "of the camera in rad", "RAD", look);
-  add("--zoom", options.window.shown.zoom, "so many times as near (default: 1)", "X", look)
-      ->check(CLI::Range(1e-3, 1e3).description(""));
+  add("--zoom", options.window.shown.zoom, "so many times as near (default: 1)", "X", look).range(1e-3, 1e3);
   add("--speed", options.window.speed, "simulated seconds to one of the wall, or of the film (default: 1)", "X", look)
-      ->check(CLI::Range(1e-6, 1e6).description(""));
+      .range(1e-6, 1e6);
   add("--samples", options.window.samples, "a pixel: 1, 2, 4 or 8 (default: 4; 1 in a window that the processor draws)",
       "N", look)
-      ->check(CLI::IsMember({1, 2, 4, 8}).description(""));
-  app.add_flag("--play", options.window.play, "begin at once")->group(look);
+      .one_of({"1", "2", "4", "8"});
+  line.add_flag("--play", options.window.play, "begin at once").group(look);
   add("--script", options.window.script, "clicks and looks as this file says, then ends", "FILE", look);
   const char* const pictures = "Pictures and films, without a display";
-  app.add_flag("--offscreen", options.offscreen, "pictures instead of a window")->group(pictures);
+  line.add_flag("--offscreen", options.offscreen, "pictures instead of a window").group(pictures);
   add("--from", options.pictures.from, "the first picture, in s (default: 0)", "S", pictures);
   add("--duration", options.pictures.duration, "simulated, in s; 0 for one picture (default: to the end)", "S",
       pictures);
   add("--frames-per-second", options.pictures.frames_per_second, "of the film (default: 30)", "N", pictures)
-      ->check(CLI::Range(1, 240).description(""));
+      .range(1, 240);
   add("--film", film, "also make a film of the pictures, by ffmpeg", "FILE", pictures);
-  app.add_flag("--pause-on-collision", options.pictures.pause_on_collision, "end with the first collision")
-      ->group(pictures);
-  app.add_flag("--plots", options.pictures.plots, "energy, momentum and defect below")->group(pictures);
+  line.add_flag("--pause-on-collision", options.pictures.pause_on_collision, "end with the first collision")
+      .group(pictures);
+  line.add_flag("--plots", options.pictures.plots, "energy, momentum and defect below").group(pictures);
   add("--captions", captions, "method and time in the picture: on, off (default: on)", "ON|OFF", pictures);
   add("--out", out, "folder of sessions and pictures (default: results/viewer-<scenario>)", "FOLDER", "Output");
   add("--record", record, "session.toml of each live session: on, off (default: on)", "ON|OFF", "Output");
   add("--write-trajectory", options.stage.trajectory,
       "the motion of each session, as a study writes it, into this folder", "FOLDER", "Output");
-  CLI::Option* list_option = app.add_option("--list", list, "print the catalogue, for example scenarios (default: all)")
-                                 ->type_name("[WHAT]")
-                                 ->expected(0, 1);
-  options.exit_status = study::parse_command_line(app, argc, argv);
+  const study::CommandLineOption list_option =
+      line.add("--list", list, "print the catalogue, for example scenarios (default: all)")
+          .type_name("[WHAT]")
+          .value_may_be_absent();
+  options.exit_status = line.parse(argc, argv);
   if (options.exit_status) return options;
-  if (*list_option) options.list = list;
+  if (list_option.given()) options.list = list;
   if (options.list || !options.rerun.empty()) return options;
 
   options.stage.scenario = said.scenario;

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -46,10 +45,10 @@ void choose(const std::string& text, bool closed, FigureChoice& choice) {
 
 std::span<const FigureName> figure_names() { return figure_table; }
 
-void add_look_options(CLI::App& app, Look& look) {
+void add_look_options(CommandLine& line, Look& look) {
   const auto add = [&](const char* name, std::function<void(const std::string&)> use, const std::string& meaning,
                        const char* type) {
-    return app.add_option_function<std::string>(name, std::move(use), meaning)->type_name(type)->group("Figures");
+    return line.add_function(name, std::move(use), meaning).type_name(type).group("Figures");
   };
   add(
       "--figure-width", [&look](const std::string& text) { look.width_cm = read_figure_width(text, "--figure-width"); },
@@ -62,7 +61,7 @@ void add_look_options(CLI::App& app, Look& look) {
   add(
       "--figure-title", [&look](const std::string& text) { look.title = text == "on"; },
       "write the title of each figure above it (default: off)", "on|off")
-      ->check(CLI::IsMember({"on", "off"}).description(""));
+      .one_of({"on", "off"});
   std::string names = "en";
   for (const LanguageFile& file : language_files()) names += fmt::format("|{}", file.name);
   add(
@@ -72,15 +71,16 @@ void add_look_options(CLI::App& app, Look& look) {
       (names + "|FILE").c_str());
 }
 
-void add_figure_options(CLI::App& app, FigureChoice& choice, bool closed, CLI::Option* excludes) {
-  CLI::Option* figure = app.add_option_function<std::string>(
-                               "--figure", [&choice, closed](const std::string& text) { choose(text, closed, choice); },
-                               fmt::format("figures that are drawn, of --list figures{} (default: all)",
-                                           closed ? "" : " or of the experiment's own"))
-                            ->type_name("NAME,…|all")
-                            ->group("Figures");
-  if (excludes != nullptr) figure->excludes(excludes);
-  add_look_options(app, choice.look);
+void add_figure_options(CommandLine& line, FigureChoice& choice, bool closed, const CommandLineOption* excludes) {
+  const CommandLineOption figure =
+      line.add_function(
+              "--figure", [&choice, closed](const std::string& text) { choose(text, closed, choice); },
+              fmt::format("figures that are drawn, of --list figures{} (default: all)",
+                          closed ? "" : " or of the experiment's own"))
+          .type_name("NAME,…|all")
+          .group("Figures");
+  if (excludes != nullptr) figure.excludes(*excludes);
+  add_look_options(line, choice.look);
 }
 
 }  // namespace polhode::study::plan

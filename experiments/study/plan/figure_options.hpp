@@ -6,11 +6,7 @@
 #include <string_view>
 
 #include "experiments/study/plot/figure_choice.hpp"
-
-namespace CLI {
-class App;
-class Option;
-}
+#include "experiments/study/text/command_line.hpp"
 
 namespace polhode::study::inline plan {
 
@@ -22,10 +18,10 @@ struct FigureName {
 std::span<const FigureName> figure_names();
 
 /// Adds --figure-width, --figure-font, --figure-title and --figure-language.
-void add_look_options(CLI::App& app, Look& look);
+void add_look_options(CommandLine& line, Look& look);
 
 /// Adds --figure and these. `closed`: there are no figures but figure_names();
 /// otherwise an experiment's analysis has further ones. `excludes`: an option that cannot be given with --figure.
-void add_figure_options(CLI::App& app, FigureChoice& choice, bool closed, CLI::Option* excludes);
+void add_figure_options(CommandLine& line, FigureChoice& choice, bool closed, const CommandLineOption* excludes);
 
 }  // namespace polhode::study::plan

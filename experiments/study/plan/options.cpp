@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <map>
@@ -155,15 +154,14 @@ std::vector<std::string> axis_names() {
 }
 
 ParsedOptions parse_options(const Experiment& experiment, int argc, const char* const* argv,
-                            const std::function<void(CLI::App&)>& more) {
+                            const std::function<void(CommandLine&)>& more) {
   ParsedOptions parsed;
   Options& options = parsed.options;
   const std::string explained = experiment.meaning.empty() ? "" : "\n\n" + experiment.meaning;
-  CLI::App app{experiment.question + explained +
-                   "\n\nAxes take a list (a,b,c) or a range (1e-4:1e-1:10, or 1e-4:1e-1:10:log); the "
-                   "study is the product of all axes and tables of points. SI units throughout.",
-               experiment.name};
-  app.get_formatter()->column_width(40);
+  CommandLine line{experiment.question + explained +
+                       "\n\nAxes take a list (a,b,c) or a range (1e-4:1e-1:10, or 1e-4:1e-1:10:log); the "
+                       "study is the product of all axes and tables of points. SI units throughout.",
+                   experiment.name};
   std::map<std::string, std::string> given;
   for (const RunOption& axis : run_options()) {
     std::string meaning = axis.help;
@@ -173,26 +171,26 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
       meaning += fmt::format(
           " (default: {}{})", preset->second,
           jointed == experiment.with_joints.defaults.end() ? "" : "; with methods of joints alone: " + jointed->second);
-    app.add_option_function<std::string>(
-           "--" + axis.name, [&given, name = axis.name](const std::string& text) { given[name] = text; }, meaning)
-        ->type_name(axis.values)
-        ->group("Axes");
+    line.add_function(
+            "--" + axis.name, [&given, name = axis.name](const std::string& text) { given[name] = text; }, meaning)
+        .type_name(axis.values)
+        .group("Axes");
   }
   std::vector<std::string> vary;
   std::string preset_vary;
   for (const auto& [key, values] : experiment.vary) {
     preset_vary += (preset_vary.empty() ? " (default, of the default scenario: " : " ") + key + "=" + values;
   }
-  app.add_option("--vary", vary,
-                 "any key of the scenario as an axis: body.0.inertia.1=0.5:3:20, or whole vectors: "
-                 "'body.0.angular_velocity=[0,1,0];[1,0,0]'" +
-                     preset_vary + (preset_vary.empty() ? "" : ")"))
-      ->type_name("KEY=VALUES")
-      ->allow_extra_args(false)
-      ->group("Axes");
+  line.add("--vary", vary,
+           "any key of the scenario as an axis: body.0.inertia.1=0.5:3:20, or whole vectors: "
+           "'body.0.angular_velocity=[0,1,0];[1,0,0]'" +
+               preset_vary + (preset_vary.empty() ? "" : ")"))
+      .type_name("KEY=VALUES")
+      .one_value_each_time()
+      .group("Axes");
   Words words;
   const auto add_words = [&](const char* name, std::vector<std::string>& into, const char* type, const char* help) {
-    app.add_option(name, into, help)->type_name(type)->allow_extra_args(false)->group("Axes");
+    line.add(name, into, help).type_name(type).one_value_each_time().group("Axes");
   };
   add_words("--grid", words.grid, "KEY=VALUES", "an axis by its name in study files: dt=1e-3,1e-2 or body.0.mass=1,2");
   add_words("--zip", words.zip, "KEY=VALUES…",
@@ -205,73 +203,73 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   add_words("--where", words.where, "CONDITION",
             "leave out all other cells: 'dt < 0.1 * body.0.inertia.1 and not (integrator == \"rk4\")'");
   std::optional<std::string> study_file;
-  app.add_option("--study", study_file, "read studies from a TOML file, or one of them; the command line overrides it")
-      ->type_name("FILE[:NAME]")
-      ->group("Axes");
-  app.add_option("--out", options.out, "folder of the results (default: results/<experiment>-<scenario>-<hash>)")
-      ->type_name("FOLDER")
-      ->group("Results");
-  app.add_flag("--force", options.force,
-               "overwrite the results of a different study in that folder; runs of the same one that failed are "
-               "carried out again")
-      ->group("Results");
+  line.add("--study", study_file, "read studies from a TOML file, or one of them; the command line overrides it")
+      .type_name("FILE[:NAME]")
+      .group("Axes");
+  line.add("--out", options.out, "folder of the results (default: results/<experiment>-<scenario>-<hash>)")
+      .type_name("FOLDER")
+      .group("Results");
+  line.add_flag("--force", options.force,
+                "overwrite the results of a different study in that folder; runs of the same one that failed are "
+                "carried out again")
+      .group("Results");
   std::string trajectory = experiment.one_run ? "csv" : "none";
-  app.add_option("--trajectory", trajectory, "write the motion of every run (default: " + trajectory + ")")
-      ->type_name("none|csv|hdf5")
-      ->check(CLI::IsMember({"none", "csv", "hdf5"}).description(""))
-      ->group("Results");
+  line.add("--trajectory", trajectory, "write the motion of every run (default: " + trajectory + ")")
+      .type_name("none|csv|hdf5")
+      .one_of({"none", "csv", "hdf5"})
+      .group("Results");
   bool reference = false;
-  app.add_flag(
-         "--reference", reference,
-         "where no exact solution is known, measure errors against a motion in extended precision that proves its "
-         "digits by halving its step")
-      ->group("Results");
+  line.add_flag(
+          "--reference", reference,
+          "where no exact solution is known, measure errors against a motion in extended precision that proves its "
+          "digits by halving its step")
+      .group("Results");
   std::string curves;
-  app.add_option("--curves", curves,
-                 "curves of drift against time are kept for at most so many runs, of evenly chosen motions (default: " +
-                     (experiment.curves_are_results ? "all" : std::to_string(most_curves)) + ")")
-      ->type_name("all|none|N")
-      ->group("Results");
-  add_article(app, options.article)->group("Results");
-  CLI::Option* no_figures = add_no_figures(app, options.figures)->group("Figures");
-  add_figure_options(app, options.figure_choice, !experiment.analysis, no_figures);
-  app.add_option("--jobs", options.jobs, "runs at a time (default: one for each core)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 4096).description(""))
-      ->group("Running");
-  app.add_option(
-         "--max-steps", options.max_steps,
-         "a run of an adaptive method that is not at its end after so many steps has failed (default: 100000000)")
-      ->type_name("N")
-      ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 52).description(""))
-      ->group("Running");
-  app.add_option("--seed", options.seed, "seed of random points (default: 1)")->type_name("N")->group("Running");
+  line.add("--curves", curves,
+           "curves of drift against time are kept for at most so many runs, of evenly chosen motions (default: " +
+               (experiment.curves_are_results ? "all" : std::to_string(most_curves)) + ")")
+      .type_name("all|none|N")
+      .group("Results");
+  add_article(line, options.article).group("Results");
+  const CommandLineOption no_figures = add_no_figures(line, options.figures).group("Figures");
+  add_figure_options(line, options.figure_choice, !experiment.analysis, &no_figures);
+  line.add("--jobs", options.jobs, "runs at a time (default: one for each core)")
+      .type_name("N")
+      .range(1, 4096)
+      .group("Running");
+  line.add("--max-steps", options.max_steps,
+           "a run of an adaptive method that is not at its end after so many steps has failed (default: 100000000)")
+      .type_name("N")
+      .range(std::int64_t(1), std::int64_t(1) << 52)
+      .group("Running");
+  line.add("--seed", options.seed, "seed of random points (default: 1)").type_name("N").group("Running");
   std::optional<std::string> shard;
-  app.add_option("--shard", shard,
-                 "carry out the K-th of N parts of the study, in a store of its own; --merge joins them afterwards")
-      ->type_name("K/N")
-      ->group("Running");
-  app.add_flag("--merge", options.merge, "join the results of shards, say what is missing, and carry out no run")
-      ->group("Running");
-  app.add_option("--slurm", options.slurm,
-                 "write job scripts for Slurm and GNU parallel: 'shards=64 cpus=1 time=2:00:00 mem=2G account=A "
-                 "partition=P warning=60 rounds=3 option=--qos=long'")
-      ->type_name("KEY=VALUE…")
-      ->group("Running");
-  app.add_flag("--submit", options.submit, "submit the scripts of --slurm")->group("Running");
-  app.add_flag("--dry-run", options.dry_run, "print the plan and write nothing")->group("Running");
+  line.add("--shard", shard,
+           "carry out the K-th of N parts of the study, in a store of its own; --merge joins them afterwards")
+      .type_name("K/N")
+      .group("Running");
+  line.add_flag("--merge", options.merge, "join the results of shards, say what is missing, and carry out no run")
+      .group("Running");
+  line.add("--slurm", options.slurm,
+           "write job scripts for Slurm and GNU parallel: 'shards=64 cpus=1 time=2:00:00 mem=2G account=A "
+           "partition=P warning=60 rounds=3 option=--qos=long'")
+      .type_name("KEY=VALUE…")
+      .group("Running");
+  line.add_flag("--submit", options.submit, "submit the scripts of --slurm").group("Running");
+  line.add_flag("--dry-run", options.dry_run, "print the plan and write nothing").group("Running");
   std::string list;
-  CLI::Option* list_option = app.add_option("--list", list,
-                                            "print the catalogue: integrators, scenarios, forces, shapes, invariants, "
-                                            "broad-phases, narrow-phases, responses, impact-timings, figures or "
-                                            "metrics (default: all), or all of it as json")
-                                 ->type_name("[WHAT]")
-                                 ->expected(0, 1)
-                                 ->group("Running");
-  if (more) more(app);
-  parsed.exit_status = parse_command_line(app, argc, argv);
+  const CommandLineOption list_option =
+      line.add("--list", list,
+               "print the catalogue: integrators, scenarios, forces, shapes, invariants, "
+               "broad-phases, narrow-phases, responses, impact-timings, figures or "
+               "metrics (default: all), or all of it as json")
+          .type_name("[WHAT]")
+          .value_may_be_absent()
+          .group("Running");
+  if (more) more(line);
+  parsed.exit_status = line.parse(argc, argv);
   if (parsed.exit_status) return parsed;
-  if (*list_option) options.list = list;
+  if (list_option.given()) options.list = list;
   options.trajectory = trajectory == "csv"    ? TrajectoryFormat::csv
                        : trajectory == "hdf5" ? TrajectoryFormat::hdf5
                                               : TrajectoryFormat::none;

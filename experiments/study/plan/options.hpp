@@ -14,11 +14,8 @@
 #include "experiments/study/plan/shard.hpp"
 #include "experiments/study/plan/study_axes.hpp"
 #include "experiments/study/plot/figure_choice.hpp"
+#include "experiments/study/text/command_line.hpp"
 #include "experiments/study/trajectory/trajectory.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace polhode::study::inline plan {
 
@@ -57,7 +54,7 @@ struct ParsedOptions {
 /// Parses the command line of an experiment. `more` may add options to those of all experiments, or remove some. Throws
 /// InputError.
 ParsedOptions parse_options(const Experiment& experiment, int argc, const char* const* argv,
-                            const std::function<void(CLI::App&)>& more = {});
+                            const std::function<void(CommandLine&)>& more = {});
 
 /// What a study file holds.
 struct StudyFile {

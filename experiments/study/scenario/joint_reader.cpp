@@ -16,7 +16,7 @@ namespace {
 
 constexpr double closed_to = 1e-9;  // m, rad, m/s, rad/s
 
-const JointKind& read_kind(const TomlCursor& joint) {
+const JointKind& read_joint_kind(const TomlCursor& joint) {
   const TomlCursor name = joint.at("kind", "the name of a kind of joint");
   if (const JointEntry* entry = find_joint(name.text("the name of a kind of joint"))) return entry->kind;
   std::vector<std::string_view> known;
@@ -59,7 +59,7 @@ void check_directions(const TomlCursor& table, const ForceParameters& values) {
 JointParameters read_joint(const TomlCursor& table, std::size_t number, const BodyIndex& index,
                            const Problem& problem) {
   if (table.value().type != TomlValue::Type::table) table.refuse("a table under [[joint]]");
-  const JointKind& kind = read_kind(table);
+  const JointKind& kind = read_joint_kind(table);
   JointParameters joint;
   joint.name = table.has("name") ? table.at("name", "").text("a text of one line") : "joint" + std::to_string(number);
   joint.of.kind = kind.name;

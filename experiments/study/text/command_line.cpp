@@ -2,6 +2,11 @@
 #include "experiments/study/text/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <utility>
 
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/suggestion.hpp"
@@ -26,30 +31,110 @@ std::string unknown_word(const CLI::App& app, const std::string& word) {
 
 }  // namespace
 
-CLI::Option* add_no_figures(CLI::App& app, bool& figures) {
-  return app.add_flag_callback(
-      "--no-figures", [&figures] { figures = false; }, "no figures");
+CommandLineOption CommandLineOption::type_name(const std::string& name) const {
+  option_->type_name(name);
+  return *this;
 }
 
-CLI::Option* add_article(CLI::App& app, bool& article) {
-  return app.add_flag_callback(
-      "--article", [&article] { article = true; },
-      "an article in LaTeX and its PDF, in the folder article (needs pdflatex); of a study that is done, the same "
-      "command with it carries out no run");
+CommandLineOption CommandLineOption::group(const std::string& heading) const {
+  option_->group(heading);
+  return *this;
 }
 
-std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const* argv) {
+CommandLineOption CommandLineOption::one_of(const std::vector<std::string>& values) const {
+  option_->check(CLI::IsMember(values).description(""));
+  return *this;
+}
+
+template <class T>
+CommandLineOption CommandLineOption::range(T least, T most) const {
+  option_->check(CLI::Range(least, most).description(""));
+  return *this;
+}
+template CommandLineOption CommandLineOption::range(int, int) const;
+template CommandLineOption CommandLineOption::range(double, double) const;
+template CommandLineOption CommandLineOption::range(std::int64_t, std::int64_t) const;
+template CommandLineOption CommandLineOption::range(std::size_t, std::size_t) const;
+
+CommandLineOption CommandLineOption::one_value_each_time() const {
+  option_->allow_extra_args(false);
+  return *this;
+}
+
+CommandLineOption CommandLineOption::value_may_be_absent() const {
+  option_->expected(0, 1);
+  return *this;
+}
+
+CommandLineOption CommandLineOption::excludes(const CommandLineOption& other) const {
+  option_->excludes(other.option_);
+  return *this;
+}
+
+bool CommandLineOption::given() const { return option_->count() > 0; }
+
+std::string CommandLineOption::name() const { return option_->get_name(); }
+
+CommandLine::CommandLine(const std::string& question, const std::string& program, int help_column)
+    : app_(std::make_unique<CLI::App>(question, program)) {
+  app_->get_formatter()->column_width(std::size_t(help_column));
+}
+
+CommandLine::~CommandLine() = default;
+
+template <class T>
+CommandLineOption CommandLine::add(const std::string& name, T& value, const std::string& meaning) {
+  return CommandLineOption(*app_->add_option(name, value, meaning));
+}
+#define POLHODE_VALUE(T) template CommandLineOption CommandLine::add(const std::string&, T&, const std::string&)
+POLHODE_VALUE(std::string);
+POLHODE_VALUE(std::filesystem::path);
+POLHODE_VALUE(std::vector<std::string>);
+POLHODE_VALUE(int);
+POLHODE_VALUE(std::size_t);
+POLHODE_VALUE(double);
+POLHODE_VALUE(std::optional<std::string>);
+POLHODE_VALUE(std::optional<int>);
+POLHODE_VALUE(std::optional<std::int64_t>);
+POLHODE_VALUE(std::optional<std::size_t>);
+POLHODE_VALUE(std::optional<double>);
+#undef POLHODE_VALUE
+
+CommandLineOption CommandLine::add_function(const std::string& name, std::function<void(const std::string&)> use,
+                                            const std::string& meaning) {
+  return CommandLineOption(*app_->add_option_function<std::string>(name, std::move(use), meaning));
+}
+
+CommandLineOption CommandLine::add_flag(const std::string& name, bool& flag, const std::string& meaning, bool made) {
+  return CommandLineOption(*app_->add_flag_callback(
+      name, [&flag, made] { flag = made; }, meaning));
+}
+
+void CommandLine::remove(const std::string& name) { app_->remove_option(app_->get_option(name)); }
+
+std::optional<int> CommandLine::parse(int argc, const char* const* argv) {
   try {
-    app.parse(argc, argv);
+    app_->parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
+    return app_->exit(help);
   } catch (const CLI::ExtrasError&) {
-    throw InputError(unknown_word(app, app.remaining().front()));
+    throw InputError(unknown_word(*app_, app_->remaining().front()));
   } catch (const CLI::ParseError& error) {
     const std::string text = error.what();
     throw InputError(text.substr(0, text.find('\n')) + "; see --help");
   }
   return std::nullopt;
+}
+
+CommandLineOption add_no_figures(CommandLine& line, bool& figures) {
+  return line.add_flag("--no-figures", figures, "no figures", false);
+}
+
+CommandLineOption add_article(CommandLine& line, bool& article) {
+  return line.add_flag(
+      "--article", article,
+      "an article in LaTeX and its PDF, in the folder article (needs pdflatex); of a study that is done, the same "
+      "command with it carries out no run");
 }
 
 std::string shell_word(const std::string& word) {
