@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,7 +23,36 @@ S least_pivot() {
   return least;
 }
 
+/// Solves L Lᵀ x = right in place, for the lower triangle L.
+template <class S>
+void solve_by_factor(const Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>& lower, VectorX<S>& x) {
+  lower.template triangularView<Eigen::Lower>().solveInPlace(x);
+  lower.transpose().template triangularView<Eigen::Upper>().solveInPlace(x);
+}
+
+/// Applies Householder's reflections 0 … n−1 of a factorization to x, the first one first, or the last one first.
+template <class S>
+void reflect(const Eigen::ColPivHouseholderQR<Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>>& qr, Eigen::Index n,
+             bool first_one_first, VectorX<S>& x) {
+  const auto& columns = qr.matrixQR();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Index k = first_one_first ? i : n - 1 - i;
+    S product = x[k];  // the reflection's vector is 1 at k
+    for (Eigen::Index j = k + 1; j < x.size(); ++j) product += columns(j, k) * x[j];
+    product *= qr.hCoeffs()[k];
+    x[k] -= product;
+    for (Eigen::Index j = k + 1; j < x.size(); ++j) x[j] -= product * columns(j, k);
+  }
+}
+
 }  // namespace
+
+/// The matrix of many rows and its factorization.
+template <class S>
+struct ConstraintSolver<S>::Sparse {
+  Eigen::SparseMatrix<S> matrix;  ///< lower triangle
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<S>> factor;
+};
 
 template <class S>
 ConstraintSolver<S>::ConstraintSolver(const Problem& problem, std::vector<std::size_t> one,
@@ -37,6 +67,9 @@ ConstraintSolver<S>::ConstraintSolver(const Problem& problem, std::vector<std::s
   if (rows_.size() <= most_dense_rows) dense_.resize(Eigen::Index(rows_.size()), Eigen::Index(rows_.size()));
   else find_pattern();
 }
+
+template <class S>
+ConstraintSolver<S>::~ConstraintSolver() = default;
 
 /// Lists the pairs of rows with a common body.
 template <class S>
@@ -59,15 +92,17 @@ template <class S>
 void ConstraintSolver<S>::find_pattern() {
   std::vector<Eigen::Triplet<S>> triplets;
   for (const Term& t : terms_) triplets.emplace_back(int(t.row), int(t.column), S(1));
-  sparse_.resize(Eigen::Index(rows_.size()), Eigen::Index(rows_.size()));
-  sparse_.setFromTriplets(triplets.begin(), triplets.end());
-  sparse_.makeCompressed();
+  sparse_ = std::make_unique<Sparse>();
+  Eigen::SparseMatrix<S>& matrix = sparse_->matrix;
+  matrix.resize(Eigen::Index(rows_.size()), Eigen::Index(rows_.size()));
+  matrix.setFromTriplets(triplets.begin(), triplets.end());
+  matrix.makeCompressed();
   for (Term& t : terms_) {
-    const int* begin = sparse_.innerIndexPtr() + sparse_.outerIndexPtr()[t.column];
-    const int* end = sparse_.innerIndexPtr() + sparse_.outerIndexPtr()[t.column + 1];
-    t.entry = std::size_t(std::lower_bound(begin, end, int(t.row)) - sparse_.innerIndexPtr());
+    const int* begin = matrix.innerIndexPtr() + matrix.outerIndexPtr()[t.column];
+    const int* end = matrix.innerIndexPtr() + matrix.outerIndexPtr()[t.column + 1];
+    t.entry = std::size_t(std::lower_bound(begin, end, int(t.row)) - matrix.innerIndexPtr());
   }
-  sparse_factor_.analyzePattern(sparse_);
+  sparse_->factor.analyzePattern(matrix);
 }
 
 template <class S>
@@ -142,29 +177,29 @@ bool ConstraintSolver<S>::solve_dense(const VectorX<S>& right, VectorX<S>& lambd
     if (!(dense_(i, i) * dense_(i, i) > least_pivot<S>() * diagonal_[i])) return false;
   }
   lambda = right;
-  dense_.template triangularView<Eigen::Lower>().solveInPlace(lambda);
-  dense_.transpose().template triangularView<Eigen::Upper>().solveInPlace(lambda);
+  solve_by_factor(dense_, lambda);
   return true;
 }
 
 template <class S>
 bool ConstraintSolver<S>::solve_sparse(const VectorX<S>& right, VectorX<S>& lambda) {
-  S* values = sparse_.valuePtr();
-  std::fill(values, values + sparse_.nonZeros(), S(0));
+  auto& [matrix, factor] = *sparse_;
+  S* values = matrix.valuePtr();
+  std::fill(values, values + matrix.nonZeros(), S(0));
   add_terms([&](const Term& t, S value) { values[t.entry] += value; });
-  for (Eigen::Index i = 0; i < sparse_.cols(); ++i) {  // the diagonal entry comes first in the lower triangle
-    S& entry = values[sparse_.outerIndexPtr()[i]];
+  for (Eigen::Index i = 0; i < matrix.cols(); ++i) {  // the diagonal entry comes first in the lower triangle
+    S& entry = values[matrix.outerIndexPtr()[i]];
     entry = soft(entry);
   }
-  sparse_factor_.factorize(sparse_);
-  if (sparse_factor_.info() != Eigen::Success) return false;
-  diagonal_ = sparse_.diagonal();
-  const auto pivots = sparse_factor_.vectorD();
-  const auto& order = sparse_factor_.permutationP().indices();
+  factor.factorize(matrix);
+  if (factor.info() != Eigen::Success) return false;
+  diagonal_ = matrix.diagonal();
+  const auto pivots = factor.vectorD();
+  const auto& order = factor.permutationP().indices();
   for (Eigen::Index i = 0; i < pivots.size(); ++i) {
     if (!(pivots[order[i]] > least_pivot<S>() * diagonal_[i])) return false;
   }
-  lambda = sparse_factor_.solve(right);
+  lambda = factor.solve(right);
   return true;
 }
 
@@ -216,18 +251,40 @@ auto ConstraintSolver<S>::weighted_rows(Motions motions) const -> std::pair<Matr
   return {std::move(a), std::move(scale)};
 }
 
-/// x = A⁺ right, the smallest correction of the accelerations, and λ of least norm with Aᵀ λ = x.
+/// λ = (A Aᵀ)⁺ right, A the weighted rows: Aᵀ λ is the smallest correction of the accelerations, and λ has the least
+/// norm. A P = Q Tᵀ with the independent columns of Tᵀ, and T P' = Q' R; hence λ = Q P' R⁻¹ R⁻ᵀ P'ᵀ Qᵀ right. Eigen's
+/// complete orthogonal decomposition, twice, gives the same: the step of a mechanism takes 1.2 times as long then, and
+/// this file twice as long to compile.
 template <class S>
 void ConstraintSolver<S>::solve_by_rank(const VectorX<S>& right, VectorX<S>& lambda) const {
   const auto [a, scale] = weighted_rows(motions_);
-  Eigen::CompleteOrthogonalDecomposition<MatrixX> of_rows;
+  Eigen::ColPivHouseholderQR<MatrixX> of_rows;
   of_rows.setThreshold(threshold());
   of_rows.compute(a);
-  const VectorX<S> x = of_rows.solve(scale.cwiseProduct(right));
-  Eigen::CompleteOrthogonalDecomposition<MatrixX> of_columns;
-  of_columns.setThreshold(threshold());
-  of_columns.compute(a.transpose());
-  lambda = scale.cwiseProduct(of_columns.solve(x));
+  const Eigen::Index rank = of_rows.rank();
+  if (rank == 0) {  // no row, or numbers that are not finite
+    lambda = VectorX<S>::Zero(right.size());
+    return;
+  }
+  MatrixX t = MatrixX::Zero(a.cols(), rank);
+  for (Eigen::Index i = 0; i < rank; ++i) {
+    for (Eigen::Index j = i; j < a.cols(); ++j) t(j, i) = of_rows.matrixQR()(i, j);
+  }
+  const Eigen::ColPivHouseholderQR<MatrixX> of_columns(t);
+  MatrixX lower = MatrixX::Zero(rank, rank);  // Rᵀ
+  for (Eigen::Index i = 0; i < rank; ++i) {
+    for (Eigen::Index j = i; j < rank; ++j) lower(j, i) = of_columns.matrixQR()(i, j);
+  }
+  VectorX<S> whole = scale.cwiseProduct(right);
+  reflect(of_rows, rank, true, whole);
+  const auto& order = of_columns.colsPermutation().indices();
+  VectorX<S> x(rank);
+  for (Eigen::Index i = 0; i < rank; ++i) x[i] = whole[order[i]];
+  solve_by_factor(lower, x);
+  whole.setZero();
+  for (Eigen::Index i = 0; i < rank; ++i) whole[order[i]] = x[i];
+  reflect(of_rows, rank, false, whole);
+  lambda = scale.cwiseProduct(whole);
 }
 
 /// Relative size of a pivot below which a row counts as dependent. Drift of the positions perturbs the pivot of a row
@@ -244,9 +301,10 @@ auto ConstraintSolver<S>::rank(Motions motions) const -> Rank {
   if (rows_.empty()) return found;
   const auto [a, scale] = weighted_rows(motions);
   // Pivots of the transpose: its columns are the rows of the joints.
+  const MatrixX columns = a.transpose();
   Eigen::ColPivHouseholderQR<MatrixX> qr;
   qr.setThreshold(threshold());
-  qr.compute(a.transpose());
+  qr.compute(columns);
   found.rank = std::size_t(qr.rank());
   const auto pivots = qr.matrixQR().diagonal().cwiseAbs();
   if (found.rank > 0) found.condition = double(pivots[0] / pivots[qr.rank() - 1]);

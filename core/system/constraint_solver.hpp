@@ -6,8 +6,8 @@
 // smallest correction that satisfies the independent rows, and λ has the least norm.
 #pragma once
 
-#include <Eigen/SparseCholesky>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -27,6 +27,7 @@ class ConstraintSolver {
   /// The moving bodies of the problem, and the bodies of each row: first and second, or `none` for one that does not
   /// move.
   ConstraintSolver(const Problem& problem, std::vector<std::size_t> one, std::vector<std::size_t> two);
+  ~ConstraintSolver();
 
   static constexpr std::size_t none = std::size_t(-1);
 
@@ -157,8 +158,8 @@ class ConstraintSolver {
   std::vector<Matrix3<S>> inverse_inertia_;
 
   MatrixX dense_;
-  Eigen::SparseMatrix<S> sparse_;  ///< lower triangle
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<S>> sparse_factor_;
+  struct Sparse;
+  std::unique_ptr<Sparse> sparse_;  ///< of many rows
   VectorX<S> diagonal_;
 };
 
