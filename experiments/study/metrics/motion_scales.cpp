@@ -146,6 +146,13 @@ State<double> exact_state(const ExactMotion& exact, const System<double>& system
   return state;
 }
 
+/// True if all scales are those of the start. A single body on which nothing acts conserves its energy and its momenta,
+/// and so the scales of all invariants: they are |L|, and that of Kovalevskaya's integral is (Ω1² + Ω2²)² of a body
+/// that is symmetric about axis 3.
+bool has_constant_scales(const System<double>& system) {
+  return system.moving() == 1 && !system.has_forces() && system.problem().joints.empty();
+}
+
 MotionScales along_exact(const Scenario& scenario, const System<double>& system, const ExactMotion& exact,
                          double t_end) {
   constexpr int samples = 64, bits = 26;
@@ -241,6 +248,12 @@ MotionScales along_contact(const Scenario& scenario, double t_end, const std::at
 MotionScales along_true_motion(const Scenario& scenario, double t_end, const std::atomic<bool>* stop) {
   if (!scenario.colliders.empty()) return along_contact(scenario, t_end, stop);
   const auto system = make_system<double>(scenario.problem, exact_formulation);
+  if (has_constant_scales(*system)) {
+    LargestScales of_start(*system, scenario.invariants);
+    const State<double> start = system->start();
+    of_start.take(start, system->measure(start.y));
+    return of_start.found();
+  }
   if (const ExactMotion exact(*system); exact.is_complete()) return along_exact(scenario, *system, exact, t_end);
   return along_rk4(scenario, t_end, stop);
 }
