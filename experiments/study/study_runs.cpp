@@ -248,7 +248,7 @@ void StudyRuns::run(const std::vector<std::uint32_t>& runs, Interruption& interr
                                   share)};
         }
         std::vector<LanedRun> lanes;
-        for (const PlannedRun& run : batch) lanes.push_back({run.config, *run.scenario});
+        for (const PlannedRun& run : batch) lanes.push_back({run.config, *run.scenario, run.keeps_curves});
         return carry_out_together(lanes, &interruption.stop(), &references);
       },
       .finish =

@@ -152,12 +152,13 @@ std::size_t DriftMeter::take(std::span<const Sample> samples) {
     ++taken;
   }
   const auto first = [&](const Column& c) { return std::span(c).first(seen); };
-  series_.add(first(t), first(energy), first(linear2), first(angular2), first(defect));
+  if (keeps_curves_) series_.add(first(t), first(energy), first(linear2), first(angular2), first(defect));
   blocks_.add(first(t), first(energy));
   Sums sums = sums_;  // local copy, so that the compiler keeps it in registers
-  const double per_t_end = 1 / t_end_;
+  const double per_t_end = 1 / t_end_, half = t_end_ / 2;
   for (std::size_t i = 0; i < seen; ++i) {
     raise(sums.worst_energy, energy[i]);
+    raise(sums.worst_early_energy, t[i] <= half ? energy[i] : 0.0);
     raise(sums.worst_linear2, linear2[i]);
     raise(sums.worst_angular2, angular2[i]);
     raise(sums.worst_defect, defect[i]);
@@ -257,11 +258,11 @@ void DriftMeter::report(RunResult& result) {
     result.polhode_off_error_max_rel = finite(worst_polhode_.off);
   }
   if (reference_) judge_by_reference(result);
-  result.attitude_errors = attitude_errors_;
+  if (keeps_curves_) result.attitude_errors = attitude_errors_;
   // Errors measured before a run broke off, often at its start only, are no measure of its error at the end.
   const bool broke_off = result.status != "ok" && !(errors_until_ >= result.t_reached && result.t_reached > 0);
   if (broke_off) forget_errors(result);
-  result.series = series_.finish(scales_.energy, scales_.linear, scales_.angular);
+  if (keeps_curves_) result.series = series_.finish(scales_.energy, scales_.linear, scales_.angular);
   if (result.status == "ok") classify(result);
 }
 
@@ -298,11 +299,7 @@ void DriftMeter::classify(RunResult& result) const {
   DriftRecord record;
   record.blocks = blocks_.finish();
   record.largest = sums_.worst_energy;
-  if (!(scales_.energy > 0)) record.largest_early = record.largest;  // without a scale the series has no energies
-  for (const SeriesPoint& p : result.series) {
-    if (p.t <= t_end_ / 2)
-      record.largest_early = std::max(record.largest_early, std::abs(p.energy_drift_rel) * scales_.energy);
-  }
+  record.largest_early = scales_.energy > 0 ? sums_.worst_early_energy : record.largest;
   record.round_off = result.energy_round_off.value_or(0);
   record.scale = scales_.energy;
   record.samples = sums_.samples;

@@ -66,6 +66,9 @@ class DriftMeter final : public Observer {
   /// Receives values of the k-th invariant after consecutive steps.
   void on_invariant(std::size_t k, std::span<const double> values);
 
+  /// The result is to have no curves against time. To be called before the run.
+  void leave_out_curves() { keeps_curves_ = false; }
+
   /// Scale of the energy drift, J; 0: nothing moves, and there are no relative drifts.
   double energy_scale() const { return scales_.energy; }
 
@@ -93,6 +96,7 @@ class DriftMeter final : public Observer {
   ConservedMomenta conserved_;
   std::vector<Watched> invariants_;
   bool invariants_told_ = false;
+  bool keeps_curves_ = true;
   ExactMotion exact_;
   std::shared_ptr<const ReferenceMotion> reference_;
   std::optional<ReferenceMotion::Follower> follower_;
@@ -114,6 +118,7 @@ class DriftMeter final : public Observer {
     std::int64_t samples = 0;
     // Energies in J, squared linear momenta in (kg m/s)², squared angular momenta in (kg m²/s)².
     double worst_energy = 0, last_energy = 0, worst_linear2 = 0, worst_angular2 = 0, worst_defect = 0;
+    double worst_early_energy = 0;        ///< until half of t_end, J
     double t = 0, tt = 0, d = 0, td = 0;  ///< sums for the least-squares slope of the drift over t/t_end
   };
   Sums sums_;

@@ -284,7 +284,12 @@ Products open_products(const Experiment& experiment, const Options& options, Pla
 
 PlannedRun Plan::run(std::size_t i, Variants* known) const {
   const PlanRow& row = rows[i];
-  PlannedRun run{.id = id_of_number(row.id), .config = {}, .scenario = {}, .refusal = {}, .cost = row.cost};
+  PlannedRun run{.id = id_of_number(row.id),
+                 .config = {},
+                 .scenario = {},
+                 .refusal = {},
+                 .cost = row.cost,
+                 .keeps_curves = row.keeps_curves};
   if (row.product == products_.size()) {
     run.config = further_[row.cell].config;
     run.scenario = further_[row.cell].scenario;

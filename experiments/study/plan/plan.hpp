@@ -22,8 +22,9 @@ struct PlannedRun {
   std::string id;  ///< as RunRecord::id
   RunConfig config;
   std::shared_ptr<const Scenario> scenario;
-  std::string refusal;  ///< reason for which the run cannot be carried out; empty if it can
-  double cost = 0;      ///< as PlanRow::cost
+  std::string refusal;       ///< reason for which the run cannot be carried out; empty if it can
+  double cost = 0;           ///< as PlanRow::cost
+  bool keeps_curves = true;  ///< as PlanRow::keeps_curves
 };
 
 /// What is held of each run of a plan.

@@ -42,6 +42,7 @@ std::string ensemble_key(const RunConfig& config, const Scenario& scenario, cons
 struct LanedRun {
   const RunConfig& config;
   const Scenario& scenario;
+  bool keeps_curves = true;  ///< the result has the curves against time
 };
 /// Carries out at most lane_count runs of one key together, with the digits that carry_out() gives to each; the time is
 /// divided among them. If that throws, each run is carried out alone, so that only runs fail that fail by themselves.
