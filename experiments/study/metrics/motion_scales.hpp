@@ -3,8 +3,8 @@
 // the duration, but not on the run, on the origin of the world frame, or on the zero of a potential.
 //
 // The true motion is the exact solution if it is known in full; the start of one body on which nothing acts has its
-// scales already. Otherwise it is computed by RK4, whose step is halved until the scales agree to 0.1 %. With contact it
-// is computed by semi-implicit Euler with time-stepping contact, as in physics engines.
+// scales already. Otherwise it is computed by RK4, whose step is halved until the scales agree to 0.1 %. With contact
+// it is computed by semi-implicit Euler with time-stepping contact, as in physics engines.
 #pragma once
 
 #include <atomic>
