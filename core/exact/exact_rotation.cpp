@@ -13,10 +13,10 @@
 namespace polhode {
 namespace {
 
-constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
+constexpr double few_roundings = 4 * std::numeric_limits<double>::epsilon();
 
 bool parallel(const Vector3<double>& a, const Vector3<double>& unit) {
-  return a.cross(unit).norm() <= round_off * a.norm();
+  return a.cross(unit).norm() <= few_roundings * a.norm();
 }
 
 /// A body in its initial state and the forces of the problem that exert a torque on it.
@@ -75,7 +75,7 @@ ExactRotation heavy_top(const Torques& at) {
 
 bool isotropic(const Matrix3<double>& inertia) {
   const double mean = inertia.trace() / 3;
-  return (inertia - mean * Matrix3<double>::Identity()).cwiseAbs().maxCoeff() <= 2 * round_off * mean;
+  return (inertia - mean * Matrix3<double>::Identity()).cwiseAbs().maxCoeff() <= 2 * few_roundings * mean;
 }
 
 ExactRotation about_an_axis(const Torques& at) {

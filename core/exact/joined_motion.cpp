@@ -12,10 +12,12 @@ namespace {
 using Vector = Vector3<double>;
 using Matrix = Matrix3<double>;
 
-constexpr double round_off = 16 * std::numeric_limits<double>::epsilon();
+constexpr double many_roundings = 16 * std::numeric_limits<double>::epsilon();
 
-bool parallel(const Vector& a, const Vector& unit) { return a.cross(unit).norm() <= round_off * a.norm(); }
-bool perpendicular(const Vector& a, const Vector& b) { return std::abs(a.dot(b)) <= round_off * a.norm() * b.norm(); }
+bool are_parallel(const Vector& a, const Vector& unit) { return a.cross(unit).norm() <= many_roundings * a.norm(); }
+bool are_perpendicular(const Vector& a, const Vector& b) {
+  return std::abs(a.dot(b)) <= many_roundings * a.norm() * b.norm();
+}
 
 /// The only joint of the body, if it ends in the world or on a static body; else null.
 const JointParameters* only_joint(const Problem& problem, std::size_t body) {
@@ -111,7 +113,8 @@ JoinedMotion joined_motion(const System<double>& system, std::size_t body) {
   if (joint->of.kind == "hinge") {
     const Vector axis = joint->of.vector("axis_body").normalized();
     const Matrix& inertia = pinned.problem.bodies[0].inertia;
-    if (!parallel(inertia * axis, axis) || !perpendicular(r * axis, gravity) || !perpendicular(axis, pinned.arm))
+    if (!are_parallel(inertia * axis, axis) || !are_perpendicular(r * axis, gravity) ||
+        !are_perpendicular(axis, pinned.arm))
       return {};
   }
   if (!gravity.isZero(0)) pinned.problem.forces = {{"uniform_gravity", {0}, {{"acceleration", gravity}}}};

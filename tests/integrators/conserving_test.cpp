@@ -11,7 +11,7 @@
 #include "tests/laws/problems.hpp"
 #include "tests/laws/reference_flow.hpp"
 
-namespace polhode {
+namespace polhode::conserving_test {
 namespace {
 
 using laws::force;
@@ -357,4 +357,4 @@ TEST(Conserving, RotorsRefuseToLeaveOutTheGyroscopicTerm) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::conserving_test

@@ -5,7 +5,7 @@
 
 #include "tests/integrators/motion.hpp"
 
-namespace polhode::by_hand {
+namespace polhode::by_hand::engine_recipe_test {
 namespace {
 
 constexpr Formulation engine{};  // a quaternion and the angular velocity in the world
@@ -115,4 +115,4 @@ TEST(RecipeBullet, SolvesTheImplicitEquationToSecondOrder) {
 }
 
 }  // namespace
-}  // namespace polhode::by_hand
+}  // namespace polhode::by_hand::engine_recipe_test

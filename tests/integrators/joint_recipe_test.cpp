@@ -6,7 +6,7 @@
 
 #include "tests/integrators/motion.hpp"
 
-namespace polhode::by_hand {
+namespace polhode::by_hand::joint_recipe_test {
 namespace {
 
 using Vector = Eigen::VectorXd;
@@ -161,4 +161,4 @@ TEST(JointRecipe, RecipesOfFreeBodiesNameThoseOfJoints) {
 }
 
 }  // namespace
-}  // namespace polhode::by_hand
+}  // namespace polhode::by_hand::joint_recipe_test

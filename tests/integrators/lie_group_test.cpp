@@ -6,7 +6,7 @@
 
 #include "tests/integrators/motion.hpp"
 
-namespace polhode::by_hand {
+namespace polhode::by_hand::lie_group_test {
 namespace {
 
 const std::vector<std::string> lie_methods = {"lie_euler", "crouch_grossman3", "rkmk4",    "commutator_free4",
@@ -307,4 +307,4 @@ TEST(ImplicitLieMethods, ReportAStepThatDoesNotConverge) {
 }
 
 }  // namespace
-}  // namespace polhode::by_hand
+}  // namespace polhode::by_hand::lie_group_test

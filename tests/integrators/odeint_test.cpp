@@ -14,7 +14,7 @@
 #include "tests/laws/probe_forces.hpp"
 #include "tests/laws/problems.hpp"
 
-namespace polhode {
+namespace polhode::odeint_test {
 namespace {
 
 using V3 = Vector3<double>;
@@ -190,4 +190,4 @@ TEST(OdeintRk4, IsTheClassicalMethod) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::odeint_test

@@ -6,7 +6,7 @@
 #include "core/system/orientation_chart.hpp"
 #include "tests/integrators/motion.hpp"
 
-namespace polhode::by_hand {
+namespace polhode::by_hand::rotation_closed_form_test {
 namespace {
 
 using laws::gyroscopic_formulations;
@@ -265,4 +265,4 @@ TEST(PetersHsu, EndStateInEveryFormulation) {
 }
 
 }  // namespace
-}  // namespace polhode::by_hand
+}  // namespace polhode::by_hand::rotation_closed_form_test

@@ -13,7 +13,7 @@
 #include "tests/laws/probe_forces.hpp"
 #include "tests/laws/problems.hpp"
 
-namespace polhode {
+namespace polhode::sundials_test {
 namespace {
 
 using V3 = Vector3<double>;
@@ -256,4 +256,4 @@ TEST(Sundials, SaysWhyItGaveUp) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::sundials_test

@@ -13,7 +13,7 @@
 #include "tests/laws/formulations.hpp"
 #include "tests/laws/problems.hpp"
 
-namespace polhode {
+namespace polhode::textbook_test {
 namespace {
 
 using laws::force;
@@ -113,4 +113,4 @@ TEST(TextbookReference, TenStepsToRoundOff) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::textbook_test

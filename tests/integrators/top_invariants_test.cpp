@@ -4,7 +4,7 @@
 
 #include "tests/integrators/motion.hpp"
 
-namespace polhode::by_hand {
+namespace polhode::by_hand::top_invariants_test {
 namespace {
 
 using laws::gyroscopic_formulations;
@@ -81,4 +81,4 @@ TEST(Tops, SlowKovalevskayaKeepsHerIntegral) {
 }
 
 }  // namespace
-}  // namespace polhode::by_hand
+}  // namespace polhode::by_hand::top_invariants_test

@@ -6,7 +6,7 @@
 
 #include "tests/integrators/motion.hpp"
 
-namespace polhode::by_hand {
+namespace polhode::by_hand::translation_closed_form_test {
 namespace {
 
 constexpr double oscillator_rate = 2.0;  // rad/s
@@ -94,4 +94,4 @@ TEST(FreeFall, PositionErrorOfSemiImplicitEuler) {
 }
 
 }  // namespace
-}  // namespace polhode::by_hand
+}  // namespace polhode::by_hand::translation_closed_form_test

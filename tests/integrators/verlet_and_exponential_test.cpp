@@ -5,7 +5,7 @@
 
 #include "tests/integrators/motion.hpp"
 
-namespace polhode::by_hand {
+namespace polhode::by_hand::verlet_and_exponential_test {
 namespace {
 
 constexpr double rate = 2.0;  // rad/s
@@ -89,4 +89,4 @@ TEST(ConstantRotation, GroupStepsAreExact) {
 }
 
 }  // namespace
-}  // namespace polhode::by_hand
+}  // namespace polhode::by_hand::verlet_and_exponential_test

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace polhode {
+namespace polhode::worked_integrator_test {
 namespace {
 
 std::string text_of(const std::string& path) {
@@ -50,4 +50,4 @@ TEST(WorkedIntegrator, HasTheOrderItDeclares) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::worked_integrator_test

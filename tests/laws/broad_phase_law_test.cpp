@@ -21,6 +21,7 @@ namespace polhode {
 void PrintTo(const BodyPair& p, std::ostream* out) { *out << "(" << p.a << ", " << p.b << ")"; }
 void PrintTo(const BroadPhaseEntry& e, std::ostream* out) { *out << e.name; }
 
+namespace broad_phase_law_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -473,4 +474,5 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, BroadPhaseLaw, ::testing::ValuesIn(broad_pha
 TEST(BroadPhaseCatalogue, UnknownNamesAreNotFound) { EXPECT_EQ(find_broad_phase("magic"), nullptr); }
 
 }  // namespace
+}  // namespace broad_phase_law_test
 }  // namespace polhode

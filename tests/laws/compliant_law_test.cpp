@@ -16,7 +16,7 @@
 #include "core/problem/inertia.hpp"
 #include "tests/laws/allocations.hpp"
 
-namespace polhode::laws {
+namespace polhode::laws::compliant_law_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -209,4 +209,4 @@ TEST(ResponseCatalogue, EachAnswersByImpulsesOrByAForce) {
 }
 
 }  // namespace
-}  // namespace polhode::laws
+}  // namespace polhode::laws::compliant_law_test

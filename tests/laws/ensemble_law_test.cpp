@@ -12,7 +12,7 @@
 #include "tests/laws/formulations.hpp"
 #include "tests/laws/problems.hpp"
 
-namespace polhode::laws {
+namespace polhode::laws::ensemble_law_test {
 namespace {
 
 /// The n-th relative of a problem: another start, inertia and mass; other parameters of the forces where they may vary.
@@ -212,4 +212,4 @@ TEST(Ensemble, ItsKeyTellsWhatFitsTogether) {
 }
 
 }  // namespace
-}  // namespace polhode::laws
+}  // namespace polhode::laws::ensemble_law_test

@@ -10,7 +10,7 @@
 #include "tests/laws/problems.hpp"
 #include "tests/laws/random_motion.hpp"
 
-namespace polhode::laws {
+namespace polhode::laws::force_law_test {
 namespace {
 
 using Real = long double;
@@ -503,4 +503,4 @@ TEST(ForceCatalogue, EndsThatMeetGiveNoNaN) {
 }
 
 }  // namespace
-}  // namespace polhode::laws
+}  // namespace polhode::laws::force_law_test

@@ -16,7 +16,7 @@ namespace polhode {
 
 inline void PrintTo(const ImpactTimingEntry& e, std::ostream* out) { *out << e.name; }
 
-namespace laws {
+namespace laws::impact_timing_law_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -67,5 +67,5 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, ImpactTimingLaw, testing::ValuesIn(impact_ti
                          [](const auto& timing) { return timing.param.name; });
 
 }  // namespace
-}  // namespace laws
+}  // namespace laws::impact_timing_law_test
 }  // namespace polhode

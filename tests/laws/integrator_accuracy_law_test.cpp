@@ -41,6 +41,7 @@ void IntegratorLaw::expect_precision(double round_off) const {
   EXPECT_GT(most, adaptive() ? double(std::numeric_limits<S>::epsilon()) / 10 : round_off / 1e4);
 }
 
+namespace integrator_accuracy_law_test {
 namespace {
 
 using Real = long double;
@@ -135,4 +136,5 @@ TEST(ReferenceFlow, HasConverged) {
 }
 
 }  // namespace
+}  // namespace integrator_accuracy_law_test
 }  // namespace polhode::laws

@@ -34,6 +34,7 @@ void IntegratorLaw::expect_advance_is_single_steps() const {
   });
 }
 
+namespace integrator_batch_law_test {
 namespace {
 
 TEST_P(IntegratorLaw, AdvanceIsSingleStepsToTheBit) {
@@ -140,4 +141,5 @@ TEST_P(IntegratorLaw, TheDriverSeesTheSameWithAndWithoutBatches) {
 }
 
 }  // namespace
+}  // namespace integrator_batch_law_test
 }  // namespace polhode::laws

@@ -16,7 +16,7 @@
 #include "core/system/joint_projection.hpp"
 #include "tests/laws/reference_flow.hpp"
 
-namespace polhode::laws {
+namespace polhode::laws::integrator_law_test {
 namespace {
 
 using Real = long double;
@@ -330,4 +330,4 @@ TEST(IntegratorCatalogue, SettingsWithTheSameKeyMeanTheSame) {
 }
 
 }  // namespace
-}  // namespace polhode::laws
+}  // namespace polhode::laws::integrator_law_test

@@ -12,7 +12,7 @@
 
 #include "integrators/catalogue.hpp"
 
-namespace polhode::laws {
+namespace polhode::laws::integrator_source_law_test {
 namespace {
 
 class IntegratorSourceLaw : public testing::TestWithParam<std::string> {
@@ -77,4 +77,4 @@ TEST_P(IntegratorSourceLaw, NamesSourcesThatStandInTheBibliography) {
 }
 
 }  // namespace
-}  // namespace polhode::laws
+}  // namespace polhode::laws::integrator_source_law_test

@@ -12,7 +12,7 @@
 #include "integrators/compensated.hpp"
 #include "tests/laws/integrator_trials.hpp"
 
-namespace polhode::laws {
+namespace polhode::laws::integrator_trait_law_test {
 namespace {
 
 class IntegratorTrait : public OverTheCatalogue {
@@ -238,4 +238,4 @@ TEST_P(IntegratorTrait, EquationsOfJointsAreKept) {
 }
 
 }  // namespace
-}  // namespace polhode::laws
+}  // namespace polhode::laws::integrator_trait_law_test

@@ -12,7 +12,7 @@
 #include "core/system/joint_projection.hpp"
 #include "tests/laws/problems.hpp"
 
-namespace polhode::laws {
+namespace polhode::laws::joint_law_test {
 namespace {
 
 using Real = long double;
@@ -282,4 +282,4 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, JointLaw, testing::ValuesIn(trials()),
                          [](const auto& trial) { return trial.param.name; });
 
 }  // namespace
-}  // namespace polhode::laws
+}  // namespace polhode::laws::joint_law_test

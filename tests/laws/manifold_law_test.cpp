@@ -18,7 +18,7 @@ namespace polhode {
 
 void PrintTo(const NarrowPhaseEntry& e, std::ostream* out);
 
-namespace laws {
+namespace laws::manifold_law_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -97,5 +97,5 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, ManifoldLaw, testing::ValuesIn(narrow_phase_
                          [](const auto& phase) { return phase.param.name; });
 
 }  // namespace
-}  // namespace laws
+}  // namespace laws::manifold_law_test
 }  // namespace polhode

@@ -14,7 +14,7 @@
 #include "tests/laws/plain_equations.hpp"
 #include "tests/laws/reference_flow.hpp"
 
-namespace polhode::laws {
+namespace polhode::laws::motion_law_test {
 namespace {
 
 using Vector = VectorX<double>;
@@ -355,4 +355,4 @@ TEST_P(MotionLaw, FreeFlowIsTheMotionWithoutForces) {
 }
 
 }  // namespace
-}  // namespace polhode::laws
+}  // namespace polhode::laws::motion_law_test

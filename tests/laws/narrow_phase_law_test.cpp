@@ -20,7 +20,7 @@ namespace polhode {
 
 void PrintTo(const NarrowPhaseEntry& e, std::ostream* out) { *out << e.name; }
 
-namespace laws {
+namespace laws::narrow_phase_law_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -346,5 +346,5 @@ TEST_P(NarrowPhaseLaw, AgreesWithGjk) {
 }
 
 }  // namespace
-}  // namespace laws
+}  // namespace laws::narrow_phase_law_test
 }  // namespace polhode

@@ -8,7 +8,7 @@
 #include "collision/response/position_correction.hpp"
 #include "tests/laws/response_trials.hpp"
 
-namespace polhode::laws {
+namespace polhode::laws::response_case_law_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -314,4 +314,4 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, ResponseCase, testing::ValuesIn(impulse_resp
                          [](const auto& response) { return response.param.name; });
 
 }  // namespace
-}  // namespace polhode::laws
+}  // namespace polhode::laws::response_case_law_test

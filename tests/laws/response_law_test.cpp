@@ -8,7 +8,7 @@
 #include "tests/laws/allocations.hpp"
 #include "tests/laws/response_trials.hpp"
 
-namespace polhode::laws {
+namespace polhode::laws::response_law_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -301,4 +301,4 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, ResponseLaw, testing::ValuesIn(impulse_respo
                          [](const auto& response) { return response.param.name; });
 
 }  // namespace
-}  // namespace polhode::laws
+}  // namespace polhode::laws::response_law_test

@@ -8,7 +8,7 @@
 
 #include "tests/laws/integrator_trials.hpp"
 
-namespace polhode::laws {
+namespace polhode::laws::schedule_law_test {
 namespace {
 
 constexpr double h = 1.0 / 64;
@@ -127,4 +127,4 @@ TEST_P(ScheduleLaw, AnObserverStopsARunWhereItLooks) {
 }
 
 }  // namespace
-}  // namespace polhode::laws
+}  // namespace polhode::laws::schedule_law_test

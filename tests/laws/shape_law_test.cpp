@@ -14,7 +14,7 @@
 #include "tests/collision/shapes/corner_obj.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace polhode::laws {
+namespace polhode::laws::shape_law_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -233,4 +233,4 @@ TEST_P(ShapeLaw, RefusesBadSizes) {
 }
 
 }  // namespace
-}  // namespace polhode::laws
+}  // namespace polhode::laws::shape_law_test

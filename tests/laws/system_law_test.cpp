@@ -14,7 +14,7 @@
 #include "tests/laws/problems.hpp"
 #include "tests/laws/random_motion.hpp"
 
-namespace polhode::laws {
+namespace polhode::laws::system_law_test {
 namespace {
 
 using Real = long double;
@@ -457,4 +457,4 @@ TEST(SystemLaws, AForceCanBeRegisteredBeforeARun) {
 }
 
 }  // namespace
-}  // namespace polhode::laws
+}  // namespace polhode::laws::system_law_test

@@ -2,6 +2,7 @@
 #include "experiments/study/plan/assignments.hpp"
 
 #include "experiments/study/text/input_error.hpp"
+#include "experiments/study/text/trimmed.hpp"
 
 namespace polhode::study::inline plan {
 
@@ -24,10 +25,7 @@ std::vector<std::string> split_outside_brackets(std::string_view text, char sepa
     }
     items.back() += c;
   }
-  for (std::string& item : items) {
-    const auto first = item.find_first_not_of(" \t"), last = item.find_last_not_of(" \t");
-    item = first == std::string::npos ? "" : item.substr(first, last - first + 1);
-  }
+  for (std::string& item : items) item = trimmed(item);
   return items;
 }
 

@@ -12,17 +12,12 @@
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/legible.hpp"
 #include "experiments/study/text/suggestion.hpp"
+#include "experiments/study/text/trimmed.hpp"
 
 namespace polhode::study::inline text {
 namespace {
 
 constexpr std::string_view blanks = " \t";
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 std::string shown(std::string_view text) { return "'" + shortened(text) + "'"; }
 

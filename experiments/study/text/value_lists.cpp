@@ -6,17 +6,12 @@
 #include <cmath>
 
 #include "experiments/study/text/input_error.hpp"
+#include "experiments/study/text/trimmed.hpp"
 
 namespace polhode::study::inline text {
 namespace {
 
 constexpr double longest_range = 1e6;  // values
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 std::vector<std::string> cut(std::string_view text, char separator) {
   std::vector<std::string> parts;

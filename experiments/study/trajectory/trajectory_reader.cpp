@@ -15,6 +15,7 @@
 #include "experiments/study/text/legible.hpp"
 #include "experiments/study/text/suggestion.hpp"
 #include "experiments/study/text/text_file.hpp"
+#include "experiments/study/text/trimmed.hpp"
 #include "experiments/study/trajectory/kept_trajectory.hpp"
 
 namespace polhode::study::inline trajectory {
@@ -45,18 +46,13 @@ struct Cell {
   std::size_t column;  ///< of its first character, from 1
 };
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\"";
-  const auto first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
+constexpr std::string_view around_cells = " \t\r\"";
 
 std::vector<Cell> cells_of(std::string_view line) {
   std::vector<Cell> cells;
   for (std::size_t at = 0;;) {
     const auto end = std::min(line.find(',', at), line.size());
-    const std::string_view whole = line.substr(at, end - at), text = trimmed(whole);
+    const std::string_view whole = line.substr(at, end - at), text = trimmed(whole, around_cells);
     cells.push_back({text, at + (text.empty() ? 0 : static_cast<std::size_t>(text.data() - whole.data())) + 1});
     if (end == line.size()) return cells;
     at = end + 1;
@@ -98,7 +94,7 @@ class Parser {
       line = text_.substr(0, end);
       text_.remove_prefix(std::min(end + 1, text_.size()));
       ++line_;
-      const std::string_view content = trimmed(line);
+      const std::string_view content = trimmed(line, around_cells);
       if (!content.empty() && content.front() != '#') return true;
     }
     return false;

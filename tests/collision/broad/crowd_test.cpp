@@ -8,7 +8,7 @@
 #include "collision/contact/contact_scene.hpp"
 #include "collision/shapes/sphere.hpp"
 
-namespace polhode {
+namespace polhode::crowd_test {
 namespace {
 
 /// What is said of so many spheres in one place; empty: they are let pass.
@@ -35,4 +35,4 @@ TEST(Crowd, OfTooManyNearPairsIsRefused) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::crowd_test

@@ -12,7 +12,7 @@
 #include "collision/shapes/sphere.hpp"
 #include "tests/collision/contact/contact_run.hpp"
 
-namespace polhode {
+namespace polhode::compliant_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -259,4 +259,4 @@ TEST(Compliant, DegenerateStartsGiveNumbers) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::compliant_test

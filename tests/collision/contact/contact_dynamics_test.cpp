@@ -10,7 +10,7 @@
 #include "collision/shapes/sphere.hpp"
 #include "tests/collision/contact/contact_run.hpp"
 
-namespace polhode {
+namespace polhode::contact_dynamics_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -293,4 +293,4 @@ TEST(ContactRuns, GiveTheSameBytes) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::contact_dynamics_test

@@ -14,7 +14,7 @@
 #include "core/system/joint_projection.hpp"
 #include "tests/collision/contact/contact_run.hpp"
 
-namespace polhode {
+namespace polhode::jointed_contacts_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -218,4 +218,4 @@ TEST(JointedContacts, BodiesOfAJointDoNotTouch) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::jointed_contacts_test

@@ -9,7 +9,7 @@
 #include "collision/shapes/sphere.hpp"
 #include "tests/collision/contact/contact_run.hpp"
 
-namespace polhode {
+namespace polhode::transition_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -158,4 +158,4 @@ TEST(Located, ADipWithinAStepIsFound) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::transition_test

@@ -12,7 +12,7 @@
 #include "experiments/narrow_phase/box_pairs.hpp"
 #include "tests/collision/narrow/manifold_parts.hpp"
 
-namespace polhode {
+namespace polhode::box_manifold_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -190,4 +190,4 @@ TEST(BoxManifold, EveryOverlappingPairHasOneAndItIsAsDeepAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::box_manifold_test

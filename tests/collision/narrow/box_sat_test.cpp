@@ -11,7 +11,7 @@
 #include "tests/collision/narrow/box_judge.hpp"
 #include "tests/collision/narrow/exact_boxes.hpp"
 
-namespace polhode {
+namespace polhode::box_sat_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -99,4 +99,4 @@ TEST(ExactBoxes, KnowsWhatIsKnown) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::box_sat_test

@@ -19,7 +19,7 @@
 #include "core/math/quaternion.hpp"
 #include "tests/collision/narrow/manifold_parts.hpp"
 
-namespace polhode {
+namespace polhode::contact_patch_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -312,4 +312,4 @@ TEST(ContactPatch, CompoundsStandOnAllTheirParts) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::contact_patch_test

@@ -9,7 +9,7 @@
 #include "tests/collision/narrow/hull_pairs.hpp"
 #include "tests/collision/narrow/placed_pairs.hpp"
 
-namespace polhode {
+namespace polhode::exact_hulls_test {
 namespace {
 
 using study::narrow_phase::BoxPairCase;
@@ -105,4 +105,4 @@ TEST(ExactHulls, MirrorAndKnowEveryClass) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::exact_hulls_test

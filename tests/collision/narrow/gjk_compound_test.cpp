@@ -13,7 +13,7 @@
 #include "collision/shapes/sphere.hpp"
 #include "tests/collision/narrow/placed_pairs.hpp"
 
-namespace polhode {
+namespace polhode::gjk_compound_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -102,4 +102,4 @@ TEST(GjkCompound, AnswersWithItsParts) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::gjk_compound_test

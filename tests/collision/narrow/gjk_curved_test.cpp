@@ -14,7 +14,7 @@
 #include "collision/shapes/sphere.hpp"
 #include "tests/collision/narrow/placed_pairs.hpp"
 
-namespace polhode {
+namespace polhode::gjk_curved_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -200,4 +200,4 @@ TEST_F(Curved, EveryAnswerIsSound) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::gjk_curved_test

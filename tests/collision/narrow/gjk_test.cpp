@@ -19,7 +19,7 @@
 #include "tests/collision/narrow/box_judge.hpp"
 #include "tests/collision/narrow/placed_pairs.hpp"
 
-namespace polhode {
+namespace polhode::gjk_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -167,4 +167,4 @@ TEST(Gjk, WarmDepthIsColdDepth) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::gjk_test

@@ -14,6 +14,7 @@ namespace polhode {
 
 void PrintTo(const NarrowPhaseEntry& e, std::ostream* out) { *out << e.name; }
 
+namespace hull_judge_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -114,4 +115,5 @@ INSTANTIATE_TEST_SUITE_P(All, HullJudge, testing::ValuesIn(narrow_phase_catalogu
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
+}  // namespace hull_judge_test
 }  // namespace polhode

@@ -20,7 +20,7 @@
 #include "tests/collision/narrow/exact_boxes.hpp"
 #include "tests/collision/narrow/placed_pairs.hpp"
 
-namespace polhode {
+namespace polhode::hull_sat_test {
 namespace {
 
 using study::narrow_phase::BoxPairCase;
@@ -248,4 +248,4 @@ TEST(HullSat, SaysWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::hull_sat_test

@@ -6,7 +6,7 @@
 
 #include "tests/collision/contact/contact_run.hpp"
 
-namespace polhode {
+namespace polhode::pile_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -105,4 +105,4 @@ TEST(Stack, OfTenBoxesStands) { stand(0); }
 TEST(Stack, OfTenStaggeredBoxesStands) { stand(0.1); }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::pile_test

@@ -18,7 +18,7 @@
 #include "core/math/portable_random.hpp"
 #include "tests/laws/impulse_scenes.hpp"
 
-namespace polhode {
+namespace polhode::response_parts_test {
 namespace {
 
 TEST(Complementarity, SolvesAProblemOfThree) {
@@ -222,4 +222,4 @@ TEST(SequentialImpulses, OneIterationIsEnoughAtRest) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::response_parts_test

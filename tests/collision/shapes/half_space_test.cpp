@@ -6,7 +6,7 @@
 
 #include <stdexcept>
 
-namespace polhode {
+namespace polhode::half_space_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -31,4 +31,4 @@ TEST(HalfSpace, APlaneBeyondEveryNumberIsRefused) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::half_space_test

@@ -10,7 +10,7 @@
 #include "collision/shapes/compound.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace polhode {
+namespace polhode::hull_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -203,4 +203,4 @@ TEST(Compound, RefusesWithFileAndLine) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::hull_test

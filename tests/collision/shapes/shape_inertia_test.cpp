@@ -14,7 +14,7 @@
 #include "collision/shapes/shape_catalogue.hpp"
 #include "core/problem/inertia.hpp"
 
-namespace polhode {
+namespace polhode::shape_inertia_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -147,4 +147,4 @@ TEST(ShapeInertia, EveryShapeIsABodyAndHasItsTest) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::shape_inertia_test

@@ -13,7 +13,7 @@
 #include "core/exact/reference_motion.hpp"
 #include "core/forces/catalogue.hpp"
 
-namespace polhode {
+namespace polhode::exact_motion_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -248,4 +248,4 @@ TEST(ReferenceMotion, LeavesTheGyroscopicTermOut) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::exact_motion_test

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace polhode {
+namespace polhode::free_top_test {
 namespace {
 
 using Matrix = Matrix3<double>;
@@ -374,4 +374,4 @@ TEST(Elliptic, ThetaCarriesTheIntegralOfTheThirdKind) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::free_top_test

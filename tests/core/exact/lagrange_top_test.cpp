@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace polhode {
+namespace polhode::lagrange_top_test {
 namespace {
 
 using Matrix = Matrix3<double>;
@@ -167,4 +167,4 @@ TEST(LagrangeTop, RefusesOtherTops) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::lagrange_top_test

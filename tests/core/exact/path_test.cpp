@@ -17,7 +17,7 @@
 #include "core/exact/kepler_motion.hpp"
 #include "core/exact/linear_motion.hpp"
 
-namespace polhode {
+namespace polhode::path_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -117,4 +117,4 @@ TEST(LinearMotion, AgreesWith40Digits) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::path_test

@@ -11,7 +11,7 @@
 
 #include "core/system/orientation_chart.hpp"
 
-namespace polhode {
+namespace polhode::quaternion_test {
 namespace {
 
 using Q = Quaternion<double>;
@@ -71,16 +71,16 @@ TEST(SlidesQuaternions, OrientationTurnsAboutItsAxis) {
 TEST(SlidesQuaternions, TransformMatrixIsTheTransposeOfTheRotation) {
   const Vector v(0.3, -0.7, 0.5), w(0.4, 1.1, -0.6);
   for (const Q& q : some_quaternions()) {
-    const Q turned = slides_product(slides_product(q, pure<double>(v)), conjugate<double>(q));
-    EXPECT_LT((turned.tail<3>() - slides_matrix(q).transpose() * v).norm(), 1e-15);
+    const Q rotated = slides_product(slides_product(q, pure<double>(v)), conjugate<double>(q));
+    EXPECT_LT((rotated.tail<3>() - slides_matrix(q).transpose() * v).norm(), 1e-15);
     EXPECT_LT((rotation_matrix<double>(q) - slides_matrix(q).transpose()).norm(), 2e-15);
     const Q rate = Chart<double, Orientation::quaternion>::rate_world(q, w);
     EXPECT_LT((rate - 0.5 * slides_product(pure<double>(w), q)).norm(), 1e-15);
     const Q spun = product<double>(product<double>(rate, pure<double>(v)), conjugate<double>(q)) +
                    product<double>(product<double>(q, pure<double>(v)), conjugate<double>(rate));
-    EXPECT_LT((spun.tail<3>() - w.cross(turned.tail<3>())).norm(), 1e-15 * 4);
+    EXPECT_LT((spun.tail<3>() - w.cross(rotated.tail<3>())).norm(), 1e-15 * 4);
   }
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::quaternion_test

@@ -12,7 +12,7 @@
 
 #include "core/math/transform.hpp"
 
-namespace polhode {
+namespace polhode::inertia_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -176,4 +176,4 @@ TEST(Transform, TakesPointsFromBodyToWorld) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::inertia_test

@@ -11,7 +11,7 @@
 #include "core/run/simulate.hpp"
 #include "integrators/catalogue.hpp"
 
-namespace polhode {
+namespace polhode::observer_test {
 namespace {
 
 /// Writes down what it receives; its next state is due every `interval` (s).
@@ -111,4 +111,4 @@ TEST(Observers, TheStrictestEndsTheRun) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::observer_test

@@ -9,7 +9,7 @@
 
 #include "core/run/simulate.hpp"
 
-namespace polhode {
+namespace polhode::run_end_test {
 namespace {
 
 /// Moves nothing, and does in each step what it is told; chooses its steps as 1 ms.
@@ -109,4 +109,4 @@ TEST_F(RunEnd, ARequestToStopIsSeenAfterEachStep) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::run_end_test

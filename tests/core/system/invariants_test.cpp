@@ -11,7 +11,7 @@
 
 #include "core/math/quaternion.hpp"
 
-namespace polhode {
+namespace polhode::invariants_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -227,4 +227,4 @@ TEST(Invariants, NamesAreFound) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::invariants_test

@@ -9,7 +9,7 @@
 #include "core/system/system.hpp"
 #include "tests/laws/problems.hpp"
 
-namespace polhode {
+namespace polhode::soft_joints_test {
 namespace {
 
 Formulation treated(Stabilization s, double alpha = 0, double beta = 0, double penalty = 0) {
@@ -117,4 +117,4 @@ TEST(ProjectionMetrics, UnitMetricMovesAlongTheRows) {
 }
 
 }  // namespace
-}  // namespace polhode
+}  // namespace polhode::soft_joints_test

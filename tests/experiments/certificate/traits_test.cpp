@@ -12,7 +12,7 @@
 #include "tests/laws/problems.hpp"
 #include "tests/laws/reference_flow.hpp"
 
-namespace polhode::study::certificate {
+namespace polhode::study::certificate::traits_test {
 namespace {
 
 using Real = long double;
@@ -195,4 +195,4 @@ TEST(OrderFinding, CountsWhatTheOrdersTendTo) {
 }
 
 }  // namespace
-}  // namespace polhode::study::certificate
+}  // namespace polhode::study::certificate::traits_test

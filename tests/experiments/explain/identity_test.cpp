@@ -14,7 +14,7 @@
 #include "tests/experiments/study/query/stored_studies.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace polhode::study::explain {
+namespace polhode::study::explain::identity_test {
 namespace {
 
 using query_tests::keep_in;
@@ -140,4 +140,4 @@ TEST(Identity, OneRunHasTheKeysThatDecideIt) {
 }
 
 }  // namespace
-}  // namespace polhode::study::explain
+}  // namespace polhode::study::explain::identity_test

@@ -8,7 +8,7 @@
 #include "tests/experiments/joints/joint_run.hpp"
 #include "tests/experiments/joints/reduced_motion.hpp"
 
-namespace polhode::study::joints_tests {
+namespace polhode::study::joints_tests::babyboot_test {
 namespace {
 
 struct Angles {
@@ -57,4 +57,4 @@ TEST(Babyboot, RodAndPlateKeepTheirDigits) {
 }
 
 }  // namespace
-}  // namespace polhode::study::joints_tests
+}  // namespace polhode::study::joints_tests::babyboot_test

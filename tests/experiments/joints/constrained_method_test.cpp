@@ -10,7 +10,7 @@
 
 #include "tests/experiments/joints/joint_run.hpp"
 
-namespace polhode::study::joints_tests {
+namespace polhode::study::joints_tests::constrained_method_test {
 namespace {
 
 End run_with(const std::string& method, const std::string& scenario, double dt_or_tolerance, double t_end,
@@ -157,4 +157,4 @@ TEST(ConstrainedMethod, OrdersOfPoseVelocityAndReaction) {
 }
 
 }  // namespace
-}  // namespace polhode::study::joints_tests
+}  // namespace polhode::study::joints_tests::constrained_method_test

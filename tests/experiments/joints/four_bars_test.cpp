@@ -13,7 +13,7 @@
 #include "tests/experiments/joints/joint_run.hpp"
 #include "tests/experiments/joints/reduced_motion.hpp"
 
-namespace polhode::study::joints_tests {
+namespace polhode::study::joints_tests::four_bars_test {
 namespace {
 
 /// n squares in a row of rods of 1 m and 1 kg, as in the scenario `four_bar`. The links are turned by an angle (rad)
@@ -122,4 +122,4 @@ TEST(FourBars, FortySquaresPassTheirSingularConfigurations) {
 }
 
 }  // namespace
-}  // namespace polhode::study::joints_tests
+}  // namespace polhode::study::joints_tests::four_bars_test

@@ -14,7 +14,7 @@
 #include "core/exact/exact_motion.hpp"
 #include "tests/experiments/joints/joint_run.hpp"
 
-namespace polhode::study::joints_tests {
+namespace polhode::study::joints_tests::joint_truth_test {
 namespace {
 
 TEST(JointTruth, PendulumOnARod) {
@@ -280,4 +280,4 @@ TEST(JointTruth, ExactMotionsOfJointedBodies) {
 }
 
 }  // namespace
-}  // namespace polhode::study::joints_tests
+}  // namespace polhode::study::joints_tests::joint_truth_test

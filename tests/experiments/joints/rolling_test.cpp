@@ -15,7 +15,7 @@
 
 #include "tests/experiments/joints/joint_run.hpp"
 
-namespace polhode::study::joints_tests {
+namespace polhode::study::joints_tests::rolling_test {
 namespace {
 
 constexpr double pull = 9.81, weight = 15;  // m/s², kg; the radius is 1 m
@@ -117,4 +117,4 @@ TEST(RollingWheel, SteadyTurnStaysOne) {
 }
 
 }  // namespace
-}  // namespace polhode::study::joints_tests
+}  // namespace polhode::study::joints_tests::rolling_test

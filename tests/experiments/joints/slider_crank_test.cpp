@@ -8,7 +8,7 @@
 #include "tests/experiments/joints/joint_run.hpp"
 #include "tests/experiments/joints/reduced_motion.hpp"
 
-namespace polhode::study::joints_tests {
+namespace polhode::study::joints_tests::slider_crank_test {
 namespace {
 
 /// The mechanism at one crank angle φ (rad) from upright: the crank's end is at b = (0, 0.1 - 0.08 sin φ, 0.12 + 0.08
@@ -87,4 +87,4 @@ TEST(SliderCrank, CrankWithItsMassCentreHalfWay) {
 }
 
 }  // namespace
-}  // namespace polhode::study::joints_tests
+}  // namespace polhode::study::joints_tests::slider_crank_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace polhode::study::methods {
+namespace polhode::study::methods::ranking_test {
 namespace {
 
 /// Costs of contenders a, b, c (columns) on problems (rows) of one group, the same for all errors; 0: not reached,
@@ -118,4 +118,4 @@ TEST(Quantile, IsReachedByAtLeastThatShare) {
 }
 
 }  // namespace
-}  // namespace polhode::study::methods
+}  // namespace polhode::study::methods::ranking_test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace polhode::study::plot_program {
+namespace polhode::study::plot_program::thinned_test {
 namespace {
 
 TEST(ThinnedCurve, KeepsAFewValues) {
@@ -35,4 +35,4 @@ TEST(ThinnedCurve, KeepsEveryExtremeOfALongSeries) {
 }
 
 }  // namespace
-}  // namespace polhode::study::plot_program
+}  // namespace polhode::study::plot_program::thinned_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace polhode::study::precision {
+namespace polhode::study::precision::growth_estimate_test {
 namespace {
 
 constexpr int samples = 128;
@@ -100,4 +100,4 @@ TEST(Growth, WhatCannotBeToldIsNotTold) {
 }
 
 }  // namespace
-}  // namespace polhode::study::precision
+}  // namespace polhode::study::precision::growth_estimate_test

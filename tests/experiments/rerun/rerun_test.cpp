@@ -18,7 +18,7 @@
 #include "tests/experiments/study/store/stored_runs.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace polhode::study::rerun {
+namespace polhode::study::rerun::rerun_test {
 namespace {
 
 std::vector<Repeated> repeated(const std::vector<FoundRun>& runs) {
@@ -112,4 +112,4 @@ TEST(Rerun, TheDrawIsThatOfTheSeed) {
 }
 
 }  // namespace
-}  // namespace polhode::study::rerun
+}  // namespace polhode::study::rerun::rerun_test

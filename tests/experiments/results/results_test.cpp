@@ -18,7 +18,7 @@
 #include "tests/experiments/study/store/stored_runs.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace polhode::study::results {
+namespace polhode::study::results::results_test {
 namespace {
 
 TEST(Measures, AreThoseOfTheValuesInAnyOrder) {
@@ -132,4 +132,4 @@ TEST(RunRows, ScenariosAndStudiesComeBackUnlessTheyAreDamaged) {
 }
 
 }  // namespace
-}  // namespace polhode::study::results
+}  // namespace polhode::study::results::results_test

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace polhode::study::stability {
+namespace polhode::study::stability::critical_step_test {
 namespace {
 
 /// Scans, then bisects as the study does; the number of further steps is returned.
@@ -53,4 +53,4 @@ TEST(CriticalStep, MayBeAbsentOrBelowAllSteps) {
 }
 
 }  // namespace
-}  // namespace polhode::study::stability
+}  // namespace polhode::study::stability::critical_step_test

@@ -10,7 +10,7 @@
 #include "experiments/study/scenario/scenario.hpp"
 #include "tests/experiments/stability/made_up_run.hpp"
 
-namespace polhode::study::stability {
+namespace polhode::study::stability::followed_test {
 namespace {
 
 /// A free top that is known exactly and followed in all respects.
@@ -68,4 +68,4 @@ TEST(Followed, PositionsAreMeasuredByTheDisplacementOfTheExactPath) {
 }
 
 }  // namespace
-}  // namespace polhode::study::stability
+}  // namespace polhode::study::stability::followed_test

@@ -13,7 +13,7 @@
 #include "experiments/study/scenario/scenario.hpp"
 #include "tests/experiments/stability/made_up_run.hpp"
 
-namespace polhode::study::stability {
+namespace polhode::study::stability::step_ladder_test {
 namespace {
 
 /// Runs of RK4 on a top by their steps, with an energy that swings, or is gained, as `gain` says of (step, duration).
@@ -109,4 +109,4 @@ TEST(StepLadder, AShortRunHasNoVerdictOnTheEnergy) {
 }
 
 }  // namespace
-}  // namespace polhode::study::stability
+}  // namespace polhode::study::stability::step_ladder_test

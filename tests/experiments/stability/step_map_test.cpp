@@ -10,7 +10,7 @@
 #include "experiments/study/scenario/scenario.hpp"
 #include "integrators/catalogue.hpp"
 
-namespace polhode::study::stability {
+namespace polhode::study::stability::step_map_test {
 namespace {
 
 Scenario oscillator(const std::vector<Override>& overrides = {}) {
@@ -64,4 +64,4 @@ TEST(StepMap, IsNotThereWithoutALinearSystemOrAMapOfOneStep) {
 }
 
 }  // namespace
-}  // namespace polhode::study::stability
+}  // namespace polhode::study::stability::step_map_test

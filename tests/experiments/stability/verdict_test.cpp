@@ -9,7 +9,7 @@
 
 #include "tests/experiments/stability/made_up_run.hpp"
 
-namespace polhode::study::stability {
+namespace polhode::study::stability::verdict_test {
 namespace {
 
 TEST(Verdict, ABoundedOscillationIsStable) {
@@ -105,4 +105,4 @@ TEST(Verdict, OfFloatsCountsNoRounding) {
 }
 
 }  // namespace
-}  // namespace polhode::study::stability
+}  // namespace polhode::study::stability::verdict_test

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <vector>
 
-namespace polhode::study {
+namespace polhode::study::run_queue_test {
 namespace {
 
 Plan plan_of(const std::vector<double>& costs, const std::vector<std::uint16_t>& kinds) {
@@ -71,4 +71,4 @@ TEST(RunQueue, GivesManyShortRunsAtATime) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::run_queue_test

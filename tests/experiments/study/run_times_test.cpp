@@ -10,7 +10,7 @@
 
 #include "experiments/study/plan/options.hpp"
 
-namespace polhode::study::run_times_tests {
+namespace polhode::study::run_times_tests::run_times_test {
 namespace {
 
 const Experiment timed_tops = {
@@ -87,4 +87,4 @@ TEST(RunTimes, OfWorkersThatTakeOneRunAfterTheOther) {
 }
 
 }  // namespace
-}  // namespace polhode::study::run_times_tests
+}  // namespace polhode::study::run_times_tests::run_times_test

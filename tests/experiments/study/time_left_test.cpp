@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace polhode::study {
+namespace polhode::study::time_left_test {
 namespace {
 
 using UnderWay = TimeLeft::UnderWay;
@@ -77,4 +77,4 @@ TEST(TimeLeft, IsZeroAtTheEnd) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::time_left_test

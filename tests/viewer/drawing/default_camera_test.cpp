@@ -6,7 +6,7 @@
 
 #include "tests/viewer/stage/stage.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::default_camera_test {
 namespace {
 
 /// How far towards an edge of the picture the bodies' corners reach, in shares of the half picture.
@@ -81,4 +81,4 @@ TEST(DefaultCamera, ARowIsSeenFromItsSide) {
 }
 
 }  // namespace
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::default_camera_test

@@ -9,7 +9,7 @@
 
 #include "tests/viewer/stage/stage.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::look_test {
 namespace {
 
 class LookStage : public Stage {
@@ -288,4 +288,4 @@ TEST_F(LookStage, LabelsStandAtTheTipsOfTheArrows) {
 }
 
 }  // namespace
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::look_test

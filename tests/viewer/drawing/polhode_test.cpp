@@ -7,7 +7,7 @@
 #include "core/math/quaternion.hpp"
 #include "experiments/viewer/drawing/polhode_pass.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::polhode_test {
 namespace {
 
 const Matrix3<double> turned =
@@ -39,4 +39,4 @@ TEST(InertiaEllipsoid, ThereIsNoneOfWhatDoesNotTurnOrHasDiverged) {
 }
 
 }  // namespace
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::polhode_test

@@ -8,7 +8,7 @@
 
 #include "tests/viewer/stage/stage.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::renderer_test {
 namespace {
 
 class RendererStage : public Stage {};
@@ -161,4 +161,4 @@ TEST_F(RendererStage, MultisamplingSmoothsWithoutMovingAnything) {
 }
 
 }  // namespace
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::renderer_test

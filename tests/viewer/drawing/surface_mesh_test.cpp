@@ -7,7 +7,7 @@
 #include "collision/shapes/ellipsoid.hpp"
 #include "tests/viewer/stage/stage.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::surface_mesh_test {
 namespace {
 
 TEST(SurfaceMesh, ACubeHasTwelveEdgesAndNoDiagonals) {
@@ -41,4 +41,4 @@ TEST(SurfaceMesh, ASmoothSurfaceHasNoEdgesAndKeepsItsCorners) {
 }
 
 }  // namespace
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::surface_mesh_test

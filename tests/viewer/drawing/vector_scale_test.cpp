@@ -6,7 +6,7 @@
 
 #include <limits>
 
-namespace polhode::viewer {
+namespace polhode::viewer::vector_scale_test {
 namespace {
 
 TEST(VectorScale, StaysUntilALengthIsFarBeyondIt) {
@@ -25,4 +25,4 @@ TEST(VectorScale, StaysUntilALengthIsFarBeyondIt) {
 }
 
 }  // namespace
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::vector_scale_test

@@ -12,7 +12,7 @@
 
 #include "tests/temporary_folder.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::film_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -94,4 +94,4 @@ TEST_F(FilmTest, WithoutFfmpegOneLineNamesThePackage) {
 }
 
 }  // namespace
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::film_test

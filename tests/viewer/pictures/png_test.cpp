@@ -10,7 +10,7 @@
 
 #include "tests/temporary_folder.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::png_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -45,4 +45,4 @@ TEST(Png, AnErrorNamesTheFile) {
 }
 
 }  // namespace
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::png_test

@@ -14,7 +14,7 @@
 #include "tests/temporary_folder.hpp"
 #include "tests/viewer/session/session_run.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::recorded_session_test {
 namespace {
 
 /// A run of this configuration, beside the session that would make it.
@@ -122,4 +122,4 @@ TEST(FrameClock, SaysTheTimeBetweenTwoFrames) {
 }
 
 }  // namespace
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::recorded_session_test

@@ -4,7 +4,7 @@
 
 #include "tests/viewer/session/session_run.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::session_collision_test {
 namespace {
 
 constexpr double g = 9.81, height = 4.9, restitution = 0.5;  // of the ball's lower end
@@ -104,4 +104,4 @@ TEST(SessionCollision, RestingIsNoMeeting) {
 }
 
 }  // namespace
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session_collision_test

@@ -6,7 +6,7 @@
 #include "tests/temporary_folder.hpp"
 #include "tests/viewer/session/session_run.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::session_reactions_test {
 namespace {
 
 Wanted with_reactions() {
@@ -116,4 +116,4 @@ TEST(SessionReactions, OfAnotherMethodTakeTheirPlace) {
 }
 
 }  // namespace
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session_reactions_test

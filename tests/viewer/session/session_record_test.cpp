@@ -12,7 +12,7 @@
 #include "tests/temporary_folder.hpp"
 #include "tests/viewer/session/session_run.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::session_record_test {
 namespace {
 
 template <class List>
@@ -349,4 +349,4 @@ TEST(SessionRecordFuzz, MutatedRecordsAreReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session_record_test

@@ -14,7 +14,7 @@
 #include "tests/temporary_folder.hpp"
 #include "tests/viewer/session/session_run.hpp"
 
-namespace polhode::viewer {
+namespace polhode::viewer::session_test {
 namespace {
 
 struct Case {
@@ -435,4 +435,4 @@ TEST(Session, EndsWhileItPlays) {
 }
 
 }  // namespace
-}  // namespace polhode::viewer
+}  // namespace polhode::viewer::session_test

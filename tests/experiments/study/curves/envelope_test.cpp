@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace polhode::study {
+namespace polhode::study::envelope_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -94,4 +94,4 @@ TEST(LowerEnvelope, OfEqualsNamesTheFirst) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::envelope_test

@@ -11,7 +11,7 @@
 #include "experiments/study/curves/error_ladder.hpp"
 #include "tests/experiments/study/report/made_up_study.hpp"
 
-namespace polhode::study::report_tests {
+namespace polhode::study::report_tests::observed_order_test {
 namespace {
 
 TEST(ReportCurves, FindTheSlopesOfPowerLaws) {
@@ -91,4 +91,4 @@ TEST(ReportCurves, StandInTheCataloguesOrderWhateverTheOrderOfTheRuns) {
 }
 
 }  // namespace
-}  // namespace polhode::study::report_tests
+}  // namespace polhode::study::report_tests::observed_order_test

@@ -13,7 +13,7 @@
 #include <set>
 #include <string>
 
-namespace polhode::study {
+namespace polhode::study::drift_class_test {
 namespace {
 
 using std::numbers::pi;
@@ -296,4 +296,4 @@ TEST(DriftClass, OfTooFewSamplesHasTheDurationThatHasEnough) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::drift_class_test

@@ -8,7 +8,7 @@
 
 #include "experiments/study/run/run.hpp"
 
-namespace polhode::study {
+namespace polhode::study::drift_runs_test {
 namespace {
 
 const std::set<std::string> growing = {"random walk", "sublinear", "linear", "quadratic", "faster"};
@@ -112,4 +112,4 @@ TEST(DriftOfRuns, OfImpactsIsNoWalk) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::drift_runs_test

@@ -23,6 +23,7 @@ namespace polhode::study {
 /// Its name alone, where a failing test prints it.
 void PrintTo(const BuiltinScenario& scenario, std::ostream* out) { *out << scenario.name; }
 
+namespace origin_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -260,4 +261,5 @@ TEST(Origin, AScaleThatIsGivenIsTaken) {
 }
 
 }  // namespace
+}  // namespace origin_test
 }  // namespace polhode::study

@@ -8,7 +8,7 @@
 
 #include "experiments/study/run/run.hpp"
 
-namespace polhode::study {
+namespace polhode::study::polhode_error_test {
 namespace {
 
 Problem top(const Vector3<double>& moments, const Vector3<double>& omega) {
@@ -100,4 +100,4 @@ TEST(PolhodeError, TellsMethodsApart) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::polhode_error_test

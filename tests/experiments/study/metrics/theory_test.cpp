@@ -13,7 +13,7 @@
 #include "experiments/study/scenario/builtin_scenarios.hpp"
 #include "experiments/study/scenario/scenario.hpp"
 
-namespace polhode::study {
+namespace polhode::study::theory_test {
 namespace {
 
 using namespace precision;
@@ -137,4 +137,4 @@ TEST(Theory, SlowPlainSummationWalksAtRandom) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::theory_test

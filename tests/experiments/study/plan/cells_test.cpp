@@ -14,7 +14,7 @@
 #include "experiments/study/scenario/scenario.hpp"
 #include "integrators/catalogue.hpp"
 
-namespace polhode::study::cells_tests {
+namespace polhode::study::cells_tests::cells_test {
 namespace {
 
 /// Cells of a study of built-in scenarios.
@@ -160,4 +160,4 @@ TEST(Cells, OnlyOptionsThatSayItDecideWhetherOthersApply) {
 }
 
 }  // namespace
-}  // namespace polhode::study::cells_tests
+}  // namespace polhode::study::cells_tests::cells_test

@@ -10,7 +10,7 @@
 #include "experiments/study/plan/shard.hpp"
 #include "experiments/study/text/input_error.hpp"
 
-namespace polhode::study {
+namespace polhode::study::deal_test {
 namespace {
 
 Plan plan_of_costs(const std::vector<double>& costs) {
@@ -74,4 +74,4 @@ TEST(Shards, AreReadAndRefusedWithTheReason) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::deal_test

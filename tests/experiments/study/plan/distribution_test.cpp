@@ -15,7 +15,7 @@
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/value_lists.hpp"
 
-namespace polhode::study::distribution_tests {
+namespace polhode::study::distribution_tests::distribution_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -158,4 +158,4 @@ TEST(Distribution, ErrorsSayWhatIsRight) {
 }
 
 }  // namespace
-}  // namespace polhode::study::distribution_tests
+}  // namespace polhode::study::distribution_tests::distribution_test

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace polhode::study {
+namespace polhode::study::run_order_test {
 namespace {
 
 using Key = std::vector<OptionValue>;
@@ -45,4 +45,4 @@ TEST(RunOrder, OfEqualKeysIsTheGivenOne) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::run_order_test

@@ -21,7 +21,7 @@
 #include "experiments/study/text/input_error.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace polhode::study::study_file_tests {
+namespace polhode::study::study_file_tests::study_file_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -322,4 +322,4 @@ TEST_F(StudyFiles, CountsThatCannotBeMeantAreRefusedBeforeTheyAreMade) {
 }
 
 }  // namespace
-}  // namespace polhode::study::study_file_tests
+}  // namespace polhode::study::study_file_tests::study_file_test

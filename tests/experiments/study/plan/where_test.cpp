@@ -11,7 +11,7 @@
 
 #include "experiments/study/text/input_error.hpp"
 
-namespace polhode::study::where_tests {
+namespace polhode::study::where_tests::where_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -107,4 +107,4 @@ TEST(Where, NestingIsBoundedAndLengthIsNot) {
 }
 
 }  // namespace
-}  // namespace polhode::study::where_tests
+}  // namespace polhode::study::where_tests::where_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace polhode::study::report_tests {
+namespace polhode::study::report_tests::axis_test {
 namespace {
 
 TEST(ReportAxis, SymlogGoesThereAndBack) {
@@ -27,4 +27,4 @@ TEST(Labels, OfTicksThatStandCloseTogetherAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace polhode::study::report_tests
+}  // namespace polhode::study::report_tests::axis_test

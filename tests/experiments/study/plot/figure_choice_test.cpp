@@ -11,7 +11,7 @@
 #include "experiments/study/plot/method_style.hpp"
 #include "experiments/study/text/input_error.hpp"
 
-namespace polhode::study {
+namespace polhode::study::figure_choice_test {
 namespace {
 
 /// Two rows of `columns` panels, of which only those on the left label their y axis.
@@ -103,4 +103,4 @@ TEST(GnuplotScript, HasTheTitleOnlyIfAskedFor) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::figure_choice_test

@@ -9,7 +9,7 @@
 
 #include "experiments/study/plot/figure_layout.hpp"
 
-namespace polhode::study {
+namespace polhode::study::gnuplot_figure_test {
 namespace {
 
 Figure figure_of(std::size_t panels, std::size_t columns, const std::string& title) {
@@ -49,4 +49,4 @@ TEST(GnuplotFigure, ContinuesALongTitleOfAPanelInAnotherRow) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::gnuplot_figure_test

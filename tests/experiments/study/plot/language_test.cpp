@@ -13,7 +13,7 @@
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/toml_value.hpp"
 
-namespace polhode::study {
+namespace polhode::study::language_test {
 namespace {
 
 constexpr const char* words_of_a_test = R"(
@@ -96,4 +96,4 @@ TEST(Language, ReplacesTheWordsOfAFigureAndNoNames) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::language_test

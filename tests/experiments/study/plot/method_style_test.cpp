@@ -11,7 +11,7 @@
 
 #include "integrators/catalogue.hpp"
 
-namespace polhode::study {
+namespace polhode::study::method_style_test {
 namespace {
 
 std::vector<std::string> all_methods() {
@@ -93,4 +93,4 @@ TEST(MethodStyle, OfNamesThatAreNoMethodsBeginsAtTheBeginning) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::method_style_test

@@ -9,7 +9,7 @@
 #include "experiments/study/plot/axis.hpp"
 #include "experiments/study/plot/figure_layout.hpp"
 
-namespace polhode::study {
+namespace polhode::study::pgfplots_figure_test {
 namespace {
 
 Figure empty_figure(std::vector<std::string> methods) {
@@ -68,4 +68,4 @@ TEST(PgfplotsFigure, ShortensTheNameOfACrossToTheRoomBesideIt) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::pgfplots_figure_test

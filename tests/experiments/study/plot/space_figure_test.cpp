@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace polhode::study {
+namespace polhode::study::space_figure_test {
 namespace {
 
 TEST(SpaceFigure, HidesOneHalfOfTheEllipsoid) {
@@ -26,4 +26,4 @@ TEST(SpaceFigure, SplitsACurveInWhatIsInFrontAndBehind) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::space_figure_test

@@ -8,7 +8,7 @@
 #include "experiments/study/plot/tex_width.hpp"
 #include "experiments/study/text/notation.hpp"
 
-namespace polhode::study {
+namespace polhode::study::table_test {
 namespace {
 
 using Best = Column::Best;
@@ -99,4 +99,4 @@ TEST(Tables, TexHasNoCharacterThatItsFontsLack) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::table_test

@@ -17,7 +17,7 @@
 #include "tests/experiments/study/query/stored_studies.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace polhode::study::query_tests {
+namespace polhode::study::query_tests::stored_run_test {
 namespace {
 
 using testing::HasSubstr;
@@ -114,4 +114,4 @@ TEST(StoredRuns, AnIdMayBeCutShortIfNoOtherBeginsSo) {
 }
 
 }  // namespace
-}  // namespace polhode::study::query_tests
+}  // namespace polhode::study::query_tests::stored_run_test

@@ -30,7 +30,7 @@
 #include "tests/experiments/study/store/loaded.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace polhode::study {
+namespace polhode::study::metric_table_test {
 namespace {
 
 /// The metric of this test, one entry,
@@ -245,4 +245,4 @@ TEST(MetricTable, EachMetricHasALineInTheListOrSharesThatOfAnother) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::metric_table_test

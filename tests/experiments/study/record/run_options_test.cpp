@@ -28,7 +28,7 @@
 #include "experiments/study/text/input_error.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace polhode::study {
+namespace polhode::study::run_options_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -173,4 +173,4 @@ TEST(RunOptions, RunsAreSortedByTheirNumbersAndNotByTheirDigits) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::run_options_test

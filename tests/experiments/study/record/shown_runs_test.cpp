@@ -8,7 +8,7 @@
 #include <map>
 #include <vector>
 
-namespace polhode::study {
+namespace polhode::study::shown_runs_test {
 namespace {
 
 /// `motions` motions with `steps` steps each, in the order of a study: the step changes last.
@@ -49,4 +49,4 @@ TEST(ShownRuns, AreThinnedWhereOneMotionHasTooMany) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::shown_runs_test

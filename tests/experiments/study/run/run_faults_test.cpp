@@ -15,7 +15,7 @@
 #include "experiments/study/scenario/scenario.hpp"
 #include "experiments/study/text/csv.hpp"
 
-namespace polhode::study {
+namespace polhode::study::run_faults_test {
 namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
@@ -116,4 +116,4 @@ TEST(ResultNumbers, AreFiniteAndZeroHasNoSign) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::run_faults_test

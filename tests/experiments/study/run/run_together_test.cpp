@@ -15,7 +15,7 @@
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/scenario/scenario.hpp"
 
-namespace polhode::study {
+namespace polhode::study::run_together_test {
 namespace {
 
 RunConfig by_rk4(const Scenario& scenario, double dt) {
@@ -126,4 +126,4 @@ TEST(DriftMeterSamples, MayComeInAnyParts) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::run_together_test

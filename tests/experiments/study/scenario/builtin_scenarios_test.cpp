@@ -13,7 +13,7 @@
 #include "experiments/study/scenario/scenario.hpp"
 #include "tests/experiments/study/scenario/scenario_texts.hpp"
 
-namespace polhode::study::scenario_tests {
+namespace polhode::study::scenario_tests::builtin_scenarios_test {
 namespace {
 
 Scenario builtin(const char* name) { return ScenarioSource::open(name).resolve(); }
@@ -76,4 +76,4 @@ TEST(BuiltinScenarios, TwoBodiesAreOnTheirEllipse) {
 }
 
 }  // namespace
-}  // namespace polhode::study::scenario_tests
+}  // namespace polhode::study::scenario_tests::builtin_scenarios_test

@@ -9,7 +9,7 @@
 
 #include "experiments/study/scenario/scenario.hpp"
 
-namespace polhode::study::scenario_tests {
+namespace polhode::study::scenario_tests::characteristic_rate_test {
 namespace {
 
 TEST(CharacteristicRate, IsTheLargestOfAScenario) {
@@ -25,4 +25,4 @@ TEST(CharacteristicRate, IsTheLargestOfAScenario) {
 }
 
 }  // namespace
-}  // namespace polhode::study::scenario_tests
+}  // namespace polhode::study::scenario_tests::characteristic_rate_test

@@ -11,7 +11,7 @@
 #include "experiments/study/scenario/scenario.hpp"
 #include "tests/experiments/study/scenario/scenario_texts.hpp"
 
-namespace polhode::study::scenario_tests {
+namespace polhode::study::scenario_tests::joint_reader_test {
 namespace {
 
 const std::string jointed = R"(t_end = 1.0
@@ -161,4 +161,4 @@ axis_body = [0.0, 1.0, 0.0]
 }
 
 }  // namespace
-}  // namespace polhode::study::scenario_tests
+}  // namespace polhode::study::scenario_tests::joint_reader_test

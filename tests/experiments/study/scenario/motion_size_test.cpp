@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace polhode::study {
+namespace polhode::study::motion_size_test {
 namespace {
 
 double size_of(const char* scenario, double seconds) {
@@ -26,4 +26,4 @@ TEST(MotionSize, IsWithoutBoundWhereNothingMovesOrNoPathIsKnown) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::motion_size_test

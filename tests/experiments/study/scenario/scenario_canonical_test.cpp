@@ -14,7 +14,7 @@
 #include "experiments/study/scenario/scenario_keys.hpp"
 #include "tests/experiments/study/scenario/scenario_texts.hpp"
 
-namespace polhode::study::scenario_tests {
+namespace polhode::study::scenario_tests::scenario_canonical_test {
 namespace {
 
 TEST(ScenarioCanonical, SaysNothingOfNamesTitlesAndSpelling) {
@@ -143,4 +143,4 @@ TEST(ScenarioCanonical, SeesTheInvariants) {
 }
 
 }  // namespace
-}  // namespace polhode::study::scenario_tests
+}  // namespace polhode::study::scenario_tests::scenario_canonical_test

@@ -10,7 +10,7 @@
 #include "experiments/study/scenario/scenario.hpp"
 #include "experiments/study/text/input_error.hpp"
 
-namespace polhode::study {
+namespace polhode::study::scenario_copies_test {
 namespace {
 
 using testing::HasSubstr;
@@ -82,4 +82,4 @@ TEST(ScenarioCopies, ErrorsSayWhatWouldDo) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario_copies_test

@@ -9,7 +9,7 @@
 #include "experiments/study/scenario/scenario.hpp"
 #include "tests/experiments/study/scenario/scenario_texts.hpp"
 
-namespace polhode::study::scenario_tests {
+namespace polhode::study::scenario_tests::scenario_errors_test {
 namespace {
 
 struct Wrong {
@@ -239,4 +239,4 @@ TEST(ScenarioErrors, Invariants) {
 }
 
 }  // namespace
-}  // namespace polhode::study::scenario_tests
+}  // namespace polhode::study::scenario_tests::scenario_errors_test

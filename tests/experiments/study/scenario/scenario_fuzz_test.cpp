@@ -15,7 +15,7 @@
 #include "experiments/study/scenario/scenario.hpp"
 #include "experiments/study/text/input_error.hpp"
 
-namespace polhode::study {
+namespace polhode::study::scenario_fuzz_test {
 namespace {
 
 /// SplitMix64 (Steele, Lea & Flood 2014): the same numbers with every standard library.
@@ -226,4 +226,4 @@ TEST(ScenarioFuzz, RandomOverridesAreReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::scenario_fuzz_test

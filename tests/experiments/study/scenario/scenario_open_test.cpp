@@ -10,7 +10,7 @@
 #include "tests/experiments/study/scenario/scenario_texts.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace polhode::study::scenario_tests {
+namespace polhode::study::scenario_tests::scenario_open_test {
 namespace {
 
 std::string open_error(const std::string& name) {
@@ -47,4 +47,4 @@ TEST(ScenarioOpen, FilesByPath) {
 }
 
 }  // namespace
-}  // namespace polhode::study::scenario_tests
+}  // namespace polhode::study::scenario_tests::scenario_open_test

@@ -9,7 +9,7 @@
 #include "experiments/study/scenario/scenario.hpp"
 #include "tests/experiments/study/scenario/scenario_texts.hpp"
 
-namespace polhode::study::scenario_tests {
+namespace polhode::study::scenario_tests::scenario_overrides_test {
 namespace {
 
 TEST(ScenarioOverrides, SetNumbersVectorsAndTexts) {
@@ -119,4 +119,4 @@ TEST(ScenarioOverrides, SurfacesDecideWhereThereIsContact) {
 }
 
 }  // namespace
-}  // namespace polhode::study::scenario_tests
+}  // namespace polhode::study::scenario_tests::scenario_overrides_test

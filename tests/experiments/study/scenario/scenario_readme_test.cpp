@@ -16,7 +16,7 @@
 #include "experiments/study/scenario/scenario_keys.hpp"
 #include "tests/experiments/study/scenario/scenario_texts.hpp"
 
-namespace polhode::study::scenario_tests {
+namespace polhode::study::scenario_tests::scenario_readme_test {
 namespace {
 
 std::string readme() {
@@ -52,4 +52,4 @@ TEST(ScenarioReadme, ItsExampleResolves) {
 }
 
 }  // namespace
-}  // namespace polhode::study::scenario_tests
+}  // namespace polhode::study::scenario_tests::scenario_readme_test

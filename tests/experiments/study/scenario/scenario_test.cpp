@@ -10,7 +10,7 @@
 
 #include "tests/experiments/study/scenario/scenario_texts.hpp"
 
-namespace polhode::study::scenario_tests {
+namespace polhode::study::scenario_tests::scenario_test {
 namespace {
 
 TEST(Scenario, ReadsBodiesAndForces) {
@@ -98,4 +98,4 @@ TEST(Scenario, DeclaredInvariantsAreKept) {
 }
 
 }  // namespace
-}  // namespace polhode::study::scenario_tests
+}  // namespace polhode::study::scenario_tests::scenario_test

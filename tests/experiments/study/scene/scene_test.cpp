@@ -16,7 +16,7 @@
 #include "tests/collision/shapes/corner_obj.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace polhode::study {
+namespace polhode::study::scene_test {
 namespace {
 
 using Vector = Vector3<double>;
@@ -307,4 +307,4 @@ TEST(Scene, OfEveryBuiltInScenarioShowsEachBody) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::scene_test

@@ -16,7 +16,7 @@
 
 #include "experiments/study/metrics/drift_class.hpp"
 
-namespace polhode::study {
+namespace polhode::study::drift_growth_test {
 namespace {
 
 using std::numbers::pi;
@@ -206,4 +206,4 @@ TEST(Drift, OfOneSizeOverTheBlocksIsTheSameInAnyUnit) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::drift_growth_test

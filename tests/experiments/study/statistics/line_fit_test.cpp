@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace polhode::study {
+namespace polhode::study::line_fit_test {
 namespace {
 
 TEST(LineFit, GoesThroughPointsOnALine) {
@@ -31,4 +31,4 @@ TEST(LineFit, HasNoSlopeWhereAllXAreOne) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::line_fit_test

@@ -10,7 +10,7 @@
 #include <limits>
 #include <random>
 
-namespace polhode::study {
+namespace polhode::study::order_estimate_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -214,4 +214,4 @@ TEST(OrderEstimate, DoesNotDependOnTheOrderOfThePoints) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::order_estimate_test

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace polhode::study {
+namespace polhode::study::quantile_sketch_test {
 namespace {
 
 TEST(QuantileSketch, IsWithinItsErrorOfTheSortedValues) {
@@ -39,4 +39,4 @@ TEST(QuantileSketch, HasNoQuantilesWithoutValues) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::quantile_sketch_test

@@ -18,7 +18,7 @@
 #include "tests/experiments/study/store/stored_runs.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace polhode::study::store_tests {
+namespace polhode::study::store_tests::damage_test {
 namespace {
 
 using Random = std::mt19937_64;
@@ -177,4 +177,4 @@ TEST(DamagedStore, NoRandomDamageGivesOtherNumbers) {
 }
 
 }  // namespace
-}  // namespace polhode::study::store_tests
+}  // namespace polhode::study::store_tests::damage_test

@@ -12,7 +12,7 @@
 
 #include "tests/temporary_folder.hpp"
 
-namespace polhode::study::store_tests {
+namespace polhode::study::store_tests::file_system_test {
 namespace {
 
 TEST(FileSystem, NetworkFileSystemsAreKnownByTheirNumber) {
@@ -43,4 +43,4 @@ TEST(FileSystem, AFolderThatIsNotThereYetHasTheJournalOfItsParent) {
 }
 
 }  // namespace
-}  // namespace polhode::study::store_tests
+}  // namespace polhode::study::store_tests::file_system_test

@@ -16,7 +16,7 @@
 
 #include "tests/temporary_folder.hpp"
 
-namespace polhode::study::store_tests {
+namespace polhode::study::store_tests::folder_lock_test {
 namespace {
 
 using testing::AllOf;
@@ -79,4 +79,4 @@ TEST(FolderLock, AFolderThatIsNotThereCannotBeLocked) {
 }
 
 }  // namespace
-}  // namespace polhode::study::store_tests
+}  // namespace polhode::study::store_tests::folder_lock_test

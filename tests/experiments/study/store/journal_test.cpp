@@ -19,7 +19,7 @@
 #include "tests/experiments/study/store/stored_runs.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace polhode::study::store_tests {
+namespace polhode::study::store_tests::journal_test {
 namespace {
 
 constexpr std::uint64_t batch = 7;
@@ -125,4 +125,4 @@ TEST(Journal, AStoreCanBeReadWhileAnotherProgramWrites) {
 }
 
 }  // namespace
-}  // namespace polhode::study::store_tests
+}  // namespace polhode::study::store_tests::journal_test

@@ -16,7 +16,7 @@
 #include "tests/experiments/study/store/stored_runs.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace polhode::study::store_tests {
+namespace polhode::study::store_tests::store_test {
 namespace {
 
 using testing::AllOf;
@@ -195,4 +195,4 @@ TEST(Store, AnIdIsANumberOf16HexadecimalDigits) {
 }
 
 }  // namespace
-}  // namespace polhode::study::store_tests
+}  // namespace polhode::study::store_tests::store_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace polhode::study::report {
+namespace polhode::study::report::child_process_test {
 namespace {
 
 TEST(ChildProcess, MayPrintWhileItIsFedMoreThanAPipeHolds) {
@@ -27,4 +27,4 @@ TEST(ChildProcess, SaysWhenItReadsNoMore) {
 }
 
 }  // namespace
-}  // namespace polhode::study::report
+}  // namespace polhode::study::report::child_process_test

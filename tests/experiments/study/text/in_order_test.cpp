@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-namespace polhode::study {
+namespace polhode::study::in_order_test {
 namespace {
 
 class InOrder : public testing::TestWithParam<std::size_t> {};  // number of threads
@@ -78,4 +78,4 @@ TEST_P(InOrder, NoPartsAreNoWork) {
 INSTANTIATE_TEST_SUITE_P(Threads, InOrder, testing::Values(1U, 2U, 5U));
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::in_order_test

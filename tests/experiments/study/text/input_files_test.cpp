@@ -16,7 +16,7 @@
 #include "experiments/study/text/toml_value.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace polhode::study {
+namespace polhode::study::input_files_test {
 namespace {
 
 using testing::EndsWith;
@@ -193,4 +193,4 @@ TEST(TomlNesting, DotsElsewhereAreNotNesting) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::input_files_test

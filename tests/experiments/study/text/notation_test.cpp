@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace polhode::study::report_tests {
+namespace polhode::study::report_tests::notation_test {
 namespace {
 
 TEST(ReportNotation, PrintsNumbersShortly) {
@@ -37,4 +37,4 @@ TEST(ReportNotation, EscapesWhatEachFormatWouldRead) {
 }
 
 }  // namespace
-}  // namespace polhode::study::report_tests
+}  // namespace polhode::study::report_tests::notation_test

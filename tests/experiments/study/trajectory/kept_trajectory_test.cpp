@@ -16,7 +16,7 @@
 #include "experiments/study/trajectory/trajectory.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace polhode::study {
+namespace polhode::study::kept_trajectory_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -189,4 +189,4 @@ TEST_F(KeptTrajectories, OfTheOtherFormatThatAreUnfinishedAreRemovedByTheNextRun
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::kept_trajectory_test

@@ -9,7 +9,7 @@
 #include "experiments/study/text/input_error.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace polhode::study {
+namespace polhode::study::reaction_reader_test {
 namespace {
 
 using Forces = std::vector<Vector3<double>>;
@@ -41,4 +41,4 @@ TEST_F(Reactions, OfOtherInstantsOrJointsAreNone) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::reaction_reader_test

@@ -14,7 +14,7 @@
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/text/input_error.hpp"
 
-namespace polhode::study {
+namespace polhode::study::trajectory_reader_test {
 namespace {
 
 using judge::score;
@@ -199,4 +199,4 @@ TEST(TrajectoryScore, SaysWhereTheStartIsAnother) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::trajectory_reader_test

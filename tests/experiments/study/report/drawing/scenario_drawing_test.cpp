@@ -17,7 +17,7 @@
 #include "experiments/study/scenario/builtin_scenarios.hpp"
 #include "tests/experiments/study/report/result_files.hpp"
 
-namespace polhode::study::report_tests {
+namespace polhode::study::report_tests::scenario_drawing_test {
 namespace {
 
 using testing::Contains;
@@ -163,4 +163,4 @@ TEST(ScenarioWords, SayMassesMomentsStartsAndForces) {
 }
 
 }  // namespace
-}  // namespace polhode::study::report_tests
+}  // namespace polhode::study::report_tests::scenario_drawing_test

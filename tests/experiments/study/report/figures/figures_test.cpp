@@ -23,7 +23,7 @@
 #include "tests/experiments/study/report/made_up_study.hpp"
 #include "tests/experiments/study/report/result_files.hpp"
 
-namespace polhode::study::report_tests {
+namespace polhode::study::report_tests::figures_test {
 namespace {
 
 const Figure* find_figure(const FigureSet& set, const std::string& name) {
@@ -286,4 +286,4 @@ TEST(ReportFigures, SayWhyGnuplotFailed) {
 }
 
 }  // namespace
-}  // namespace polhode::study::report_tests
+}  // namespace polhode::study::report_tests::figures_test

@@ -11,7 +11,7 @@
 #include "experiments/study/curves/curves.hpp"
 #include "tests/experiments/study/report/made_up_study.hpp"
 
-namespace polhode::study::report_tests {
+namespace polhode::study::report_tests::findings_test {
 namespace {
 
 std::string findings_text(const StudyView& study) {
@@ -200,4 +200,4 @@ TEST(ReportFindings, CountOverManyMotions) {
 }
 
 }  // namespace
-}  // namespace polhode::study::report_tests
+}  // namespace polhode::study::report_tests::findings_test

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace polhode::study {
+namespace polhode::study::compact_svg_test {
 namespace {
 
 /// A picture as gnuplot writes it, with that content.
@@ -142,4 +142,4 @@ TEST(SvgAddress, EscapesWhatAnAddressOrAnAttributeCannotHold) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::compact_svg_test

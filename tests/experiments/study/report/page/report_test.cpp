@@ -16,7 +16,7 @@
 #include "tests/experiments/study/report/made_up_study.hpp"
 #include "tests/experiments/study/report/result_files.hpp"
 
-namespace polhode::study::report_tests {
+namespace polhode::study::report_tests::report_test {
 namespace {
 
 TEST(Report, IsWellFormedAndOpensAlone) {
@@ -128,4 +128,4 @@ TEST(Report, OfThousandsOfRunsStaysShort) {
 }
 
 }  // namespace
-}  // namespace polhode::study::report_tests
+}  // namespace polhode::study::report_tests::report_test

@@ -11,7 +11,7 @@
 
 #include "experiments/study/record/run_options.hpp"
 
-namespace polhode::study {
+namespace polhode::study::population_test {
 namespace {
 
 /// Runs of a square of values of two keys, 101 … 100 + side. The energy drift is the product of what is above 100.
@@ -96,4 +96,4 @@ TEST(Population, OfOneAxisHasNoMap) {
 }
 
 }  // namespace
-}  // namespace polhode::study
+}  // namespace polhode::study::population_test

@@ -17,7 +17,7 @@
 #include "tests/experiments/study/report/made_up_study.hpp"
 #include "tests/experiments/study/report/result_files.hpp"
 
-namespace polhode::study::report_tests {
+namespace polhode::study::report_tests::tables_test {
 namespace {
 
 TEST(ReportTables, NameRunsInLettersAndNoTwoAlike) {
@@ -75,4 +75,4 @@ TEST(ReportTables, ValuesOfManyRunsAreInAFileForEachMethod) {
 }
 
 }  // namespace
-}  // namespace polhode::study::report_tests
+}  // namespace polhode::study::report_tests::tables_test
