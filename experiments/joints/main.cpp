@@ -25,6 +25,6 @@ int main(int argc, char** argv) {
        .failures_are_results = true,
        .analysis_alone = true,
        .analysis = polhode::study::joints::how_joints_hold,
-       .needs = {.figures = 2}},
+       .needs = {.analysis = 0.1, .figures = 2}},
       argc, argv);
 }

@@ -46,6 +46,6 @@ int main(int argc, char** argv) {
                                          .duration = polhode::study::stability::whole_steps,
                                          .refine = polhode::study::stability::bisection,
                                          .analysis = polhode::study::stability::stability,
-                                         .needs = {.refined = 0.34, .analysis = 0.5, .figures = 3}},
+                                         .needs = {.refined = 0.34, .analysis = 0.75, .figures = 3}},
                                         argc, argv);
 }

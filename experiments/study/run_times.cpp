@@ -63,7 +63,14 @@ constexpr double least_share = 1e-4, least_adaptive_share = 0.05;
 struct Timed {
   const PlannedRun* run;
   double share;    ///< of the run that was done, 0 to 1
-  double seconds;  ///< of one run, s
+  double seconds;  ///< of that part at the mean rate that the whole run is expected to have, s
+};
+
+/// Times of several kinds.
+struct Known {
+  double seconds = 0, cost = 0;
+  void add(double more_seconds, double more_cost) { seconds += more_seconds, cost += more_cost; }
+  double rate() const { return seconds / cost; }
 };
 
 /// Runs of one kind.
@@ -84,6 +91,12 @@ auto kind_key_of(const PlannedRun& run) {
   return std::tuple(config.integrator, config.scenario, config.precision, contact.response, contact.impact_timing,
                     contact.narrow_phase, contact.broad_phase, run.scenario->problem.moving(), config.settings,
                     is_compensated(config));
+}
+
+/// Method and contact response: kinds that agree in these take similar times for a step of a body.
+using ResponseKey = std::pair<std::string, std::string>;
+ResponseKey response_key_of(const PlannedRun& run) {
+  return {run.config.integrator, in_contact(run) ? run.config.contact->response : std::string()};
 }
 
 using KindKey = decltype(kind_key_of(std::declval<const PlannedRun&>()));
@@ -125,13 +138,16 @@ struct TrueMotionHash {
 /// Stops what workers do when their time is over.
 class Alarm {
  public:
-  explicit Alarm(std::size_t workers) : ends_(workers), stops_(workers) {
-    for (auto& end : ends_) end = never;
+  explicit Alarm(std::size_t workers) : watches_(workers) {
     thread_ = std::thread([this] {
       while (!finished_) {
         const auto now = TimingClock::now().time_since_epoch().count();
-        for (std::size_t i = 0; i < ends_.size(); ++i) {
-          if (now >= ends_[i]) stops_[i] = true;
+        for (Watch& watch : watches_) {
+          if (now >= watch.half) {
+            watch.half = never;
+            watch.share_at_half = watch.share.load();
+          }
+          if (now >= watch.end) watch.stop = true;
         }
         std::this_thread::sleep_for(std::chrono::microseconds(100));
       }
@@ -144,19 +160,30 @@ class Alarm {
   Alarm(const Alarm&) = delete;
   Alarm& operator=(const Alarm&) = delete;
 
-  /// The flag that is set after so many seconds; it was cleared.
-  const std::atomic<bool>* in(double seconds, std::size_t worker) {
-    ends_[worker] = never;
-    stops_[worker] = false;
+  /// A run of a worker, and how far it came.
+  struct Watch {
+    std::atomic<TimingClock::rep> half{never}, end{never};  ///< instants
+    std::atomic<bool> stop{false};                          ///< set at the end
+    std::atomic<double> share{0};                           ///< part of the run that is done, which the run writes
+    std::atomic<double> share_at_half{0};
+  };
+
+  /// The watch of a worker, set anew: it ends after so many seconds.
+  Watch& in(double seconds, std::size_t worker) {
+    Watch& watch = watches_[worker];
+    watch.half = watch.end = never;
+    watch.stop = false;
+    watch.share = watch.share_at_half = 0;
     const auto length = std::chrono::duration_cast<TimingClock::duration>(std::chrono::duration<double>(seconds));
-    ends_[worker] = (TimingClock::now() + length).time_since_epoch().count();
-    return &stops_[worker];
+    const auto now = TimingClock::now();
+    watch.half = (now + length / 2).time_since_epoch().count();
+    watch.end = (now + length).time_since_epoch().count();
+    return watch;
   }
 
  private:
   static constexpr TimingClock::rep never = std::numeric_limits<TimingClock::rep>::max();
-  std::vector<std::atomic<TimingClock::rep>> ends_;
-  std::vector<std::atomic<bool>> stops_;
+  std::vector<Watch> watches_;
   std::atomic<bool> finished_{false};
   std::thread thread_;
 };
@@ -179,17 +206,22 @@ class Calibration {
     RunTimes times;
     times.seconds.reserve(runs_.size());
     times.seconds.resize(runs_.size());
-    double known = 0, cost = 0;
+    Known all_kinds;
+    std::map<ResponseKey, Known> like;
     for (const RunKind& kind : kinds_) {
       if (kind.timed.empty()) continue;
-      for (const std::size_t i : kind.runs) known += times.seconds[i] = seconds_of(kind, *runs_[i]);
-      cost += kind.cost;
+      double seconds = 0;
+      for (const std::size_t i : kind.runs) seconds += times.seconds[i] = seconds_of(kind, *runs_[i]);
+      all_kinds.add(seconds, kind.cost);
+      like[response_key_of(*runs_[kind.largest])].add(seconds, kind.cost);
     }
+    const double known = all_kinds.seconds;
     double all = known;
     for (const RunKind& kind : kinds_) {
-      if (!kind.timed.empty() || !(cost > 0)) continue;
-      for (const std::size_t i : kind.runs)
-        all += times.seconds[i] = known / cost * runs_[i]->cost * moving_bodies(*runs_[i]);
+      if (!kind.timed.empty() || !(all_kinds.cost > 0)) continue;
+      const auto found = like.find(response_key_of(*runs_[kind.largest]));
+      const double rate = (found != like.end() ? found->second : all_kinds).rate();
+      for (const std::size_t i : kind.runs) all += times.seconds[i] = rate * runs_[i]->cost * moving_bodies(*runs_[i]);
     }
     for (double& seconds : times.seconds) {
       if (timing_.best_times && seconds < BestTime::repeated_below) seconds *= BestTime::repetitions;
@@ -237,20 +269,26 @@ class Calibration {
     if (!has_truth && config.reference) config.reference = false;
     else if (!has_truth) config.t_end /= 16;
     RunResult result;
+    double share_at_half = 0;
     const auto carried_out = [&] {
-      const std::atomic<bool>* stop = alarm_.in(slice, worker);
+      Alarm::Watch& watch = alarm_.in(slice, worker);
+      const std::atomic<bool>* stop = &watch.stop;
       if (batch.size() == 1 || !has_truth) {
-        result = carry_out(config, *run.scenario, {}, stop, &references_);
+        result = carry_out(config, *run.scenario, {}, stop, &references_, &watch.share);
+        share_at_half = watch.share_at_half * config.t_end / run.config.t_end;
         return;
       }
       std::vector<LanedRun> lanes;
       for (const PlannedRun* one : batch) lanes.push_back({one->config, *one->scenario});
       result = carry_out_together(lanes, stop, &references_).front();
     };
-    const double seconds = least_time(carried_out, slice) / (has_truth ? static_cast<double>(batch.size()) : 1);
+    double seconds = least_time(carried_out, slice) / (has_truth ? static_cast<double>(batch.size()) : 1);
     const bool whole = result.status != "interrupted" && config.t_end == run.config.t_end;
     const double share = whole ? 1 : result.t_reached / run.config.t_end;
     if (share < (run.config.dt ? least_share : least_adaptive_share)) return;
+    // What is left of a run in contact goes on as its second half did: bodies meet, or come to rest.
+    if (in_contact(run) && share < 1 && share_at_half > 0 && share > share_at_half)
+      seconds = share * (seconds + (1 - share) * seconds / 2 / (share - share_at_half));
     const std::lock_guard lock(mutex_);
     kind.timed.push_back({&run, share, seconds});
     if (share == 1) overhead_ = std::min(overhead_, seconds);
@@ -264,7 +302,7 @@ class Calibration {
       const std::lock_guard lock(mutex_);
       first = known_motions_.insert(true_motion_key(run)).second;
     }
-    const std::atomic<bool>* stop = alarm_.in(slice, worker);
+    const std::atomic<bool>* stop = &alarm_.in(slice, worker).stop;
     if (!first) {
       references_.of(run.config, *run.scenario, stop);
       return !*stop;
@@ -305,14 +343,11 @@ class Calibration {
     struct Settled {
       double work = 0, rate = 0;  // cost times bodies; s per unit of that
     };
-    std::map<std::pair<std::string, std::string>, Settled> rates;  // of the largest run that came to its end
-    const auto group = [](const PlannedRun& run) {
-      return std::pair(run.config.integrator, run.config.contact->response);
-    };
+    std::map<ResponseKey, Settled> rates;  // of the largest run that came to its end
     for (const RunKind& kind : kinds_) {
       for (const Timed& timed : kind.timed) {
         if (!in_contact(*timed.run) || timed.share < 1) continue;
-        Settled& settled = rates[group(*timed.run)];
+        Settled& settled = rates[response_key_of(*timed.run)];
         const double work = timed.run->cost * moving_bodies(*timed.run);
         if (work > settled.work) settled = {work, timed.seconds / work};
       }
@@ -320,7 +355,7 @@ class Calibration {
     for (RunKind& kind : kinds_) {
       for (Timed& timed : kind.timed) {
         if (!in_contact(*timed.run) || timed.share == 1) continue;
-        const auto rate = rates.find(group(*timed.run));
+        const auto rate = rates.find(response_key_of(*timed.run));
         if (rate == rates.end()) continue;
         const double least = rate->second.rate * timed.run->cost * moving_bodies(*timed.run) * timed.share;
         timed.seconds = std::max(timed.seconds, least);

@@ -33,9 +33,9 @@ struct KnownTime {
 
 /// Runs are of one kind if they agree in method, scenario, arithmetic, contact algorithms and number of bodies. Of each
 /// kind the run of largest and the run of least cost are carried out for a while, the most expensive kinds first, until
-/// the budget has passed; a kind that was not reached gets the mean rate of the others. Of a kind with several
-/// known times no run is carried out. The reference and the scales that runs share are counted with the first of these.
-/// Writes no file.
+/// the budget has passed; a kind that was not reached gets the mean rate of those with its method and response, or of
+/// all. Of a kind with several known times no run is carried out. The reference and the scales that runs share are
+/// counted with the first of these. Writes no file.
 RunTimes run_times(std::span<const PlannedRun* const> runs, std::span<const KnownTime> known, const Timing& timing);
 
 /// Time until so many workers have carried out runs that take these times (s), begun in this order, s.

@@ -5,6 +5,12 @@
 #   tests/benchmarks/coursework.sh [PRESET] [PAIRS]
 set -eu
 bin=$(cd -P -- "$(dirname -- "$0")/../.." && pwd)/build/${1:-release}/bin
+for program in energy_drift coursework_by_hand; do
+  if [ ! -x "$bin/$program" ]; then
+    echo "$bin/$program is not there: build it (cmake --build build/${1:-release} --target $program)" >&2
+    exit 2
+  fi
+done
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 

@@ -40,7 +40,7 @@ rule join:
             for k, name in enumerate(input):
                 table.writelines(open(name).readlines()[k > 0:])
 """
-SNAKEMAKE = f"snakemake --quiet --cores {JOBS}\n"
+SNAKEMAKE = f"snakemake --quiet --cores {JOBS} --scheduler greedy\n"
 
 
 def measured(folder, runs, command, files):

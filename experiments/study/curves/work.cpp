@@ -58,6 +58,8 @@ std::vector<WorkPoint> work_points(const Curve& curve, const Quantity& quantity,
 }
 
 std::vector<MotionWork> work_of_motions(const Grouping& grouping, const RunCost& cost) {
+  std::vector<std::vector<const Curve*>> of_case(grouping.cases.size());
+  for (const Curve& curve : grouping.curves) of_case[curve.case_index].push_back(&curve);
   std::vector<MotionWork> motions;
   for (std::size_t c = 0; c < grouping.cases.size(); ++c) {
     for (const auto& quantity : {quantity::attitude_error(), quantity::position_error()}) {
@@ -68,16 +70,17 @@ std::vector<MotionWork> work_of_motions(const Grouping& grouping, const RunCost&
                         .exact = {},
                         .without = {},
                         .envelope = {}};
-      for (const auto& curve : grouping.curves) {
+      for (const Curve* one : of_case[c]) {
+        const Curve& curve = *one;
         // Runs without the gyroscopic term solve another equation.
         const bool same_equation = curve.runs.front()->config.formulation.gyroscopic;
-        if (curve.case_index != c || !same_equation || !is_measured(curve, quantity)) continue;
+        if (!same_equation || !is_measured(curve, quantity)) continue;
         auto work = work_points(curve, quantity, cost);
         const bool costs = std::any_of(curve.runs.begin(), curve.runs.end(),
                                        [&](const auto* run) { return cost.of(run->result) > 0; });
-        if (!costs) motion.without.push_back(&curve);
-        else if (is_exact(curve, quantity)) motion.exact.push_back(&curve);
-        else motion.curves.push_back(&curve), motion.points.push_back(std::move(work));
+        if (!costs) motion.without.push_back(one);
+        else if (is_exact(curve, quantity)) motion.exact.push_back(one);
+        else motion.curves.push_back(one), motion.points.push_back(std::move(work));
       }
       if (std::none_of(motion.curves.begin(), motion.curves.end(),
                        [&](const Curve* curve) { return is_above_round_off(*curve, quantity); }))
