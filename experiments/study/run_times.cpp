@@ -141,14 +141,7 @@ class Alarm {
   explicit Alarm(std::size_t workers) : watches_(workers) {
     thread_ = std::thread([this] {
       while (!finished_) {
-        const auto now = TimingClock::now().time_since_epoch().count();
-        for (Watch& watch : watches_) {
-          if (now >= watch.half) {
-            watch.half = never;
-            watch.share_at_half = watch.share.load();
-          }
-          if (now >= watch.end) watch.stop = true;
-        }
+        look();
         std::this_thread::sleep_for(std::chrono::microseconds(100));
       }
     });
@@ -162,28 +155,41 @@ class Alarm {
 
   /// A run of a worker, and how far it came.
   struct Watch {
-    std::atomic<TimingClock::rep> half{never}, end{never};  ///< instants
-    std::atomic<bool> stop{false};                          ///< set at the end
-    std::atomic<double> share{0};                           ///< part of the run that is done, which the run writes
-    std::atomic<double> share_at_half{0};
+    TimingClock::time_point half = never, end = never;
+    std::atomic<bool> stop{false};         ///< set at the end
+    std::atomic<double> share{0};          ///< part of the run that is done, which the run writes
+    std::atomic<double> share_at_half{0};  ///< 0 before
   };
 
   /// The watch of a worker, set anew: it ends after so many seconds.
   Watch& in(double seconds, std::size_t worker) {
+    const std::lock_guard lock(mutex_);
     Watch& watch = watches_[worker];
-    watch.half = watch.end = never;
     watch.stop = false;
     watch.share = watch.share_at_half = 0;
     const auto length = std::chrono::duration_cast<TimingClock::duration>(std::chrono::duration<double>(seconds));
     const auto now = TimingClock::now();
-    watch.half = (now + length / 2).time_since_epoch().count();
-    watch.end = (now + length).time_since_epoch().count();
+    watch.half = now + length / 2;
+    watch.end = now + length;
     return watch;
   }
 
  private:
-  static constexpr TimingClock::rep never = std::numeric_limits<TimingClock::rep>::max();
+  void look() {
+    const std::lock_guard lock(mutex_);
+    const auto now = TimingClock::now();
+    for (Watch& watch : watches_) {
+      if (now >= watch.half) {
+        watch.half = never;
+        watch.share_at_half = watch.share.load();
+      }
+      if (now >= watch.end) watch.stop = true;
+    }
+  }
+
+  static constexpr TimingClock::time_point never = TimingClock::time_point::max();
   std::vector<Watch> watches_;
+  std::mutex mutex_;
   std::atomic<bool> finished_{false};
   std::thread thread_;
 };
@@ -286,9 +292,7 @@ class Calibration {
     const bool whole = result.status != "interrupted" && config.t_end == run.config.t_end;
     const double share = whole ? 1 : result.t_reached / run.config.t_end;
     if (share < (run.config.dt ? least_share : least_adaptive_share)) return;
-    // What is left of a run in contact goes on as its second half did: bodies meet, or come to rest.
-    if (in_contact(run) && share < 1 && share_at_half > 0 && share > share_at_half)
-      seconds = share * (seconds + (1 - share) * seconds / 2 / (share - share_at_half));
+    if (in_contact(run)) seconds = share * time_of_whole(seconds, share, share_at_half);
     const std::lock_guard lock(mutex_);
     kind.timed.push_back({&run, share, seconds});
     if (share == 1) overhead_ = std::min(overhead_, seconds);
@@ -437,6 +441,12 @@ class Calibration {
 RunTimes run_times(std::span<const PlannedRun* const> runs, std::span<const KnownTime> known, const Timing& timing) {
   if (runs.empty()) return {};
   return Calibration(runs, known, timing).run();
+}
+
+double time_of_whole(double seconds, double share, double share_at_half) {
+  if (share >= 1) return seconds;
+  if (!(share_at_half > 0 && share > share_at_half)) return seconds / share;
+  return seconds + (1 - share) * (seconds / 2) / (share - share_at_half);
 }
 
 double time_of_workers(std::span<const double> seconds, std::size_t workers) {

@@ -38,6 +38,11 @@ struct KnownTime {
 /// counted with the first of these. Writes no file.
 RunTimes run_times(std::span<const PlannedRun* const> runs, std::span<const KnownTime> known, const Timing& timing);
 
+/// Time of a whole run of which a part was carried out in so many seconds, s. `share`: that part, 0 to 1;
+/// `share_at_half`: the part that was done after half of these seconds, 0 if it is not known. What is left goes on as
+/// the second half did: the cost of a step changes where bodies meet or come to rest.
+double time_of_whole(double seconds, double share, double share_at_half);
+
 /// Time until so many workers have carried out runs that take these times (s), begun in this order, s.
 double time_of_workers(std::span<const double> seconds, std::size_t workers);
 

@@ -78,6 +78,37 @@ TEST(RunTimes, OfAKindThatWasNotTimedFollowTheOthers) {
   EXPECT_LT(times.known, 0.5);
 }
 
+TEST(RunTimes, OfAKindThatWasNotTimedFollowThoseWithItsResponse) {
+  const Plan plan = planned({"--scenario", "stack", "--integrator", "semi_implicit_euler", "--response",
+                             "sequential_impulses,single_impulse", "--vary", "body.box.repeat=[1,1,2];[1,1,4]"});
+  const std::vector<PlannedRun> runs = plan.runs();
+  const std::vector<const PlannedRun*> missing = pointers_to(runs);
+  ASSERT_EQ(missing.size(), 4U);
+  const auto known_time = [](const PlannedRun& run) {
+    return run.config.contact->response == "single_impulse" ? 1.0 : 50.0;
+  };
+  std::vector<KnownTime> known;
+  for (const PlannedRun* run : missing) {
+    if (run->scenario->problem.moving() == 2) known.push_back({run, known_time(*run)});
+  }
+  Timing timing;
+  timing.budget = 0;
+  const RunTimes times = run_times(missing, known, timing);
+  for (std::size_t i = 0; i < missing.size(); ++i) {
+    const double bodies = static_cast<double>(missing[i]->scenario->problem.moving());
+    const double cost = missing[i]->cost / known.front().run->cost;
+    EXPECT_NEAR(times.seconds[i] / (known_time(*missing[i]) * cost * bodies / 2), 1, 0.02) << i;
+  }
+}
+
+TEST(RunTimes, WhatIsLeftGoesOnAsTheSecondHalfDid) {
+  EXPECT_DOUBLE_EQ(time_of_whole(3, 1, 0.5), 3);
+  EXPECT_DOUBLE_EQ(time_of_whole(2, 0.5, 0.25), 4);   // at a steady rate
+  EXPECT_DOUBLE_EQ(time_of_whole(1, 0.5, 0.4), 3.5);  // five times slower at the end: 0.5 s for a tenth
+  EXPECT_DOUBLE_EQ(time_of_whole(1, 0.5, 0), 2);      // the half is not known
+  EXPECT_DOUBLE_EQ(time_of_whole(1, 0.5, 0.5), 2);    // nothing was done in the second half
+}
+
 TEST(RunTimes, OfWorkersThatTakeOneRunAfterTheOther) {
   const std::vector<double> seconds = {5, 3, 2, 2};
   EXPECT_EQ(time_of_workers(seconds, 1), 12);
