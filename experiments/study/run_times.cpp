@@ -281,7 +281,8 @@ class Calibration {
       const std::atomic<bool>* stop = &watch.stop;
       if (batch.size() == 1 || !has_truth) {
         result = carry_out(config, *run.scenario, {}, stop, &references_, &watch.share);
-        share_at_half = watch.share_at_half * config.t_end / run.config.t_end;
+        // A run that came to its end did not take the whole slice: the half of that is not its own.
+        share_at_half = result.status == "interrupted" ? watch.share_at_half * config.t_end / run.config.t_end : 0;
         return;
       }
       std::vector<LanedRun> lanes;
