@@ -9,15 +9,10 @@
 #include "core/exact/free_top.hpp"
 #include "core/exact/lagrange_top.hpp"
 #include "core/exact/linear_motion.hpp"
+#include "core/math/directions.hpp"
 
 namespace polhode {
 namespace {
-
-constexpr double few_roundings = 4 * std::numeric_limits<double>::epsilon();
-
-bool parallel(const Vector3<double>& a, const Vector3<double>& unit) {
-  return a.cross(unit).norm() <= few_roundings * a.norm();
-}
 
 /// A body in its initial state and the forces of the problem that exert a torque on it.
 struct Torques {
@@ -74,8 +69,9 @@ ExactRotation heavy_top(const Torques& at) {
 }
 
 bool isotropic(const Matrix3<double>& inertia) {
+  constexpr double few_roundings = 8 * std::numeric_limits<double>::epsilon();
   const double mean = inertia.trace() / 3;
-  return (inertia - mean * Matrix3<double>::Identity()).cwiseAbs().maxCoeff() <= 2 * few_roundings * mean;
+  return (inertia - mean * Matrix3<double>::Identity()).cwiseAbs().maxCoeff() <= few_roundings * mean;
 }
 
 ExactRotation about_an_axis(const Torques& at) {
@@ -93,8 +89,10 @@ ExactRotation about_an_axis(const Torques& at) {
   axis.stableNormalize();
   const bool still = at.omega_body.isZero(0) && torque.isZero(0);
   const double moment = axis.dot(at.body.inertia * axis);
-  const bool one_axis = parallel(in_body, axis) && parallel(r.transpose() * torque_world, axis) &&
-                        (still || parallel(at.body.inertia * axis, axis));
+  constexpr double roundings = 4;
+  const bool one_axis = is_parallel(in_body, axis, roundings) &&
+                        is_parallel(r.transpose() * torque_world, axis, roundings) &&
+                        (still || is_parallel(at.body.inertia * axis, axis, roundings));
   if (one_axis) {
     const LinearMotion motion(0, drag / moment);
     const double speed = axis.dot(at.omega_body), acceleration = axis.dot(torque) / moment;

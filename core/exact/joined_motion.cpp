@@ -3,21 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
+
+#include "core/math/directions.hpp"
 
 namespace polhode {
 namespace {
 
 using Vector = Vector3<double>;
 using Matrix = Matrix3<double>;
-
-constexpr double many_roundings = 16 * std::numeric_limits<double>::epsilon();
-
-bool are_parallel(const Vector& a, const Vector& unit) { return a.cross(unit).norm() <= many_roundings * a.norm(); }
-bool are_perpendicular(const Vector& a, const Vector& b) {
-  return std::abs(a.dot(b)) <= many_roundings * a.norm() * b.norm();
-}
 
 /// The only joint of the body, if it ends in the world or on a static body; else null.
 const JointParameters* only_joint(const Problem& problem, std::size_t body) {
@@ -111,10 +105,11 @@ JoinedMotion joined_motion(const System<double>& system, std::size_t body) {
     return {};
   }
   if (joint->of.kind == "hinge") {
+    constexpr double roundings = 16;
     const Vector axis = joint->of.vector("axis_body").normalized();
     const Matrix& inertia = pinned.problem.bodies[0].inertia;
-    if (!are_parallel(inertia * axis, axis) || !are_perpendicular(r * axis, gravity) ||
-        !are_perpendicular(axis, pinned.arm))
+    if (!is_parallel(inertia * axis, axis, roundings) || !is_perpendicular(r * axis, gravity, roundings) ||
+        !is_perpendicular(axis, pinned.arm, roundings))
       return {};
   }
   if (!gravity.isZero(0)) pinned.problem.forces = {{"uniform_gravity", {0}, {{"acceleration", gravity}}}};
