@@ -37,20 +37,21 @@ double processor_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// The least processor time of some calls, of which the first one finds nothing in the caches, s. Short ones are
-/// repeated, for at most half of the slice.
+/// The mean processor time of some calls. The first one finds nothing in the caches and counts only where it is alone.
+/// Short ones are repeated, for at most half of the slice.
 template <class Call>
-double least_time(Call&& call, double slice) {
+double mean_time(Call&& call, double slice) {
   constexpr int most_calls = 4;
-  double least = std::numeric_limits<double>::infinity(), sum = 0;
-  for (int k = 0; k == 0 || (k < most_calls && sum + least < slice / 2); ++k) {
+  double first = 0, sum = 0;
+  int calls = 0;
+  do {
     const double start = processor_seconds();
     call();
     const double seconds = processor_seconds() - start;
-    least = std::min(least, seconds);
-    sum += seconds;
-  }
-  return least;
+    if (++calls == 1) first = seconds;
+    else sum += seconds;
+  } while (calls < most_calls && (first + sum) * (calls + 1) / calls < slice / 2);
+  return calls == 1 ? first : sum / (calls - 1);
 }
 
 constexpr double shortest_slice = 3e-4;     // s
@@ -247,13 +248,14 @@ class Calibration {
     for (RunKind& kind : kinds_) {
       if (kind.timed.size() < 2 && kind.least != kind.largest) work.emplace_back(&kind, kind.least);
     }
-    const auto start = TimingClock::now();
-    const std::size_t workers = std::min(std::max<std::size_t>(timing_.workers, 1), work.size());
     if (work.empty()) return;
+    const std::size_t workers = std::min(std::max<std::size_t>(timing_.workers, 1), work.size());
+    end_ = TimingClock::now() +
+           std::chrono::duration_cast<TimingClock::duration>(std::chrono::duration<double>(timing_.budget));
     std::atomic<std::size_t> next{0};
     const auto worker = [&](std::size_t number) {
       for (std::size_t i = next++; i < work.size(); i = next++) {
-        const double left = timing_.budget - std::chrono::duration<double>(TimingClock::now() - start).count();
+        const double left = seconds_left();
         if (left <= 0) return;
         const double slice = left * static_cast<double>(workers) / static_cast<double>(work.size() - i);
         time(*work[i].first, work[i].second, std::max(slice, shortest_slice), number);
@@ -265,15 +267,15 @@ class Calibration {
     for (std::thread& thread : others) thread.join();
   }
 
+  double seconds_left() const { return std::chrono::duration<double>(end_ - TimingClock::now()).count(); }
+
   void time(RunKind& kind, std::size_t index, double slice, std::size_t worker) {
     const PlannedRun& run = *runs_[index];
     bool has_truth = time_true_motion(run, slice, worker);
     const std::vector<const PlannedRun*> batch = batch_of(kind, index);
     for (const PlannedRun* other : batch) has_truth = has_truth && time_true_motion(*other, slice, worker);
-    // The run finds its true motion made. Without it a part of the run is carried out, whose true motion is soon made.
     RunConfig config = run.config;
-    if (!has_truth && config.reference) config.reference = false;
-    else if (!has_truth) config.t_end /= 16;
+    if (!has_truth) config.reference = false;
     RunResult result;
     double share_at_half = 0;
     const auto carried_out = [&] {
@@ -282,16 +284,15 @@ class Calibration {
       if (batch.size() == 1 || !has_truth) {
         result = carry_out(config, *run.scenario, {}, stop, &references_, &watch.share);
         // A run that came to its end did not take the whole slice: the half of that is not its own.
-        share_at_half = result.status == "interrupted" ? watch.share_at_half * config.t_end / run.config.t_end : 0;
+        share_at_half = result.status == "interrupted" ? watch.share_at_half.load() : 0;
         return;
       }
       std::vector<LanedRun> lanes;
       for (const PlannedRun* one : batch) lanes.push_back({one->config, *one->scenario});
       result = carry_out_together(lanes, stop, &references_).front();
     };
-    double seconds = least_time(carried_out, slice) / (has_truth ? static_cast<double>(batch.size()) : 1);
-    const bool whole = result.status != "interrupted" && config.t_end == run.config.t_end;
-    const double share = whole ? 1 : result.t_reached / run.config.t_end;
+    double seconds = mean_time(carried_out, slice) / (has_truth ? static_cast<double>(batch.size()) : 1);
+    const double share = result.status != "interrupted" ? 1 : result.t_reached / run.config.t_end;
     if (share < (run.config.dt ? least_share : least_adaptive_share)) return;
     if (in_contact(run)) seconds = share * time_of_whole(seconds, share, share_at_half);
     const std::lock_guard lock(mutex_);
@@ -300,30 +301,37 @@ class Calibration {
   }
 
   /// Makes the scales and the reference of a run, and takes the time of that if it is the first run that shares them.
-  /// False if there was not enough time.
+  /// A reference may take half of the time left, since no run that needs it tells its time before.
+  /// False if there was not enough time for a reference.
   bool time_true_motion(const PlannedRun& run, double slice, std::size_t worker) {
     bool first = false;
     {
       const std::lock_guard lock(mutex_);
       first = known_motions_.insert(true_motion_key(run)).second;
+      if (first && run.config.reference) slice = std::max(slice, seconds_left() / 2);
     }
     const std::atomic<bool>* stop = &alarm_.in(slice, worker).stop;
-    if (!first) {
-      references_.of(run.config, *run.scenario, stop);
-      return !*stop;
-    }
+    if (first) time_first_motion(run, slice, stop);
+    else references_.of(run.config, *run.scenario, stop);
+    if (!*stop) return true;
+    if (run.config.reference) return false;
+    // The scales of the start: they change the digits of a run and not its time.
+    references_.assume(*run.scenario, run.config.t_end, motion_scales(*run.scenario, run.config.t_end, stop));
+    return true;
+  }
+
+  void time_first_motion(const PlannedRun& run, double slice, const std::atomic<bool>* stop) {
     references_.expect(std::vector<std::uint64_t>(most_uses, number_of(*run.scenario)));
     auto made = [&, known = false]() mutable {
       if (std::exchange(known, true)) References().of(run.config, *run.scenario, stop);
       else references_.of(run.config, *run.scenario, stop);
     };
-    const double seconds = least_time(made, slice);
+    const double seconds = mean_time(made, slice);
     const std::lock_guard lock(mutex_);
     MotionTimes& times = motion_times_[run.config.scenario];
     if (*stop) times.cut = true;
     times.sum += *stop && run.config.reference ? seconds_of_reference : seconds;
     ++times.count;
-    return !*stop;
   }
 
   /// The runs that are carried out together with this one.
@@ -342,8 +350,9 @@ class Calibration {
     return batch;
   }
 
-  /// A contact run that was stopped may have seen its bodies fall and not yet rest on each other. It costs at least
-  /// what a step of a body costs in runs with the same response that came to their end.
+  /// A contact run that was stopped may have seen its bodies fall and not yet rest on each other. Where a step of a
+  /// body costs more in the largest run with the same response that came to its end, the rate is taken as the geometric
+  /// mean of both: larger heaps fall for longer.
   void settle() {
     struct Settled {
       double work = 0, rate = 0;  // cost times bodies; s per unit of that
@@ -362,8 +371,8 @@ class Calibration {
         if (!in_contact(*timed.run) || timed.share == 1) continue;
         const auto rate = rates.find(response_key_of(*timed.run));
         if (rate == rates.end()) continue;
-        const double least = rate->second.rate * timed.run->cost * moving_bodies(*timed.run) * timed.share;
-        timed.seconds = std::max(timed.seconds, least);
+        const double settled = rate->second.rate * timed.run->cost * moving_bodies(*timed.run) * timed.share;
+        if (settled > timed.seconds) timed.seconds = std::sqrt(timed.seconds * settled);
       }
     }
   }
@@ -407,6 +416,7 @@ class Calibration {
 
   /// Adds the time of each true motion to its first run.
   void add_true_motions(std::vector<double>& seconds) const {
+    const std::map<ResponseKey, double> prices = prices_of_contact_scales(seconds);
     std::unordered_map<TrueMotionKey, bool, TrueMotionHash> met;
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       const PlannedRun& run = *runs_[i];
@@ -414,11 +424,35 @@ class Calibration {
       const auto found = motion_times_.find(run.config.scenario);
       if (found == motion_times_.end()) continue;
       const MotionTimes& times = found->second;
-      if (times.cut && in_contact(run) && run.config.dt)
-        seconds[i] += seconds[i] * steps_of_contact_scales(*run.scenario, run.config.t_end) /
-                      std::ceil(run.config.t_end / *run.config.dt);
-      else seconds[i] += times.sum / times.count;
+      if (times.cut && in_contact(run) && run.config.dt) {
+        const auto price = prices.find(response_key_of(run));
+        seconds[i] += seconds[i] * share_of_contact_scales(run) * (price == prices.end() ? 1 : price->second);
+      } else {
+        seconds[i] += times.sum / times.count;
+      }
     }
+  }
+
+  /// Steps of the motion that gives the scales of a contact run, in those of the run.
+  static double share_of_contact_scales(const PlannedRun& run) {
+    return steps_of_contact_scales(*run.scenario, run.config.t_end) / std::ceil(run.config.t_end / *run.config.dt);
+  }
+
+  /// Time of a step of the motion that gives the scales, in that of a step of the run: of the longest run of each
+  /// response whose scales were made in their time. Longer steps press bodies deeper into each other.
+  std::map<ResponseKey, double> prices_of_contact_scales(const std::vector<double>& seconds) const {
+    std::map<ResponseKey, double> prices, longest;
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      const PlannedRun& run = *runs_[i];
+      const auto found = motion_times_.find(run.config.scenario);
+      if (!in_contact(run) || !run.config.dt || found == motion_times_.end() || found->second.cut) continue;
+      double& largest = longest[response_key_of(run)];
+      if (seconds[i] <= largest) continue;
+      largest = seconds[i];
+      prices[response_key_of(run)] =
+          found->second.sum / found->second.count / (seconds[i] * share_of_contact_scales(run));
+    }
+    return prices;
   }
 
   struct MotionTimes {
@@ -433,6 +467,7 @@ class Calibration {
   std::mutex mutex_;
   std::set<TrueMotionKey> known_motions_;
   std::map<std::string, MotionTimes> motion_times_;  // by scenario
+  TimingClock::time_point end_{};                    // of the time for all
   double overhead_ = 2e-4;                           // of each run, s
   Alarm alarm_;
 };

@@ -219,7 +219,7 @@ MotionScales along_rk4(const Scenario& scenario, double t_end, const std::atomic
   const MassAndInertia sum = moving_mass(scenario);
   MotionScales coarse;
   bool known = false;
-  for (std::int64_t steps = fewest; steps <= most && !(stop && *stop); steps *= 2) {
+  for (std::int64_t steps = fewest; steps <= most; steps *= 2) {
     config.dt = t_end / static_cast<double>(steps);
     const MotionScales fine = along_steps(scenario, config, stop);
     const auto agree = [](double a, double b, double least) {
@@ -230,7 +230,7 @@ MotionScales along_rk4(const Scenario& scenario, double t_end, const std::atomic
                          agree(coarse.linear, fine.linear, std::sqrt(2 * sum.mass * least)) &&
                          agree(coarse.angular, fine.angular, std::sqrt(2 * sum.inertia * least));
     coarse = fine;
-    if (settled) break;
+    if (settled || (stop && *stop)) break;
     known = true;
   }
   return coarse;

@@ -49,15 +49,21 @@ TrueMotion References::of(const RunConfig& config, const Scenario& scenario, con
   const std::lock_guard lock(entry->making);
   if (!entry->scales) {
     MotionScales scales = motion_scales(scenario, config.t_end, stop);
-    if (stop && *stop) return {};
+    if (stop && *stop) return {std::move(scales), nullptr};
     entry->scales = std::move(scales);
   }
   if (config.reference && !entry->reference && !ExactMotion(*make_system<double>(scenario.problem, {})).is_complete()) {
     auto made = std::make_shared<const ReferenceMotion>(scenario.problem, true, config.t_end, stop);
-    if (stop && *stop) return {};
+    if (stop && *stop) return {*entry->scales, nullptr};
     entry->reference = std::move(made);
   }
   return {*entry->scales, config.reference ? entry->reference : nullptr};
+}
+
+void References::assume(const Scenario& scenario, double t_end, MotionScales scales) {
+  const std::shared_ptr<Motion> entry = motion_of(number_of(scenario), t_end);
+  const std::lock_guard lock(entry->making);
+  entry->scales = std::move(scales);
 }
 
 }  // namespace polhode::study::metrics

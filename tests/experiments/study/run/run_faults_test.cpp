@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -53,6 +54,14 @@ TEST(RunFaults, ATrajectoryThatCannotBeWrittenIsNoFaultOfTheRun) {
   for (const auto format : {TrajectoryFormat::csv, TrajectoryFormat::hdf5}) {
     EXPECT_THROW(carry_out(rk4(scenario), scenario, {format, "/dev/null/folder"}, nullptr), TrajectoryError);
   }
+}
+
+TEST(RunFaults, ARunThatIsStoppedWhileItsScalesAreMadeIsInterrupted) {
+  const Scenario scenario = ScenarioSource::open("kovalevskaya_top").resolve();
+  const std::atomic<bool> stop = true;
+  ASSERT_FALSE(scenario.invariants.empty());
+  EXPECT_EQ(motion_scales(scenario, 1, &stop).invariants.size(), scenario.invariants.size());
+  EXPECT_EQ(carry_out(rk4(scenario), scenario, {}, &stop).status, "interrupted");
 }
 
 TEST(RunFaults, ARunWithoutAStepHasNoDrift) {
