@@ -38,6 +38,8 @@ def real(program, folder):
 def main():
     preset = sys.argv[1] if len(sys.argv) > 1 else "release"
     print(f"{'experiment':<16}{'estimate, s':>12}{'real, s':>10}{'ratio':>8}{'--dry-run, s':>14}")
+    with tempfile.TemporaryDirectory() as folder:
+        real(ROOT / "build" / preset / "bin" / "simulate", folder)  # reads what draws the figures from the disk
     for name in sys.argv[2:] or EXPERIMENTS:
         program = ROOT / "build" / preset / "bin" / name
         with tempfile.TemporaryDirectory() as folder:
