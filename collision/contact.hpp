@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "core/math/linear_algebra.hpp"
 
@@ -43,5 +44,14 @@ struct Distance {
   Vector3<double> on_a = Vector3<double>::Zero();    ///< m, world: witness point on A
   Vector3<double> on_b = Vector3<double>::Zero();
 };
+
+/// The same with A and B exchanged.
+inline Distance mirrored(Distance d) {
+  for (int i = 0; i < 3; ++i) {
+    d.normal[i] = -d.normal[i];
+    std::swap(d.on_a[i], d.on_b[i]);
+  }
+  return d;
+}
 
 }  // namespace polhode::collision

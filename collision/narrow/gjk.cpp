@@ -24,15 +24,6 @@ namespace polhode::inline collision {
 
 namespace {
 
-/// The same answer with A and B exchanged.
-Distance mirrored(Distance d) {
-  for (int i = 0; i < 3; ++i) {
-    d.normal[i] = -d.normal[i];
-    std::swap(d.on_a[i], d.on_b[i]);
-  }
-  return d;
-}
-
 /// Two of them overlap without end, but for floor and ceiling.
 Distance between_half_spaces(const HalfSpace& a, const Pose& at_a, const HalfSpace& b, const Pose& at_b) {
   const Vector3<double> up = at_b.rotation * b.normal(), down = at_a.rotation * a.normal();

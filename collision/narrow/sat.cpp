@@ -34,8 +34,6 @@ void check(const Shape& a, const Shape& b) {
   if (!has_polytopes(b) || a.tag() != ShapeTag::half_space) refuse(a, b);
 }
 
-Distance mirrored(const Distance& d) { return {d.distance, -d.normal, d.on_b, d.on_a}; }
-
 Distance signed_distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b) {
   if (both_boxes(a, b)) return boxes_distance(box_at(a, at_a), box_at(b, at_b));
   if (a.tag() == ShapeTag::compound || b.tag() == ShapeTag::compound) {

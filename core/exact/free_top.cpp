@@ -50,16 +50,16 @@ using DoubleDouble3 = std::array<DoubleDouble, 3>;
 
 Vector3<double> rounded(const DoubleDouble3& v) { return {v[0].hi, v[1].hi, v[2].hi}; }
 
-struct PrincipalAxes {
+struct ExtendedAxes {
   DoubleDouble3 moment;
   std::array<DoubleDouble3, 3> axis;  // axis[j] belongs to moment[j], body axes
   bool given = true;                  // true: the inertia matrix is diagonal
 };
 
 // Principal axes by the cyclic Jacobi method (Golub and Van Loan, Matrix Computations, section 8.5).
-PrincipalAxes principal_axes(const Matrix3<double>& inertia) {
+ExtendedAxes extended_axes(const Matrix3<double>& inertia) {
   std::array<DoubleDouble3, 3> a;
-  PrincipalAxes found;
+  ExtendedAxes found;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
       const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
@@ -122,7 +122,7 @@ PrincipalTop::PrincipalTop(const Matrix3<double>& inertia, const Vector3<double>
     : time_scale(std::ilogb(std::max(angular_velocity.cwiseAbs().maxCoeff(), 1e-300))) {
   const int inertia_scale = std::ilogb(std::max(inertia.cwiseAbs().maxCoeff(), 1e-300));
   const auto scaled = [&](double x) { return std::scalbn(x, -inertia_scale); };
-  const PrincipalAxes found = principal_axes(inertia.unaryExpr(scaled));
+  const ExtendedAxes found = extended_axes(inertia.unaryExpr(scaled));
   const double negligible_omega = found.given ? 1e-120 : 1e-30, negligible_difference = found.given ? 0 : 1e-30;
 
   std::array<std::size_t, 3> order{0, 1, 2};

@@ -71,6 +71,15 @@ State<S> RigidBodies<S, O, A, N>::start() const {
 }
 
 template <class S, Orientation O, AngularState A, BodyCount N>
+POLHODE_FLATTEN Measurement<S> RigidBodies<S, O, A, N>::measure_flat(const S* y) const {
+  return measurement::measure(*this, y);
+}
+template <class S, Orientation O, AngularState A, BodyCount N>
+void RigidBodies<S, O, A, N>::project_flat(S* y) const {
+  measurement::project(*this, y);
+}
+
+template <class S, Orientation O, AngularState A, BodyCount N>
 Measurement<S> RigidBodies<S, O, A, N>::measure(const VectorX<S>& y) const {
   return measure_flat(y.data());
 }
@@ -174,20 +183,21 @@ std::unique_ptr<System<Lanes>> make_ensemble(std::span<const Problem> problems, 
   });
 }
 
-// Explicit instantiations: the members above are compiled only here.
-#define POLHODE_INSTANTIATE(S, N) \
-  template class RigidBodies<S, Orientation::quaternion, AngularState::velocity_world, N>; \
-  template class RigidBodies<S, Orientation::quaternion, AngularState::velocity_body, N>; \
-  template class RigidBodies<S, Orientation::quaternion, AngularState::momentum_world, N>; \
-  template class RigidBodies<S, Orientation::matrix, AngularState::velocity_world, N>; \
-  template class RigidBodies<S, Orientation::matrix, AngularState::velocity_body, N>; \
-  template class RigidBodies<S, Orientation::matrix, AngularState::momentum_world, N>
+// Members that methods call through the concrete type and that are compiled only here. Virtual ones need no mention:
+// the functions that make systems instantiate them.
+#define POLHODE_INSTANTIATE(S, O, A) \
+  template Measurement<S> RigidBodies<S, O, A, BodyCount::one>::measure_flat(const S*) const; \
+  template void RigidBodies<S, O, A, BodyCount::one>::project_flat(S*) const
+#define POLHODE_INSTANTIATE_CHARTS(S, A) \
+  POLHODE_INSTANTIATE(S, Orientation::quaternion, A); \
+  POLHODE_INSTANTIATE(S, Orientation::matrix, A)
+#define POLHODE_INSTANTIATE_FORMULATIONS(S) \
+  POLHODE_INSTANTIATE_CHARTS(S, AngularState::velocity_world); \
+  POLHODE_INSTANTIATE_CHARTS(S, AngularState::velocity_body); \
+  POLHODE_INSTANTIATE_CHARTS(S, AngularState::momentum_world)
 
-POLHODE_INSTANTIATE(Lanes, BodyCount::one);
-POLHODE_INSTANTIATE(double, BodyCount::one);
-POLHODE_INSTANTIATE(double, BodyCount::many);
-POLHODE_INSTANTIATE(float, BodyCount::many);
-POLHODE_INSTANTIATE(long double, BodyCount::many);
+POLHODE_INSTANTIATE_FORMULATIONS(double);
+POLHODE_INSTANTIATE_FORMULATIONS(Lanes);
 
 template std::unique_ptr<System<float>> make_system<float>(const Problem&, const Formulation&);
 template std::unique_ptr<System<double>> make_system<double>(const Problem&, const Formulation&);

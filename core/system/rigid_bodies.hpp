@@ -86,9 +86,10 @@ class RigidBodies final : public BodyWrenches<S, O, A, N> {
     splitting::free_flow(*this, h, y, rotor);
   }
 
-  /// measure() and project() on the array of the state's numbers, for callers that know the concrete type.
-  Measurement<S> measure_flat(const S* y) const { return measurement::measure(*this, y); }
-  void project_flat(S* y) const { measurement::project(*this, y); }
+  /// measure() and project() on the array of the state's numbers, for callers that know the concrete type. They are
+  /// compiled once; measurement::measure() and measurement::project() inline.
+  Measurement<S> measure_flat(const S* y) const;
+  void project_flat(S* y) const;
 
   // ---- interface of System ------------------------------------------------------------------------------------------
 

@@ -49,7 +49,7 @@ ArrowMesh arrow_mesh(std::uint32_t round) {
   return mesh;
 }
 
-constexpr const char* vertex = R"(
+constexpr const char* arrow_vertex = R"(
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 across_along;
 layout(location = 2) in vec3 from;
@@ -73,7 +73,7 @@ void main() {
 }
 )";
 
-constexpr const char* fragment = R"(
+constexpr const char* arrow_fragment = R"(
 in vec3 normal;
 flat in vec4 colour;
 uniform vec3 forward;
@@ -101,7 +101,7 @@ void set_up(VertexArray& arrows, const ArrowMesh& mesh) {
 
 }  // namespace
 
-ArrowPass::ArrowPass() : program_(vertex, fragment) {
+ArrowPass::ArrowPass() : program_(arrow_vertex, arrow_fragment) {
   set_up(fine_, arrow_mesh(sides));
   set_up(coarse_, arrow_mesh(sides_of_many));
 }

@@ -8,7 +8,7 @@ namespace polhode::viewer::inline drawing {
 namespace {
 
 // Each line is a rectangle on the screen, a pixel wider than the line; the part behind the eye is cut off.
-constexpr const char* vertex = R"(
+constexpr const char* line_vertex = R"(
 layout(location = 0) in vec3 from;
 layout(location = 1) in vec3 to;
 layout(location = 2) in vec4 colour_from;
@@ -44,7 +44,7 @@ void main() {
 }
 )";
 
-constexpr const char* fragment = R"(
+constexpr const char* line_fragment = R"(
 noperspective in vec2 place;
 flat in float line_length, half_width;
 in vec4 colour;
@@ -58,7 +58,7 @@ void main() {
 
 }  // namespace
 
-LinePass::LinePass() : program_(vertex, fragment) {
+LinePass::LinePass() : program_(line_vertex, line_fragment) {
   using Per = VertexArray::Per;
   constexpr std::size_t stride = sizeof(LineInstance);
   lines_.floats(Per::instance, 0, 3, stride, offsetof(LineInstance, from));
