@@ -3,7 +3,6 @@
 
 #include <set>
 #include <stdexcept>
-#include <utility>
 
 #include "collision/narrow_phase.hpp"
 
@@ -12,12 +11,14 @@ namespace polhode::study::inline scenario {
 std::string narrow_phase_refusal(std::string_view narrow_phase, const Scenario& scenario) {
   const auto narrow = find_narrow_phase(narrow_phase)->make();
   const Pose here, above{{0, 0, 1000}, Matrix3<double>::Identity()};
-  std::set<std::pair<std::string_view, std::string_view>> asked;  // by kind, each once
+  std::set<std::string_view> kinds;  // the first body of a kind meets all that later ones meet
   for (std::size_t a = 0; a < scenario.problem.moving(); ++a) {
     const ShapePointer& of_a = scenario.colliders[a].shape;
-    for (std::size_t b = a + 1; of_a && b < scenario.colliders.size(); ++b) {
+    if (!of_a || !kinds.insert(of_a->kind()).second) continue;
+    std::set<std::string_view> asked;
+    for (std::size_t b = a + 1; b < scenario.colliders.size(); ++b) {
       const ShapePointer& of_b = scenario.colliders[b].shape;
-      if (!of_b || !asked.emplace(of_a->kind(), of_b->kind()).second) continue;
+      if (!of_b || !asked.insert(of_b->kind()).second) continue;
       try {
         narrow->distance(*of_a, above, *of_b, here);
       } catch (const std::invalid_argument& error) {
