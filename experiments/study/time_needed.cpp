@@ -127,6 +127,14 @@ double work_after_runs(const Experiment& experiment, const Options& options, con
   return fixed_work + of_a_run * runs + (options.figures ? work_of_figures(experiment, plan) : 0);
 }
 
+/// Number of runs whose times are summed up. To read the scenario of a run takes longer the more bodies it has.
+std::size_t number_to_time(const Plan& plan, const std::vector<std::size_t>& missing) {
+  constexpr std::size_t fewest = 100;
+  if (missing.empty()) return 0;
+  const std::size_t bodies = plan.run(missing.front()).scenario->problem.bodies.size();
+  return std::max(fewest, most_timed / std::max<std::size_t>(bodies, 1));
+}
+
 /// Finished runs with their wall times, of an even choice of these.
 struct StoredTimes {
   std::vector<PlannedRun> runs;
@@ -164,7 +172,8 @@ std::string time_needed_text(const Experiment& experiment, const Options& option
   }
   std::vector<PlannedRun> runs;
   Variants variants(most_timed);
-  for (const std::size_t k : evenly_spread(missing.size(), most_timed)) runs.push_back(plan.run(missing[k], &variants));
+  for (const std::size_t k : evenly_spread(missing.size(), number_to_time(plan, missing)))
+    runs.push_back(plan.run(missing[k], &variants));
   std::vector<const PlannedRun*> timed;
   for (const PlannedRun& run : runs) timed.push_back(&run);
   std::stable_sort(timed.begin(), timed.end(),
