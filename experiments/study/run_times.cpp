@@ -21,14 +21,13 @@
 #include <utility>
 
 #include "core/math/lanes.hpp"
+#include "experiments/study/alarm.hpp"
 #include "experiments/study/metrics/motion_scales.hpp"
 #include "experiments/study/metrics/references.hpp"
 #include "experiments/study/run/run.hpp"
 
 namespace polhode::study {
 namespace {
-
-using TimingClock = std::chrono::steady_clock;
 
 /// Processor time of this thread, s. Other programs do not change it much, as they do the wall time of a short run.
 double processor_seconds() {
@@ -136,65 +135,6 @@ struct TrueMotionHash {
   }
 };
 
-/// Stops what workers do when their time is over.
-class Alarm {
- public:
-  explicit Alarm(std::size_t workers) : watches_(workers) {
-    thread_ = std::thread([this] {
-      while (!finished_) {
-        look();
-        std::this_thread::sleep_for(std::chrono::microseconds(100));
-      }
-    });
-  }
-  ~Alarm() {
-    finished_ = true;
-    thread_.join();
-  }
-  Alarm(const Alarm&) = delete;
-  Alarm& operator=(const Alarm&) = delete;
-
-  /// A run of a worker, and how far it came.
-  struct Watch {
-    TimingClock::time_point half = never, end = never;
-    std::atomic<bool> stop{false};         ///< set at the end
-    std::atomic<double> share{0};          ///< part of the run that is done, which the run writes
-    std::atomic<double> share_at_half{0};  ///< 0 before
-  };
-
-  /// The watch of a worker, set anew: it ends after so many seconds.
-  Watch& in(double seconds, std::size_t worker) {
-    const std::lock_guard lock(mutex_);
-    Watch& watch = watches_[worker];
-    watch.stop = false;
-    watch.share = watch.share_at_half = 0;
-    const auto length = std::chrono::duration_cast<TimingClock::duration>(std::chrono::duration<double>(seconds));
-    const auto now = TimingClock::now();
-    watch.half = now + length / 2;
-    watch.end = now + length;
-    return watch;
-  }
-
- private:
-  void look() {
-    const std::lock_guard lock(mutex_);
-    const auto now = TimingClock::now();
-    for (Watch& watch : watches_) {
-      if (now >= watch.half) {
-        watch.half = never;
-        watch.share_at_half = watch.share.load();
-      }
-      if (now >= watch.end) watch.stop = true;
-    }
-  }
-
-  static constexpr TimingClock::time_point never = TimingClock::time_point::max();
-  std::vector<Watch> watches_;
-  std::mutex mutex_;
-  std::atomic<bool> finished_{false};
-  std::thread thread_;
-};
-
 class Calibration {
  public:
   Calibration(std::span<const PlannedRun* const> runs, std::span<const KnownTime> known, const Timing& timing)
@@ -250,8 +190,8 @@ class Calibration {
     }
     if (work.empty()) return;
     const std::size_t workers = std::min(std::max<std::size_t>(timing_.workers, 1), work.size());
-    end_ = TimingClock::now() +
-           std::chrono::duration_cast<TimingClock::duration>(std::chrono::duration<double>(timing_.budget));
+    end_ = Alarm::Clock::now() +
+           std::chrono::duration_cast<Alarm::Clock::duration>(std::chrono::duration<double>(timing_.budget));
     std::atomic<std::size_t> next{0};
     const auto worker = [&](std::size_t number) {
       for (std::size_t i = next++; i < work.size(); i = next++) {
@@ -267,7 +207,7 @@ class Calibration {
     for (std::thread& thread : others) thread.join();
   }
 
-  double seconds_left() const { return std::chrono::duration<double>(end_ - TimingClock::now()).count(); }
+  double seconds_left() const { return std::chrono::duration<double>(end_ - Alarm::Clock::now()).count(); }
 
   void time(RunKind& kind, std::size_t index, double slice, std::size_t worker) {
     const PlannedRun& run = *runs_[index];
@@ -350,9 +290,8 @@ class Calibration {
     return batch;
   }
 
-  /// A contact run that was stopped may have seen its bodies fall and not yet rest on each other. Where a step of a
-  /// body costs more in the largest run with the same response that came to its end, the rate is taken as the geometric
-  /// mean of both: larger heaps fall for longer.
+  /// A contact run that was stopped may have seen its bodies fall and not yet rest on each other. It is held against
+  /// the largest run with the same response that came to its end.
   void settle() {
     struct Settled {
       double work = 0, rate = 0;  // cost times bodies; s per unit of that
@@ -372,7 +311,7 @@ class Calibration {
         const auto rate = rates.find(response_key_of(*timed.run));
         if (rate == rates.end()) continue;
         const double settled = rate->second.rate * timed.run->cost * moving_bodies(*timed.run) * timed.share;
-        if (settled > timed.seconds) timed.seconds = std::sqrt(timed.seconds * settled);
+        timed.seconds = time_of_falling(timed.seconds, settled);
       }
     }
   }
@@ -467,7 +406,7 @@ class Calibration {
   std::mutex mutex_;
   std::set<TrueMotionKey> known_motions_;
   std::map<std::string, MotionTimes> motion_times_;  // by scenario
-  TimingClock::time_point end_{};                    // of the time for all
+  Alarm::Clock::time_point end_{};                   // of the time for all
   double overhead_ = 2e-4;                           // of each run, s
   Alarm alarm_;
 };
@@ -484,6 +423,8 @@ double time_of_whole(double seconds, double share, double share_at_half) {
   if (!(share_at_half > 0 && share > share_at_half)) return seconds / share;
   return seconds + (1 - share) * (seconds / 2) / (share - share_at_half);
 }
+
+double time_of_falling(double seen, double settled) { return settled > seen ? std::sqrt(seen * settled) : seen; }
 
 double time_of_workers(std::span<const double> seconds, std::size_t workers) {
   std::priority_queue<double, std::vector<double>, std::greater<>> free;  // when each worker is free

@@ -43,6 +43,11 @@ RunTimes run_times(std::span<const PlannedRun* const> runs, std::span<const Know
 /// the second half did: the cost of a step changes where bodies meet or come to rest.
 double time_of_whole(double seconds, double share, double share_at_half);
 
+/// Time of a part of a contact run whose bodies may have fallen and not yet rested, s. `seen`: what the part took;
+/// `settled`: what it would take at the rate of bodies at rest. The geometric mean where that is more, since larger
+/// heaps fall for longer.
+double time_of_falling(double seen, double settled);
+
 /// Time until so many workers have carried out runs that take these times (s), begun in this order, s.
 double time_of_workers(std::span<const double> seconds, std::size_t workers);
 

@@ -51,7 +51,7 @@ struct MotionScales {
 };
 
 /// Computes the scales of the scenario's motion from t = 0 to t_end (s). If `stop` is set meanwhile, it returns early
-/// with incomplete scales.
+/// with incomplete scales, of which there is one for each invariant all the same.
 MotionScales motion_scales(const Scenario& scenario, double t_end, const std::atomic<bool>* stop = nullptr);
 
 /// Number of steps in which motion_scales() follows a motion with contact.

@@ -35,8 +35,8 @@ class References {
   /// is announced more than once are kept until of() was called as often, but at most 20 000 motions at a time.
   void expect(std::vector<std::uint64_t> scenarios);
 
-  /// The true motion of the run. Thread-safe: calls wait while another thread computes it. Incomplete if `stop` is set
-  /// meanwhile.
+  /// The true motion of the run. Thread-safe: calls wait while another thread computes it. If `stop` is set
+  /// meanwhile, without a reference and with incomplete scales.
   TrueMotion of(const RunConfig& config, const Scenario& scenario, const std::atomic<bool>* stop);
 
   /// Takes these scales as the ones of the motion of an announced scenario from t = 0 to t_end (s): for runs whose time

@@ -109,6 +109,11 @@ TEST(RunTimes, WhatIsLeftGoesOnAsTheSecondHalfDid) {
   EXPECT_DOUBLE_EQ(time_of_whole(1, 0.5, 0.5), 2);    // nothing was done in the second half
 }
 
+TEST(RunTimes, OfFallingBodiesAreBetweenThoseSeenAndThoseAtRest) {
+  EXPECT_DOUBLE_EQ(time_of_falling(1, 4), 2);
+  EXPECT_DOUBLE_EQ(time_of_falling(4, 1), 4);  // it has seen worse than rest
+}
+
 TEST(RunTimes, OfWorkersThatTakeOneRunAfterTheOther) {
   const std::vector<double> seconds = {5, 3, 2, 2};
   EXPECT_EQ(time_of_workers(seconds, 1), 12);

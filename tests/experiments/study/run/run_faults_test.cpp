@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "experiments/study/metrics/drift_meter.hpp"
+#include "experiments/study/metrics/motion_scales.hpp"
 #include "experiments/study/record/metric_table.hpp"
 #include "experiments/study/record/result_numbers.hpp"
 #include "experiments/study/run/run.hpp"
