@@ -14,10 +14,12 @@
 //                            optional, if all members are scratch storage: the stages of one body then stay in
 //                            registers.
 //
-// The step is compiled for the concrete system, so that it inlines. The state of one body stays in registers and on the
-// stack during a batch of steps, including projection and measurement.
+// The step is compiled for the interface ManyBodies. Unless Forms says otherwise it is compiled for each type of a
+// single free body as well, so that the operations inline: the state stays in registers and on the stack during a batch
+// of steps.
 #pragma once
 
+#include <memory>
 #include <type_traits>
 #include <utility>
 
@@ -35,8 +37,12 @@ class FixedStep final : public Integrator<typename System::Scalar> {
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
 
-  FixedStep(const System& system, const IntegratorSettings& settings, int evaluations_per_step)
-      : system_(system), settings_(settings), method_(made()), evaluations_per_step_(evaluations_per_step) {}
+  FixedStep(std::shared_ptr<const System> system, const IntegratorSettings& settings, int evaluations_per_step)
+      : owner_(std::move(system)),
+        system_(*owner_),
+        settings_(settings),
+        method_(made()),
+        evaluations_per_step_(evaluations_per_step) {}
 
   void begin(const State<S>&) override {
     steps_ = 0;
@@ -169,6 +175,7 @@ class FixedStep final : public Integrator<typename System::Scalar> {
   /// stays in registers.
   [[gnu::noinline]] S energy(Flat y) const { return system_.measure_flat(y.data()).energy(); }
 
+  std::shared_ptr<const System> owner_;
   const System& system_;
   IntegratorSettings settings_;
   Method method_;
@@ -176,33 +183,47 @@ class FixedStep final : public Integrator<typename System::Scalar> {
   std::int64_t steps_ = 0;
 };
 
-/// Builds the catalogue entry of a fixed-step method: fixed_step<Rk4>({.name = "rk4", …}). A method without branches
-/// that depend on the state can also run in the lanes of an ensemble: fixed_step<Rk4, in_lanes>.
-template <template <class> class Method, bool with_lanes = false>
+/// The forms of a system for which a method is compiled. ManyBodies, in three scalars, is always one.
+enum class Forms {
+  many_bodies,  ///< no other form. A step of a single body then takes 20 to 100 ns longer, and the build a third.
+  one_body,     ///< also a single free body in double, in each formulation
+  lanes,        ///< also the lanes of an ensemble of such bodies. The method has no branches that depend on the state.
+};
+
+/// A pointer that does not own.
+template <class System>
+std::shared_ptr<const System> borrowed(const System& system) {
+  return {std::shared_ptr<const System>(), &system};
+}
+
+/// Builds the catalogue entry of a fixed-step method: fixed_step<Rk4>({.name = "rk4", …}).
+template <template <class> class Method, Forms forms = Forms::one_body>
 IntegratorEntry fixed_step(Declaration declaration) {
   const int evaluations = declaration.evaluations_per_step;
   const auto maker = [evaluations]<class S>(const System<S>& system,
                                             const IntegratorSettings& settings) -> IntegratorPointer<S> {
-    return visit_system(system, [&]<class Concrete>(const Concrete& concrete) -> IntegratorPointer<S> {
-      return std::make_unique<FixedStep<Method<Concrete>, Concrete>>(concrete, settings, evaluations);
-    });
+    const auto made = [&]<class Form>(std::shared_ptr<const Form> form) -> IntegratorPointer<S> {
+      return std::make_unique<FixedStep<Method<Form>, Form>>(std::move(form), settings, evaluations);
+    };
+    if constexpr (forms == Forms::many_bodies) return made(many_bodies_form(system));
+    else return visit_system(system, [&](const auto& form) { return made(borrowed(form)); });
   };
   IntegratorEntry entry{
       .declaration = std::move(declaration), .make = maker, .make_float = maker, .make_long_double = maker};
-  if constexpr (with_lanes) entry.make_lanes = maker;
+  if constexpr (forms == Forms::lanes) entry.make_lanes = maker;
   return entry;
 }
 
 /// Builds the catalogue entry of an additive method. Its step adds an increment to the flat state and uses only a
 /// FlatOde or a PartitionedOde, so that compensated summation applies.
-template <template <class> class Method, bool with_lanes = false>
+template <template <class> class Method, Forms forms = Forms::one_body>
 IntegratorEntry additive_step(Declaration declaration) {
   declaration.additive = true;
-  IntegratorEntry entry = fixed_step<Method, with_lanes>(std::move(declaration));
+  IntegratorEntry entry = fixed_step<Method, forms>(std::move(declaration));
   const auto maker = [evaluations = entry.declaration.evaluations_per_step]<class S>(
                          const ShiftedSystem<S>& change, const IntegratorSettings& settings) -> IntegratorPointer<S> {
     using Change = ShiftedSystem<S>;
-    return std::make_unique<FixedStep<Method<Change>, Change>>(change, settings, evaluations);
+    return std::make_unique<FixedStep<Method<Change>, Change>>(borrowed(change), settings, evaluations);
   };
   entry.increments = {maker, maker, maker};
   return entry;

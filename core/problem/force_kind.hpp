@@ -52,7 +52,7 @@ struct ForceKind {
 };
 
 template <class S>
-using ForcePointer = std::unique_ptr<ForceModel<S>>;
+using ForcePointer = std::shared_ptr<const ForceModel<S>>;
 
 /// A kind with its builders, one for each scalar.
 struct ForceEntry {
@@ -63,7 +63,7 @@ struct ForceEntry {
   ForcePointer<Lanes> (*make_lanes)(const ForceParameters&, std::span<const Body>) = nullptr;  ///< null: lane by lane
 };
 
-/// Tells force_entry and fixed_step that a class does not branch on its numbers, and so can be instantiated on Lanes.
+/// Tells force_entry that a class does not branch on its numbers, and so can be instantiated on Lanes.
 inline constexpr bool in_lanes = true;
 
 /// The one line that registers a force: force_entry<Spring>(). F<S> has a static kind() and a constructor

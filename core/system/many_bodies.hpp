@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The interface that a method of our own is compiled against, for every system except a single free body in double.
+// The interface that a method of our own is compiled against. Fast methods are compiled for a single free body too.
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "core/system/body_constants.hpp"
 #include "core/system/system.hpp"
@@ -16,8 +17,9 @@ using Rotor = std::function<Quaternion<S>(const BodyConstants<S>&, S, Vector3<S>
 
 /// Interface of every system except a single free body in double, alone or in lanes; independent of the formulation.
 /// Each operation on all bodies is one virtual call, so that a method is compiled once for all formulations. For a
-/// single free body the call would cost as much as the operation itself. That case is compiled for each formulation,
-/// and its operations inline. core/system/concepts.hpp states what each operation does.
+/// single free body the call costs as much as the operation itself. That case has a type for each formulation, whose
+/// operations inline; many_bodies_form() gives it this interface, for methods that take longer than the calls.
+/// core/system/concepts.hpp states what each operation does.
 template <class S>
 class ManyBodies : public System<S> {
  public:
@@ -63,5 +65,10 @@ class ManyBodies : public System<S> {
  protected:
   using System<S>::System;
 };
+
+/// The system itself, not owned, or for a single free body in double a system with its problem, formulation and added
+/// forces: same states, same digits.
+template <class S>
+std::shared_ptr<const ManyBodies<S>> many_bodies_form(const System<S>& system);
 
 }  // namespace polhode

@@ -160,6 +160,20 @@ std::unique_ptr<System<S>> make_system(const Problem& problem, const Formulation
   return in_formulation(formulation, build);
 }
 
+template <class S>
+std::shared_ptr<const ManyBodies<S>> many_bodies_form(const System<S>& system) {
+  if (const auto* many = dynamic_cast<const ManyBodies<S>*>(&system)) {
+    return {std::shared_ptr<const ManyBodies<S>>(), many};
+  }
+  return in_formulation(system.formulation(), [&]<Orientation O, AngularState A>() {
+    auto many = std::make_shared<RigidBodies<S, O, A, BodyCount::many>>(system.problems(), system.formulation());
+    for (std::size_t k = system.problem().forces.size(); k < system.forces().size(); ++k) {
+      many->add_force(system.forces()[k]);
+    }
+    return std::shared_ptr<const ManyBodies<S>>(std::move(many));
+  });
+}
+
 std::string lane_key(const System<double>& system) {
   if (system.problem().bodies.size() != 1 || !fits_one_body_form(system.problem())) return {};
   std::string key = system.problem().bodies.front().inertia.isDiagonal(0) ? "principal" : "general";
@@ -202,5 +216,8 @@ POLHODE_INSTANTIATE_FORMULATIONS(Lanes);
 template std::unique_ptr<System<float>> make_system<float>(const Problem&, const Formulation&);
 template std::unique_ptr<System<double>> make_system<double>(const Problem&, const Formulation&);
 template std::unique_ptr<System<long double>> make_system<long double>(const Problem&, const Formulation&);
+template std::shared_ptr<const ManyBodies<float>> many_bodies_form(const System<float>&);
+template std::shared_ptr<const ManyBodies<double>> many_bodies_form(const System<double>&);
+template std::shared_ptr<const ManyBodies<long double>> many_bodies_form(const System<long double>&);
 
 }  // namespace polhode

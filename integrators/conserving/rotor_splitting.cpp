@@ -16,13 +16,6 @@ const char* KickFlowKick<System>::step(const System& system, S t, S h, Flat& y, 
   return failure ? failure : kick_(system, t + h, half, y);
 }
 
-#define POLHODE_INSTANTIATE(O) \
-  template class KickFlowKick<RigidBodies<double, O, AngularState::velocity_world, BodyCount::one>>; \
-  template class KickFlowKick<RigidBodies<double, O, AngularState::velocity_body, BodyCount::one>>; \
-  template class KickFlowKick<RigidBodies<double, O, AngularState::momentum_world, BodyCount::one>>
-
-POLHODE_INSTANTIATE(Orientation::quaternion);
-POLHODE_INSTANTIATE(Orientation::matrix);
 template class KickFlowKick<ManyBodies<double>>;
 template class KickFlowKick<ManyBodies<float>>;
 template class KickFlowKick<ManyBodies<long double>>;

@@ -69,7 +69,7 @@ inline std::string refuse_without_gyroscopic_term(const Problem&, const Formulat
 /// Catalogue entry of a method that is built from rotors; refused without the gyroscopic term.
 template <template <class> class Method>
 IntegratorEntry rotor_method(Declaration declaration) {
-  IntegratorEntry entry = fixed_step<Method>(std::move(declaration));
+  IntegratorEntry entry = fixed_step<Method, Forms::many_bodies>(std::move(declaration));
   entry.refusal = refuse_without_gyroscopic_term;
   return entry;
 }

@@ -56,23 +56,23 @@ class Buss2 {
 };
 
 IntegratorEntry buss2() {
-  IntegratorEntry entry =
-      fixed_step<Buss2>({.name = "buss2",
-                         .family = "Lie group",
-                         .summary = "Buss: q' = q exp(h w + h^2/2 a + h^3/12 a x w), the momentum by Heun's rule",
-                         .equation =
-                             R"(\dot\Omega &= I^{-1} (R_n^{\mathsf T} \tau_n - \Omega_n \times I \Omega_n), \quad
+  IntegratorEntry entry = fixed_step<Buss2, Forms::many_bodies>(
+      {.name = "buss2",
+       .family = "Lie group",
+       .summary = "Buss: q' = q exp(h w + h^2/2 a + h^3/12 a x w), the momentum by Heun's rule",
+       .equation =
+           R"(\dot\Omega &= I^{-1} (R_n^{\mathsf T} \tau_n - \Omega_n \times I \Omega_n), \quad
   \tau_n = \tau(t_n, q_n, v_n) \\
 \theta &= h\,\Omega_n + \tfrac12 h^2\,\dot\Omega + \tfrac1{12} h^3\,\dot\Omega \times \Omega_n \\
 R_{n+1} &= R_n \exp(\theta), \quad x_{n+1} = x_n + h\,\dot x_n + \tfrac12 h^2 f_n/m \\
 L_{n+1} &= L_n + \tfrac12 h\,\bigl(\tau_n + \tau(t_n + h,\; q_{n+1},\; L_n + h\,\tau_n)\bigr) \\
 m \dot x_{n+1} &= m \dot x_n + \tfrac12 h\,\bigl(f_n + f(t_n + h,\; q_{n+1},\; m \dot x_n + h f_n)\bigr))",
-                         .sources = {"buss2000"},
-                         .order = 2,
-                         .evaluations_per_step = 2,
-                         .lie_group = true,
-                         .conserves_momentum = true,
-                         .conserves_casimir = true});
+       .sources = {"buss2000"},
+       .order = 2,
+       .evaluations_per_step = 2,
+       .lie_group = true,
+       .conserves_momentum = true,
+       .conserves_casimir = true});
   entry.refusal = needs_the_gyroscopic_term;
   return entry;
 }

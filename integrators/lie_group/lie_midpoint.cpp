@@ -15,22 +15,22 @@ template <class System>
 using LieMidpoint = MidpointStep<System, TwistRule::middle>;
 
 IntegratorEntry lie_midpoint() {
-  IntegratorEntry entry =
-      fixed_step<LieMidpoint>({.name = "lie_midpoint",
-                               .family = "Lie group",
-                               .summary = "implicit midpoint rule for the momentum, turning by one exponential",
-                               .equation = R"(\bar R &= R_n \exp\bigl(\tfrac12 \theta\bigr), \quad
+  IntegratorEntry entry = fixed_step<LieMidpoint, Forms::many_bodies>(
+      {.name = "lie_midpoint",
+       .family = "Lie group",
+       .summary = "implicit midpoint rule for the momentum, turning by one exponential",
+       .equation = R"(\bar R &= R_n \exp\bigl(\tfrac12 \theta\bigr), \quad
   \bar\tau = \tau\bigl(t_n + \tfrac12 h,\; \bar R,\; \theta/h\bigr) \\
 \theta &= h\,I^{-1} \bar R^{\mathsf T} \bigl(L_n + \tfrac12 h\,\bar\tau\bigr) \\
 R_{n+1} &= R_n \exp(\theta), \quad L_{n+1} = L_n + h\,\bar\tau \\
 \dot x_{n+1} &= \dot x_n + h\,\bar f/m, \quad x_{n+1} = x_n + \tfrac12 h\,(\dot x_n + \dot x_{n+1}))",
-                               .sources = {"austin1993", "krysl2005"},
-                               .order = 2,
-                               .implicit = true,
-                               .lie_group = true,
-                               .symmetric = true,
-                               .conserves_momentum = true,
-                               .conserves_casimir = true});
+       .sources = {"austin1993", "krysl2005"},
+       .order = 2,
+       .implicit = true,
+       .lie_group = true,
+       .symmetric = true,
+       .conserves_momentum = true,
+       .conserves_casimir = true});
   entry.refusal = needs_the_gyroscopic_term;
   return entry;
 }

@@ -14,22 +14,22 @@ template <class System>
 using SimoWong = MidpointStep<System, TwistRule::end>;
 
 IntegratorEntry simo_wong() {
-  IntegratorEntry entry =
-      fixed_step<SimoWong>({.name = "simo_wong",
-                            .family = "Lie group",
-                            .summary = "ALGO_C1: spatial momentum by the torque half way, q' = q exp(h/2 (W + W'))",
-                            .equation = R"(\theta &= \tfrac12 h\,(\Omega_n + \Omega_{n+1}), \quad
+  IntegratorEntry entry = fixed_step<SimoWong, Forms::many_bodies>(
+      {.name = "simo_wong",
+       .family = "Lie group",
+       .summary = "ALGO_C1: spatial momentum by the torque half way, q' = q exp(h/2 (W + W'))",
+       .equation = R"(\theta &= \tfrac12 h\,(\Omega_n + \Omega_{n+1}), \quad
   \bar\tau = \tau\bigl(t_n + \tfrac12 h,\; R_n \exp\bigl(\tfrac12 \theta\bigr),\; \theta/h\bigr) \\
 R_{n+1} &= R_n \exp(\theta), \quad R_{n+1} I \Omega_{n+1} = R_n I \Omega_n + h\,\bar\tau \\
 \dot x_{n+1} &= \dot x_n + h\,\bar f/m, \quad x_{n+1} = x_n + \tfrac12 h\,(\dot x_n + \dot x_{n+1}))",
-                            .sources = {"simoWong1991"},
-                            .order = 2,
-                            .implicit = true,
-                            .lie_group = true,
-                            .symmetric = true,
-                            .conserves_energy = true,
-                            .conserves_momentum = true,
-                            .conserves_casimir = true});
+       .sources = {"simoWong1991"},
+       .order = 2,
+       .implicit = true,
+       .lie_group = true,
+       .symmetric = true,
+       .conserves_energy = true,
+       .conserves_momentum = true,
+       .conserves_casimir = true});
   entry.refusal = needs_the_gyroscopic_term;
   return entry;
 }

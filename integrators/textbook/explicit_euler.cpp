@@ -25,7 +25,7 @@ class ExplicitEuler {
 };
 
 IntegratorEntry explicit_euler() {
-  return additive_step<ExplicitEuler, in_lanes>(
+  return additive_step<ExplicitEuler, Forms::lanes>(
       {.name = "explicit_euler",
        .family = "textbook",
        .summary = "y' = y + h f(t, y), all from the old state, as the slides write it",

@@ -28,14 +28,14 @@ class ExplicitMidpoint {
 };
 
 IntegratorEntry explicit_midpoint() {
-  return additive_step<ExplicitMidpoint, in_lanes>({.name = "explicit_midpoint",
-                                                    .family = "textbook",
-                                                    .summary = "y' = y + h f(t + h/2, y + h/2 f(t, y))",
-                                                    .equation = R"(k_1 &= f(t_n, y_n) \\
+  return additive_step<ExplicitMidpoint, Forms::lanes>({.name = "explicit_midpoint",
+                                                        .family = "textbook",
+                                                        .summary = "y' = y + h f(t + h/2, y + h/2 f(t, y))",
+                                                        .equation = R"(k_1 &= f(t_n, y_n) \\
 y_{n+1} &= y_n + h\,f\bigl(t_n + \tfrac12 h,\; y_n + \tfrac12 h\,k_1\bigr))",
-                                                    .sources = {"runge1895", "hairerNorsettWanner1993"},
-                                                    .order = 2,
-                                                    .evaluations_per_step = 2});
+                                                        .sources = {"runge1895", "hairerNorsettWanner1993"},
+                                                        .order = 2,
+                                                        .evaluations_per_step = 2});
 }
 
 }  // namespace polhode::integrators

@@ -27,14 +27,14 @@ class Heun {
 };
 
 IntegratorEntry heun() {
-  return additive_step<Heun, in_lanes>({.name = "heun",
-                                        .family = "textbook",
-                                        .summary = "y' = y + h/2 (f(t, y) + f(t + h, y + h f(t, y)))",
-                                        .equation = R"(k_1 &= f(t_n, y_n), \quad k_2 = f(t_n + h,\; y_n + h\,k_1) \\
+  return additive_step<Heun, Forms::lanes>({.name = "heun",
+                                            .family = "textbook",
+                                            .summary = "y' = y + h/2 (f(t, y) + f(t + h, y + h f(t, y)))",
+                                            .equation = R"(k_1 &= f(t_n, y_n), \quad k_2 = f(t_n + h,\; y_n + h\,k_1) \\
 y_{n+1} &= y_n + \tfrac12 h\,(k_1 + k_2))",
-                                        .sources = {"heun1900", "hairerNorsettWanner1993"},
-                                        .order = 2,
-                                        .evaluations_per_step = 2});
+                                            .sources = {"heun1900", "hairerNorsettWanner1993"},
+                                            .order = 2,
+                                            .evaluations_per_step = 2});
 }
 
 }  // namespace polhode::integrators

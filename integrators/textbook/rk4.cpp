@@ -33,7 +33,7 @@ class Rk4 {
 };
 
 IntegratorEntry rk4() {
-  return additive_step<Rk4, in_lanes>(
+  return additive_step<Rk4, Forms::lanes>(
       {.name = "rk4",
        .family = "textbook",
        .summary = "the classical Runge-Kutta method, y' = y + h/6 (k1 + 2 k2 + 2 k3 + k4)",

@@ -30,7 +30,7 @@ class SemiImplicitEuler {
 };
 
 IntegratorEntry semi_implicit_euler() {
-  return additive_step<SemiImplicitEuler, in_lanes>(
+  return additive_step<SemiImplicitEuler, Forms::lanes>(
       {.name = "semi_implicit_euler",
        .family = "textbook",
        .summary = "v' = v + h a(t, q, v), then q' = q + h N(q) v', as the report updates",
