@@ -55,9 +55,13 @@ ExactMotion::ExactMotion(const System<double>& system) {
 
 ExactMotion::BodyAt ExactMotion::at(double t, std::size_t body) const {
   BodyAt known;
-  if (paths_[body]) known.path = paths_[body](t);
+  known.path = path_at(t, body);
   if (rotations_[body]) known.rotation = rotations_[body](t);
   return known;
+}
+
+std::optional<PathAt> ExactMotion::path_at(double t, std::size_t body) const {
+  return paths_[body] ? std::optional(paths_[body](t)) : std::nullopt;
 }
 
 VectorX<double> ExactMotion::state(const System<double>& system, const State<double>& near) const {

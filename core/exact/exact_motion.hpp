@@ -31,6 +31,8 @@ class ExactMotion {
   };
   /// The known parts of the motion of one body at t (s), also if they are not known for every body.
   BodyAt at(double t, std::size_t body) const;
+  /// The path alone, which is quick: rotations are often elliptic functions.
+  std::optional<PathAt> path_at(double t, std::size_t body) const;
 
   /// The state of the exact motion at the time of `near`, a state near it; the works are those of `near`. For a
   /// complete motion whose angular velocities are known.

@@ -262,6 +262,19 @@ double most_cells(const Products& products) {
   return cells;
 }
 
+/// Mean number of bodies of the scenarios, without overrides.
+double mean_bodies(const Products& products) {
+  double bodies = 0, scenarios = 0;
+  for (const auto& of_study : products) {
+    for (const auto& product : of_study) {
+      for (const auto& opened : product->opened())
+        bodies += static_cast<double>(opened->scenario->problem.bodies.size());
+      scenarios += static_cast<double>(product->opened().size());
+    }
+  }
+  return bodies / scenarios;
+}
+
 void refuse_too_many(double cells) {
   if (cells <= static_cast<double>(most_runs)) return;
   throw InputError(fmt::format("{} runs are more than the 10 million that a study may have; make the axes shorter",
@@ -356,11 +369,13 @@ Plan make_plan(const Experiment& experiment, const Options& options) {
 }
 
 std::optional<Plan> glance_at_plan(const Experiment& experiment, const Options& options) {
-  constexpr double few = 100'000, wanted = 10'000;
+  constexpr double few = 100'000, most_wanted = 10'000, many_bodies = 10;
   Plan plan;
   const Products products = open_products(experiment, options, plan);
   const double counted = most_cells(products);
   if (counted <= few) return std::nullopt;
+  // The time to read a scenario is proportional to the number of its bodies.
+  const double wanted = most_wanted * std::min(1.0, many_bodies / mean_bodies(products));
   Rows rows(0);
   std::set<std::string> effective;
   double all = 0, looked_at = 0;

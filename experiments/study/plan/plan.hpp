@@ -116,7 +116,8 @@ class Plan {
 Plan make_plan(const Experiment& experiment, const Options& options);
 
 /// A plan with some 10 000 runs of a study of more than 100 000 cells, evenly chosen, for what --dry-run says before it
-/// has planned all of them. Absent if the study has no more cells, or its conditions leave out all that were chosen.
+/// has planned all of them; with fewer runs, in proportion, if scenarios have more than ten bodies in the mean. Absent
+/// if the study has no more cells, or its conditions leave out all that were chosen.
 std::optional<Plan> glance_at_plan(const Experiment& experiment, const Options& options);
 
 /// Adds runs that the plan does not contain yet; leaves the plan's identity unchanged. Each must have the scenario and

@@ -14,9 +14,9 @@ double motion_size(const Scenario& scenario, double t_end) {
   const ExactMotion exact(*system);
   double farthest = 0;
   for (std::size_t body = 0; body < system->moving(); ++body) {
-    const auto start = exact.at(0, body).path;
+    const auto start = exact.path_at(0, body);
     for (int k = 1; start && k <= instants; ++k) {
-      farthest = std::max(farthest, (exact.at(t_end * k / instants, body).path->position - start->position).norm());
+      farthest = std::max(farthest, (exact.path_at(t_end * k / instants, body)->position - start->position).norm());
     }
   }
   return farthest > 0 ? farthest : std::numeric_limits<double>::infinity();
