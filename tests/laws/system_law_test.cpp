@@ -11,6 +11,7 @@
 #include "core/system/visit_system.hpp"
 #include "tests/laws/formulations.hpp"
 #include "tests/laws/plain_equations.hpp"
+#include "tests/laws/probe_forces.hpp"
 #include "tests/laws/problems.hpp"
 #include "tests/laws/random_motion.hpp"
 
@@ -321,6 +322,23 @@ TEST_P(SystemLaw, OneAndManyAgreeToTheBit) {
     one->project(y);
     many->project(other);
     EXPECT_EQ(y, other);
+  }
+}
+
+// Methods that are compiled for many bodies alone see a single body with all its forces, and give its digits.
+TEST_P(SystemLaw, TheFormOfManyBodiesIsTheSameSystem) {
+  for (const Problem& start : {free_top(), projectile(true), box_on_spring()}) {
+    const Problem problem = moved(start, 9);
+    const auto one = make_system<double>(problem, GetParam());
+    one->add_force(std::make_unique<Shaking<double>>(1));
+    const auto form = many_bodies_form(*one);
+    ASSERT_EQ(form->forces().size(), one->forces().size());
+    EXPECT_EQ(form->forces().back(), one->forces().back());
+    EXPECT_EQ(form->start().y, one->start().y);
+    const VectorX<double> y = off_manifold(*one, one->start().y, 0.1, 3);
+    EXPECT_EQ(rate<double>(*form, y), rate(*one, y));
+    EXPECT_EQ(form->measure(y).energy(), one->measure(y).energy());
+    EXPECT_EQ(many_bodies_form<double>(*form).get(), form.get()) << "many bodies are that form already";
   }
 }
 
