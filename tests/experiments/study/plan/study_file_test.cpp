@@ -69,6 +69,30 @@ class StudyFiles : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+// A glance reads 10 000 scenarios, and a tenth of them where each has a hundred bodies.
+TEST_F(StudyFiles, AGlanceReadsFewerScenariosOfManyBodies) {
+  const auto rows = [](const char* scenario) {
+    const std::vector<const char*> argv = {"tops",
+                                           "--scenario",
+                                           scenario,
+                                           "--integrator",
+                                           "semi_implicit_euler",
+                                           "--dt",
+                                           "0.01",
+                                           "--random",
+                                           "n=1000000 seed=7 body.0.mass=uniform(1,3)"};
+    const auto plan = glance_at_plan(tops, parse_options(tops, int(argv.size()), argv.data()).options);
+    EXPECT_TRUE(plan) << scenario;
+    if (!plan) return std::size_t{0};
+    EXPECT_NEAR(plan->runs_of_a_row * double(plan->size()), 1e6, 1) << scenario << ": the rows stand for all cells";
+    return plan->size();
+  };
+  const std::size_t of_one = rows("peters_hsu"), of_hundred = rows("pile_100");
+  EXPECT_EQ(of_one, 10'000u);
+  EXPECT_GT(of_hundred, 900u);
+  EXPECT_LT(of_hundred, 1'100u);
+}
+
 TEST_F(StudyFiles, SayTheSameAsTheCommandLine) {
   const std::string cells = file("cells.csv", "dt,body.0.mass\n0.1,2\n0.2,\n0.25,3\n");
   const Plan from_file = of_file(R"toml(
