@@ -325,15 +325,18 @@ void StudyRuns::for_each_part(const std::function<UsePart(std::vector<RunRecord>
     Variants variants;
     const std::size_t first = part * at_a_time, end = std::min(first + at_a_time, plan_.size());
     for (std::size_t i = first; i < end; ++i) {
-      PlannedRun run = plan_.run(i, &variants);
-      records.push_back({std::move(run.id), std::move(run.config), {}, std::move(run.scenario)});
       if (plan_.rows[i].refused) {
+        PlannedRun run = plan_.run(i, &variants);
+        records.push_back({std::move(run.id), std::move(run.config)});
         records.back().result.status = "refused";
-        records.back().result.message = run.refusal;
+        records.back().result.message = std::move(run.refusal);
+      } else {
+        records.push_back({id_of_number(plan_.rows[i].id), plan_.config(i)});
       }
     }
     {
       const std::lock_guard lock(reading);
+      const Store::Reading all = store_.reading();
       for (std::size_t i = first; i < end; ++i) {
         if (!plan_.rows[i].refused) records[i - first].result = result(i, Curves::without);
       }

@@ -244,6 +244,7 @@ std::size_t add_cells(const Product& product, std::uint16_t number, std::size_t 
       made->drafts.push_back(draft_of(run.config, *run.scenario));
       made->drafts.back().row.product = number;
       made->drafts.back().row.cell = at;
+      made->drafts.back().row.own_presets = run.own_presets;
     });
     return [&, made] {
       for (const Draft& draft : made->drafts) rows.add(draft);
@@ -315,6 +316,14 @@ PlannedRun Plan::run(std::size_t i, Variants* known) const {
   if (known) known->add(row.scenario, run.scenario);
   if (row.refused) run.refusal = refusal(run.config, *run.scenario);
   return run;
+}
+
+RunConfig Plan::config(std::size_t i) const {
+  const PlanRow& row = rows[i];
+  if (row.own_presets || row.product == products_.size()) return run(i).config;
+  RunConfig config = products_[row.product]->config(row.cell);
+  fill_varied(config, varied_keys);
+  return config;
 }
 
 std::vector<PlannedRun> Plan::runs() const {

@@ -36,6 +36,7 @@ struct PlanRow {
   std::uint16_t product = 0;   ///< index of its product; that after the last one: the further runs
   std::uint16_t kind = 0;      ///< index in Plan::kinds
   bool refused = false;        ///< it cannot be carried out
+  bool own_presets = false;    ///< as Product::Run::own_presets
   bool keeps_curves = true;    ///< its curves against time are kept (--curves)
 };
 
@@ -93,6 +94,8 @@ class Plan {
   /// Run i, below size(). Takes its scenario from `known`, and puts it there, unless `known` is null. Thread-safe for
   /// different `known`.
   PlannedRun run(std::size_t i, Variants* known = nullptr) const;
+  /// The configuration of run i. The scenario is made only for a run with own_presets. Thread-safe.
+  RunConfig config(std::size_t i) const;
   /// All runs, for a plan of a few.
   std::vector<PlannedRun> runs() const;
   /// Number of the run with this id.

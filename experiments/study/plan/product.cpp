@@ -141,14 +141,29 @@ RunConfig Product::configured(const Cell& cell, const Opened& opened, const Scen
   return config;
 }
 
-Product::Run Product::made(const Cell& cell, const Opened& opened, std::shared_ptr<const Scenario> scenario) const {
-  if (!scenario) scenario = std::make_shared<const Scenario>(opened.source.resolve(cell.varied));
-  RunConfig config = configured(cell, opened, *scenario);
+/// configured(), with what the study and the experiment decide for all their runs.
+RunConfig Product::completed(const Cell& cell, const Opened& opened, const Scenario& scenario) const {
+  RunConfig config = configured(cell, opened, scenario);
   if (config.tolerance) config.max_steps = max_steps_;
   // Without a step the run is refused by check().
   if (experiment_.duration && (config.tolerance || config.dt))
     config.t_end = experiment_.duration(config.t_end, config.tolerance ? *config.tolerance : *config.dt);
-  return {std::move(config), std::move(scenario)};
+  return config;
+}
+
+/// `scenario`: that of the run, with the varied keys set.
+bool Product::has_own_presets(const RunConfig& config, const Opened& opened, const Scenario& scenario) const {
+  const auto& options = run_options();
+  return std::any_of(options.begin(), options.end(), [&](const RunOption& option) {
+    return option.preset && option.applies_to(config) && option.preset(scenario) != option.preset(*opened.scenario);
+  });
+}
+
+Product::Run Product::made(const Cell& cell, const Opened& opened, std::shared_ptr<const Scenario> scenario) const {
+  if (!scenario) scenario = std::make_shared<const Scenario>(opened.source.resolve(cell.varied));
+  RunConfig config = completed(cell, opened, *scenario);
+  const bool own_presets = has_own_presets(config, opened, *scenario);
+  return {std::move(config), std::move(scenario), own_presets};
 }
 
 /// False: the conditions leave out the cell.
@@ -231,6 +246,12 @@ void Product::refuse_empty() const {
 Product::Run Product::run(std::uint64_t cell, std::shared_ptr<const Scenario> scenario) const {
   const Cell of = cells_->at(cell);
   return made(of, *by_name_.at(of.scenario), std::move(scenario));
+}
+
+RunConfig Product::config(std::uint64_t cell) const {
+  const Cell of = cells_->at(cell);
+  const Opened& opened = *by_name_.at(of.scenario);
+  return completed(of, opened, *opened.scenario);
 }
 
 }  // namespace polhode::study::plan

@@ -54,6 +54,7 @@ class Product {
   struct Run {
     RunConfig config;
     std::shared_ptr<const Scenario> scenario;
+    bool own_presets = false;  ///< the varied keys change the default of an option: t_end that of --t-end
   };
   /// Makes the cells, each of which can then be made from its number. Throws InputError for invalid values.
   void open();
@@ -76,12 +77,16 @@ class Product {
 
   /// The run of a cell that for_each() gave. `scenario`: that of the run, if it is known. Thread-safe.
   Run run(std::uint64_t cell, std::shared_ptr<const Scenario> scenario) const;
+  /// Its configuration, if the run has no own_presets: its scenario is not made for it. Thread-safe.
+  RunConfig config(std::uint64_t cell) const;
 
  private:
   Cells make_cells(bool counted);
   void open_scenarios(const std::vector<Dimension>& dimensions);
   RunConfig start_of(const Opened& opened, const Scenario& scenario) const;
   RunConfig configured(const Cell& cell, const Opened& opened, const Scenario& scenario) const;
+  RunConfig completed(const Cell& cell, const Opened& opened, const Scenario& scenario) const;
+  bool has_own_presets(const RunConfig& config, const Opened& opened, const Scenario& scenario) const;
   Run made(const Cell& cell, const Opened& opened, std::shared_ptr<const Scenario> scenario) const;
   /// Conditions of each scenario, with what they keep from cell to cell.
   using Conditions = std::map<const Opened*, BoundConditions>;

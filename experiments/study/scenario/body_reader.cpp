@@ -274,7 +274,8 @@ TomlCursor body_key(const TomlCursor& body, std::string_view name) {
 }
 
 ReadBody read_body(const TomlCursor& table, std::size_t index, bool contact) {
-  table.table("A body has", names(body_keys()));
+  static const std::vector<std::string_view> known = names(body_keys());
+  table.table("A body has", known);
   ReadBody read;
   read.body = read_matter(table, index);
   read.start = read_start(table, read.body);

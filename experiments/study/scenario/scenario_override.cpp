@@ -144,7 +144,8 @@ class Walk {
     parts_[1] = std::to_string(*index);
     TomlValue& element = elements->items[*index];
     if (element.type != Type::table) fail(list + "." + parts_[1] + " is not a table");
-    into_table(element, keys_of(list, element), 2);
+    if (list == "body") into_table(element, body_keys(), 2);  // without a copy of the keys
+    else into_table(element, keys_of(list, element), 2);
   }
 
   static std::string they_are(const std::string& list, const TomlValue* elements, std::size_t count) {

@@ -206,7 +206,8 @@ std::vector<std::string> read_invariants(const TomlCursor& root, const Problem& 
 
 Scenario read_scenario(const TomlValue& tree, const std::string& name) {
   const TomlCursor root(tree);
-  root.table("A scenario has", names(root_keys()));
+  static const std::vector<std::string_view> known = names(root_keys());
+  root.table("A scenario has", known);
   Scenario scenario;
   scenario.name = name;
   scenario.title = root.has("title") ? root.at("title", "").text("a text of one line") : name;

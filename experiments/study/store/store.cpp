@@ -219,6 +219,9 @@ Store::Store(const std::filesystem::path& folder, std::span<const Metric> metric
 
 Store::~Store() = default;
 
+Store::Reading::Reading(const Database& db) : db_(db) { db_.execute("BEGIN"); }
+Store::Reading::~Reading() { sqlite3_exec(db_.handle(), "COMMIT", nullptr, nullptr, nullptr); }
+
 void Store::for_each(Curves curves, const std::function<void(StoredRun&&)>& use) const {
   Reader reader(db_, *tables_, curves, " ORDER BY runs.number");
   while (reader.statement().step()) use(reader.read());

@@ -61,6 +61,18 @@ class Store {
   void for_each(Curves curves, const std::function<void(StoredRun&&)>& use) const;
   /// The run with this id; absent if there is none.
   std::optional<StoredRun> find(const std::string& id, Curves curves) const;
+  /// While it lives, find() reads within one transaction, which is faster for many runs.
+  class Reading {
+   public:
+    explicit Reading(const Database& db);
+    ~Reading();
+    Reading(const Reading&) = delete;
+    Reading& operator=(const Reading&) = delete;
+
+   private:
+    const Database& db_;
+  };
+  Reading reading() const { return Reading(db_); }
   std::vector<std::uint64_t> ids() const;  ///< of all runs, damaged ones too, in ascending order
   /// Ids of the runs, damaged ones too, that begin with these 1 to 16 hexadecimal digits, in ascending order.
   std::vector<std::string> ids_with(const std::string& beginning) const;

@@ -17,6 +17,7 @@
 #include "experiments/study/plan/dimension.hpp"
 #include "experiments/study/plan/plan.hpp"
 #include "experiments/study/plan/where.hpp"
+#include "experiments/study/record/run_id.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "tests/temporary_folder.hpp"
@@ -91,6 +92,26 @@ TEST_F(StudyFiles, AGlanceReadsFewerScenariosOfManyBodies) {
   EXPECT_EQ(of_one, 10'000u);
   EXPECT_GT(of_hundred, 900u);
   EXPECT_LT(of_hundred, 1'100u);
+}
+
+// Where a varied key changes the default of an option, the configuration of a run is made with its scenario.
+TEST_F(StudyFiles, ConfigurationsAreThoseOfTheRuns) {
+  const auto expect_those_of_the_runs = [](const Plan& plan, std::size_t with_own_presets) {
+    std::size_t own = 0;
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+      own += plan.rows[i].own_presets;
+      EXPECT_EQ(run_number(plan.config(i), plan.run(i).scenario->canonical), plan.rows[i].id) << i;
+    }
+    EXPECT_EQ(own, with_own_presets);
+  };
+  expect_those_of_the_runs(planned({"--vary", "body.0.mass=1,2,3"}), 0);
+  expect_those_of_the_runs(planned({"--vary", "t_end=10,3", "--vary", "body.0.mass=1,2"}), 2);
+  expect_those_of_the_runs(planned({"--vary", "t_end=10,3", "--t-end", "1"}), 1);
+  // A sphere and a half space meet by the separating axes, a cylinder by GJK only.
+  expect_those_of_the_runs(planned({"--scenario", "bouncing_ball", "--vary",
+                                    "body.ball.shape={kind=\"sphere\",radius=0.1};{kind=\"cylinder\",radius=0.1,"
+                                    "length=0.2};{kind=\"sphere\",radius=0.2}"}),
+                           1);
 }
 
 TEST_F(StudyFiles, SayTheSameAsTheCommandLine) {
