@@ -327,11 +327,11 @@ void StudyRuns::for_each_part(const std::function<UsePart(std::vector<RunRecord>
     for (std::size_t i = first; i < end; ++i) {
       if (plan_.rows[i].refused) {
         PlannedRun run = plan_.run(i, &variants);
-        records.push_back({std::move(run.id), std::move(run.config)});
+        records.push_back({std::move(run.id), std::move(run.config), {}});
         records.back().result.status = "refused";
         records.back().result.message = std::move(run.refusal);
       } else {
-        records.push_back({id_of_number(plan_.rows[i].id), plan_.config(i)});
+        records.push_back({id_of_number(plan_.rows[i].id), plan_.config(i), {}});
       }
     }
     {
