@@ -187,7 +187,8 @@ class FixedStep final : public Integrator<typename System::Scalar> {
 /// The forms of a system for which a method is compiled. ManyBodies, in three scalars, is always one.
 enum class Forms {
   many_bodies,  ///< no other form: a step of a single body takes 10 to 100 ns longer, compiling less than half the time
-  one_body,     ///< also a single free body in double, in each formulation
+  engine_body,  ///< also a single free body in double, with a quaternion and ω in world axes, as engines have it
+  one_body,     ///< also such a body in each formulation
   lanes,        ///< also the lanes of an ensemble of such bodies. The method has no branches that depend on the state.
 };
 
@@ -206,7 +207,11 @@ IntegratorEntry fixed_step(Declaration declaration) {
     const auto made = [&]<class Form>(std::shared_ptr<const Form> form) -> IntegratorPointer<S> {
       return std::make_unique<FixedStep<Method<Form>, Form>>(std::move(form), settings, evaluations);
     };
-    if constexpr (forms == Forms::many_bodies) return made(many_bodies_form(system));
+    if constexpr (forms == Forms::engine_body && has_one_body_form<S>) {
+      using Engine = RigidBodies<S, Orientation::quaternion, AngularState::velocity_world, BodyCount::one>;
+      if (const auto* form = dynamic_cast<const Engine*>(&system)) return made(borrowed(*form));
+    }
+    if constexpr (forms <= Forms::engine_body) return made(many_bodies_form(system));
     else return visit_system(system, [&](const auto& form) { return made(borrowed(form)); });
   };
   IntegratorEntry entry{

@@ -6,16 +6,13 @@
 
 namespace polhode {
 
-template <class S>
-System<S>::System(std::vector<Problem> problems, const Formulation& formulation)
-    : problems_(std::move(problems)), formulation_(formulation) {
-  const int chart = formulation_.orientation == Orientation::quaternion ? 4 : 9;
-  const std::size_t n = problem().moving();
+Layout layout_of(const Problem& problem, const Formulation& formulation) {
+  const int chart = formulation.orientation == Orientation::quaternion ? 4 : 9;
+  Layout layout;
   int q = 0, v = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const bool pinned = problem().bodies[i].pinned;
+  for (std::size_t i = 0; i < problem.moving(); ++i) {
     Layout::Slot slot;
-    if (!pinned) {
+    if (!problem.bodies[i].pinned) {
       slot.position = q;
       slot.velocity = v;
       q += 3;
@@ -25,14 +22,21 @@ System<S>::System(std::vector<Problem> problems, const Formulation& formulation)
     slot.angular = v;
     q += chart;
     v += 3;
-    layout_.slots.push_back(slot);
+    layout.slots.push_back(slot);
   }
-  for (Layout::Slot& slot : layout_.slots) {
+  for (Layout::Slot& slot : layout.slots) {
     if (slot.velocity >= 0) slot.velocity += q;
     slot.angular += q;
   }
-  layout_.configuration_size = q;
-  layout_.velocity_size = v;
+  layout.configuration_size = q;
+  layout.velocity_size = v;
+  layout.work_size = problem.joints.empty() ? 1 : 2;
+  return layout;
+}
+
+template <class S>
+System<S>::System(std::vector<Problem> problems, const Formulation& formulation)
+    : problems_(std::move(problems)), formulation_(formulation), layout_(layout_of(problem(), formulation)) {
   for (std::size_t k = 0; k < problem().forces.size(); ++k) {
     if constexpr (is_lanes<S>) {
       add_force(make_force_in_lanes(problems_, k));
@@ -43,7 +47,6 @@ System<S>::System(std::vector<Problem> problems, const Formulation& formulation)
   if constexpr (!is_lanes<S>) {
     if (problem().joints.empty()) return;
     constraints_ = std::make_shared<Constraints<S>>(problem(), formulation_);
-    layout_.work_size = 2;
     forces_exert_torques_ = forces_read_rotation_ = forces_read_velocity_ = true;
   }
 }

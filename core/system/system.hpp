@@ -38,6 +38,9 @@ struct Measurement {
 template <class S>
 class Constraints;
 
+/// The layout of the state of a problem's system.
+Layout layout_of(const Problem& problem, const Formulation& formulation);
+
 /// Interface of a system of rigid bodies in the scalar S.
 template <class S>
 class System : public Ode<S> {

@@ -124,4 +124,13 @@ template class CollocationSolver<float>;
 template class CollocationSolver<double>;
 template class CollocationSolver<long double>;
 
+std::string refuse_large_system(int stages, const Problem& problem, const Formulation& formulation) {
+  constexpr double most_memory = 4e9;  // bytes of the matrix in double; its factors take as much again
+  const int unknowns = stages * layout_of(problem, formulation).size();
+  const double memory = 8.0 * unknowns * unknowns;
+  if (memory <= most_memory) return {};
+  return "its stages solve a dense linear system of " + std::to_string(unknowns) + " unknowns, " +
+         std::to_string(std::lround(memory / 1e9)) + " GB; take a method that solves none, or fewer bodies";
+}
+
 }  // namespace polhode::integrators

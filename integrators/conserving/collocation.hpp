@@ -14,6 +14,8 @@
 
 #include <Eigen/LU>
 #include <cstdint>
+#include <string>
+#include <utility>
 
 #include "integrators/fixed_step.hpp"
 
@@ -57,6 +59,17 @@ class CollocationSolver {
 extern template class CollocationSolver<float>;
 extern template class CollocationSolver<double>;
 extern template class CollocationSolver<long double>;
+
+/// The reason for which the linear system of a Gauss method is too large for this problem; empty if it is not.
+std::string refuse_large_system(int stages, const Problem& problem, const Formulation& formulation);
+
+/// The catalogue entry of the Gauss method with the given number of stages.
+template <template <class> class Method, int stages>
+IntegratorEntry gauss_method(Declaration declaration) {
+  IntegratorEntry entry = additive_step<Method, Forms::many_bodies>(std::move(declaration));
+  entry.refusal = [](const Problem& p, const Formulation& f) { return refuse_large_system(stages, p, f); };
+  return entry;
+}
 
 /// The Gauss method with the given number of stages.
 template <class System, int stages>

@@ -9,7 +9,7 @@ template <class System>
 using Gauss4 = GaussMethod<System, 2>;
 
 IntegratorEntry gauss4() {
-  return additive_step<Gauss4, Forms::many_bodies>(
+  return gauss_method<Gauss4, 2>(
       {.name = "gauss4",
        .family = "conserving",
        .summary = "the implicit Runge-Kutta method of Gauss with two stages",

@@ -9,7 +9,7 @@ template <class System>
 using Gauss6 = GaussMethod<System, 3>;
 
 IntegratorEntry gauss6() {
-  return additive_step<Gauss6, Forms::many_bodies>(
+  return gauss_method<Gauss6, 3>(
       {.name = "gauss6",
        .family = "conserving",
        .summary = "the implicit Runge-Kutta method of Gauss with three stages",

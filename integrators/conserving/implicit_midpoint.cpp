@@ -9,7 +9,7 @@ template <class System>
 using ImplicitMidpoint = GaussMethod<System, 1>;
 
 IntegratorEntry implicit_midpoint() {
-  return additive_step<ImplicitMidpoint, Forms::many_bodies>(
+  return gauss_method<ImplicitMidpoint, 1>(
       {.name = "implicit_midpoint",
        .family = "conserving",
        .summary = "y' = y + h f(t + h/2, (y + y')/2)",

@@ -63,7 +63,7 @@ inline std::string needs_a_body_without_joints(const Problem& problem, const For
 template <template <class> class Recipe>
 IntegratorEntry engine_recipe(Declaration declaration) {
   declaration.refuses_joints = true;
-  IntegratorEntry entry = fixed_step<Recipe>(std::move(declaration));
+  IntegratorEntry entry = fixed_step<Recipe, Forms::engine_body>(std::move(declaration));
   entry.refusal = needs_a_body_without_joints;
   return entry;
 }
