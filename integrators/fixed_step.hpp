@@ -188,7 +188,7 @@ class FixedStep final : public Integrator<typename System::Scalar> {
 enum class Forms {
   many_bodies,  ///< no other form: a step of a single body takes 10 to 100 ns longer, compiling less than half the time
   engine_body,  ///< also a single free body in double, with a quaternion and ω in world axes, as engines have it
-  one_body,     ///< also such a body in each formulation
+  one_body,     ///< also a single free body in double, in each formulation
   lanes,        ///< also the lanes of an ensemble of such bodies. The method has no branches that depend on the state.
 };
 

@@ -52,8 +52,8 @@ class StudyRuns {
   /// The study with all runs that are there or refused. To be called once, after the last widen().
   StudyView view();
 
-  /// Calls make(runs) for a few runs of the plan at a time, without curves, on several threads, and what it returns in
-  /// the order of the plan.
+  /// Calls make(runs) for a few runs of the plan at a time, without curves and scenarios, on several threads, and what
+  /// it returns in the order of the plan.
   void for_each_part(const std::function<UsePart(std::vector<RunRecord>&& runs)>& make) const;
 
   /// The result of a run that is in the own store.

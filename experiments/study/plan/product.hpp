@@ -77,7 +77,7 @@ class Product {
 
   /// The run of a cell that for_each() gave. `scenario`: that of the run, if it is known. Thread-safe.
   Run run(std::uint64_t cell, std::shared_ptr<const Scenario> scenario) const;
-  /// Its configuration, if the run has no own_presets: its scenario is not made for it. Thread-safe.
+  /// The configuration of such a run, which must have no own_presets. Its scenario is not made. Thread-safe.
   RunConfig config(std::uint64_t cell) const;
 
  private:
