@@ -162,8 +162,7 @@ bool Product::has_own_presets(const RunConfig& config, const Opened& opened, con
 Product::Run Product::made(const Cell& cell, const Opened& opened, std::shared_ptr<const Scenario> scenario) const {
   if (!scenario) scenario = std::make_shared<const Scenario>(opened.source.resolve(cell.varied));
   RunConfig config = completed(cell, opened, *scenario);
-  const bool own_presets = has_own_presets(config, opened, *scenario);
-  return {std::move(config), std::move(scenario), own_presets};
+  return {std::move(config), std::move(scenario)};
 }
 
 /// False: the conditions leave out the cell.
@@ -224,6 +223,7 @@ Product::Part Product::for_each(std::span<const std::uint64_t> cells,
     variant_of = &opened;
     variant_keys = cell.varied;
     check(run.config);
+    run.own_presets = has_own_presets(run.config, opened, *run.scenario);
     std::erase_if(without_effect, [&](const RunOption* option) {
       if (!option->applies_to(run.config)) return false;
       part.effective.insert(option->name);

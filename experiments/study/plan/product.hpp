@@ -54,7 +54,8 @@ class Product {
   struct Run {
     RunConfig config;
     std::shared_ptr<const Scenario> scenario;
-    bool own_presets = false;  ///< the varied keys change the default of an option: t_end that of --t-end
+    bool own_presets =
+        false;  ///< for_each() says: the varied keys change the default of an option, t_end that of --t-end
   };
   /// Makes the cells, each of which can then be made from its number. Throws InputError for invalid values.
   void open();
