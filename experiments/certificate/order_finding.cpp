@@ -83,7 +83,7 @@ Finding order_finding(std::string trait, bool adaptive, int declared, std::vecto
   }
   const bool exact = declared == Declaration::exact_order;
   finding.declared = exact ? "exact" : std::to_string(declared);
-  const auto seen = judge(estimate, exact ? std::nullopt : std::optional<double>(declared));
+  const auto seen = order_verdict(estimate, exact ? std::nullopt : std::optional<double>(declared));
   finding.verdict = verdict_of(seen);
   finding.note = note_of(estimate, seen);
   if (exact || finding.verdict == TraitVerdict::holds) return finding;

@@ -55,7 +55,7 @@ struct Order {
 
 Order order_of(const Curve& curve, Of of, const Quantity& quantity, std::optional<double> declared) {
   const auto estimate = observed_order(curve, quantity);
-  return {&curve, of, quantity, declared, estimate, judge(estimate, declared)};
+  return {&curve, of, quantity, declared, estimate, order_verdict(estimate, declared)};
 }
 
 /// The analysis:

@@ -116,7 +116,7 @@ std::string word_of(OrderVerdict verdict) {
   }
 }
 
-OrderVerdict judge(const OrderEstimate& estimate, std::optional<double> declared) {
+OrderVerdict order_verdict(const OrderEstimate& estimate, std::optional<double> declared) {
   if (estimate.exact) return declared ? OrderVerdict::exact_here : OrderVerdict::as_declared;
   if (!estimate.line) return OrderVerdict::too_few;
   const auto& [order, standard_error, half_width] = *estimate.line;

@@ -70,6 +70,6 @@ std::string word_of(OrderVerdict verdict);
 /// `declared` is compared with the observed order to within 0.25; an interval wider than ±0.5, or one that holds an
 /// order further off than that, decides nothing. nullopt: it declares to be exact. Exact here: it is, and did not
 /// declare it.
-OrderVerdict judge(const OrderEstimate& estimate, std::optional<double> declared);
+OrderVerdict order_verdict(const OrderEstimate& estimate, std::optional<double> declared);
 
 }  // namespace polhode::study::statistics

@@ -19,7 +19,7 @@ std::string aligned(const std::vector<std::vector<std::string>>& table, const st
       const std::string blanks(width[k] - length(row[k]), ' ');
       text += (left[k] ? row[k] + blanks : blanks + row[k]) + "  ";
     }
-    while (text.back() == ' ') text.pop_back();
+    while (text.ends_with(' ')) text.pop_back();
     text += '\n';
   }
   return text;

@@ -169,7 +169,7 @@ std::vector<std::string> slope_sentences(const Grouping& grouping, const Quantit
       continue;
     }
     const auto declared = declared_order(entry->declaration, *curve.runs.front(), quantity.unit == " rad");
-    const auto verdict = judge(estimate, declared);
+    const auto verdict = order_verdict(estimate, declared);
     compared += verdict != OrderVerdict::scattered;
     if (verdict != OrderVerdict::lower) continue;
     slower.push_back(fmt::format("{} ({:.2f} over {} points, {})", curve_label(grouping, curve), line->order,

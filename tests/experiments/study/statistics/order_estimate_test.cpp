@@ -35,10 +35,10 @@ TEST(OrderEstimate, OfAPowerLawIsItsExponentWithNoDoubt) {
     EXPECT_EQ(e.blown_up + e.at_round_off + e.not_straight, 0U);
     EXPECT_DOUBLE_EQ(e.largest, 0.1);
     EXPECT_DOUBLE_EQ(e.smallest, 0.1 / 32);
-    EXPECT_EQ(judge(e, p), OrderVerdict::as_declared);
-    EXPECT_EQ(judge(e, p + 0.3), OrderVerdict::lower);
-    EXPECT_EQ(judge(e, p - 0.3), OrderVerdict::higher);
-    EXPECT_EQ(judge(e, std::nullopt), OrderVerdict::lower) << "declared to be exact";
+    EXPECT_EQ(order_verdict(e, p), OrderVerdict::as_declared);
+    EXPECT_EQ(order_verdict(e, p + 0.3), OrderVerdict::lower);
+    EXPECT_EQ(order_verdict(e, p - 0.3), OrderVerdict::higher);
+    EXPECT_EQ(order_verdict(e, std::nullopt), OrderVerdict::lower) << "declared to be exact";
   }
 }
 
@@ -131,7 +131,7 @@ TEST(OrderEstimate, KnowsAPlateauThatIsNoRounding) {
   ASSERT_TRUE(e.line);
   EXPECT_NEAR(e.line->order, 0, 1e-12);
   EXPECT_EQ(e.points, 8U);
-  EXPECT_EQ(judge(e, 1), OrderVerdict::lower);
+  EXPECT_EQ(order_verdict(e, 1), OrderVerdict::lower);
 }
 
 TEST(OrderEstimate, LeavesOutStepsAtWhichTheMotionIsLostAndLargerOnes) {
@@ -161,12 +161,12 @@ TEST(OrderEstimate, BeginsAtTheSmallestStepsAndStopsWhereTheLineBends) {
 TEST(OrderEstimate, OfTooFewPointsIsNotSeen) {
   EXPECT_FALSE(estimate_order({}).line);
   EXPECT_FALSE(estimate_order({}).exact);
-  EXPECT_EQ(judge(estimate_order({}), 2), OrderVerdict::too_few);
+  EXPECT_EQ(order_verdict(estimate_order({}), 2), OrderVerdict::too_few);
   const auto one = estimate_order({{0.1, 1e-3, 0}});
   EXPECT_FALSE(one.line);
   EXPECT_EQ(one.points, 1U);
-  EXPECT_EQ(judge(one, 2), OrderVerdict::too_few);
-  EXPECT_EQ(judge(estimate_order({{0.1, 1e-2, 0}, {0.05, 1e-3, 0}}), 2), OrderVerdict::too_few);
+  EXPECT_EQ(order_verdict(one, 2), OrderVerdict::too_few);
+  EXPECT_EQ(order_verdict(estimate_order({{0.1, 1e-2, 0}, {0.05, 1e-3, 0}}), 2), OrderVerdict::too_few);
   const auto none_left = estimate_order({{0.1, nan, 0}, {0.05, nan, 0}, {0.025, nan, 0}});
   EXPECT_FALSE(none_left.line);
   EXPECT_EQ(none_left.blown_up, 3U);
@@ -179,8 +179,8 @@ TEST(OrderEstimate, OfExactMethodsIsNoOrder) {
   const auto e = estimate_order(ladder(6, [](double) { return 3e-15; }));
   EXPECT_TRUE(e.exact);
   EXPECT_FALSE(e.line);
-  EXPECT_EQ(judge(e, std::nullopt), OrderVerdict::as_declared);
-  EXPECT_EQ(judge(e, 2), OrderVerdict::exact_here);
+  EXPECT_EQ(order_verdict(e, std::nullopt), OrderVerdict::as_declared);
+  EXPECT_EQ(order_verdict(e, 2), OrderVerdict::exact_here);
   const auto zero = estimate_order(ladder(
       6, [](double) { return 0.0; }, 0));
   EXPECT_TRUE(zero.exact);
@@ -191,15 +191,15 @@ TEST(OrderEstimate, ThatScattersDecidesNothing) {
   const auto e = estimate_order(ladder(6, [&](double h) { return h * h * (++i % 2 == 0 ? 4 : 0.25); }));
   ASSERT_TRUE(e.line);
   EXPECT_GT(e.line->half_width_95, 0.5);
-  EXPECT_EQ(judge(e, 2), OrderVerdict::scattered);
-  EXPECT_EQ(judge(e, 6), OrderVerdict::scattered);
+  EXPECT_EQ(order_verdict(e, 2), OrderVerdict::scattered);
+  EXPECT_EQ(order_verdict(e, 6), OrderVerdict::scattered);
 
   // An interval that reaches beyond what tells declared from not declared.
   OrderEstimate near;
   near.line = OrderEstimate::Line{2.3, 0.1, 0.4};
-  EXPECT_EQ(judge(near, 2), OrderVerdict::scattered);
+  EXPECT_EQ(order_verdict(near, 2), OrderVerdict::scattered);
   near.line->half_width_95 = 0.2;
-  EXPECT_EQ(judge(near, 2), OrderVerdict::higher);
+  EXPECT_EQ(order_verdict(near, 2), OrderVerdict::higher);
 }
 
 TEST(OrderEstimate, DoesNotDependOnTheOrderOfThePoints) {
