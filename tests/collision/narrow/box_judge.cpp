@@ -17,12 +17,10 @@
 namespace polhode {
 namespace {
 
-using Vector = Vector3<double>;
-
 Pose pose_of(const ExactBox& box) { return box.posed().pose; }
 
 /// How far apart the shadows of the boxes on n are, in long double.
-long double shadow_gap(const ExactBox& a, const ExactBox& b, const Vector& n) {
+long double shadow_gap(const ExactBox& a, const ExactBox& b, const Vector3<double>& n) {
   using Long = long double;
   const auto reach = [&](const ExactBox& box) {
     const Matrix3<Long> r = rotation_matrix<Long>(box.orientation.cast<Long>());
@@ -32,7 +30,7 @@ long double shadow_gap(const ExactBox& a, const ExactBox& b, const Vector& n) {
 }
 
 /// How far a point is outside a box, m.
-double outside(const Vector& half, const Pose& pose, const Vector& x) {
+double outside(const Vector3<double>& half, const Pose& pose, const Vector3<double>& x) {
   return (pose.to_body(x).cwiseAbs() - half).cwiseMax(0).norm();
 }
 

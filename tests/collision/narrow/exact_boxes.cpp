@@ -10,6 +10,7 @@
 #include "tests/collision/narrow/whole_numbers.hpp"
 
 namespace polhode {
+namespace exact_boxes {
 namespace {
 
 /// The rotation as |q|² times its columns, in units of q's last bit.
@@ -122,8 +123,10 @@ long double distance_apart(const Pair& pair) {
 }
 
 }  // namespace
+}  // namespace exact_boxes
 
 ExactDistance exact_distance(const ExactBox& first, const ExactBox& second) {
+  using namespace exact_boxes;
   const Pair pair(first, second);
   const WholeBox &a = pair.a, &b = pair.b;
   const Whole3 between = b.centre - a.centre;

@@ -15,6 +15,7 @@
 #include "tests/collision/narrow/whole_numbers.hpp"
 
 namespace polhode {
+namespace exact_hulls {
 namespace {
 
 using Real = long double;
@@ -294,8 +295,10 @@ class Polytope3 {
 };
 
 }  // namespace
+}  // namespace exact_hulls
 
 ExactDistance exact_distance(const ExactHull& a, const ExactHull& b) {
+  using namespace exact_hulls;
   const Difference difference(a, b);
   std::vector<Corner> simplex = {{0, 0}};
   gjk<Real>(difference, simplex);

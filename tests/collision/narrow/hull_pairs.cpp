@@ -6,6 +6,7 @@
 #include "core/math/portable_random.hpp"
 
 namespace polhode {
+namespace hull_pairs {
 namespace {
 
 using Vector = Vector3<double>;
@@ -149,16 +150,7 @@ double half_size(const Points& points) {
   return 0.5 * around.sizes().maxCoeff();
 }
 
-}  // namespace
-
-const std::vector<std::string>& hull_pair_classes() {
-  static const std::vector<std::string> names = {"random",         "face to face",     "edge to edge", "parallel edges",
-                                                 "vertex to face", "vertex to vertex", "edge to face", "shared face",
-                                                 "on a lattice",   "nested",           "coincident",   "far apart"};
-  return names;
-}
-
-HullPairCase hull_pair_case(std::uint64_t seed, std::uint64_t k) {
+HullPairCase pair_of(std::uint64_t seed, std::uint64_t k) {
   PortableRandom random(seed * 0x9e3779b97f4a7c15u + k);
   const std::size_t kind = k % hull_pair_classes().size();
   HullPairCase pair;
@@ -254,5 +246,17 @@ HullPairCase hull_pair_case(std::uint64_t seed, std::uint64_t k) {
   pair.at_b = {pair.at_a.to_world(pair.at_b.position), rotation_matrix<double>(product(both, turn))};
   return pair;
 }
+
+}  // namespace
+}  // namespace hull_pairs
+
+const std::vector<std::string>& hull_pair_classes() {
+  static const std::vector<std::string> names = {"random",         "face to face",     "edge to edge", "parallel edges",
+                                                 "vertex to face", "vertex to vertex", "edge to face", "shared face",
+                                                 "on a lattice",   "nested",           "coincident",   "far apart"};
+  return names;
+}
+
+HullPairCase hull_pair_case(std::uint64_t seed, std::uint64_t k) { return hull_pairs::pair_of(seed, k); }
 
 }  // namespace polhode

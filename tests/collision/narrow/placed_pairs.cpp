@@ -14,12 +14,8 @@
 #include "core/math/portable_random.hpp"
 
 namespace polhode {
-
+namespace placed_pairs {
 namespace {
-
-using Real = long double;
-using Vector = Vector3<Real>;
-using Matrix = Matrix3<Real>;
 
 Vector3<double> bell_vector(PortableRandom& random) {
   const double x = random.bell(), y = random.bell();
@@ -33,13 +29,16 @@ ShapePointer sphere_hull(PortableRandom& random, int n, double scale) {
 }
 
 }  // namespace
+}  // namespace placed_pairs
 
 Pose random_pose(std::uint64_t seed, double spread) {
+  using namespace placed_pairs;
   PortableRandom random(seed);
   return {spread * bell_vector(random), random.rotation()};
 }
 
 PlacedPair hull_pair(std::uint64_t k) {
+  using namespace placed_pairs;
   PortableRandom random(k);
   const double scale = random.power_of_ten(-3, 3), ratio = random.below(2) ? 1 : random.power_of_ten(-2, 0);
   const auto count = [&] { return k % 10 == 0 ? 128 : 4 + random.below(28); };
@@ -56,6 +55,7 @@ PlacedPair hull_pair(std::uint64_t k) {
 }
 
 PlacedPair any_pair(std::uint64_t seed) {
+  using namespace placed_pairs;
   PortableRandom random(seed);
   PlacedPair p;
   const auto shape = [&](double scale) -> ShapePointer {
@@ -81,14 +81,17 @@ PlacedPair any_pair(std::uint64_t seed) {
 }
 
 long double separation_of_hulls(const PlacedPair& p) {
+  using Vector = Vector3<long double>;
+  using Matrix = Matrix3<long double>;
   struct Solid {
     std::vector<Vector> vertices, normals, edges;
   };
   const auto solid = [](const ShapePointer& shape, const Pose& at) {
     const Polytope& polytope = static_cast<const ConvexHull&>(*shape).polytope();
-    const Matrix r = at.rotation.cast<Real>();
+    const Matrix r = at.rotation.cast<long double>();
     Solid s;
-    for (const auto& v : polytope.vertices) s.vertices.push_back(r * v.cast<Real>() + at.position.cast<Real>());
+    for (const auto& v : polytope.vertices)
+      s.vertices.push_back(r * v.cast<long double>() + at.position.cast<long double>());
     for (std::uint32_t f = 0; f < polytope.faces.size(); ++f) {
       const auto c = polytope.corners_of(f);
       const Vector origin = s.vertices[c[0].vertex];
@@ -98,8 +101,8 @@ long double separation_of_hulls(const PlacedPair& p) {
     return s;
   };
   const Solid a = solid(p.a, p.at_a), b = solid(p.b, p.at_b);
-  const auto gap = [](const Solid& low, const Solid& high, const Vector& n, Real stop) {
-    Real top = -std::numeric_limits<Real>::infinity(), bottom = -top;
+  const auto gap = [](const Solid& low, const Solid& high, const Vector& n, long double stop) {
+    long double top = -std::numeric_limits<long double>::infinity(), bottom = -top;
     for (const Vector& v : low.vertices) top = std::max(top, n.dot(v));
     for (const Vector& v : high.vertices) {
       bottom = std::min(bottom, n.dot(v));
@@ -107,7 +110,7 @@ long double separation_of_hulls(const PlacedPair& p) {
     }
     return bottom - top;
   };
-  Real most = -std::numeric_limits<Real>::infinity();
+  long double most = -std::numeric_limits<long double>::infinity();
   const auto consider = [&](const Vector& n) {
     most = std::max(most, gap(a, b, n, most));
     most = std::max(most, gap(b, a, n, most));
