@@ -37,6 +37,7 @@ class FixedStep final : public Integrator<typename System::Scalar> {
  public:
   using S = typename System::Scalar;
   using Flat = typename System::Flat;
+  using typename Integrator<S>::Batch;
 
   FixedStep(std::shared_ptr<const System> system, const IntegratorSettings& settings, int evaluations_per_step)
       : owner_(std::move(system)),
@@ -66,7 +67,7 @@ class FixedStep final : public Integrator<typename System::Scalar> {
 
   using Integrator<S>::advance;
 
-  StepResult advance(State<S>& state, const StepBatch& batch) override {
+  StepResult advance(State<S>& state, const Batch& batch) override {
     if constexpr (can_fail) {
       return Integrator<S>::advance(state, batch);
     } else if constexpr (measures) {
@@ -74,7 +75,7 @@ class FixedStep final : public Integrator<typename System::Scalar> {
     } else {
       take([this]() -> Method& { return method_; }, batch, state.y);
     }
-    state.t = batch.time(batch.count);
+    if constexpr (!is_lanes<S>) state.t = batch.time(batch.count);  // in lanes each run has a time of its own
     steps_ += batch.count;
     return {};
   }
@@ -104,10 +105,12 @@ class FixedStep final : public Integrator<typename System::Scalar> {
 
   // Flattening inlines the calls between the stages, which would otherwise double the cost of a step of one body. Float
   // and long double are not flattened: that would add a third to the compile time of a method.
-  POLHODE_FLATTEN void take_inlined(State<S>& state, const StepBatch& batch) {
+  POLHODE_FLATTEN void take_inlined(State<S>& state, const Batch& batch) {
     if constexpr (System::is_one) {
       // Local copies can stay in registers.
       Flat y = Eigen::Map<const Flat>(state.y.data());
+      static_assert(
+          !is_lanes<S> || requires { Method::remembers_nothing; }, "a lane passes from one run to the next");
       if constexpr (requires { Method::remembers_nothing; }) {
         take([this] { return Method(system_); }, batch, y);
       } else {
@@ -122,7 +125,7 @@ class FixedStep final : public Integrator<typename System::Scalar> {
   }
 
   template <class MethodOfStep>
-  void take(const MethodOfStep& method, const StepBatch& batch, Flat& y) const {
+  void take(const MethodOfStep& method, const Batch& batch, Flat& y) const {
     for (std::int64_t k = 1; k <= batch.count; ++k) {
       method().step(system_, S(batch.time(k - 1)), S(batch.h), y);
       if constexpr (measures) finish_step(batch, k, y);
@@ -135,7 +138,7 @@ class FixedStep final : public Integrator<typename System::Scalar> {
   static constexpr bool measures_inline = System::is_one && requires { Method::remembers_nothing; };
 
   /// Projects and measures after step k, like the simulation loop does for methods without batches of steps.
-  void finish_step(const StepBatch& batch, std::int64_t k, Flat& y) const {
+  void finish_step(const Batch& batch, std::int64_t k, Flat& y) const {
     S injected = 0;
     if (batch.project) {
       const bool account = batch.samples && system_.projection_changes_energy();
@@ -145,25 +148,9 @@ class FixedStep final : public Integrator<typename System::Scalar> {
       if (account) injected = energy(y) - before;
     }
     if (!batch.samples) return;
-    const Measurement<S> m = measurement_of(y);
-    if constexpr (is_lanes<S>) {
-      const S work = y[y.size() - 1];
-      for (int i = 0; i < batch.lanes; ++i) {
-        Sample& to = batch.samples[i * batch.lane_stride + k - 1];
-        to.t = batch.time(k);
-        to.seen.kinetic = m.kinetic[i];
-        to.seen.potential = m.potential[i];
-        for (int j = 0; j < 3; ++j) to.seen.linear_momentum[j] = m.linear_momentum[j][i];
-        for (int j = 0; j < 3; ++j) to.seen.angular_momentum[j] = m.angular_momentum[j][i];
-        to.seen.orientation_defect = m.orientation_defect[i];
-        to.work = work[i];
-        to.projection = injected[i];
-      }
-    } else {
-      batch.samples[k - 1] = {batch.time(k), m, y[y.size() - 1], injected};
-      if constexpr (!System::is_one) {
-        if (system_.has_joints()) batch.samples[k - 1].joint_work = y[system_.layout().joint_work()];
-      }
+    batch.samples[k - 1] = {batch.time(k), measurement_of(y), y[y.size() - 1], injected, S(0)};
+    if constexpr (!System::is_one) {
+      if (system_.has_joints()) batch.samples[k - 1].joint_work = y[system_.layout().joint_work()];
     }
   }
 

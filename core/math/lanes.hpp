@@ -38,6 +38,7 @@ class Lanes {
     explicit Mask(bool everywhere) : bits(Bits{} - std::int64_t(everywhere)) {}
     explicit Mask(Bits b) : bits(b) {}
     friend Mask operator&(Mask a, Mask b) { return Mask(a.bits & b.bits); }
+    friend Mask operator|(Mask a, Mask b) { return Mask(a.bits | b.bits); }
     friend Mask operator!(Mask a) { return Mask(~a.bits); }
     friend bool any(Mask a) {
 #if defined(__AVX512F__)

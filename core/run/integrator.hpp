@@ -9,8 +9,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "core/math/lanes.hpp"
 #include "core/run/setting.hpp"
 #include "core/system/system.hpp"
 
@@ -89,37 +91,45 @@ template <class S>
 using EventFunction = std::function<double(const State<S>&)>;
 
 /// Measurements of the state after a step. They suffice for every energy ledger without the state itself.
-struct Sample {
-  double t = 0;              ///< time, s
-  Measurement<double> seen;  ///< energies, momenta and orientation defect of the state
-  double work = 0;           ///< work of the non-conservative forces since the start, J
+/// T: double, or Lanes in an ensemble, in which each lane has a run of its own.
+template <class T>
+struct SampleOf {
+  T t{};                ///< time, s
+  Measurement<T> seen;  ///< energies, momenta and orientation defect of the state
+  T work{};             ///< work of the non-conservative forces since the start, J
   /// Energy injected by projection, J: by the projection after this step in a batch of steps, by all projections since
   /// the start in the samples that an observer gets.
-  double projection = 0;
+  T projection{};
   /// Work of the joints since the start, J. It is not zero where drift or Baumgarte's method leaves G v ≠ 0.
-  double joint_work = 0;
+  T joint_work{};
 
   /// Balance of the energy ledger, J: kinetic + potential − work − work of the joints + lost in contact − injected by
   /// projection. It is constant along the exact motion.
-  double ledger(double lost_in_contact) const {
-    return seen.energy() - work - joint_work - projection + lost_in_contact;
-  }
+  T ledger(double lost_in_contact) const { return seen.energy() - work - joint_work - projection + T(lost_in_contact); }
 };
+using Sample = SampleOf<double>;
+using LaneSample = SampleOf<Lanes>;
 
-/// A batch of steps of equal size, taken in one call. Step k ends at t = t0 + (first + k) h, k = 1 … count.
-struct StepBatch {
-  double h = 0;                  ///< step size, s
-  std::int64_t count = 1;        ///< number of steps
-  double t0 = 0;                 ///< time origin, s
-  std::int64_t first = 0;        ///< number of steps between t0 and the start of the batch
-  bool project = false;          ///< project onto the manifold and discard the history after each step
-  Sample* samples = nullptr;     ///< output: one sample per step; null: none
-  int lanes = 0;                 ///< ensembles only: number of leading lanes that are sampled
-  std::int64_t lane_stride = 0;  ///< ensembles only: the samples of lane i start at samples + i · lane_stride
+/// A batch of steps of equal size, taken in one call. Step k ends at t = t0 + (first + k) h, k = 1 … count. T: double,
+/// or Lanes in an ensemble, in which each lane has a step size and a time of its own.
+template <class T>
+struct StepBatchOf {
+  T h{};                   ///< step size, s
+  std::int64_t count = 1;  ///< number of steps
+  T t0{};                  ///< time origin, s
+  /// Number of steps between t0 and the start of the batch; of lanes, one for each.
+  std::conditional_t<is_lanes<T>, Lanes, std::int64_t> first{};
+  bool project = false;            ///< project onto the manifold and discard the history after each step
+  SampleOf<T>* samples = nullptr;  ///< output: one sample per step; null: none
 
   /// Time (s) at the end of step k.
-  double time(std::int64_t k) const { return t0 + static_cast<double>(first + k) * h; }
+  T time(std::int64_t k) const {
+    if constexpr (is_lanes<T>) return t0 + (first + Lanes(static_cast<double>(k))) * h;
+    else return t0 + static_cast<double>(first + k) * h;
+  }
 };
+using StepBatch = StepBatchOf<double>;
+using LaneBatch = StepBatchOf<Lanes>;
 
 /// Ability of a method: dense output, the state within the last step.
 template <class S>
@@ -165,6 +175,8 @@ class NativeProjection {
 template <class S>
 class Integrator {
  public:
+  using Batch = StepBatchOf<std::conditional_t<is_lanes<S>, Lanes, double>>;
+
   Integrator() = default;
   Integrator(const Integrator&) = delete;
   Integrator& operator=(const Integrator&) = delete;
@@ -182,18 +194,22 @@ class Integrator {
   virtual bool takes_batches() const { return false; }
 
   /// Takes a batch of steps in one call. Fixed-step methods only.
-  virtual StepResult advance(State<S>& state, const StepBatch& batch) {
-    StepResult result;
-    for (std::int64_t k = 1; k <= batch.count && result.ok(); ++k) {
-      result = step(state, batch.h);
-      if (result.ok()) state.t = batch.time(k);
+  virtual StepResult advance(State<S>& state, const Batch& batch) {
+    if constexpr (is_lanes<S>) {
+      return {"a method in lanes takes batches of steps itself"};
+    } else {
+      StepResult result;
+      for (std::int64_t k = 1; k <= batch.count && result.ok(); ++k) {
+        result = step(state, batch.h);
+        if (result.ok()) state.t = batch.time(k);
+      }
+      return result;
     }
-    return result;
   }
 
   /// Takes n steps of size h (s) without samples or projection.
   StepResult advance(State<S>& state, double h, std::int64_t n) {
-    return advance(state, StepBatch{.h = h, .count = n, .t0 = state.t});
+    return advance(state, Batch{.h = h, .count = n, .t0 = state.t});
   }
 
   /// Number of right-hand side evaluations since begin().

@@ -7,21 +7,17 @@
 #include <limits>
 
 namespace polhode {
-namespace {
 
-bool is_finite(const Sample& s) {
-  const Measurement<double>& m = s.seen;
-  return std::isfinite(m.energy() + m.orientation_defect + m.linear_momentum.sum() + m.angular_momentum.sum() + s.work);
+const char* reason_of_end(bool sample_is_finite) {
+  return sample_is_finite ? "the energy grew beyond all bounds" : "the state ceased to be finite";
 }
-
-}  // namespace
 
 TakenSamples hand_over(std::span<const Sample> samples, Observer& observer) {
   std::size_t finite = 0;
   while (finite < samples.size() && is_finite(samples[finite])) ++finite;
   const std::size_t taken = observer.on_samples(samples.first(finite));
   if (taken == samples.size()) return {taken};
-  return {taken, taken < finite ? "the energy grew beyond all bounds" : "the state ceased to be finite"};
+  return {taken, reason_of_end(taken < finite)};
 }
 
 std::int64_t step_of_next_state(const Observer& observer, double t0, double dt, std::int64_t k) {

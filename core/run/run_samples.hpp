@@ -2,6 +2,8 @@
 // Common parts of the loops for single runs and for ensembles: samples for the observer and messages about the end.
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -11,6 +13,18 @@ namespace polhode {
 
 /// Largest number of steps in one batch that is sampled.
 inline constexpr std::int64_t longest_batch = 64;
+
+/// True, in lanes for each of them, if all numbers of the sample are finite.
+template <class T>
+auto is_finite(const SampleOf<T>& s) {
+  using std::abs;
+  const T sum = s.seen.energy() + s.seen.orientation_defect + s.seen.linear_momentum.sum() +
+                s.seen.angular_momentum.sum() + s.work;
+  return abs(sum) <= T(std::numeric_limits<double>::max());
+}
+
+/// Why a run ends at a sample that its observer did not accept.
+const char* reason_of_end(bool sample_is_finite);
 
 /// Number of samples that were accepted. If it is less than all, the run ends as diverged at the next sample and `why`
 /// is the reason; `why` is null otherwise.

@@ -3,178 +3,294 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cmath>
 
 #include "core/run/run_samples.hpp"
 
 namespace polhode {
 namespace {
 
+constexpr auto lanes_of_all = std::size_t(lane_count);
+
+/// Largest number of steps in one batch: its samples stay in the first cache.
+constexpr std::int64_t longest = 32;
+
+using Clock = std::chrono::steady_clock;
+
 /// The loop of one ensemble.
 class EnsembleLoop {
  public:
-  EnsembleLoop(const System<Lanes>& system, Integrator<Lanes>& integrator, std::span<const LaneRun> runs,
-               const Schedule& schedule, const std::atomic<bool>* stop, std::span<const LaneQuantity> watched)
-      : system_(system),
-        integrator_(integrator),
-        runs_(runs),
-        schedule_(schedule),
-        stop_(stop),
-        watched_(watched),
-        state_(system.start()),
-        lanes_(runs.size()),
-        samples_(std::size_t(longest_batch) * std::size_t(lane_count)),
-        values_(watched.size() * samples_.size()) {}
+  EnsembleLoop(const EnsembleParts& parts, EnsembleObserver& observer, const std::atomic<bool>* stop)
+      : parts_(parts), observer_(observer), stop_(stop), samples_(std::size_t(longest)) {}
 
-  std::vector<RunOutcome> run() {
-    integrator_.begin(state_);
-    for (std::size_t i = 0; i < runs_.size(); ++i) {
-      Lane& lane = lanes_[i];
-      lane.state = runs_[i].truth.start();
-      const Sample start{0, runs_[i].truth.measure(lane.state.y), lane.state.y[lane.state.y.size() - 1], 0};
-      runs_[i].observer.on_start(lane.state, start);
-      take(i, {&start, 1}, 0);
+  void run() {
+    while (fill()) {
+      bool ended = false;
+      while (!ended) {
+        if (interrupted()) return;
+        ended = take_batch();
+      }
     }
-    all_steps();
-    std::vector<RunOutcome> outcomes;
-    for (Lane& lane : lanes_) {
-      if (lane.running) lane.outcome.t = state_.t;
-      lane.outcome.evaluations = taken_ > 0 ? integrator_.evaluations() / taken_ * lane.outcome.steps : 0;
-      outcomes.push_back(lane.outcome);
-    }
-    return outcomes;
   }
 
  private:
   /// The run in one lane.
   struct Lane {
+    LaneRun run;
+    StepPlan plan;
+    std::int64_t steps = 0;  ///< number of steps of the whole run
+    std::int64_t done = 0;
     RunOutcome outcome;
-    State<double> state;  ///< full state for Observer::on_state()
-    double projection_energy = 0;
-    bool running = true;
+    State<double> state;  ///< full state for the observer
+    double seconds = 0;
+
+    std::int64_t left() const { return steps - done; }
   };
 
-  bool any_running() const {
-    return std::any_of(lanes_.begin(), lanes_.end(), [](const Lane& lane) { return lane.running; });
-  }
-
-  void all_steps() {
-    const StepPlan plan = plan_steps(schedule_.t_end, schedule_.dt);
-    const std::int64_t steps = plan.whole + (plan.last > 0 ? 1 : 0);
-    std::int64_t k = 0;
-    while (k < steps && any_running() && !interrupted()) {
-      // The last step ends exactly at t_end and may be shorter.
-      StepBatch batch{schedule_.dt, 1, 0, k, schedule_.normalize};
-      if (k < steps - 1) {
-        batch.count = std::min(longest_batch, steps - 1 - k);
-        for (std::size_t i = 0; i < runs_.size(); ++i) {
-          if (!lanes_[i].running) continue;
-          batch.count = std::min(batch.count, step_of_next_state(runs_[i].observer, 0, schedule_.dt, k) - k);
-        }
-      } else if (plan.last > 0) {
-        batch = {plan.last, 1, static_cast<double>(k) * schedule_.dt, 0, schedule_.normalize};
-      }
-      batch.samples = samples_.data();
-      batch.lanes = static_cast<int>(runs_.size());
-      batch.lane_stride = longest_batch;
-      advance(batch);
-      taken_ += batch.count;
-      k += batch.count;
-      if (k == steps) state_.t = schedule_.t_end;
-      for (std::size_t i = 0; i < runs_.size(); ++i) {
-        if (lanes_[i].running) show(i, batch.count, k == steps);
+  /// Begins runs in vacant lanes while there are some. False: no lane has a run.
+  bool fill() {
+    bool changed = false;
+    for (std::size_t i = 0; i < lanes_of_all; ++i) {
+      while (!running_[i] && more_) {
+        std::optional<LaneRun> next = parts_.next(i);
+        more_ = next.has_value();
+        if (more_) changed = begin(i, std::move(*next)) || changed;
       }
     }
+    if (changed) compose();
+    shared_until_ = Clock::now();  // what is made before a run is not its time
+    return std::any_of(running_.begin(), running_.end(), [](bool is) { return is; });
+  }
+
+  /// Begins a run in a lane. False if it ends at its start.
+  bool begin(std::size_t i, LaneRun&& run) {
+    Lane& lane = lanes_[i];
+    lane = {};
+    lane.run = std::move(run);
+    lane.plan = plan_steps(lane.run.schedule.t_end, lane.run.schedule.dt);
+    lane.steps = lane.plan.whole + (lane.plan.last > 0 ? 1 : 0);
+    lane.state = lane.run.truth->start();
+    running_[i] = true;
+    const State<double>& state = lane.state;
+    const Sample start{0, lane.run.truth->measure(state.y), state.y[state.y.size() - 1], 0, 0};
+    Observer& observer = observer_.of_lane(i);
+    observer.on_start(state, start);
+    if (const TakenSamples taken = hand_over({&start, 1}, observer); taken.why) {
+      diverge(i, taken.why, 0);
+      return false;
+    }
+    observer_.on_begin(i);
+    return true;
+  }
+
+  /// Makes the system and the method for the runs that are now in the lanes.
+  void compose() {
+    std::size_t some = 0;  // lanes without a run take the place of this one, and nobody looks at them
+    while (!running_[some]) ++some;
+    const auto user_of = [&](std::size_t i) -> const Lane& { return lanes_[running_[i] ? i : some]; };
+    std::vector<Problem> problems;
+    for (std::size_t i = 0; i < lanes_of_all; ++i) problems.push_back(user_of(i).run.truth->problem());
+    method_.reset();
+    system_ = make_ensemble(problems, lanes_[some].run.truth->formulation());
+    method_ = parts_.method(*system_);
+    watched_ = parts_.watched ? parts_.watched(problems) : std::vector<LaneQuantity>();
+    values_.resize(watched_.size() * samples_.size());
+    steps_of_method_ = 0;
+    const bool first = state_.y.size() == 0;
+    if (first) state_ = system_->start();
+    for (std::size_t i = 0; i < lanes_of_all; ++i) {
+      const Lane& lane = user_of(i);
+      if (first || !running_[i] || lane.done == 0) put_state(i, lane.state);
+      if (lane.done == 0) projection_.set(int(i), 0);
+    }
+    method_->begin(state_);
+  }
+
+  void put_state(std::size_t i, const State<double>& state) {
+    for (Eigen::Index n = 0; n < state_.y.size(); ++n) state_.y[n].set(int(i), state.y[n]);
+  }
+
+  /// Takes steps of all lanes, shows them, and ends runs. True if a run has ended.
+  bool take_batch() {
+    const LaneBatch batch = next_batch();
+    advance(batch);
+    steps_of_method_ += batch.count;
+    const std::span<LaneSample> samples(samples_.data(), std::size_t(batch.count));
+    for (LaneSample& s : samples) s.projection = projection_ += s.projection;
+    for (std::size_t i = 0; i < lanes_of_all; ++i) {
+      if (!running_[i]) continue;
+      lanes_[i].done += batch.count;
+      if (lanes_[i].left() == 0) samples.back().t.set(int(i), lanes_[i].run.schedule.t_end);
+    }
+    const std::array<std::size_t, lanes_of_all> finite = finite_of(samples);
+    std::array<std::size_t, lanes_of_all> accepted = finite;
+    std::vector<std::span<const Lanes>>& watched = watched_values_;
+    watched.clear();
+    for (std::size_t which = 0; which < watched_.size(); ++which)
+      watched.push_back(std::span(values_).subspan(which * samples_.size(), samples.size()));
+    observer_.on_samples({samples, watched}, running_, accepted);
+    bool ended = false;
+    for (std::size_t i = 0; i < lanes_of_all; ++i) {
+      if (running_[i]) ended = show(i, samples, finite[i], accepted[i]) || ended;
+    }
+    return ended;
+  }
+
+  /// As many steps as end before the last step of a run and before the state of a run is due.
+  LaneBatch next_batch() {
+    LaneBatch batch;
+    batch.count = longest;
+    batch.samples = samples_.data();
+    Lanes h = 0, t0 = 0, first = 0;  // a lane without a run stays where it is
+    for (std::size_t i = 0; i < lanes_of_all; ++i) {
+      if (!running_[i]) continue;
+      const Lane& lane = lanes_[i];
+      const double dt = lane.run.schedule.dt, done = static_cast<double>(lane.done);
+      batch.project = lane.run.schedule.normalize;
+      if (lane.left() == 1) {  // the last step ends exactly at t_end and may be shorter
+        batch.count = 1;
+      } else {
+        const std::int64_t due = step_of_next_state(observer_.of_lane(i), 0, dt, lane.done);
+        batch.count = std::min({batch.count, lane.left() - 1, due - lane.done});
+      }
+      const bool is_shorter = lane.left() == 1 && lane.plan.last > 0;
+      h.set(int(i), is_shorter ? lane.plan.last : dt);
+      t0.set(int(i), is_shorter ? done * dt : 0);
+      first.set(int(i), is_shorter ? 0 : done);
+    }
+    batch.h = h;
+    batch.t0 = t0;
+    batch.first = first;
+    return batch;
   }
 
   /// Takes the steps of a batch; where quantities are watched, one by one.
-  void advance(const StepBatch& batch) {
+  void advance(const LaneBatch& batch) {
     if (watched_.empty()) {
-      integrator_.advance(state_, batch);
+      method_->advance(state_, batch);
       return;
     }
-    StepBatch step = batch;
+    LaneBatch step = batch;
     step.count = 1;
     for (std::int64_t k = 0; k < batch.count; ++k) {
-      step.first = batch.first + k;
+      step.first = batch.first + Lanes(static_cast<double>(k));
       step.samples = batch.samples + k;
-      integrator_.advance(state_, step);
-      const BodySnapshot<Lanes> body = system_.snapshot(state_.y, 0);
-      for (std::size_t which = 0; which < watched_.size(); ++which) {
-        const Lanes values = watched_[which](body);
-        for (std::size_t i = 0; i < runs_.size(); ++i)
-          values_of(which, i)[std::size_t(k)] = values[static_cast<int>(i)];
-      }
-    }
-  }
-
-  /// The values of a watched quantity in lane i after the steps of the last batch.
-  std::span<double> values_of(std::size_t which, std::size_t i) {
-    return std::span(values_).subspan((which * runs_.size() + i) * std::size_t(longest_batch),
-                                      std::size_t(longest_batch));
-  }
-
-  /// Passes the samples of lane i in the last batch of steps to its observer.
-  void show(std::size_t i, std::int64_t count, bool last) {
-    Lane& lane = lanes_[i];
-    const std::span<Sample> samples(samples_.data() + i * std::size_t(longest_batch), static_cast<std::size_t>(count));
-    for (Sample& s : samples) s.projection = lane.projection_energy += s.projection;
-    if (last) samples.back().t = schedule_.t_end;
-    if (!take(i, samples, count)) return;
-    if (samples.back().t < runs_[i].observer.next_state()) return;
-    lane.state.t = samples.back().t;
-    for (Eigen::Index n = 0; n < state_.y.size(); ++n) lane.state.y[n] = state_.y[n][static_cast<int>(i)];
-    runs_[i].observer.on_state(lane.state, samples.back());
-  }
-
-  /// Passes samples of lane i to its observer and adds `steps` to the count of its steps. False ends the run of the
-  /// lane as diverged.
-  bool take(std::size_t i, std::span<const Sample> samples, std::int64_t steps) {
-    Lane& lane = lanes_[i];
-    const TakenSamples taken = hand_over(samples, runs_[i].observer);
-    lane.outcome.steps += steps;
-    if (steps > 0 && runs_[i].on_watched) {
+      method_->advance(state_, step);
+      const BodySnapshot<Lanes> body = system_->snapshot(state_.y, 0);
       for (std::size_t which = 0; which < watched_.size(); ++which)
-        runs_[i].on_watched(which, values_of(which, i).first(taken.count));
+        values_[which * samples_.size() + std::size_t(k)] = watched_[which](body);
     }
-    if (!taken.why) return true;
-    const double t = samples[taken.count].t;
-    lane.outcome.steps -= std::int64_t(samples.size() - taken.count) - 1;
+  }
+
+  /// For each lane with a run the number of samples before the first one that is not finite.
+  std::array<std::size_t, lanes_of_all> finite_of(std::span<const LaneSample> samples) const {
+    Lanes::Mask all(true);
+    for (const LaneSample& s : samples) all = all & is_finite(s);
+    std::array<std::size_t, lanes_of_all> finite{};
+    for (std::size_t i = 0; i < lanes_of_all; ++i) {
+      if (!running_[i]) continue;
+      finite[i] = samples.size();
+      if (all.bits[i]) continue;
+      finite[i] = 0;
+      while (is_finite(samples[finite[i]]).bits[i]) ++finite[i];
+    }
+    return finite;
+  }
+
+  /// Shows the state of a lane at the last sample, if it is due. True if its run has ended.
+  bool show(std::size_t i, std::span<const LaneSample> samples, std::size_t finite, std::size_t accepted) {
+    Lane& lane = lanes_[i];
+    if (accepted < samples.size()) {
+      lane.done -= static_cast<std::int64_t>(samples.size() - accepted) - 1;
+      diverge(i, reason_of_end(accepted < finite), samples[accepted].t[int(i)]);
+      return true;
+    }
+    const double t = samples.back().t[int(i)];
+    if (Observer& observer = observer_.of_lane(i); t >= observer.next_state()) {
+      lane.state.t = t;
+      for (Eigen::Index n = 0; n < state_.y.size(); ++n) lane.state.y[n] = state_.y[n][int(i)];
+      observer.on_state(lane.state, sample_in(samples.back(), int(i)));
+    }
+    if (lane.left() > 0) return false;
+    end(i, t);
+    return true;
+  }
+
+  void diverge(std::size_t i, const char* why, double t) {
+    lanes_[i].outcome.status = RunStatus::diverged;
+    lanes_[i].outcome.message = at_time(why, t);
+    end(i, t);
+  }
+
+  void end(std::size_t i, double t) {
+    share_time();
+    Lane& lane = lanes_[i];
     lane.outcome.t = t;
-    lane.outcome.status = RunStatus::diverged;
-    lane.outcome.message = at_time(taken.why, t);
-    lane.running = false;
-    return false;
+    lane.outcome.steps = lane.done;
+    lane.outcome.evaluations = steps_of_method_ > 0 ? method_->evaluations() / steps_of_method_ * lane.done : 0;
+    running_[i] = false;
+    observer_.on_end(i, std::move(lane.outcome), lane.seconds);
+    shared_until_ = Clock::now();
+  }
+
+  /// Divides the time since the last call among the runs under way.
+  void share_time() {
+    const Clock::time_point now = Clock::now();
+    const auto count = static_cast<double>(std::count(running_.begin(), running_.end(), true));
+    for (std::size_t i = 0; i < lanes_of_all; ++i) {
+      if (running_[i]) lanes_[i].seconds += std::chrono::duration<double>(now - shared_until_).count() / count;
+    }
+    shared_until_ = now;
   }
 
   bool interrupted() {
     if (!stop_ || !stop_->load(std::memory_order_relaxed)) return false;
-    for (Lane& lane : lanes_) {
-      if (!lane.running) continue;
-      lane.outcome.status = RunStatus::interrupted;
-      lane.outcome.message = at_time("interrupted", state_.t);
+    for (std::size_t i = 0; i < lanes_of_all; ++i) {
+      if (!running_[i]) continue;
+      const double t = static_cast<double>(lanes_[i].done) * lanes_[i].run.schedule.dt;
+      lanes_[i].outcome.status = RunStatus::interrupted;
+      lanes_[i].outcome.message = at_time("interrupted", t);
+      end(i, t);
     }
     return true;
   }
 
-  const System<Lanes>& system_;
-  Integrator<Lanes>& integrator_;
-  std::span<const LaneRun> runs_;
-  const Schedule& schedule_;
+  const EnsembleParts& parts_;
+  EnsembleObserver& observer_;
   const std::atomic<bool>* stop_;
-  std::span<const LaneQuantity> watched_;
+  std::array<Lane, lanes_of_all> lanes_;
+  std::array<bool, lanes_of_all> running_{};
+  bool more_ = true;  ///< there may be further runs
+  std::unique_ptr<System<Lanes>> system_;
+  std::unique_ptr<Integrator<Lanes>> method_;
+  std::vector<LaneQuantity> watched_;
   State<Lanes> state_;
-  std::vector<Lane> lanes_;
-  std::vector<Sample> samples_;
-  std::vector<double> values_;  ///< of the watched quantities: by quantity, lane and step
-  std::int64_t taken_ = 0;
+  Lanes projection_ = 0;  ///< energy injected by all projections of the run in each lane, J
+  std::vector<LaneSample> samples_;
+  std::vector<Lanes> values_;  ///< of the watched quantities: by quantity and step
+  std::vector<std::span<const Lanes>> watched_values_;
+  std::int64_t steps_of_method_ = 0;  ///< number of steps that method_ has taken
+  Clock::time_point shared_until_ = Clock::now();
 };
 
 }  // namespace
 
-std::vector<RunOutcome> simulate_ensemble(const System<Lanes>& system, Integrator<Lanes>& integrator,
-                                          std::span<const LaneRun> runs, const Schedule& schedule,
-                                          const std::atomic<bool>* stop, std::span<const LaneQuantity> watched) {
-  return EnsembleLoop(system, integrator, runs, schedule, stop, watched).run();
+Sample sample_in(const LaneSample& all, int lane) {
+  Sample one;
+  one.t = all.t[lane];
+  one.seen.kinetic = all.seen.kinetic[lane];
+  one.seen.potential = all.seen.potential[lane];
+  for (int k = 0; k < 3; ++k) one.seen.linear_momentum[k] = all.seen.linear_momentum[k][lane];
+  for (int k = 0; k < 3; ++k) one.seen.angular_momentum[k] = all.seen.angular_momentum[k][lane];
+  one.seen.orientation_defect = all.seen.orientation_defect[lane];
+  one.work = all.work[lane];
+  one.projection = all.projection[lane];
+  return one;
+}
+
+void simulate_ensemble(const EnsembleParts& parts, EnsembleObserver& observer, const std::atomic<bool>* stop) {
+  EnsembleLoop(parts, observer, stop).run();
 }
 
 }  // namespace polhode

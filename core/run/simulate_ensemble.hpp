@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The simulation loop for an ensemble: several runs of one schedule, one per lane. Each run has its own observer and
-// may end on its own.
+// The simulation loop for an ensemble: runs side by side, one in each lane of the SIMD registers. Step size, duration
+// and end are each run's own; the lane of a run that has ended passes to the next run.
 #pragma once
 
+#include <atomic>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,25 +14,57 @@
 
 namespace polhode {
 
-/// A run in one lane: its system in double and its observer.
+/// A run for a lane of an ensemble.
 struct LaneRun {
-  const System<double>& truth;
-  Observer& observer;
-  /// Receives the values of the watched quantity `which`, one for each sample after the start that the observer has
-  /// just accepted. Empty: nobody wants them.
-  std::function<void(std::size_t which, std::span<const double> values)> on_watched{};
+  const System<double>* truth = nullptr;  ///< its system, alone
+  Schedule schedule{};                    ///< with fixed steps dt and a sample after every step
 };
 
 /// A quantity of the body of each lane.
 using LaneQuantity = std::function<Lanes(const BodySnapshot<Lanes>&)>;
 
-/// Runs up to lane_count systems side by side. `runs[i]` describes the system in lane i of `system`. Each observer gets
-/// samples that are bitwise equal to those of simulate(), and each run ends as under simulate(). A diverged lane gives
-/// no more samples. The schedule must have fixed steps dt and a sample after every step. `watched`: quantities that are
-/// measured in all lanes at once after every step, in place of a state for each lane.
-std::vector<RunOutcome> simulate_ensemble(const System<Lanes>& system, Integrator<Lanes>& integrator,
-                                          std::span<const LaneRun> runs, const Schedule& schedule,
-                                          const std::atomic<bool>* stop = nullptr,
-                                          std::span<const LaneQuantity> watched = {});
+/// Consecutive samples of all lanes. Those of vacant lanes, and those after the end of a run, mean nothing.
+struct LaneBlock {
+  std::span<const LaneSample> samples;
+  std::span<const std::span<const Lanes>> watched;  ///< for each watched quantity a value for each sample
+};
+
+/// The sample in one lane.
+Sample sample_in(const LaneSample& all, int lane);
+
+/// Observes the runs of an ensemble. Each run is shown as simulate() shows it, but for the samples after the start,
+/// which come for all lanes at once.
+class EnsembleObserver {
+ public:
+  virtual ~EnsembleObserver() = default;
+
+  /// The observer of the run in this lane. It receives the initial state, the sample of the start, and states.
+  virtual Observer& of_lane(std::size_t lane) = 0;
+
+  /// The observer of the lane has accepted the start of the run.
+  virtual void on_begin(std::size_t lane) = 0;
+
+  /// Receives samples. accepted[lane]: the number of samples before the first one that is not finite; 0 for a vacant
+  /// lane. If the observer lowers it, the run ends as diverged at the next sample.
+  virtual void on_samples(const LaneBlock& block, std::span<const bool> running, std::span<std::size_t> accepted) = 0;
+
+  /// Receives the outcome of the run in this lane, which is vacant then, and the run's share of the time, s.
+  virtual void on_end(std::size_t lane, RunOutcome&& outcome, double seconds) = 0;
+};
+
+/// Where the runs of an ensemble come from and what carries them out.
+struct EnsembleParts {
+  /// The next run, for this lane; none: there are no more.
+  std::function<std::optional<LaneRun>(std::size_t lane)> next;
+  /// Builds the method, which must remember nothing from one step to the next.
+  std::function<std::unique_ptr<Integrator<Lanes>>(const System<Lanes>&)> method;
+  /// The quantities to be watched, for the problems of all lanes; empty: none.
+  std::function<std::vector<LaneQuantity>(std::span<const Problem>)> watched{};
+};
+
+/// Carries out runs side by side until there are no more. Their systems must have equal non-empty keys (lane_key),
+/// their schedules must agree on `normalize`. Each run gets samples that are bitwise equal to those of simulate(), and
+/// ends as under simulate(). `stop`: if given, requests the end of all runs; it is read after every call of the method.
+void simulate_ensemble(const EnsembleParts& parts, EnsembleObserver& observer, const std::atomic<bool>* stop = nullptr);
 
 }  // namespace polhode

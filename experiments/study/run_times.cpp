@@ -229,7 +229,10 @@ class Calibration {
       }
       std::vector<LanedRun> lanes;
       for (const PlannedRun* one : batch) lanes.push_back({one->config, *one->scenario});
-      result = carry_out_together(lanes, stop, &references_).front();
+      const auto keep_first = [&](std::size_t k, RunResult&& one) {
+        if (k == 0) result = std::move(one);
+      };
+      carry_out_together({.runs = lanes, .finish = keep_first, .stop = stop, .references = &references_});
     };
     double seconds = mean_time(carried_out, slice) / (has_truth ? static_cast<double>(batch.size()) : 1);
     const double share = result.status != "interrupted" ? 1 : result.t_reached / run.config.t_end;
@@ -274,17 +277,19 @@ class Calibration {
     ++times.count;
   }
 
-  /// The runs that are carried out together with this one.
+  /// The runs that are carried out together with this one. It stands in for those of other steps or durations.
   std::vector<const PlannedRun*> batch_of(const RunKind& kind, std::size_t index) const {
+    constexpr std::size_t most_looked_at = 64;
     const PlannedRun& run = *runs_[index];
     std::vector<const PlannedRun*> batch = {&run};
     if (!timing_.in_lanes || kind.runs.size() == 1) return batch;
     const std::string key = ensemble_key(run.config, *run.scenario, {});
     if (key.empty()) return batch;
-    for (const std::size_t i : kind.runs) {
-      const PlannedRun& other = *runs_[i];
-      if (i == index || other.config.dt != run.config.dt || other.config.t_end != run.config.t_end) continue;
-      if (ensemble_key(other.config, *other.scenario, {}) == key) batch.push_back(&other);
+    for (std::size_t k = 0; k < std::min(kind.runs.size(), most_looked_at); ++k) {
+      const PlannedRun& other = *runs_[kind.runs[k]];
+      if (&other == &run || ensemble_key(other.config, *other.scenario, {}) != key) continue;
+      const bool as_long = other.config.dt == run.config.dt && other.config.t_end == run.config.t_end;
+      batch.push_back(as_long ? &other : &run);
       if (batch.size() == std::size_t(lane_count)) break;
     }
     return batch;

@@ -242,15 +242,17 @@ void StudyRuns::run(const std::vector<std::uint32_t>& runs, Interruption& interr
   };
   const Work work{
       .key = [&](const PlannedRun& run) { return ensemble_key(run.config, *run.scenario, trajectory(run.id)); },
-      .carry_out = [&](Batch batch, std::atomic<double>& share) -> std::vector<RunResult> {
-        if (batch.size() == 1) {
-          return {carry_out_alone(experiment_, batch.front(), trajectory(batch.front().id), references, interruption,
-                                  share)};
-        }
-        std::vector<LanedRun> lanes;
-        for (const PlannedRun& run : batch) lanes.push_back({run.config, *run.scenario, run.keeps_curves});
-        return carry_out_together(lanes, &interruption.stop(), &references);
-      },
+      .carry_out =
+          [&](Batch batch, std::atomic<double>& share, const Finished& finished) {
+            if (batch.size() == 1) {
+              finished(0, carry_out_alone(experiment_, batch.front(), trajectory(batch.front().id), references,
+                                          interruption, share));
+              return;
+            }
+            std::vector<LanedRun> lanes;
+            for (const PlannedRun& run : batch) lanes.push_back({run.config, *run.scenario, run.keeps_curves});
+            carry_out_together({lanes, finished, &interruption.stop(), &interruption.no_more(), &references, &share});
+          },
       .finish =
           [&](const std::vector<RunRecord>& records) {
             std::vector<std::filesystem::path> folders;

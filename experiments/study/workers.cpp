@@ -8,7 +8,6 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
-#include <iterator>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -63,12 +62,18 @@ class Keeper {
     return desk.share;
   }
 
-  void add(std::size_t worker, std::vector<RunRecord> records) {
+  /// Receives a finished run.
+  void add(RunRecord&& record) {
+    const std::lock_guard lock(mutex_);
+    pending_.push_back(std::move(record));
+  }
+
+  /// Says that a worker has done its batch.
+  void end(std::size_t worker) {
     const std::lock_guard lock(mutex_);
     Desk& desk = desks_[worker];
     time_left_.done(desk.kind, desk.cost, seconds_since(desk.started));
     desk.busy = false;
-    std::move(records.begin(), records.end(), std::back_inserter(pending_));
   }
 
   /// Waits for the last commit. Returns the numbers of the runs that were stored. Rethrows an exception of the thread.
@@ -139,16 +144,15 @@ class Keeper {
   std::thread thread_;
 };
 
-/// Sorts the runs into batches of at most lane_count runs of equal key, in their order. Runs with an empty key are
-/// batches of one.
+/// Sorts the runs into batches of equal key, in their order. Runs with an empty key are batches of one.
 std::vector<std::vector<std::size_t>> batches_of(const std::vector<PlannedRun>& runs, const Work& work) {
   std::vector<std::vector<std::size_t>> batches;
-  std::map<std::string, std::size_t> open;
+  std::map<std::string, std::size_t> known;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const std::string key = work.key(runs[i]);
-    const auto found = open.find(key);
-    if (key.empty() || found == open.end() || batches[found->second].size() == std::size_t(lane_count)) {
-      open[key] = batches.size();
+    const auto found = known.find(key);
+    if (key.empty() || found == known.end()) {
+      known[key] = batches.size();
       batches.push_back({i});
     } else {
       batches[found->second].push_back(i);
@@ -177,14 +181,13 @@ class Worker {
         cost += plan_.rows[numbers[k]].cost;
       }
       const PlanRow& first = plan_.rows[numbers[members.front()]];
-      std::vector<RunResult> results = work_.carry_out(batch, keeper_.begin(number_, plan_.kinds[first.kind], cost));
-      std::vector<RunRecord> finished;
-      for (std::size_t k = 0; k < results.size(); ++k) {
-        if (results[k].status == "interrupted") continue;
-        if (!plan_.rows[numbers[members[k]]].keeps_curves) drop_curves(results[k]);
-        finished.push_back({batch[k].id, std::move(batch[k].config), std::move(results[k])});
-      }
-      keeper_.add(number_, std::move(finished));
+      std::atomic<double>& share = keeper_.begin(number_, plan_.kinds[first.kind], cost);
+      work_.carry_out(batch, share, [&](std::size_t k, RunResult&& result) {
+        if (result.status == "interrupted") return;
+        if (!plan_.rows[numbers[members[k]]].keeps_curves) drop_curves(result);
+        keeper_.add({batch[k].id, batch[k].config, std::move(result)});
+      });
+      keeper_.end(number_);
     }
   }
 
@@ -198,7 +201,7 @@ class Worker {
 
 }  // namespace
 
-std::vector<std::uint32_t> run_all(const std::string& name, const Plan& plan, std::vector<std::uint32_t> runs,
+std::vector<std::uint32_t> run_all(const std::string& name, const Plan& plan, const std::vector<std::uint32_t>& runs,
                                    const Work& work, int jobs, Store& store, std::atomic<bool>& no_more) {
   if (runs.empty()) return {};
   const auto count = static_cast<int>(std::min({number_of_threads(jobs), runs.size(), std::size_t{4096}}));
@@ -209,7 +212,7 @@ std::vector<std::uint32_t> run_all(const std::string& name, const Plan& plan, st
     if (most == 0) most = work.key(plan.run(i)).empty() ? 1 : std::size_t(lane_count);
   }
   Keeper keeper(name, plan, runs, static_cast<std::size_t>(count), work, store, no_more);
-  RunQueue queue(plan, std::move(runs), static_cast<std::size_t>(count), std::move(together));
+  RunQueue queue(plan, runs, static_cast<std::size_t>(count), std::move(together));
   std::mutex failure_mutex;
   std::exception_ptr failure;
   const auto work_on = [&](int number) {

@@ -18,12 +18,15 @@ namespace polhode::study {
 /// Runs that are carried out together by one call in one thread.
 using Batch = std::span<const PlannedRun>;
 
+/// Receives the result of a run of a batch, by its number there.
+using Finished = std::function<void(std::size_t run, RunResult&& result)>;
+
 struct Work {
-  /// Runs with the same non-empty key may be in one batch, of at most lane_count runs.
+  /// Runs with the same non-empty key may be in one batch.
   std::function<std::string(const PlannedRun&)> key;
-  /// Carries out a batch; returns one result for each of its runs. It may store the share of its work that is done, 0
-  /// to 1, into `share`.
-  std::function<std::vector<RunResult>(Batch, std::atomic<double>& share)> carry_out;
+  /// Carries out a batch and passes each result on as soon as it is there. It may store the share of its work that is
+  /// done, 0 to 1, into `share`.
+  std::function<void(Batch, std::atomic<double>& share, const Finished&)> carry_out;
   /// Does what must be done before the results of runs are put into the store.
   std::function<void(const std::vector<RunRecord>&)> finish;
 };
@@ -31,7 +34,7 @@ struct Work {
 /// Carries out these runs of the plan, the longest first, `jobs` at a time (0: one for each core), and puts the results
 /// into the store. No batch begins once no_more is set, which an exception does as well; finished runs are kept.
 /// Returns the numbers of the runs that were stored. Rethrows exceptions of `work` and of the store.
-std::vector<std::uint32_t> run_all(const std::string& name, const Plan& plan, std::vector<std::uint32_t> runs,
+std::vector<std::uint32_t> run_all(const std::string& name, const Plan& plan, const std::vector<std::uint32_t>& runs,
                                    const Work& work, int jobs, Store& store, std::atomic<bool>& no_more);
 
 }  // namespace polhode::study

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The law of the ensemble: a run in a lane shows what it shows alone, to the bit, whoever its neighbours are and
-// however they end.
+// The law of the ensemble: a run in a lane shows what it shows alone, to the bit, whoever its neighbours are, however
+// they end and whoever had the lane before.
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/run/simulate_ensemble.hpp"
@@ -120,47 +126,105 @@ struct Watch final : Observer {
   double next_state() const override { return 0; }
 };
 
+/// A run that is carried out alone and in a lane.
+struct OneRun {
+  Problem problem;
+  Schedule schedule;
+};
+
+/// Shows each run of an ensemble to an observer of its own.
+class Apart final : public EnsembleObserver {
+ public:
+  struct OfRun {
+    Seen seen;
+    std::array<std::vector<double>, 2> watched{};
+    RunOutcome outcome{};
+    double seconds = -1;
+  };
+
+  Apart(const std::vector<OneRun>& runs, const std::vector<std::unique_ptr<System<double>>>& systems, double bound)
+      : runs_(runs), systems_(systems), all_(runs.size()) {
+    for (OfRun& one : all_) one.seen.bound = bound;
+  }
+
+  std::optional<LaneRun> next(std::size_t lane) {
+    if (begun_ == runs_.size()) return std::nullopt;
+    run_in_[lane] = begun_++;
+    return LaneRun{systems_[run_in_[lane]].get(), runs_[run_in_[lane]].schedule};
+  }
+
+  Observer& of_lane(std::size_t lane) override { return in(lane).seen; }
+  void on_begin(std::size_t) override {}
+  void on_samples(const LaneBlock& block, std::span<const bool> running, std::span<std::size_t> accepted) override {
+    for (std::size_t lane = 0; lane < running.size(); ++lane) {
+      if (!running[lane]) {
+        EXPECT_EQ(accepted[lane], 0u);
+        continue;
+      }
+      std::vector<Sample> samples;
+      for (const LaneSample& all : block.samples.first(accepted[lane])) samples.push_back(sample_in(all, int(lane)));
+      accepted[lane] = in(lane).seen.on_samples(samples);
+      for (std::size_t which = 0; which < block.watched.size(); ++which) {
+        for (const Lanes& value : block.watched[which].first(accepted[lane]))
+          in(lane).watched[which].push_back(value[int(lane)]);
+      }
+    }
+  }
+  void on_end(std::size_t lane, RunOutcome&& outcome, double seconds) override {
+    EXPECT_LT(in(lane).seconds, 0) << "a run ends once";
+    in(lane).outcome = std::move(outcome);
+    in(lane).seconds = seconds;
+  }
+
+  const OfRun& of_run(std::size_t run) const { return all_[run]; }
+
+ private:
+  OfRun& in(std::size_t lane) { return all_[run_in_[lane]]; }
+
+  const std::vector<OneRun>& runs_;
+  const std::vector<std::unique_ptr<System<double>>>& systems_;
+  std::vector<OfRun> all_;
+  std::array<std::size_t, std::size_t(lane_count)> run_in_{};
+  std::size_t begun_ = 0;
+};
+
 class EnsembleLaw : public testing::TestWithParam<std::string> {
  protected:
-  /// Runs the problems alone and together, and compares.
-  void expect_same_digits(const std::vector<Problem>& problems, const Formulation& f, const Schedule& schedule,
-                          double bound = 1e300) const {
+  /// Carries the runs out alone and together, and compares.
+  void expect_same_digits(const std::vector<OneRun>& runs, const Formulation& f, double bound = 1e300) const {
     const IntegratorEntry& entry = *find_integrator(GetParam());
     std::vector<std::unique_ptr<System<double>>> systems;
-    std::vector<Seen> together(problems.size());
-    std::vector<std::array<std::vector<double>, 2>> watched(problems.size());
-    std::vector<LaneRun> runs;
-    for (std::size_t i = 0; i < problems.size(); ++i) {
-      systems.push_back(make_system<double>(problems[i], f));
-      ASSERT_FALSE(lane_key(*systems[i]).empty());
-      ASSERT_EQ(lane_key(*systems[i]), lane_key(*systems[0]));
-      together[i].bound = bound;
-      runs.push_back({*systems[i], together[i], [&watched, i](std::size_t which, std::span<const double> values) {
-                        watched[i][which].insert(watched[i][which].end(), values.begin(), values.end());
-                      }});
+    for (const OneRun& run : runs) {
+      systems.push_back(make_system<double>(run.problem, f));
+      ASSERT_FALSE(lane_key(*systems.back()).empty());
+      ASSERT_EQ(lane_key(*systems.back()), lane_key(*systems[0]));
     }
-    std::vector<Problem> padded = problems;
-    padded.resize(std::size_t(lane_count), problems.back());
-    const auto ensemble = make_ensemble(padded, f);
-    const auto method = entry.make_lanes(*ensemble, {.dt = schedule.dt, .t_end = schedule.t_end});
-    const LaneQuantity quantities[] = {spin<Lanes>, advance<Lanes>};
-    const auto outcomes = simulate_ensemble(*ensemble, *method, runs, schedule, nullptr, quantities);
-    ASSERT_EQ(outcomes.size(), problems.size());
-    for (std::size_t i = 0; i < problems.size(); ++i) {
-      SCOPED_TRACE("lane " + std::to_string(i));
+    Apart together(runs, systems, bound);
+    const EnsembleParts parts = {.next = [&](std::size_t lane) { return together.next(lane); },
+                                 .method = [&](const System<Lanes>& system) { return entry.make_lanes(system, {}); },
+                                 .watched =
+                                     [](std::span<const Problem>) {
+                                       return std::vector<LaneQuantity>{spin<Lanes>, advance<Lanes>};
+                                     }};
+    simulate_ensemble(parts, together);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      SCOPED_TRACE("run " + std::to_string(i));
+      const Schedule& schedule = runs[i].schedule;
       Seen alone;
       alone.bound = bound;
       const auto own = entry.make(*systems[i], {.dt = schedule.dt, .t_end = schedule.t_end});
       State<double> state = systems[i]->start();
       Watch watch(*systems[i], alone);
       const RunOutcome outcome = simulate(*systems[i], *systems[i], *own, state, schedule, watch);
-      EXPECT_EQ(outcomes[i].status, outcome.status);
-      EXPECT_EQ(outcomes[i].message, outcome.message);
-      EXPECT_EQ(outcomes[i].t, outcome.t);
-      EXPECT_EQ(outcomes[i].steps, outcome.steps);
-      EXPECT_EQ(outcomes[i].evaluations, outcome.evaluations);
-      expect_same(together[i], alone);
-      EXPECT_EQ(watched[i], watch.values);
+      const Apart::OfRun& in_lane = together.of_run(i);
+      EXPECT_EQ(in_lane.outcome.status, outcome.status);
+      EXPECT_EQ(in_lane.outcome.message, outcome.message);
+      EXPECT_EQ(in_lane.outcome.t, outcome.t);
+      EXPECT_EQ(in_lane.outcome.steps, outcome.steps);
+      EXPECT_EQ(in_lane.outcome.evaluations, outcome.evaluations);
+      EXPECT_GE(in_lane.seconds, 0);
+      expect_same(in_lane.seen, alone);
+      EXPECT_EQ(in_lane.watched, watch.values);
     }
   }
 };
@@ -182,12 +246,12 @@ TEST_P(EnsembleLaw, ShowsWhatARunAloneShows) {
         for (const bool normalize : {false, true}) {
           SCOPED_TRACE(trial.name + ", " + label(f) + (other_forces ? ", other forces" : "") +
                        (normalize ? ", step" : ""));
-          std::vector<Problem> problems;
-          for (int i = 0; i < std::min(lane_count, 3); ++i)
-            problems.push_back(relative(trial.problem, i, other_forces));
+          std::vector<OneRun> runs;
           // A last step that is shortened, and one that is not.
-          expect_same_digits(problems, f,
-                             {.t_end = 0.5, .dt = normalize ? 0.007 : 0.005, .samples = {}, .normalize = normalize});
+          const Schedule schedule{.t_end = 0.5, .dt = normalize ? 0.007 : 0.005, .samples = {}, .normalize = normalize};
+          for (int i = 0; i < std::min(lane_count, 3); ++i)
+            runs.push_back({relative(trial.problem, i, other_forces), schedule});
+          expect_same_digits(runs, f);
         }
       }
     }
@@ -195,11 +259,51 @@ TEST_P(EnsembleLaw, ShowsWhatARunAloneShows) {
 }
 
 TEST_P(EnsembleLaw, ALaneMayEndBeforeItsNeighbours) {
-  std::vector<Problem> problems;
-  for (int i = 0; i < lane_count; ++i) problems.push_back(relative(box_on_spring(), i % 2, false));
-  problems[0].starts[0].velocity = {1e3, 0, 0};                // beyond the bound at once
-  problems[1].starts[0].angular_velocity = {1e200, 1e200, 1};  // overflows
-  expect_same_digits(problems, {}, {.t_end = 1, .dt = 0.01, .samples = {}, .normalize = true}, 1e5);
+  std::vector<OneRun> runs;
+  for (int i = 0; i < lane_count; ++i) {
+    runs.push_back(
+        {relative(box_on_spring(), i % 2, false), {.t_end = 1, .dt = 0.01, .samples = {}, .normalize = true}});
+  }
+  runs[0].problem.starts[0].velocity = {1e3, 0, 0};                // beyond the bound at once
+  runs[1].problem.starts[0].angular_velocity = {1e200, 1e200, 1};  // overflows
+  expect_same_digits(runs, {}, 1e5);
+}
+
+TEST_P(EnsembleLaw, ALanePassesFromOneRunToTheNext) {
+  for (const Formulation& f : all_formulations()) {
+    SCOPED_TRACE(label(f));
+    std::vector<OneRun> runs;
+    for (int i = 0; i < 3 * lane_count + 1; ++i) {
+      // Steps and durations of each run's own; the last step of most is shorter.
+      const Schedule schedule{
+          .t_end = 0.2 + 0.07 * (i % 5), .dt = 0.003 + 0.0011 * (i % 7), .samples = {}, .normalize = true};
+      runs.push_back({relative(box_on_spring(), i, i % 3 == 0), schedule});
+    }
+    runs[2].problem.starts[0].velocity = {1e3, 0, 0};  // beyond the bound at once, before its lane has moved
+    runs[5].schedule.dt = 1;                           // longer than the run
+    runs[7].problem.starts[0].angular_velocity = {1e200, 1e200, 1};
+    runs.back().problem.starts[0].angular_velocity = {40, 1e3, 30};  // beyond it later
+    expect_same_digits(runs, f, 1e5);
+  }
+}
+
+TEST_P(EnsembleLaw, StopsAllRunsWhenItIsTold) {
+  const auto system = make_system<double>(box_on_spring(), {});
+  std::vector<OneRun> runs(std::size_t(lane_count) + 3, {box_on_spring(), {.t_end = 1, .dt = 0.01, .samples = {}}});
+  std::vector<std::unique_ptr<System<double>>> systems;
+  for (const OneRun& run : runs) systems.push_back(make_system<double>(run.problem, {}));
+  Apart together(runs, systems, 1e300);
+  const std::atomic<bool> stop = true;
+  simulate_ensemble(
+      {.next = [&](std::size_t lane) { return together.next(lane); },
+       .method = [&](const System<Lanes>& in_lanes) { return find_integrator(GetParam())->make_lanes(in_lanes, {}); }},
+      together, &stop);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    EXPECT_EQ(together.of_run(i).seconds >= 0, i < std::size_t(lane_count)) << i << ": others do not begin";
+    if (i < std::size_t(lane_count)) {
+      EXPECT_EQ(together.of_run(i).outcome.status, RunStatus::interrupted);
+    }
+  }
 }
 
 TEST(Ensemble, ItsKeyTellsWhatFitsTogether) {

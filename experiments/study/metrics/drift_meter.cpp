@@ -13,28 +13,21 @@ namespace {
 
 constexpr int exact_instants = 50;
 constexpr int most_attitude_errors = 64;
-constexpr std::size_t most_at_once = 64;  // samples
-
-/// Sets worst to max(worst, |x|), or to NaN if x is NaN.
-void raise(double& worst, double x) {
-  const double size = std::abs(x);
-  worst = size <= worst ? worst : size;
-}
 
 std::optional<double> finite(double x) { return std::isfinite(x) ? std::optional(x) : std::nullopt; }
 
 }  // namespace
 
-void ThinnedSeries::add(std::span<const double> t, std::span<const double> energy, std::span<const double> linear2,
-                        std::span<const double> angular2, std::span<const double> defect) {
-  for (std::size_t i = 0; i < t.size();) {
+void ThinnedSeries::add(const DriftsOfRun& drifts, std::size_t count) {
+  const auto [t, energy, linear2, angular2, defect] = drifts;
+  for (std::size_t i = 0; i < count;) {
     if (in_open_ == 0) open_ = {t[i], energy[i], linear2[i], angular2[i], defect[i]};
     if (per_point_ == 1) {
       ++i;
       close();
       continue;
     }
-    const std::size_t end = std::min(t.size(), i + per_point_ - in_open_);
+    const std::size_t end = std::min(count, i + per_point_ - in_open_);
     SeriesPoint p = open_;  // local copy, so that the compiler keeps it in registers
     in_open_ += end - i;
     for (; i < end; ++i) {
@@ -101,9 +94,14 @@ DriftMeter::DriftMeter(const System<double>& system, const std::vector<std::stri
 
 void DriftMeter::on_start(const State<double>& state, const Sample& sample) {
   const Measurement<double>& m = sample.seen;
-  energy_start_ = sample.ledger(0);
-  linear_start_ = m.linear_momentum;
-  angular_start_ = m.angular_momentum;
+  origin_ = {.energy = sample.ledger(0),
+             .linear = m.linear_momentum,
+             .angular = m.angular_momentum,
+             .linear_conserved = conserved_.linear,
+             .angular_conserved = conserved_.angular,
+             .half = t_end_ / 2,
+             .per_t_end = 1 / t_end_};
+  if (scales_.energy > 0) origin_.bound = hopeless_drift * scales_.energy;
   for (Watched& w : invariants_) {
     const BodySnapshot<double> body = system_.snapshot(state.y, 0);
     w.start = w.kind->value(system_.problem(), body);
@@ -114,7 +112,7 @@ void DriftMeter::on_start(const State<double>& state, const Sample& sample) {
 std::size_t DriftMeter::on_samples(std::span<const Sample> samples) {
   std::size_t taken = 0;
   while (taken < samples.size()) {
-    const auto part = samples.subspan(taken, std::min(most_at_once, samples.size() - taken));
+    const auto part = samples.subspan(taken, std::min(DriftColumns<double>::most, samples.size() - taken));
     const std::size_t taken_now = take(part);
     taken += taken_now;
     if (taken_now < part.size()) break;
@@ -122,63 +120,32 @@ std::size_t DriftMeter::on_samples(std::span<const Sample> samples) {
   return taken;
 }
 
-/// Takes at most most_at_once samples: the changes of all of them first, then each of the sums and maxima, so that
-/// neither waits for the other.
+/// Takes at most DriftColumns::most samples: the changes of all of them first, then each of the sums and maxima, so
+/// that neither waits for the other. A hopeless sample counts, and is the last one.
 std::size_t DriftMeter::take(std::span<const Sample> samples) {
-  struct Column : std::array<double, most_at_once> {};
-  Column t, energy, linear2, angular2, defect;
-  const double bound = scales_.energy > 0 ? hopeless_drift * scales_.energy : std::numeric_limits<double>::max();
-  const double energy_start = energy_start_;
-  const Vector3<double> linear_start = linear_start_, angular_start = angular_start_, center = scales_.mass_center;
-  const ConservedMomenta conserved = conserved_;
+  DriftColumns<double> columns;
   const bool several = system_.moving() > 1;
-  std::size_t taken = 0, seen = 0;
-  while (seen < samples.size()) {
-    const Sample& sample = samples[seen];
-    const Measurement<double>& m = sample.seen;
-    t[seen] = sample.t;
-    energy[seen] = sample.ledger(lost_in_contact_) - energy_start;
-    linear2[seen] = conserved.linear ? (m.linear_momentum - linear_start).squaredNorm() : 0.0;
-    angular2[seen] = 0;
-    if (conserved.angular) {
-      Vector3<double> change = m.angular_momentum - angular_start;
-      if (several) change -= center.cross(m.linear_momentum - linear_start);
-      angular2[seen] = change.squaredNorm();
-    }
-    defect[seen] = m.orientation_defect;
-    const bool hopeless = !(std::abs(energy[seen]) <= bound && m.kinetic <= bound);
-    ++seen;
-    if (hopeless) break;
-    ++taken;
+  const bool some_hopeless = fill(columns, samples, origin_, lost_in_contact_, [&](const Sample& sample) {
+    Vector3<double> change = sample.seen.angular_momentum - origin_.angular;
+    if (several) change -= scales_.mass_center.cross(sample.seen.linear_momentum - origin_.linear);
+    return change;
+  });
+  std::size_t taken = samples.size();
+  if (some_hopeless) {
+    taken = 0;
+    while (!is_hopeless(columns.energy[taken], samples[taken].seen.kinetic, origin_.bound)) ++taken;
   }
-  const auto first = [&](const Column& c) { return std::span(c).first(seen); };
-  if (keeps_curves_) series_.add(first(t), first(energy), first(linear2), first(angular2), first(defect));
-  blocks_.add(first(t), first(energy));
-  Sums sums = sums_;  // local copy, so that the compiler keeps it in registers
-  const double per_t_end = 1 / t_end_, half = t_end_ / 2;
-  for (std::size_t i = 0; i < seen; ++i) {
-    raise(sums.worst_energy, energy[i]);
-    raise(sums.worst_early_energy, t[i] <= half ? energy[i] : 0.0);
-    raise(sums.worst_linear2, linear2[i]);
-    raise(sums.worst_angular2, angular2[i]);
-    raise(sums.worst_defect, defect[i]);
-    const double s = t[i] * per_t_end;
-    sums.t += s;
-    sums.tt += s * s;
-    sums.d += energy[i];
-    sums.td += s * energy[i];
-  }
-  if (seen > 0) sums.last_energy = energy[seen - 1];
-  sums.samples += static_cast<std::int64_t>(seen);
-  sums_ = sums;
+  const std::size_t seen = std::min(taken + 1, samples.size());
+  follow(DriftsOfRun::in(columns, 0), seen);
+  sums_.add(columns, 0, seen, origin_);
   return taken;
 }
 
-void DriftMeter::on_invariant(std::size_t k, std::span<const double> values) {
-  Watched& w = invariants_[k];
-  double worst = w.worst;
-  for (const double value : values) raise(worst, value - w.start);
-  w.worst = worst;
+/// Adds samples to what is kept against time.
+void DriftMeter::follow(const DriftsOfRun& drifts, std::size_t count) {
+  samples_ += static_cast<std::int64_t>(count);
+  if (keeps_curves_) series_.add(drifts, count);
+  blocks_.add(drifts.t, drifts.energy, count);
 }
 
 double DriftMeter::next_state() const {
@@ -200,7 +167,7 @@ void DriftMeter::on_state(const State<double>& state, const Sample&) {
 
 void DriftMeter::measure_further(const State<double>& state) {
   const BodySnapshot<double> body = system_.snapshot(state.y, 0);
-  for (Watched& w : invariants_) raise(w.worst, w.kind->value(system_.problem(), body) - w.start);
+  for (Watched& w : invariants_) raise_size(w.worst, w.kind->value(system_.problem(), body) - w.start);
 }
 
 void DriftMeter::measure_errors(const State<double>& state) {
@@ -222,22 +189,22 @@ void DriftMeter::measure_errors(const State<double>& state) {
   keep(worst_error_.angular_velocity, e.angular_velocity);
   if (!polhode_) return;
   const PolhodeError::At at = polhode_->at(state.t, system_.snapshot(state.y, 0));
-  raise(worst_polhode_.phase, at.phase);
-  raise(worst_polhode_.phase_rad, at.phase_rad);
-  raise(worst_polhode_.off, at.off);
+  raise_size(worst_polhode_.phase, at.phase);
+  raise_size(worst_polhode_.phase_rad, at.phase_rad);
+  raise_size(worst_polhode_.off, at.off);
 }
 
 void DriftMeter::report(RunResult& result) {
-  result.energy_initial = finite(energy_start_);
+  result.energy_initial = finite(origin_.energy);
   if (scales_.energy > 0) result.energy_scale = scales_.energy;
   result.energy_round_off = scales_.energy_round_off(precision_, result.steps);
-  if (sums_.samples < 2) return;  // a run that took no step has no drift
+  if (samples_ < 2) return;  // a run that took no step has no drift
   result.energy_drift_max = finite(sums_.worst_energy);
   result.energy_drift_max_rel = finite(sums_.worst_energy / scales_.energy);
   result.energy_drift_final_rel = finite(sums_.last_energy / scales_.energy);
-  const double n = static_cast<double>(sums_.samples);
+  const double n = static_cast<double>(samples_);
   const double spread = n * sums_.tt - sums_.t * sums_.t;
-  if (sums_.samples > 2 && spread > 0) {
+  if (samples_ > 2 && spread > 0) {
     result.energy_drift_rate = finite((n * sums_.td - sums_.t * sums_.d) / spread / t_end_);
   }
   if (conserved_.linear) result.linear_momentum_drift_max_rel = finite(std::sqrt(sums_.worst_linear2) / scales_.linear);
@@ -302,7 +269,7 @@ void DriftMeter::classify(RunResult& result) const {
   record.largest_early = scales_.energy > 0 ? sums_.worst_early_energy : record.largest;
   record.round_off = result.energy_round_off.value_or(0);
   record.scale = scales_.energy;
-  record.samples = sums_.samples;
+  record.samples = samples_;
   record.t_end = t_end_;
   record.impacts = impacts_;
   const DriftClass found = polhode::study::classify(record);

@@ -15,21 +15,36 @@
 #include "core/exact/reference_motion.hpp"
 #include "core/run/simulate.hpp"
 #include "core/system/invariants.hpp"
+#include "experiments/study/metrics/drift_sums.hpp"
 #include "experiments/study/metrics/polhode_error.hpp"
 #include "experiments/study/metrics/references.hpp"
 #include "experiments/study/record/run_record.hpp"
 #include "experiments/study/statistics/drift_growth.hpp"
+#include "experiments/study/statistics/strided.hpp"
 
 namespace polhode::study::inline metrics {
+
+/// Changes in consecutive samples of one run.
+struct DriftsOfRun {
+  Strided t, energy, linear2, angular2, defect;  ///< as in DriftColumns
+
+  /// Those of a lane; for one run lane 0.
+  template <class S>
+  static DriftsOfRun in(const DriftColumns<S>& columns, std::size_t lane) {
+    constexpr std::size_t stride = sizeof(S) / sizeof(double);
+    const auto of = [lane](const auto& column) {
+      return Strided{reinterpret_cast<const double*>(column.data()) + lane, stride};
+    };
+    return {of(columns.t), of(columns.energy), of(columns.linear2), of(columns.angular2), of(columns.defect)};
+  }
+};
 
 /// History of a run in at most 256 intervals of equally many samples; when all are in use, neighbours are merged.
 class ThinnedSeries {
  public:
   ThinnedSeries() { points_.reserve(capacity); }
-  /// Adds samples: times, energy drifts (signed), squared changes of linear and angular momentum, orientation defects.
-  /// Energies and momenta in any units.
-  void add(std::span<const double> t, std::span<const double> energy, std::span<const double> linear2,
-           std::span<const double> angular2, std::span<const double> defect);
+  /// Adds `count` samples. Energies and momenta in any units.
+  void add(const DriftsOfRun& drifts, std::size_t count);
   /// The history, with drifts relative to these scales (in the units of add()); 0 where a scale is 0.
   std::vector<SeriesPoint> finish(double energy_scale, double linear_scale, double angular_scale);
 
@@ -61,10 +76,8 @@ class DriftMeter final : public Observer {
   void on_contact_energy(const ContactLosses& losses) override { lost_in_contact_ = losses.total(); }
   void on_impacts(std::span<const Impact> impacts) override;
 
-  /// Invariants are measured by others, who tell their values after each step. To be called before the run.
+  /// Invariants are measured in lanes (LaneMeter). To be called before the run.
   void expect_invariants() { invariants_told_ = true; }
-  /// Receives values of the k-th invariant after consecutive steps.
-  void on_invariant(std::size_t k, std::span<const double> values);
 
   /// The result is to have no curves against time. To be called before the run.
   void leave_out_curves() { keeps_curves_ = false; }
@@ -77,9 +90,12 @@ class DriftMeter final : public Observer {
   void report(RunResult& result);
 
  private:
+  friend class LaneMeter;  // takes the samples after the start, for a meter in each lane
+
   bool measures_invariants() const { return !invariants_.empty() && !invariants_told_; }
   void measure_further(const State<double>& state);
   std::size_t take(std::span<const Sample> samples);
+  void follow(const DriftsOfRun& drifts, std::size_t count);
   void measure_errors(const State<double>& state);
   static void forget_errors(RunResult& result);
   void judge_by_reference(RunResult& result) const;
@@ -104,9 +120,8 @@ class DriftMeter final : public Observer {
 
   MotionScales scales_;
   Precision precision_;
-  double energy_start_ = 0;
+  DriftOrigin<double> origin_;
   double lost_in_contact_ = 0;  ///< energy lost in contact so far, J
-  Vector3<double> linear_start_, angular_start_;
   double next_exact_ = 0;
   std::int64_t exact_count_ = 0;
   ExactMotion::Error worst_error_;
@@ -114,14 +129,8 @@ class DriftMeter final : public Observer {
   std::vector<AttitudeError> attitude_errors_;
   std::optional<PolhodeError> polhode_;
   PolhodeError::At worst_polhode_;
-  struct Sums {
-    std::int64_t samples = 0;
-    // Energies in J, squared linear momenta in (kg m/s)², squared angular momenta in (kg m²/s)².
-    double worst_energy = 0, last_energy = 0, worst_linear2 = 0, worst_angular2 = 0, worst_defect = 0;
-    double worst_early_energy = 0;        ///< until half of t_end, J
-    double t = 0, tt = 0, d = 0, td = 0;  ///< sums for the least-squares slope of the drift over t/t_end
-  };
-  Sums sums_;
+  std::int64_t samples_ = 0;
+  DriftSums<double> sums_;
   ThinnedSeries series_;
   BlockMeans blocks_;
   std::vector<double> impacts_;  ///< times of impacts, thinned, s

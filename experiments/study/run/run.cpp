@@ -4,10 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <limits>
+#include <memory>
 #include <new>
+#include <optional>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "collision/contact/impact_timing.hpp"
 #include "core/run/setting.hpp"
@@ -16,6 +21,7 @@
 #include "experiments/study/metrics/contact_meter.hpp"
 #include "experiments/study/metrics/drift_meter.hpp"
 #include "experiments/study/metrics/joint_meter.hpp"
+#include "experiments/study/metrics/lane_meter.hpp"
 #include "experiments/study/record/result_numbers.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/scenario/narrow_phase_choice.hpp"
@@ -151,40 +157,89 @@ RunResult measured(const RunConfig& config, const Scenario& scenario, const Traj
   return result;
 }
 
-std::vector<RunResult> side_by_side(std::span<const LanedRun> runs, const std::atomic<bool>* stop,
-                                    References* references) {
-  const RunConfig& config = runs.front().config;
-  std::vector<Problem> problems;
-  std::vector<std::unique_ptr<System<double>>> truths;
-  std::vector<std::unique_ptr<DriftMeter>> meters;
-  std::vector<LaneRun> lanes;
-  for (const LanedRun& run : runs) {
-    problems.push_back(run.scenario.problem);
-    truths.push_back(make_system<double>(run.scenario.problem, formulation_of(config)));
-    meters.push_back(std::make_unique<DriftMeter>(*truths.back(), run.scenario.invariants, config.t_end, false,
-                                                  true_motion_of(run.config, run.scenario, stop, references)));
-    DriftMeter& meter = *meters.back();
-    meter.expect_invariants();
-    if (!run.keeps_curves) meter.leave_out_curves();
-    lanes.push_back({*truths.back(), meter,
-                     [&meter](std::size_t k, std::span<const double> values) { meter.on_invariant(k, values); }});
+/// Runs side by side, each with a meter of its own.
+class SideBySide final : public EnsembleObserver {
+ public:
+  explicit SideBySide(const LanedWork& work) : work_(work), finished_(work.runs.size()) {
+    for (const LanedRun& run : work.runs) steps_ += steps_of(run.config);
   }
-  problems.resize(std::size_t(lane_count), problems.back());  // lanes that nobody looks at
-  std::vector<LaneQuantity> invariants;
-  for (const std::string& name : runs.front().scenario.invariants)
-    invariants.push_back(find_invariant(name)->in_lanes(problems));
-  const auto system = make_ensemble(problems, config.formulation);
-  const auto integrator = integrator_of<Lanes>(config, *system);
-  const auto started = Clock::now();
-  const auto outcomes = simulate_ensemble(*system, *integrator, lanes, schedule_of(config), stop, invariants);
-  const double seconds = seconds_since(started) / static_cast<double>(runs.size());
-  std::vector<RunResult> results;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    results.push_back(result_of(outcomes[i], *meters[i], seconds));
-    keep_finite(results.back());
+
+  void carry_out() {
+    const RunConfig& config = work_.runs.front().config;
+    const EnsembleParts parts = {
+        .next = [this](std::size_t lane) { return next(lane); },
+        .method = [&](const System<Lanes>& system) { return integrator_of<Lanes>(config, system); },
+        .watched =
+            [&](std::span<const Problem> problems) {
+              std::vector<LaneQuantity> invariants;
+              for (const std::string& name : work_.runs.front().scenario.invariants)
+                invariants.push_back(find_invariant(name)->in_lanes(problems));
+              return invariants;
+            }};
+    simulate_ensemble(parts, *this, work_.stop);
   }
-  return results;
-}
+
+  /// Carries out the runs without a result, one by one.
+  void carry_out_rest() {
+    for (std::size_t run = 0; run < work_.runs.size(); ++run) {
+      if (finished_[run]) continue;
+      if (work_.no_more && *work_.no_more) return;
+      const auto& [config, scenario, keeps_curves] = work_.runs[run];
+      finish(run, study::carry_out(config, scenario, {}, work_.stop, work_.references));
+    }
+  }
+
+  Observer& of_lane(std::size_t lane) override { return *lanes_[lane].meter; }
+  void on_begin(std::size_t lane) override { meter_.begin(lane, *lanes_[lane].meter); }
+  void on_samples(const LaneBlock& block, std::span<const bool> running, std::span<std::size_t> accepted) override {
+    meter_.on_samples(block, running, accepted);
+    if (!work_.share) return;
+    const auto under_way = static_cast<double>(std::count(running.begin(), running.end(), true));
+    steps_done_ += under_way * static_cast<double>(block.samples.size());
+    work_.share->store(std::min(steps_done_ / steps_, 1.0), std::memory_order_relaxed);
+  }
+  void on_end(std::size_t lane, RunOutcome&& outcome, double seconds) override {
+    meter_.end(lane);
+    RunResult result = result_of(outcome, *lanes_[lane].meter, seconds);
+    keep_finite(result);
+    finish(lanes_[lane].run, std::move(result));
+  }
+
+ private:
+  struct Lane {
+    std::size_t run = 0;
+    std::unique_ptr<System<double>> truth;
+    std::unique_ptr<DriftMeter> meter;
+  };
+
+  static double steps_of(const RunConfig& config) { return config.t_end / *config.dt; }
+
+  std::optional<LaneRun> next(std::size_t lane) {
+    if (next_ == work_.runs.size() || (work_.no_more && *work_.no_more)) return std::nullopt;
+    const LanedRun& run = work_.runs[next_];
+    Lane& place = lanes_[lane];
+    place.run = next_++;
+    place.meter.reset();  // before the system that it measures
+    place.truth = make_system<double>(run.scenario.problem, formulation_of(run.config));
+    place.meter = std::make_unique<DriftMeter>(*place.truth, run.scenario.invariants, run.config.t_end, false,
+                                               true_motion_of(run.config, run.scenario, work_.stop, work_.references));
+    place.meter->expect_invariants();
+    if (!run.keeps_curves) place.meter->leave_out_curves();
+    return LaneRun{place.truth.get(), schedule_of(run.config)};
+  }
+
+  void finish(std::size_t run, RunResult&& result) {
+    finished_[run] = true;
+    work_.finish(run, std::move(result));
+  }
+
+  const LanedWork& work_;
+  std::vector<bool> finished_;
+  std::size_t next_ = 0;
+  std::array<Lane, std::size_t(lane_count)> lanes_;
+  LaneMeter meter_;
+  double steps_ = 0, steps_done_ = 0;  ///< of all runs
+};
 
 /// The reason for which a method and options cannot answer contacts and joints together; empty if they can.
 std::string refusal_of_contact_with_joints(const RunConfig& config, const Declaration& declared) {
@@ -290,19 +345,16 @@ std::string ensemble_key(const RunConfig& config, const Scenario& scenario, cons
   const std::string key = lane_key(*make_system<double>(scenario.problem, formulation_of(config)));
   if (key.empty()) return {};
   const Formulation& f = config.formulation;
-  return fmt::format("{} {} {} {} {} {} {} {} {} {}", key, config.integrator, name(f.orientation),
-                     name(f.angular_state), f.gyroscopic, name(f.rotation_from), config.normalize, *config.dt,
-                     config.t_end, fmt::join(scenario.invariants, " "));
+  return fmt::format("{} {} {} {} {} {} {} {}", key, config.integrator, name(f.orientation), name(f.angular_state),
+                     f.gyroscopic, name(f.rotation_from), config.normalize, fmt::join(scenario.invariants, " "));
 }
 
-std::vector<RunResult> carry_out_together(std::span<const LanedRun> runs, const std::atomic<bool>* stop,
-                                          References* references) {
+void carry_out_together(const LanedWork& work) {
+  SideBySide runs(work);
   try {
-    return side_by_side(runs, stop, references);
+    runs.carry_out();
   } catch (const std::exception&) {
-    std::vector<RunResult> results;
-    for (const LanedRun& run : runs) results.push_back(carry_out(run.config, run.scenario, {}, stop, references));
-    return results;
+    runs.carry_out_rest();
   }
 }
 

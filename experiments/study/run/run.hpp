@@ -35,8 +35,8 @@ RunResult carry_out(const RunConfig& config, const Scenario& scenario, const Tra
                     const std::atomic<bool>* stop, References* references = nullptr,
                     std::atomic<double>* share = nullptr);
 
-/// Runs with the same non-empty key differ only in initial values and parameters and can share the lanes of an
-/// ensemble. Empty: the run is carried out alone.
+/// Runs with the same non-empty key differ only in initial values, parameters, steps and duration and can share the
+/// lanes of an ensemble. Empty: the run is carried out alone.
 std::string ensemble_key(const RunConfig& config, const Scenario& scenario, const TrajectoryRequest& trajectory);
 
 struct LanedRun {
@@ -44,9 +44,19 @@ struct LanedRun {
   const Scenario& scenario;
   bool keeps_curves = true;  ///< the result has the curves against time
 };
-/// Carries out at most lane_count runs of one key together, with the digits that carry_out() gives to each; the time is
-/// divided among them. If that throws, each run is carried out alone, so that only runs fail that fail by themselves.
-std::vector<RunResult> carry_out_together(std::span<const LanedRun> runs, const std::atomic<bool>* stop,
-                                          References* references = nullptr);
+/// Runs of one key that are carried out together.
+struct LanedWork {
+  std::span<const LanedRun> runs;
+  /// Receives the result of a run when it has ended. A run that was stopped has the status "interrupted".
+  std::function<void(std::size_t run, RunResult&& result)> finish;
+  const std::atomic<bool>* stop = nullptr;     ///< ends the runs under way
+  const std::atomic<bool>* no_more = nullptr;  ///< no further run begins
+  References* references = nullptr;            ///< as in carry_out()
+  std::atomic<double>* share = nullptr;        ///< gets the part of all steps that is done, 0 to 1
+};
+/// Carries out runs in the lanes of an ensemble, with the digits that carry_out() gives to each. The lane of a run that
+/// has ended passes to the next one. The time is divided among the runs under way. If that throws, the runs that are
+/// left are carried out alone, so that only those fail that fail by themselves.
+void carry_out_together(const LanedWork& work);
 
 }  // namespace polhode::study::run

@@ -5,9 +5,9 @@
 
 namespace polhode::study::inline statistics {
 
-void BlockMeans::add(std::span<const double> t, std::span<const double> values) {
-  for (std::size_t i = 0; i < t.size();) {
-    const std::size_t end = std::min(t.size(), i + per_block_ - in_open_);
+void BlockMeans::add(Strided t, Strided values, std::size_t count) {
+  for (std::size_t i = 0; i < count;) {
+    const std::size_t end = std::min(count, i + per_block_ - in_open_);
     BlockMean sum = open_;  // local copy, so that the compiler keeps it in registers
     in_open_ += end - i;
     for (; i < end; ++i) {

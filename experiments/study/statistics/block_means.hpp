@@ -3,8 +3,9 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <vector>
+
+#include "experiments/study/statistics/strided.hpp"
 
 namespace polhode::study::inline statistics {
 
@@ -17,9 +18,9 @@ struct BlockMean {
 class BlockMeans {
  public:
   BlockMeans() { sums_.reserve(capacity); }
-  void add(double t, double value) { add({&t, 1}, {&value, 1}); }
-  /// Adds consecutive samples, as many times as values.
-  void add(std::span<const double> t, std::span<const double> values);
+  void add(double t, double value) { add({&t}, {&value}, 1); }
+  /// Adds `count` consecutive samples.
+  void add(Strided t, Strided values, std::size_t count);
   /// The blocks. The last one is included if it is at least half full.
   std::vector<BlockMean> finish() const;
 

@@ -37,8 +37,13 @@ TEST(RunFaults, AnExceptionOfOneLaneFailsThatRunAlone) {
   broken.problem.forces.front().kind = "no such force";
   const RunConfig config = rk4(sound);
   const LanedRun runs[] = {{config, sound}, {config, broken}, {config, sound}};
-  const auto results = carry_out_together(runs, nullptr);
-  ASSERT_EQ(results.size(), 3u);
+  std::vector<RunResult> results(3);
+  std::vector<int> times(3);
+  carry_out_together({.runs = runs, .finish = [&](std::size_t run, RunResult&& result) {
+                        results[run] = std::move(result);
+                        ++times[run];
+                      }});
+  EXPECT_EQ(times, std::vector<int>(3, 1));
   const RunResult alone = carry_out(config, sound, {}, nullptr);
   ASSERT_EQ(alone.status, "ok");
   for (const std::size_t k : {0u, 2u}) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -55,23 +56,46 @@ TEST(RunsTogether, HaveTheResultsThatEachHasAlone) {
     scenarios.push_back(ScenarioSource::open("free_symmetric_top").resolve({&spun, 1}));
   }
   ASSERT_EQ(scenarios.front().invariants.size(), 2u);
-  for (const double dt : {0.01, 0.5}) {
-    std::vector<RunConfig> configs;
-    for (const Scenario& scenario : scenarios) configs.push_back(by_rk4(scenario, dt));
-    std::vector<LanedRun> runs;
-    for (std::size_t i = 0; i < std::min(scenarios.size(), std::size_t(lane_count)); ++i)
-      runs.push_back({configs[i], scenarios[i]});
-    const auto together = carry_out_together(runs, nullptr);
-    ASSERT_EQ(together.size(), runs.size());
-    bool diverged = false;
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      SCOPED_TRACE(i);
-      const RunResult alone = carry_out(configs[i], scenarios[i], {}, nullptr);
-      diverged = diverged || alone.status == "diverged";
-      expect_same_result(together[i], alone);
-    }
-    EXPECT_TRUE(diverged);
+  std::vector<RunConfig> configs;
+  std::vector<LanedRun> runs;
+  for (const double dt : {0.01, 0.5, 0.003, 0.007, 0.02}) {
+    for (std::size_t i = 0; i < scenarios.size(); ++i) configs.push_back(by_rk4(scenarios[i], dt));
   }
+  for (std::size_t i = 0; i < configs.size(); ++i)
+    runs.push_back({configs[i], scenarios[i % scenarios.size()], i % 3 != 0});
+  std::vector<RunResult> together(runs.size());
+  std::atomic<double> share = 0;
+  carry_out_together({.runs = runs,
+                      .finish = [&](std::size_t run, RunResult&& result) { together[run] = std::move(result); },
+                      .share = &share});
+  EXPECT_GT(share, 0.5);
+  EXPECT_LE(share, 1);
+  int diverged = 0;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    SCOPED_TRACE(i);
+    RunResult alone = carry_out(configs[i], runs[i].scenario, {}, nullptr);
+    if (!runs[i].keeps_curves) drop_curves(alone);
+    diverged += alone.status == "diverged";
+    expect_same_result(together[i], alone);
+  }
+  EXPECT_GE(diverged, 5);
+}
+
+TEST(RunsTogether, BeginNoFurtherRunWhenToldSo) {
+  const Scenario scenario = ScenarioSource::open("free_symmetric_top").resolve();
+  const RunConfig config = by_rk4(scenario, 0.01);
+  const std::vector<LanedRun> runs(3 * std::size_t(lane_count), {config, scenario});
+  std::atomic<bool> no_more = false;
+  std::size_t finished = 0;
+  carry_out_together({.runs = runs,
+                      .finish =
+                          [&](std::size_t, RunResult&& result) {
+                            EXPECT_EQ(result.status, "ok");
+                            ++finished;
+                            no_more = true;
+                          },
+                      .no_more = &no_more});
+  EXPECT_EQ(finished, std::size_t(lane_count)) << "those under way";
 }
 
 TEST(RunsTogether, HaveTheSameInvariants) {

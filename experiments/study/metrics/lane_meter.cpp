@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/study/metrics/lane_meter.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/run/run_samples.hpp"
+
+namespace polhode::study::inline metrics {
+namespace {
+
+static_assert(DriftColumns<Lanes>::most >= std::size_t(longest_batch));
+
+void set(Vector3<Lanes>& all, std::size_t lane, const Vector3<double>& one) {
+  for (int k = 0; k < 3; ++k) all[k].set(int(lane), one[k]);
+}
+void set(Lanes::Mask& all, std::size_t lane, bool one) { all.bits[lane] = one ? -1 : 0; }
+
+void set(DriftOrigin<Lanes>& all, std::size_t lane, const DriftOrigin<double>& one) {
+  all.energy.set(int(lane), one.energy);
+  set(all.linear, lane, one.linear);
+  set(all.angular, lane, one.angular);
+  set(all.linear_conserved, lane, one.linear_conserved);
+  set(all.angular_conserved, lane, one.angular_conserved);
+  all.bound.set(int(lane), one.bound);
+  all.half.set(int(lane), one.half);
+  all.per_t_end.set(int(lane), one.per_t_end);
+}
+
+DriftSums<double> lane_of(const DriftSums<Lanes>& all, std::size_t lane) {
+  DriftSums<double> one;
+  DriftSums<double>::for_each(one, all, [lane](double& x, const Lanes& y) { x = y[int(lane)]; });
+  return one;
+}
+
+}  // namespace
+
+void LaneMeter::begin(std::size_t lane, DriftMeter& meter) {
+  meters_[lane] = &meter;
+  holds_[lane] = true;
+  set(origin_, lane, meter.origin_);
+  DriftSums<double>::for_each(sums_, meter.sums_, [lane](Lanes& x, double y) { x.set(int(lane), y); });
+  starts_.resize(meter.invariants_.size(), Lanes(0));
+  worst_.resize(meter.invariants_.size(), Lanes(0));
+  for (std::size_t k = 0; k < meter.invariants_.size(); ++k) {
+    starts_[k].set(int(lane), meter.invariants_[k].start);
+    worst_[k].set(int(lane), meter.invariants_[k].worst);
+  }
+}
+
+void LaneMeter::on_samples(const LaneBlock& block, std::span<const bool> running, std::span<std::size_t> accepted) {
+  const std::size_t n = block.samples.size();
+  const DriftOrigin<Lanes>& origin = origin_;
+  const Lanes::Mask hopeless = fill(columns_, block.samples, origin, 0, [&](const LaneSample& sample) {
+    return Vector3<Lanes>(sample.seen.angular_momentum - origin.angular);
+  });
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!running[i]) continue;
+    std::size_t seen = accepted[i];
+    if (hopeless.bits[i]) {
+      const auto is_hopeless_at = [&](std::size_t k) {
+        return is_hopeless(columns_.energy[k], block.samples[k].seen.kinetic, origin.bound).bits[i] != 0;
+      };
+      std::size_t taken = 0;
+      while (taken < seen && !is_hopeless_at(taken)) ++taken;
+      seen = std::min(taken + 1, seen);
+      accepted[i] = taken;
+    }
+    meters_[i]->follow(DriftsOfRun::in(columns_, i), seen);
+    if (accepted[i] < n) end_within(block, i, seen, accepted[i]);
+  }
+  sums_.add(columns_, 0, n, origin);
+  for (std::size_t k = 0; k < starts_.size(); ++k) {
+    Lanes worst = worst_[k];
+    for (const Lanes value : block.watched[k]) raise_size(worst, value - starts_[k]);
+    worst_[k] = worst;
+  }
+}
+
+/// Gives the meter of a run that ends within the block what was measured until then.
+void LaneMeter::end_within(const LaneBlock& block, std::size_t lane, std::size_t seen, std::size_t accepted) {
+  DriftColumns<double> columns;
+  const DriftsOfRun drifts = DriftsOfRun::in(columns_, lane);
+  for (std::size_t k = 0; k < seen; ++k) {
+    columns.t[k] = drifts.t[k];
+    columns.energy[k] = drifts.energy[k];
+    columns.linear2[k] = drifts.linear2[k];
+    columns.angular2[k] = drifts.angular2[k];
+    columns.defect[k] = drifts.defect[k];
+  }
+  end(lane);
+  DriftMeter& meter = *meters_[lane];
+  meter.sums_.add(columns, 0, seen, meter.origin_);
+  for (std::size_t k = 0; k < starts_.size(); ++k) {
+    DriftMeter::Watched& w = meter.invariants_[k];
+    for (const Lanes& value : block.watched[k].first(accepted)) raise_size(w.worst, value[int(lane)] - w.start);
+  }
+}
+
+void LaneMeter::end(std::size_t lane) {
+  if (!std::exchange(holds_[lane], false)) return;
+  DriftMeter& meter = *meters_[lane];
+  meter.sums_ = lane_of(sums_, lane);
+  for (std::size_t k = 0; k < starts_.size(); ++k) meter.invariants_[k].worst = worst_[k][int(lane)];
+}
+
+}  // namespace polhode::study::metrics

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Drift meters for the runs of an ensemble, one in each lane. What is measured at every sample is measured in all lanes
+// at once, with the digits of a meter alone.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/run/simulate_ensemble.hpp"
+#include "experiments/study/metrics/drift_meter.hpp"
+#include "experiments/study/metrics/drift_sums.hpp"
+
+namespace polhode::study::inline metrics {
+
+class LaneMeter {
+ public:
+  /// The meter takes the place of the one in this lane. It has seen the start of its run.
+  void begin(std::size_t lane, DriftMeter& meter);
+
+  /// As EnsembleObserver::on_samples(). The watched quantities are the invariants of the runs, in their order.
+  void on_samples(const LaneBlock& block, std::span<const bool> running, std::span<std::size_t> accepted);
+
+  /// Gives the meter of the lane what was measured. To be called once, after the run.
+  void end(std::size_t lane);
+
+ private:
+  void end_within(const LaneBlock& block, std::size_t lane, std::size_t seen, std::size_t accepted);
+
+  static constexpr auto count = std::size_t(lane_count);
+
+  std::array<DriftMeter*, count> meters_{};
+  std::array<bool, count> holds_{};  ///< sums of the lane are here, and not in its meter
+  DriftOrigin<Lanes> origin_;
+  DriftSums<Lanes> sums_;
+  std::vector<Lanes> starts_, worst_;  ///< of the invariants
+  DriftColumns<Lanes> columns_;
+};
+
+}  // namespace polhode::study::metrics
