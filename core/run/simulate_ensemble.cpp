@@ -117,7 +117,9 @@ class EnsembleLoop {
     advance(batch);
     steps_of_method_ += batch.count;
     const std::span<LaneSample> samples(samples_.data(), std::size_t(batch.count));
-    for (LaneSample& s : samples) s.projection = projection_ += s.projection;
+    if (batch.project && system_->projection_changes_energy()) {
+      for (LaneSample& s : samples) s.projection = projection_ += s.projection;
+    }
     for (std::size_t i = 0; i < lanes_of_all; ++i) {
       if (!running_[i]) continue;
       lanes_[i].done += batch.count;

@@ -21,30 +21,22 @@ std::optional<double> finite(double x) { return std::isfinite(x) ? std::optional
 void ThinnedSeries::add(const DriftsOfRun& drifts, std::size_t count) {
   const auto [t, energy, linear2, angular2, defect] = drifts;
   for (std::size_t i = 0; i < count;) {
-    if (in_open_ == 0) open_ = {t[i], energy[i], linear2[i], angular2[i], defect[i]};
-    if (per_point_ == 1) {
-      ++i;
-      close();
-      continue;
-    }
-    const std::size_t end = std::min(count, i + per_point_ - in_open_);
-    SeriesPoint p = open_;  // local copy, so that the compiler keeps it in registers
-    in_open_ += end - i;
-    for (; i < end; ++i) {
-      const bool larger = !(std::abs(energy[i]) <= std::abs(p.energy_drift_rel));
-      p.t = larger ? t[i] : p.t;
-      p.energy_drift_rel = larger ? energy[i] : p.energy_drift_rel;
-      p.linear_momentum_drift_rel = std::max(p.linear_momentum_drift_rel, linear2[i]);
-      p.angular_momentum_drift_rel = std::max(p.angular_momentum_drift_rel, angular2[i]);
-      p.orientation_defect = std::max(p.orientation_defect, defect[i]);
-    }
-    open_ = p;
-    if (in_open_ == per_point_) close();
+    LargestDrifts<double> largest = {t[i], energy[i], linear2[i], angular2[i], defect[i]};
+    const std::size_t begin = i++, end = std::min(count, begin + room());
+    for (; i < end; ++i) largest.add(t[i], energy[i], linear2[i], angular2[i], defect[i]);
+    add(largest, end - begin);
   }
 }
 
+void ThinnedSeries::add(const LargestDrifts<double>& largest, std::size_t count) {
+  if (in_open_ == 0) open_ = largest;
+  else open_.add(largest.t, largest.energy, largest.linear2, largest.angular2, largest.defect);
+  in_open_ += count;
+  if (in_open_ == per_point_) close();
+}
+
 void ThinnedSeries::close() {
-  points_.push_back(open_);
+  points_.push_back({open_.t, open_.energy, open_.linear2, open_.angular2, open_.defect});
   in_open_ = 0;
   if (points_.size() == capacity) merge();
 }
@@ -66,7 +58,7 @@ std::vector<SeriesPoint> ThinnedSeries::finish(double energy_scale, double linea
   std::vector<SeriesPoint> points;
   points.reserve(points_.size() + 1);  // no more: many runs are kept
   points = points_;
-  if (in_open_ > 0) points.push_back(open_);
+  if (in_open_ > 0) points.push_back({open_.t, open_.energy, open_.linear2, open_.angular2, open_.defect});
   const auto over = [](double drift, double scale) { return scale > 0 ? drift / scale : 0.0; };
   for (SeriesPoint& p : points) {
     p.energy_drift_rel = over(p.energy_drift_rel, energy_scale);

@@ -24,27 +24,17 @@
 
 namespace polhode::study::inline metrics {
 
-/// Changes in consecutive samples of one run.
-struct DriftsOfRun {
-  Strided t, energy, linear2, angular2, defect;  ///< as in DriftColumns
-
-  /// Those of a lane; for one run lane 0.
-  template <class S>
-  static DriftsOfRun in(const DriftColumns<S>& columns, std::size_t lane) {
-    constexpr std::size_t stride = sizeof(S) / sizeof(double);
-    const auto of = [lane](const auto& column) {
-      return Strided{reinterpret_cast<const double*>(column.data()) + lane, stride};
-    };
-    return {of(columns.t), of(columns.energy), of(columns.linear2), of(columns.angular2), of(columns.defect)};
-  }
-};
-
 /// History of a run in at most 256 intervals of equally many samples; when all are in use, neighbours are merged.
 class ThinnedSeries {
  public:
   ThinnedSeries() { points_.reserve(capacity); }
   /// Adds `count` samples. Energies and momenta in any units.
   void add(const DriftsOfRun& drifts, std::size_t count);
+
+  /// Number of samples that complete the open interval.
+  std::size_t room() const { return per_point_ - in_open_; }
+  /// Adds `count` samples, at most room(), by the largest of them.
+  void add(const LargestDrifts<double>& largest, std::size_t count);
   /// The history, with drifts relative to these scales (in the units of add()); 0 where a scale is 0.
   std::vector<SeriesPoint> finish(double energy_scale, double linear_scale, double angular_scale);
 
@@ -54,7 +44,7 @@ class ThinnedSeries {
   void merge();
 
   std::vector<SeriesPoint> points_;
-  SeriesPoint open_;
+  LargestDrifts<double> open_;
   std::size_t in_open_ = 0;
   std::size_t per_point_ = 1;  ///< samples in one interval
 };

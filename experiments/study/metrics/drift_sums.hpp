@@ -10,6 +10,7 @@
 #include <span>
 
 #include "core/run/integrator.hpp"
+#include "experiments/study/statistics/strided.hpp"
 
 namespace polhode::study::inline metrics {
 
@@ -36,6 +37,38 @@ struct DriftColumns {
   std::array<S, most> linear2;   ///< squared change of the linear momentum, (kg m/s)²
   std::array<S, most> angular2;  ///< squared change of the angular momentum, (kg m²/s)²
   std::array<S, most> defect;    ///< orientation defect
+};
+
+/// Changes in consecutive samples of one run.
+struct DriftsOfRun {
+  Strided t, energy, linear2, angular2, defect;  ///< as in DriftColumns
+
+  /// Those of a lane; for one run lane 0.
+  template <class S>
+  static DriftsOfRun in(const DriftColumns<S>& columns, std::size_t lane) {
+    constexpr std::size_t stride = sizeof(S) / sizeof(double);
+    const auto of = [lane](const auto& column) {
+      return Strided{reinterpret_cast<const double*>(column.data()) + lane, stride};
+    };
+    return {of(columns.t), of(columns.energy), of(columns.linear2), of(columns.angular2), of(columns.defect)};
+  }
+};
+
+/// The largest changes in some samples: the energy drift of largest magnitude (signed) with its time, and the largest
+/// of the others.
+template <class S>
+struct LargestDrifts {
+  S t{}, energy{}, linear2{}, angular2{}, defect{};
+
+  void add(S t_of, S energy_of, S linear2_of, S angular2_of, S defect_of) {
+    using std::abs;
+    const auto as_large = abs(energy_of) <= abs(energy);
+    t = select(as_large, t, t_of);
+    energy = select(as_large, energy, energy_of);
+    linear2 = select(linear2 < linear2_of, linear2_of, linear2);
+    angular2 = select(angular2 < angular2_of, angular2_of, angular2);
+    defect = select(defect < defect_of, defect_of, defect);
+  }
 };
 
 /// Sets worst to max(worst, |x|), or to NaN if x is NaN.

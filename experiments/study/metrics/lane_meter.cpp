@@ -54,9 +54,10 @@ void LaneMeter::on_samples(const LaneBlock& block, std::span<const bool> running
   const Lanes::Mask hopeless = fill(columns_, block.samples, origin, 0, [&](const LaneSample& sample) {
     return Vector3<Lanes>(sample.seen.angular_momentum - origin.angular);
   });
+  std::array<std::size_t, count> all_seen{};
   for (std::size_t i = 0; i < count; ++i) {
     if (!running[i]) continue;
-    std::size_t seen = accepted[i];
+    std::size_t& seen = all_seen[i] = accepted[i];
     if (hopeless.bits[i]) {
       const auto is_hopeless_at = [&](std::size_t k) {
         return is_hopeless(columns_.energy[k], block.samples[k].seen.kinetic, origin.bound).bits[i] != 0;
@@ -66,14 +67,50 @@ void LaneMeter::on_samples(const LaneBlock& block, std::span<const bool> running
       seen = std::min(taken + 1, seen);
       accepted[i] = taken;
     }
-    meters_[i]->follow(DriftsOfRun::in(columns_, i), seen);
     if (accepted[i] < n) end_within(block, i, seen, accepted[i]);
   }
+  follow(all_seen, n);
   sums_.add(columns_, 0, n, origin);
   for (std::size_t k = 0; k < starts_.size(); ++k) {
     Lanes worst = worst_[k];
     for (const Lanes value : block.watched[k]) raise_size(worst, value - starts_[k]);
     worst_[k] = worst;
+  }
+}
+
+/// Adds samples to what the meters keep against time: where they all fit into what is open there, in all lanes at once.
+void LaneMeter::follow(const std::array<std::size_t, count>& seen, std::size_t n) {
+  LargestDrifts<Lanes> largest{columns_.t[0], columns_.energy[0], columns_.linear2[0], columns_.angular2[0],
+                               columns_.defect[0]};
+  Lanes t = 0, energy = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (seen[i] == 0) continue;
+    t.set(int(i), meters_[i]->blocks_.open_sums().t);
+    energy.set(int(i), meters_[i]->blocks_.open_sums().value);
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    t += columns_.t[k];
+    energy += columns_.energy[k];
+    if (k > 0) {
+      largest.add(columns_.t[k], columns_.energy[k], columns_.linear2[k], columns_.angular2[k], columns_.defect[k]);
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (seen[i] == 0) continue;
+    DriftMeter& meter = *meters_[i];
+    const DriftsOfRun drifts = DriftsOfRun::in(columns_, i);
+    const int lane = int(i);
+    meter.samples_ += static_cast<std::int64_t>(seen[i]);
+    if (seen[i] == n && n <= meter.blocks_.room()) meter.blocks_.set_open_sums({t[lane], energy[lane]}, n);
+    else meter.blocks_.add(drifts.t, drifts.energy, seen[i]);
+    if (!meter.keeps_curves_) continue;
+    if (seen[i] == n && n <= meter.series_.room()) {
+      meter.series_.add(
+          {largest.t[lane], largest.energy[lane], largest.linear2[lane], largest.angular2[lane], largest.defect[lane]},
+          n);
+    } else {
+      meter.series_.add(drifts, seen[i]);
+    }
   }
 }
 

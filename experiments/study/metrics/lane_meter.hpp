@@ -26,9 +26,10 @@ class LaneMeter {
   void end(std::size_t lane);
 
  private:
-  void end_within(const LaneBlock& block, std::size_t lane, std::size_t seen, std::size_t accepted);
-
   static constexpr auto count = std::size_t(lane_count);
+
+  void follow(const std::array<std::size_t, count>& seen, std::size_t n);
+  void end_within(const LaneBlock& block, std::size_t lane, std::size_t seen, std::size_t accepted);
 
   std::array<DriftMeter*, count> meters_{};
   std::array<bool, count> holds_{};  ///< sums of the lane are here, and not in its meter

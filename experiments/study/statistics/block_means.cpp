@@ -9,14 +9,19 @@ void BlockMeans::add(Strided t, Strided values, std::size_t count) {
   for (std::size_t i = 0; i < count;) {
     const std::size_t end = std::min(count, i + per_block_ - in_open_);
     BlockMean sum = open_;  // local copy, so that the compiler keeps it in registers
-    in_open_ += end - i;
+    const std::size_t more = end - i;
     for (; i < end; ++i) {
       sum.t += t[i];
       sum.value += values[i];
     }
-    open_ = sum;
-    if (in_open_ == per_block_) close();
+    set_open_sums(sum, more);
   }
+}
+
+void BlockMeans::set_open_sums(const BlockMean& sums, std::size_t count) {
+  open_ = sums;
+  in_open_ += count;
+  if (in_open_ == per_block_) close();
 }
 
 void BlockMeans::close() {

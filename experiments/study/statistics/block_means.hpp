@@ -21,6 +21,13 @@ class BlockMeans {
   void add(double t, double value) { add({&t}, {&value}, 1); }
   /// Adds `count` consecutive samples.
   void add(Strided t, Strided values, std::size_t count);
+
+  /// Number of samples that complete the open block, and the sums of t and value in it.
+  std::size_t room() const { return per_block_ - in_open_; }
+  const BlockMean& open_sums() const { return open_; }
+  /// Replaces the sums of the open block by those with `count` more samples, at most room().
+  void set_open_sums(const BlockMean& sums, std::size_t count);
+
   /// The blocks. The last one is included if it is at least half full.
   std::vector<BlockMean> finish() const;
 
