@@ -17,7 +17,8 @@
 
 namespace polhode::inline collision {
 
-/// A velocity, or a displacement, of a body: the quantity that a sweep changes. One cache line.
+/// What a sweep changes of a body: its velocity (m/s, rad/s), or the displacement that undoes penetration (m, rad), of
+/// the mass centre or pivot, world axes. One cache line.
 struct alignas(64) ImpulseMotion {
   std::array<double, 3> linear{}, angular{};
 };
@@ -30,7 +31,7 @@ inline double largest(const Lanes& x) {
 }
 inline Vector3<Lanes> zero_lanes() { return {Lanes(0), Lanes(0), Lanes(0)}; }
 
-/// An inverse inertia in lanes.
+/// Inverse inertias, one in each lane, 1/(kg m²), world axes.
 struct SymmetricLanes {
   Lanes xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
   [[gnu::always_inline]] Vector3<Lanes> operator*(const Vector3<Lanes>& v) const {
@@ -45,11 +46,12 @@ struct SymmetricLanes {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Patches of different bodies, one in each lane.
+/// Patches of different bodies, one in each lane. A patch is the contact points of two bodies A and B with one normal.
+/// World axes, SI units.
 struct PatchBatch {
   std::array<std::uint32_t, lane_count> a{}, b{};  ///< the bodies; one past the last body in an empty lane
   std::uint32_t first_point = 0, point_count = 0;  ///< of the largest patch; the others have points without effect
-  Vector3<Lanes> normal = zero_lanes(), tangent = zero_lanes(), bitangent = zero_lanes();
+  Vector3<Lanes> normal = zero_lanes(), tangent = zero_lanes(), bitangent = zero_lanes();  ///< normal: from B to A
   Lanes inverse_mass_a = 0, inverse_mass_b = 0;
   SymmetricLanes inverse_inertia_a, inverse_inertia_b;
 };
@@ -57,10 +59,10 @@ struct PatchBatch {
 /// One point of each patch of a batch. A point without effect lies at the mass centres and has no mass.
 struct PointBatch {
   Vector3<Lanes> lever_a = zero_lanes(), lever_b = zero_lanes();  ///< m, from the bodies' positions
-  Lanes normal_mass = 0;                                          ///< 1/K_nn; 0 if no impulse can change the velocities
+  Lanes normal_mass = 0;  ///< kg, 1/K_nn; 0 if no impulse can change the velocities
 };
 
-/// The change of the relative velocity of A and B at a point by an impulse there, K j.
+/// The change of the velocity (m/s) of A relative to B at a point by an impulse j (N s) on A there, K j.
 inline Vector3<Lanes> mobility_along(const PatchBatch& patch, const PointBatch& point, const Vector3<Lanes>& j) {
   return (patch.inverse_mass_a + patch.inverse_mass_b) * j +
          cross(patch.inverse_inertia_a * cross(point.lever_a, j), point.lever_a) +
@@ -71,6 +73,8 @@ class ContactBatches {
  public:
   static constexpr std::uint32_t none = 0xffffffff;
 
+  /// Sorts the contacts into batches. At most 8 consecutive contacts of the same two bodies with the same normal are a
+  /// patch. The numbers in contacts() are those in this list.
   void build(std::span<const ImpulseBody> bodies, std::span<const ImpulseContact> contacts);
 
   std::span<const PatchBatch> patches() const { return patches_; }
@@ -116,7 +120,7 @@ struct PairMotion {
       }
     }
   }
-  /// Relative velocity of A and B.
+  /// Velocity of A relative to B at a point.
   [[gnu::always_inline]] Vector3<Lanes> at(const PointBatch& point) const {
     return (va + cross(wa, point.lever_a)) - (vb + cross(wb, point.lever_b));
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inertia map: momenta from velocities and back, and the wrenches that change them, in world axes.
+// The inertia map: momenta (kg m/s, kg m²/s) from velocities and back, and the wrenches (N, N m) that change them, in
+// world axes, for every formulation. Formulas: the concept InertiaMap in core/system/concepts.hpp.
 #pragma once
 
 #include "core/system/body_wrenches.hpp"

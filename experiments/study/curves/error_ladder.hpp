@@ -2,10 +2,12 @@
 // Converts a curve to a ladder for the estimate of its order; the only place that decides which errors are fitted.
 //
 // An error is fitted if the run was completed, the error is finite, it is below half the level at which the motion is
-// lost (lost_level()), and rounding is less than a tenth of it (round_off_level(), the floor visible in the ladder
-// itself, and the digits proven by a reference). The errors that are left must fall along a straight line.
+// lost (lost_level() in curves.hpp), and rounding is less than a tenth of it. Rounding: the largest of
+// round_off_level() in curves.hpp, the floor visible in the ladder itself, and the uncertainty of a reference. The
+// errors that are left must fall along a straight line.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,9 +20,11 @@ namespace polhode::study::inline curves {
 /// a fit or the run was not completed. The round-off is +inf if a reference proves no digit of the error.
 std::vector<LadderPoint> error_ladder(const Curve& curve, const Quantity& quantity);
 
+/// The order of the error_ladder() of the curve (statistics/order_estimate.hpp).
 OrderEstimate observed_order(const Curve& curve, const Quantity& quantity);
 
-/// True for a conclusive line: straight, with an interval of at most ±0.5.
+/// The fitted line if it is conclusive: straight, with an interval of the order of at most ±0.5. Only such an order is
+/// told in reports.
 std::optional<OrderEstimate::Line> told_line(const OrderEstimate& estimate);
 
 /// Reason why a curve has no order: "errors at round-off", "steps too large: the attitude is off by more than half a
