@@ -86,7 +86,7 @@ FREE_SCENARIOS = {
     "coursework": 10, "detest_b5": OWN_T_END, "dyadic_top": 16, "dzhanibekov": 20, "five_cubes": 2,
     "free_symmetric_top": 2, "hairer_vilmart": OWN_T_END, "kovalevskaya_top": 5, "lagrange_top": 5, "oscillator": 10,
     "peters_hsu": 5, "peters_hsu_simple": 5, "physical_pendulum": 5, "projectile": OWN_T_END, "simo_wong": 2,
-    "sleeping_top": 5, "spring_box": 5, "two_bodies": 10,
+    "sleeping_top": 5, "spring_box": 5, "two_bodies": 10, "two_four_bars": 2,
 }
 
 # Durations in s of those with contact: contacts at each step, impacts where they are, contacts as springs (None: a run
