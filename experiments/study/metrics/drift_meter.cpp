@@ -129,7 +129,7 @@ std::size_t DriftMeter::take(std::span<const Sample> samples) {
   }
   const std::size_t seen = std::min(taken + 1, samples.size());
   follow(DriftsOfRun::in(columns, 0), seen);
-  sums_.add(columns, 0, seen, origin_);
+  sums_.add(columns, seen, origin_);
   return taken;
 }
 

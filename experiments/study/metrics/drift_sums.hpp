@@ -14,7 +14,7 @@
 
 namespace polhode::study::inline metrics {
 
-/// What drifts are measured from, and where a run has no hope.
+/// What drifts are measured from, and the bound beyond which a run is hopeless.
 template <class S>
 struct DriftOrigin {
   using Mask = typename LaneType<S>::Mask;
@@ -115,11 +115,11 @@ struct DriftSums {
   S worst_early_energy{};  ///< until half of t_end, J
   S t{}, tt{}, d{}, td{};  ///< sums for the least-squares slope of the drift over t/t_end
 
-  /// Adds the columns' samples from the first to before the last.
-  void add(const DriftColumns<S>& columns, std::size_t first, std::size_t last, const DriftOrigin<S>& origin) {
+  /// Adds the first `count` samples of the columns.
+  void add(const DriftColumns<S>& columns, std::size_t count, const DriftOrigin<S>& origin) {
     DriftSums sums = *this;  // local copy, so that the compiler keeps it in registers
     const S per_t_end = origin.per_t_end, half = origin.half;
-    for (std::size_t k = first; k < last; ++k) {
+    for (std::size_t k = 0; k < count; ++k) {
       const S energy = columns.energy[k];
       raise_size(sums.worst_energy, energy);
       raise_size(sums.worst_early_energy, select(columns.t[k] <= half, energy, S(0)));
@@ -132,7 +132,7 @@ struct DriftSums {
       sums.d += energy;
       sums.td += s * energy;
     }
-    if (last > first) sums.last_energy = columns.energy[last - 1];
+    if (count > 0) sums.last_energy = columns.energy[count - 1];
     *this = sums;
   }
 

@@ -70,7 +70,7 @@ void LaneMeter::on_samples(const LaneBlock& block, std::span<const bool> running
     if (accepted[i] < n) end_within(block, i, seen, accepted[i]);
   }
   follow(all_seen, n);
-  sums_.add(columns_, 0, n, origin);
+  sums_.add(columns_, n, origin);
   for (std::size_t k = 0; k < starts_.size(); ++k) {
     Lanes worst = worst_[k];
     for (const Lanes value : block.watched[k]) raise_size(worst, value - starts_[k]);
@@ -127,7 +127,7 @@ void LaneMeter::end_within(const LaneBlock& block, std::size_t lane, std::size_t
   }
   end(lane);
   DriftMeter& meter = *meters_[lane];
-  meter.sums_.add(columns, 0, seen, meter.origin_);
+  meter.sums_.add(columns, seen, meter.origin_);
   for (std::size_t k = 0; k < starts_.size(); ++k) {
     DriftMeter::Watched& w = meter.invariants_[k];
     for (const Lanes& value : block.watched[k].first(accepted)) raise_size(w.worst, value[int(lane)] - w.start);
