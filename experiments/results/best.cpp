@@ -151,7 +151,7 @@ struct Headings {
   std::vector<RunColumn> group, method, sizes;
 };
 
-std::vector<Point> read_points(const Selection& selection, const Headings& headings,
+std::vector<Point> read_points(const SelectedRuns& selection, const Headings& headings,
                                const std::vector<RunColumn>& asked, std::size_t status, RunReader& reader) {
   std::vector<Point> points;
   CellReader cells;
@@ -189,7 +189,7 @@ std::vector<std::size_t> pareto_front(const std::vector<WorkPoint>& points) {
 int list_best(const ResultStores& stores, const ResultsOptions& options) {
   const RunColumns columns(stores);
   Question question(options, columns);
-  const Selection selection = select(stores, columns, conditions_of(options), {});
+  const SelectedRuns selection = select(stores, columns, conditions_of(options), {});
   Headings headings;
   headings.group = columns_of(columns, {Role::scenario});
   for (const std::string& key : selection.varied_keys)

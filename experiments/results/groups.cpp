@@ -117,7 +117,7 @@ int list_groups(const ResultStores& stores, const RunColumns& columns, std::span
   for (const std::string& said : options.show) shown.push_back(shown_of(said, columns));
   if (shown.empty()) shown.push_back({"count", Measure::count, {}});
 
-  const Selection selection = select(stores, columns, conditions, {}, Order::stored);
+  const SelectedRuns selection = select(stores, columns, conditions, {}, Order::stored);
   std::map<std::vector<OptionValue>, Group, RowLess> groups;
   RunReader reader(stores);
   CellReader cells;

@@ -24,7 +24,7 @@ using Of = RunColumn::Of;
 constexpr std::size_t rows_of_terminal = 100;
 
 /// The configurations of the hits, each once.
-std::vector<const Configuration*> configurations_of(const ResultStores& stores, const Selection& selection) {
+std::vector<const Configuration*> configurations_of(const ResultStores& stores, const SelectedRuns& selection) {
   std::map<std::int64_t, const Configuration*> found;
   for (const Hit& hit : selection.hits) {
     const auto& known = stores.all()[hit.store]->configurations;
@@ -43,7 +43,8 @@ std::string value_in(const Configuration& configuration, const std::string& name
 RunColumn varied_key(const std::string& key) { return {.of = Of::scenario, .name = key, .key = key}; }
 
 /// All columns that runs.csv has for these runs.
-std::vector<RunColumn> all_columns(const ResultStores& stores, const RunColumns& columns, const Selection& selection) {
+std::vector<RunColumn> all_columns(const ResultStores& stores, const RunColumns& columns,
+                                   const SelectedRuns& selection) {
   std::vector<RunColumn> all = {{.of = Of::run, .name = "run"}};
   if (stores.folders().size() > 1) all.push_back({.of = Of::folder, .name = "folder"});
   const auto configurations = configurations_of(stores, selection);
@@ -64,7 +65,7 @@ std::vector<RunColumn> all_columns(const ResultStores& stores, const RunColumns&
 
 /// The columns for readers: what differs between the runs, and the metrics of the tables of runs.
 std::vector<RunColumn> short_columns(const ResultStores& stores, const RunColumns& columns,
-                                     const Selection& selection) {
+                                     const SelectedRuns& selection) {
   std::vector<RunColumn> all = {{.of = Of::run, .name = "run"}};
   if (stores.folders().size() > 1) all.push_back({.of = Of::folder, .name = "folder"});
   const auto configurations = configurations_of(stores, selection);
@@ -84,7 +85,7 @@ std::vector<RunColumn> short_columns(const ResultStores& stores, const RunColumn
 }
 
 std::vector<RunColumn> chosen_columns(const ResultStores& stores, const RunColumns& columns,
-                                      const ResultsOptions& options, const Selection& selection, Format format) {
+                                      const ResultsOptions& options, const SelectedRuns& selection, Format format) {
   if (options.columns.empty() && format != Format::csv) return short_columns(stores, columns, selection);
   if (options.columns.empty() || options.columns == std::vector<std::string>{"all"})
     return all_columns(stores, columns, selection);
@@ -136,7 +137,7 @@ int list_runs(const ResultStores& stores, const ResultsOptions& options) {
   const std::vector<Where> conditions = conditions_of(options);
   if (!options.group.empty()) return list_groups(stores, columns, conditions, options);
   const Format format = options.format.value_or(Format::table);
-  const Selection selection = select(stores, columns, conditions, sort_keys_of(columns, options));
+  const SelectedRuns selection = select(stores, columns, conditions, sort_keys_of(columns, options));
   const std::vector<RunColumn> shown = chosen_columns(stores, columns, options, selection, format);
   std::size_t most = selection.hits.size();
   if (options.limit) most = *options.limit;

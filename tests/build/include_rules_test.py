@@ -189,7 +189,9 @@ def violations(checkout, table):
                 if not include:
                     continue
                 quote, target = include.groups()
-                if target.split("/")[0] in TOP_FOLDERS and "/" in target:
+                if {"", ".", ".."} & set(target.split("/")):
+                    found.append(f"{name}:{number}: write {target} without . and .., from the top of the checkout")
+                elif target.split("/")[0] in TOP_FOLDERS and "/" in target:
                     other = pathlib.PurePosixPath(target).parent.as_posix()
                     if not may_include(room, other, table):
                         found.append(f"{name}:{number}: {room}/ may not include {target}")
@@ -262,6 +264,11 @@ class IncludeRules(unittest.TestCase):
             ("collision/a.hpp", '"integrators/rk4.hpp"'),
             ("experiments/energy_drift/main.cpp", '"tests/a.hpp"'),
             ("integrators/a.cpp", '"../collision/shape.hpp"'),
+            ("integrators/textbook/a.cpp", '"core/../collision/shape.hpp"'),
+            ("collision/contact/a.cpp", '"core/../experiments/study/plan/plan.hpp"'),
+            ("core/math/a.cpp", "<../core/system/state.hpp>"),
+            ("core/math/a.cpp", '"./core/system/state.hpp"'),
+            ("core/math/a.cpp", '"core//system/state.hpp"'),
             ("integrators/a.cpp", '"rk4.hpp"'),
             ("core/run/a.h", "<nlohmann/json.hpp>"),
             ("experiments/study/text/command_line.hpp", "<CLI/CLI.hpp>"),

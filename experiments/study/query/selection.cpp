@@ -129,7 +129,7 @@ std::vector<OptionValue> sort_key_of(const Configuration& configuration) {
 }
 
 /// The ranks of texts of `runs.varied` in the order of runs.csv: value by value, numbers as numbers.
-std::vector<std::uint32_t> ranks_of_varied(const Selection& selection) {
+std::vector<std::uint32_t> ranks_of_varied(const SelectedRuns& selection) {
   std::vector<std::vector<std::pair<OptionValue, std::string>>> keys;
   for (const std::string& text : selection.varied) {
     auto& key = keys.emplace_back(selection.varied_keys.size());
@@ -160,8 +160,8 @@ int compare(const OptionValue& a, const OptionValue& b) {
   return kind(a) == 2 ? 0 : std::get<std::string>(a).compare(std::get<std::string>(b));
 }
 
-Selection select(const ResultStores& stores, const RunColumns& columns, std::span<const Where> conditions,
-                 std::span<const SortKey> sort, Order wanted_order) {
+SelectedRuns select(const ResultStores& stores, const RunColumns& columns, std::span<const Where> conditions,
+                    std::span<const SortKey> sort, Order wanted_order) {
   Filter filter(columns, conditions);
   const std::size_t at_configuration = columns.index(configuration_column), at_varied = columns.index(varied_column);
   std::set<std::size_t> wanted = {at_configuration, at_varied};
@@ -175,7 +175,7 @@ Selection select(const ResultStores& stores, const RunColumns& columns, std::spa
   std::vector<std::size_t> place_of(*wanted.rbegin() + 1);
   for (const auto& [index, place] : places) place_of[index] = place;
 
-  Selection selection;
+  SelectedRuns selection;
   std::unordered_map<std::string, std::uint32_t> known_varied;
   std::vector<std::vector<OptionValue>> sort_values(sort.size());  // by key and hit
   CellReader cells;
@@ -261,7 +261,7 @@ RunReader::RunReader(const ResultStores& stores) : stores_(&stores) {
   for (const auto& open : stores.all()) rows_.push_back(std::make_unique<RunRows>(open->store));
 }
 
-void RunReader::read(const Selection& selection, const std::function<bool(const CheckedRow&)>& use) {
+void RunReader::read(const SelectedRuns& selection, const std::function<bool(const CheckedRow&)>& use) {
   const auto& stores = stores_->all();
   const auto same_run = [&](const Hit& a, const Hit& b) {
     return a.id == b.id && stores[a.store]->folder == stores[b.store]->folder;

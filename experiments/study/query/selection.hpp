@@ -21,7 +21,7 @@ namespace polhode::study::inline query {
 /// A run that was chosen. Nothing of it has been checked.
 struct Hit {
   std::uint32_t store;   ///< index in ResultStores::all()
-  std::uint32_t varied;  ///< index in Selection::varied
+  std::uint32_t varied;  ///< index in SelectedRuns::varied
   std::int64_t number, id, configuration;
 };
 
@@ -30,7 +30,7 @@ struct SortKey {
   bool descending = false;
 };
 
-struct Selection {
+struct SelectedRuns {
   std::vector<Hit> hits;
   std::vector<std::string> varied;       ///< texts of `runs.varied`, each once
   std::vector<std::string> varied_keys;  ///< sorted
@@ -45,8 +45,8 @@ enum class Order {
 /// The runs that satisfy all conditions, sorted by `sort`, runs without a value last; of equals those come first that
 /// come first in runs.csv, folder by folder. The same run in several stores of a study stands there once for each, next
 /// to each other. Throws InputError for a condition that compares a number with a text.
-Selection select(const ResultStores& stores, const RunColumns& columns, std::span<const Where> conditions,
-                 std::span<const SortKey> sort, Order order = Order::sorted);
+SelectedRuns select(const ResultStores& stores, const RunColumns& columns, std::span<const Where> conditions,
+                    std::span<const SortKey> sort, Order order = Order::sorted);
 
 /// A checked row.
 struct CheckedRow {
@@ -61,7 +61,7 @@ class RunReader {
 
   /// Calls use(row) for each run that is not damaged, in the order of the hits, until it returns false. A run that
   /// stands in several stores of a study comes once.
-  void read(const Selection& selection, const std::function<bool(const CheckedRow&)>& use);
+  void read(const SelectedRuns& selection, const std::function<bool(const CheckedRow&)>& use);
 
   std::size_t damaged() const { return damaged_; }             ///< runs that were left out
   const std::string& first_damaged() const { return first_; }  ///< "run 0123456789abcdef of FILE: runs.checksum"
