@@ -14,6 +14,24 @@ Regressors polynomial_of(const Cosines& cosines, const Vector& t) {
   return x;
 }
 
+Matrix orthonormal_polynomials(const Vector& t) {
+  Matrix polynomial(t.size(), 3);
+  polynomial << Vector::Ones(t.size()), t, t.cwiseAbs2();
+  return polynomial.householderQr().householderQ() * Matrix::Identity(t.size(), polynomial.cols());
+}
+
+/// The regressors x and the pulses.
+Regressors with_edges(const Regressors& x, const Cosines& cosines) {
+  const Regressors edges = cosines.edges(x.rows());
+  Regressors both(x.rows(), x.cols() + edges.cols());
+  both << x, edges;
+  return both;
+}
+
+Regression with_shape(const Regressors& x, const Cosines::Shape& noise) {
+  return {x, noise.variance.head(x.rows()), noise.sum_of_logs[x.rows() - 1]};
+}
+
 }  // namespace
 
 BlockTimes::BlockTimes(const Vector& t)
@@ -21,31 +39,30 @@ BlockTimes::BlockTimes(const Vector& t)
       log_t_(t.array().log()),
       cosines_(cosines_of(t.size())),
       polynomial_(polynomial_of(*cosines_, t)),
-      flat_(polynomial_, Spectrum::Ones(polynomial_.rows())) {
+      flat_(polynomial_, Spectrum::Ones(polynomial_.rows())),
+      orthonormal_(orthonormal_polynomials(t)) {
   for (std::size_t k = 0; k < first_exponents.size(); ++k) {
     first_powers_[k] = cosines_->transform((first_exponents[k] * log_t_).array().exp());
   }
-}
-
-Matrix BlockTimes::orthonormal() const {
-  Matrix polynomial(t_.size(), 3);
-  polynomial << Vector::Ones(t_.size()), t_, t_.cwiseAbs2();
-  return polynomial.householderQr().householderQ() * Matrix::Identity(t_.size(), polynomial.cols());
 }
 
 const Regression& BlockTimes::regression(Trend trend, Index count, std::size_t shape) {
   std::optional<Regression>& made = regressions_[{trend, count}][shape];
   if (made) return *made;
   const Cosines::Shape& noise = cosines_->shapes[shape];
-  const Spectrum v = noise.variance.head(count);
-  const double sum_of_log_v = noise.sum_of_logs[count - 1];
-  if (trend == Trend::polynomial) return made.emplace(polynomial_.topRows(count), v, sum_of_log_v);
-  const Regressors edges = cosines_->edges(count);
-  if (trend == Trend::none) return made.emplace(edges, v, sum_of_log_v);
-  const Index columns = trend == Trend::line ? 1 : 2;
-  Regressors x(count, columns + edges.cols());
-  x << polynomial_.topLeftCorner(count, columns), edges;
-  return made.emplace(x, v, sum_of_log_v);
+  switch (trend) {
+    case Trend::polynomial: made = with_shape(polynomial_.topRows(count), noise); break;
+    case Trend::none: made = with_shape(cosines_->edges(count), noise); break;
+    case Trend::line: made = with_shape(with_edges(polynomial_.topLeftCorner(count, 1), *cosines_), noise); break;
+    case Trend::curve: made = with_shape(with_edges(polynomial_.topRows(count), *cosines_), noise); break;
+  }
+  return *made;
+}
+
+const Regression& BlockTimes::first_power(std::size_t k, Index count, std::size_t shape) {
+  std::optional<Regression>& made = first_power_regressions_[count][k][shape];
+  if (!made) made = with_shape(with_edges(first_powers_[k].head(count), *cosines_), cosines_->shapes[shape]);
+  return *made;
 }
 
 BlockTimes& block_times(const Vector& t) {
@@ -62,6 +79,7 @@ BlockTimes& block_times(const Vector& t) {
   }
   BlockTimes& times = kept.front();
   if (times.regressions_.size() > most_regressions) times.regressions_.clear();
+  if (times.first_power_regressions_.size() > most_regressions) times.first_power_regressions_.clear();
   return times;
 }
 

@@ -26,14 +26,16 @@ class BlockTimes {
   const Vector& log_t() const { return log_t_; }
   const Regressors& polynomial() const { return polynomial_; }  ///< t and t², all cosines
   const Regression& flat() const { return flat_; }              ///< on t and t², with equal variances
-  /// Cosines of t^p, for the exponents at which the search of an exponent begins.
-  static constexpr std::array<double, 4> first_exponents = {0.5, 1, 2, 4};
-  const Spectrum& first_power(std::size_t k) const { return first_powers_[k]; }
   /// Orthonormal polynomials of the time up to the second degree, a column each.
-  Matrix orthonormal() const;
+  const Matrix& orthonormal() const { return orthonormal_; }
 
   /// The regression on the first `count` cosines with the variances of a shape of Cosines::shapes.
   const Regression& regression(Trend trend, Index count, std::size_t shape);
+
+  /// The exponents p at which the search of an exponent begins.
+  static constexpr std::array<double, 4> first_exponents = {0.5, 1, 2, 4};
+  /// The regression on t^p and the pulses, with the k-th of these exponents.
+  const Regression& first_power(std::size_t k, Index count, std::size_t shape);
 
  private:
   friend BlockTimes& block_times(const Vector& t);
@@ -45,7 +47,9 @@ class BlockTimes {
   Regressors polynomial_;
   Regression flat_;
   std::array<Spectrum, first_exponents.size()> first_powers_;
+  Matrix orthonormal_;
   std::map<Key, Shaped> regressions_;
+  std::map<Index, std::array<Shaped, first_exponents.size()>> first_power_regressions_;  ///< by number of cosines
 };
 
 /// The one of these times. Kept for later calls of the thread, since the runs of a study mostly share their times: at

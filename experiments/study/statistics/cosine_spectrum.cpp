@@ -9,9 +9,41 @@
 #include <map>
 #include <numbers>
 
+#include "experiments/study/statistics/eight.hpp"
+
 namespace polhode::study::inline statistics::spectral {
 
-Cosines::Cosines(Index n) : blocks(n), size(n - 1), even_(size / 2, (n + 1) / 2), odd_(size - size / 2, (n + 1) / 2) {
+namespace {
+
+/// Σ_i series_i table(k, i) for 8 `eights` rows k from the first one, which stay in registers.
+template <int eights>
+void add_columns(const Matrix& table, const Vector& series, Index first_row, double* out) {
+  Eight sums[eights] = {};
+  const double* column = table.data() + first_row;
+  for (Index i = 0; i < series.size(); ++i, column += table.rows()) {
+    for (int e = 0; e < eights; ++e) sums[e] += series[i] * eight_at(column + 8 * e);
+  }
+  std::memcpy(out, sums, sizeof sums);
+}
+
+Index in_eights(Index count) { return (count + 7) / 8 * 8; }
+
+/// table · series for the first `rows` rows of a table, up to a multiple of eight.
+Spectrum first_rows(const Matrix& table, const Vector& series, Index rows) {
+  Spectrum out(in_eights(rows));
+  Index k = 0;
+  for (; k + 32 <= out.size(); k += 32) add_columns<4>(table, series, k, out.data() + k);
+  for (; k < out.size(); k += 8) add_columns<1>(table, series, k, out.data() + k);
+  return out;
+}
+
+}  // namespace
+
+Cosines::Cosines(Index n)
+    : blocks(n),
+      size(n - 1),
+      even_(Matrix::Zero(in_eights(size / 2), (n + 1) / 2)),
+      odd_(Matrix::Zero(in_eights(size - size / 2), (n + 1) / 2)) {
   const double pi = std::numbers::pi, blocks_ = static_cast<double>(n);
   Vector table(4 * n);
   for (Index j = 0; j < 4 * n; ++j) {
@@ -44,19 +76,17 @@ Cosines::Cosines(Index n) : blocks(n), size(n - 1), even_(size / 2, (n + 1) / 2)
 }
 
 Spectrum Cosines::transform(const Vector& series, Index count) const {
-  // Even cosines see the even part of the series about its middle, odd ones the odd part.
+  // Even cosines depend on the even part of the series about its middle, odd ones on the odd part.
   const Index half = (blocks + 1) / 2, middle = blocks % 2;
-  const Vector first = series.head(half).array() - series.mean();
-  Vector last = series.tail(half).reverse().array() - series.mean();
+  const double mean = series.mean();
+  const Vector first = series.head(half).array() - mean;
+  Vector last = series.tail(half).reverse().array() - mean;
   if (middle) last[half - 1] = 0;
   Vector symmetric = first + last, antisymmetric = first - last;
   if (middle) antisymmetric[half - 1] = 0;
-  // Block after block, not cosine after cosine: sums of many at once, and none waits for the one before it.
-  Spectrum even = Spectrum::Zero(count / 2), odd = Spectrum::Zero(count - count / 2), c(count);
-  for (Index i = 0; i < half; ++i) {
-    even += symmetric[i] * even_.col(i).head(even.size());
-    odd += antisymmetric[i] * odd_.col(i).head(odd.size());
-  }
+  const Spectrum even = first_rows(even_, symmetric, count / 2),
+                 odd = first_rows(odd_, antisymmetric, count - count / 2);
+  Spectrum c(count);
   for (Index k = 1; k <= count; ++k) c[k - 1] = k % 2 == 0 ? even[k / 2 - 1] : odd[k / 2];
   return c;
 }
@@ -83,23 +113,10 @@ std::shared_ptr<const Cosines> cosines_of(Index n) {
   return cosines;
 }
 
-namespace {
-
-/// Eight numbers side by side. Their sums are the same for every width of the SIMD registers.
-using Eight [[gnu::vector_size(8 * sizeof(double))]] = double;
-
-double total(const Eight& s) { return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7])); }
-
-}  // namespace
-
 double dot(const double* a, const double* b, Index n) {
-  Eight sums = {}, left, right;
+  Eight sums = {};
   Index i = 0;
-  for (; i + 8 <= n; i += 8) {
-    std::memcpy(&left, a + i, sizeof left);
-    std::memcpy(&right, b + i, sizeof right);
-    sums += left * right;
-  }
+  for (; i + 8 <= n; i += 8) sums += eight_at(a + i) * eight_at(b + i);
   double sum = total(sums);
   for (; i < n; ++i) sum += a[i] * b[i];
   return sum;
@@ -108,55 +125,78 @@ double dot(const double* a, const double* b, Index n) {
 Regression::Regression(const Regressors& x, const Spectrum& v, double sum_of_log_v)
     : x_(x), weighted_(x.rows(), x.cols()), weight_(v.cwiseInverse()), sum_of_log_v_(sum_of_log_v) {
   const Index n = x.rows();
-  normal_.resize(x.cols(), x.cols());
+  Normal normal(x.cols(), x.cols());
   for (Index j = 0; j < x.cols(); ++j) {
     weighted_.col(j) = x.col(j).cwiseProduct(weight_);
     for (Index i = 0; i <= j; ++i) {
-      normal_(i, j) = normal_(j, i) = dot(x.col(i).data(), weighted_.col(j).data(), n);
+      normal(i, j) = normal(j, i) = dot(x.col(i).data(), weighted_.col(j).data(), n);
     }
   }
-  solve();
-}
-
-Regression::Regression(const Regressors& x, const Regression& behind)
-    : x_(x.rows(), x.cols() + behind.x_.cols()),
-      weighted_(x_.rows(), x_.cols()),
-      weight_(behind.weight_),
-      sum_of_log_v_(behind.sum_of_log_v_) {
-  const Index n = x.rows(), front = x.cols(), rest = behind.x_.cols();
-  x_ << x, behind.x_;
-  weighted_ << weight_.asDiagonal() * x, behind.weighted_;
-  normal_.resize(x_.cols(), x_.cols());
-  normal_.bottomRightCorner(rest, rest) = behind.normal_;
-  for (Index i = 0; i < front; ++i) {
-    for (Index j = i; j < x_.cols(); ++j) {
-      normal_(i, j) = normal_(j, i) = dot(x_.col(i).data(), weighted_.col(j).data(), n);
-    }
-  }
-  solve();
-}
-
-void Regression::solve() {
-  const Eigen::LDLT<Normal> factors(normal_);
-  covariance_ = factors.solve(Normal::Identity(normal_.rows(), normal_.cols()));
+  const Eigen::LDLT<Normal> factors(normal);
+  covariance_ = factors.solve(Normal::Identity(normal.rows(), normal.cols()));
   log_determinant_ = factors.vectorD().array().log().sum();
 }
 
+Coefficients Regression::coefficients(const Spectrum& c) const {
+  Coefficients right(x_.cols());
+  for (Index j = 0; j < x_.cols(); ++j) right[j] = dot(weighted_.col(j).data(), c.data(), c.size());
+  return covariance_ * right;
+}
+
+void Regression::subtract(const Coefficients& coefficients, Spectrum& c) const {
+  for (Index j = 0; j < x_.cols(); ++j) c -= coefficients[j] * x_.col(j);
+}
+
+namespace {
+
+/// Weighted sum of squares. The data are of size one: below the least there is nothing but the rounding of this
+/// arithmetic.
+double squares_of(const Spectrum& rest, const Spectrum& weight) {
+  constexpr double least = 1e-30;
+  const Spectrum weighted = rest.cwiseProduct(weight);
+  return std::max(dot(rest.data(), weighted.data(), rest.size()), least);
+}
+
+}  // namespace
+
 Fit Regression::fit(const Spectrum& c) const {
   Fit f;
-  const Index n = c.size();
-  Coefficients right(x_.cols());
-  for (Index j = 0; j < x_.cols(); ++j) right[j] = dot(weighted_.col(j).data(), c.data(), n);
   f.covariance = covariance_;
-  f.coefficients = f.covariance * right;
+  f.coefficients = coefficients(c);
   Spectrum rest = c;
-  for (Index j = 0; j < x_.cols(); ++j) rest -= f.coefficients[j] * x_.col(j);
-  const Spectrum weighted = rest.cwiseProduct(weight_);
-  // The data are of size one: below this there is nothing but the rounding of this arithmetic.
-  constexpr double rounding2 = 1e-30;
-  f.squares = std::max(dot(rest.data(), weighted.data(), n), rounding2);
-  f.degrees = static_cast<double>(n - x_.cols());
+  subtract(f.coefficients, rest);
+  f.squares = squares_of(rest, weight_);
+  f.degrees = static_cast<double>(c.size() - x_.cols());
   f.restricted = -0.5 * (sum_of_log_v_ + f.degrees * std::log(f.squares) + log_determinant_);
+  return f;
+}
+
+Beside::Beside(const Regression& behind, const Spectrum& c) : behind_(behind), rest_(c) {
+  behind.subtract(behind.coefficients(c), rest_);
+}
+
+Fit Beside::fit(const Spectrum& x, const Spectrum& z) const {
+  const Index n = rest_.size();
+  Spectrum x_free = x, z_free = z;
+  behind_.subtract(behind_.coefficients(x), x_free);
+  behind_.subtract(behind_.coefficients(z), z_free);
+  const Spectrum x_weighted = x_free.cwiseProduct(behind_.weight_), z_weighted = z_free.cwiseProduct(behind_.weight_);
+  const double xx = dot(x_free.data(), x_weighted.data(), n), xz = dot(x_free.data(), z_weighted.data(), n);
+  const double zz = dot(z_free.data(), z_weighted.data(), n);
+  const double xc = dot(x_weighted.data(), rest_.data(), n), zc = dot(z_weighted.data(), rest_.data(), n);
+  // Elimination of x: [xx xz; xz zz] = L diag(xx, pivot) Lᵀ, with `ratio` below the diagonal of L.
+  const double ratio = xz / xx, pivot = zz - ratio * xz;
+  Fit f;
+  f.coefficients.resize(2);
+  f.coefficients[1] = (zc - ratio * xc) / pivot;
+  f.coefficients[0] = xc / xx - ratio * f.coefficients[1];
+  f.covariance.resize(2, 2);
+  f.covariance << 1 / xx + ratio * ratio / pivot, -ratio / pivot, -ratio / pivot, 1 / pivot;
+  const Spectrum rest = rest_ - f.coefficients[0] * x_free - f.coefficients[1] * z_free;
+  f.squares = squares_of(rest, behind_.weight_);
+  f.degrees = static_cast<double>(n - 2 - behind_.x_.cols());
+  const double log_determinant = behind_.log_determinant_ + std::log(xx) + std::log(pivot);
+  f.restricted = -0.5 * (behind_.sum_of_log_v_ + f.degrees * std::log(f.squares) + log_determinant);
   return f;
 }
 

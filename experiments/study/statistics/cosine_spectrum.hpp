@@ -46,7 +46,8 @@ class Cosines {
   std::array<Shape, noise_shapes> shapes;
 
  private:
-  /// √(2/n) cos(πk (2i + 1)/2n) over the first half of the blocks, for k = 2, 4, … and 1, 3, …
+  /// √(2/n) cos(πk (2i + 1)/2n) over the first half of the blocks, for k = 2, 4, … and 1, 3, …; rows of zeros complete
+  /// a multiple of eight
   Matrix even_, odd_;
 };
 
@@ -71,31 +72,45 @@ struct Fit {
 class Regression {
  public:
   Regression(const Regressors& x, const Spectrum& v, double sum_of_log_v = 0);
-  /// The regressors x before those of another regression, with its variances.
-  Regression(const Regressors& x, const Regression& behind);
 
   Fit fit(const Spectrum& c) const;
 
  private:
-  void solve();
+  friend class Beside;
+  Coefficients coefficients(const Spectrum& c) const;
+  void subtract(const Coefficients& coefficients, Spectrum& c) const;
 
   Regressors x_, weighted_;  ///< weighted: over the variances
   Spectrum weight_;          ///< 1/v_k
-  Normal normal_, covariance_;
+  Normal covariance_;
   double sum_of_log_v_ = 0, log_determinant_ = 0;
+};
+
+/// Fits of c by two more regressors beside those of a regression, with its variances. What the latter explain is taken
+/// out of c once and out of each pair (theorem of Frisch, Waugh and Lovell), so that many pairs can be tried.
+class Beside {
+ public:
+  Beside(const Regression& behind, const Spectrum& c);  ///< `behind` must outlive this object
+
+  /// Coefficients and covariance are those of x and z; degrees and likelihood are those of the whole fit.
+  Fit fit(const Spectrum& x, const Spectrum& z) const;
+
+ private:
+  const Regression& behind_;
+  Spectrum rest_;  ///< c without what `behind` explains
 };
 
 inline Fit fit(const Spectrum& c, const Regressors& x, const Spectrum& v, double sum_of_log_v = 0) {
   return Regression(x, v, sum_of_log_v).fit(c);
 }
 
-/// Number of the shape of Cosines::shapes that is most likely; regression(k) is that of shape k.
-template <class RegressionOf>
-std::size_t likeliest_shape(const Spectrum& c, const RegressionOf& regression) {
+/// Number of the shape of Cosines::shapes that is most likely; fit_of(k) is the fit with shape k.
+template <class FitOf>
+std::size_t likeliest_shape(const FitOf& fit_of) {
   std::size_t best = 0;
   double most = -std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < noise_shapes; ++k) {
-    const double likelihood = regression(k).fit(c).restricted;
+    const double likelihood = fit_of(k).restricted;
     if (likelihood > most) {
       most = likelihood;
       best = k;

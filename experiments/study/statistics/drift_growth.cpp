@@ -70,21 +70,23 @@ class Estimator {
     constexpr int passes = 2, most_steps = 20;
     double p = start();
     for (int pass = 0; pass < passes; ++pass) {
+      const Beside noise = beside_noise(shape_);
       for (int i = 0; i < most_steps; ++i) {
-        const Fit f = beside_edges(power_regressors(p), shape_).fit(c_);
+        const Power x = power(p);
+        const Fit f = noise.fit(x.value, x.derivative);
         const double step = std::clamp(f.coefficients[1] / f.coefficients[0], -longest_step, longest_step);
         p = std::clamp(p + step, least, most);
         if (!(std::abs(step) > close)) break;
       }
       if (pass + 1 < passes) {
-        const Regressors x = power_regressors(p);
-        shape_ = likeliest_shape(c_, [&](std::size_t shape) { return beside_edges(x, shape); });
+        const Power x = power(p);
+        shape_ = likeliest_shape([&](std::size_t shape) { return beside_noise(shape).fit(x.value, x.derivative); });
       }
     }
-    const Regressors x = power_regressors(p);
-    const Fit f = beside_edges(x, shape_).fit(c_);
+    const Power x = power(p);
+    const Fit f = beside_noise(shape_).fit(x.value, x.derivative);
     change_ = std::abs(f.coefficients[0]) * (1 - std::pow(times_.t()[0], p));
-    misfit_ = c_ - x.col(0) * f.coefficients[0];
+    misfit_ = c_ - x.value * f.coefficients[0];
     const double error = std::sqrt(f.scale2() * f.covariance(1, 1)) / std::abs(f.coefficients[0]);
     return {p, students_t_95(f.degrees) * error};
   }
@@ -170,13 +172,10 @@ class Estimator {
   Spectrum first_of(Index count) const { return all_.head(std::min(most_cosines, count)); }
 
   std::size_t likeliest(const Spectrum& c, Trend trend) {
-    return likeliest_shape(
-        c, [&](std::size_t shape) -> const Regression& { return times_.regression(trend, c.size(), shape); });
+    return likeliest_shape([&](std::size_t shape) { return times_.regression(trend, c.size(), shape).fit(c); });
   }
   Fit fitted(Trend trend) { return times_.regression(trend, c_.size(), shape_).fit(c_); }
-  Regression beside_edges(const Regressors& x, std::size_t shape) {
-    return {x, times_.regression(Trend::none, c_.size(), shape)};
-  }
+  Beside beside_noise(std::size_t shape) { return {times_.regression(Trend::none, c_.size(), shape), c_}; }
 
   /// Takes out, one after the other, the oscillations that the blocks resolve.
   void without_lines() {
@@ -201,17 +200,19 @@ class Estimator {
     smooth_ = std::move(smooth);
   }
 
-  Regressors power_regressors(double p) const {
-    const Vector power = (p * times_.log_t()).array().exp();
-    Regressors x(c_.size(), 2);
-    x << cosines_.transform(power, c_.size()), cosines_.transform(power.cwiseProduct(times_.log_t()), c_.size());
-    return x;
+  /// Cosines of t^p and of its derivative with respect to p.
+  struct Power {
+    Spectrum value, derivative;
+  };
+  Power power(double p) const {
+    const Vector series = (p * times_.log_t()).array().exp();
+    return {cosines_.transform(series, c_.size()), cosines_.transform(series.cwiseProduct(times_.log_t()), c_.size())};
   }
 
   double start() {
     double best = 1, least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < BlockTimes::first_exponents.size(); ++k) {
-      const double squares = beside_edges(times_.first_power(k).head(c_.size()), shape_).fit(c_).squares;
+      const double squares = times_.first_power(k, c_.size(), shape_).fit(c_).squares;
       if (squares < least) {
         least = squares;
         best = BlockTimes::first_exponents[k];

@@ -3,9 +3,13 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <cstring>
 #include <numbers>
+
+#include "experiments/study/statistics/eight.hpp"
 
 namespace polhode::study::inline statistics::spectral {
 
@@ -34,42 +38,99 @@ Index below_lines(const Cosines& cosines, const Spectrum& rest) {
 
 namespace {
 
-/// cos and sin of ω (i + ½), i = 0 … n − 1.
-Matrix oscillation(double omega, Index n) {
-  Matrix x(n, 2);
-  const double c = std::cos(omega), s = std::sin(omega);
-  x(0, 0) = std::cos(omega / 2);
-  x(0, 1) = std::sin(omega / 2);
-  for (Index i = 1; i < n; ++i) {
-    x(i, 0) = c * x(i - 1, 0) - s * x(i - 1, 1);
-    x(i, 1) = s * x(i - 1, 0) + c * x(i - 1, 1);
+/// Sums of products of an oscillation x = [cos, sin] with itself, with the columns of a trend and with a series.
+struct Products {
+  double cos_cos = 0, cos_sin = 0, sin_sin = 0;
+  std::array<double, trends> cos_trend = {}, sin_trend = {};
+  double cos_rest = 0, sin_rest = 0;
+};
+
+/// The oscillations of any frequency about a trend and a series, eight numbers at a time.
+class Oscillations {
+ public:
+  Oscillations(const Matrix& trend, const Vector& rest)
+      : n_(rest.size()),
+        padded_((n_ + 7) / 8 * 8),
+        trend_(Matrix::Zero(padded_, trends)),
+        rest_(Vector::Zero(padded_)),
+        x_(padded_, 2) {
+    trend_.topRows(n_) = trend;
+    rest_.head(n_) = rest;
   }
-  return x;
-}
+
+  /// cos and sin of ω (i + ½), i = 0 … n − 1; valid after products(ω).
+  auto oscillation() const { return x_.topRows(n_); }
+
+  Products products(double omega) {
+    const double c = std::cos(omega), s = std::sin(omega);
+    Eight cosine, sine;
+    cosine[0] = std::cos(omega / 2);
+    sine[0] = std::sin(omega / 2);
+    for (int i = 1; i < 8; ++i) {
+      cosine[i] = c * cosine[i - 1] - s * sine[i - 1];
+      sine[i] = s * cosine[i - 1] + c * sine[i - 1];
+    }
+    double c8 = c, s8 = s;  // of 8 ω, by three times twice the angle
+    for (int i = 0; i < 3; ++i) {
+      const double twice = 2 * s8 * c8;
+      c8 = c8 * c8 - s8 * s8;
+      s8 = twice;
+    }
+    Eight cos_cos = {}, cos_sin = {}, sin_sin = {}, cos_rest = {}, sin_rest = {}, cos_trend[trends] = {},
+          sin_trend[trends] = {};
+    for (Index i = 0; i < padded_; i += 8) {
+      for (Index k = n_ - i; k < 8; ++k) cosine[k] = sine[k] = 0;
+      std::memcpy(&x_(i, 0), &cosine, sizeof cosine);
+      std::memcpy(&x_(i, 1), &sine, sizeof sine);
+      cos_cos += cosine * cosine;
+      cos_sin += cosine * sine;
+      sin_sin += sine * sine;
+      const Eight rest = eight_at(&rest_[i]);
+      cos_rest += cosine * rest;
+      sin_rest += sine * rest;
+      for (int j = 0; j < trends; ++j) {
+        const Eight trend = eight_at(&trend_(i, j));
+        cos_trend[j] += cosine * trend;
+        sin_trend[j] += sine * trend;
+      }
+      const Eight next = c8 * cosine - s8 * sine;
+      sine = s8 * cosine + c8 * sine;
+      cosine = next;
+    }
+    Products sums{total(cos_cos), total(cos_sin), total(sin_sin), {}, {}, total(cos_rest), total(sin_rest)};
+    for (std::size_t j = 0; j < trends; ++j) {
+      sums.cos_trend[j] = total(cos_trend[j]);
+      sums.sin_trend[j] = total(sin_trend[j]);
+    }
+    return sums;
+  }
+
+ private:
+  Index n_, padded_;
+  Matrix trend_;
+  Vector rest_;
+  Matrix x_;
+};
 
 }  // namespace
 
 Vector fitted_oscillation(const Vector& series, const Matrix& trend, Index k) {
-  const Index n = series.size(), trends = trend.cols();
-  const double unit = std::numbers::pi / static_cast<double>(n), near = static_cast<double>(k);
-  const Vector rest = series - trend * (trend.transpose() * series);
-  Matrix x;
+  const double unit = std::numbers::pi / static_cast<double>(series.size()), near = static_cast<double>(k);
+  Oscillations oscillations(trend, series - trend * (trend.transpose() * series));
   Eigen::Vector2d amplitudes;
   // Least squares of the rest on the part F of x = [cos, sin] that is orthogonal to the trend: FᵀF = xᵀx − (Tᵀx)ᵀ(Tᵀx)
   // and Fᵀ rest = xᵀ rest. Returns the decrease of the sum of squares.
   const auto fit_at = [&](double place) {
-    x = oscillation(place * unit, n);
-    const double *cosine = x.col(0).data(), *sine = x.col(1).data();
+    const Products sums = oscillations.products(place * unit);
     Eigen::Matrix2d normal;
-    normal << dot(cosine, cosine, n), dot(cosine, sine, n), 0, dot(sine, sine, n);
-    for (Index i = 0; i < trends; ++i) {
-      const double c = dot(trend.col(i).data(), cosine, n), s = dot(trend.col(i).data(), sine, n);
-      normal(0, 0) -= c * c;
-      normal(0, 1) -= c * s;
-      normal(1, 1) -= s * s;
+    normal << sums.cos_cos, sums.cos_sin, 0, sums.sin_sin;
+    for (std::size_t i = 0; i < trends; ++i) {
+      normal(0, 0) -= sums.cos_trend[i] * sums.cos_trend[i];
+      normal(0, 1) -= sums.cos_trend[i] * sums.sin_trend[i];
+      normal(1, 1) -= sums.sin_trend[i] * sums.sin_trend[i];
     }
     normal(1, 0) = normal(0, 1);
-    const Eigen::Vector2d right(dot(cosine, rest.data(), n), dot(sine, rest.data(), n));
+    const Eigen::Vector2d right(sums.cos_rest, sums.sin_rest);
     amplitudes = normal.ldlt().solve(right);
     return amplitudes.dot(right);
   };
@@ -77,7 +138,7 @@ Vector fitted_oscillation(const Vector& series, const Matrix& trend, Index k) {
   constexpr int bits = 16;
   constexpr double reach = 1.2;
   fit_at(boost::math::tools::brent_find_minima(minus_decrease, near - reach, near + reach, bits).first);
-  return x * amplitudes;
+  return oscillations.oscillation() * amplitudes;
 }
 
 }  // namespace polhode::study::statistics::spectral

@@ -19,8 +19,10 @@ std::optional<Index> line_in(const Cosines& cosines, const Spectrum& rest);
 /// Number of the first cosines that lie well below every line.
 Index below_lines(const Cosines& cosines, const Spectrum& rest);
 
-/// The oscillation of the best frequency near the k-th cosine, of a least-squares fit by it and by the columns of
-/// `trend`, which are orthonormal.
+constexpr int trends = 3;  ///< number of the polynomials of a trend: 1, t, t²
+
+/// The oscillation of the best frequency near the k-th cosine, by a least-squares fit of it and of the `trends` columns
+/// of `trend`, which are orthonormal.
 Vector fitted_oscillation(const Vector& series, const Matrix& trend, Index k);
 
 }  // namespace polhode::study::statistics::spectral

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Eight numbers side by side. Results are the same for every width of the SIMD registers.
+#pragma once
+
+#include <cstring>
+
+namespace polhode::study::inline statistics::spectral {
+
+using Eight [[gnu::vector_size(8 * sizeof(double))]] = double;
+
+inline Eight eight_at(const double* numbers) {
+  Eight eight;
+  std::memcpy(&eight, numbers, sizeof eight);
+  return eight;
+}
+
+inline double total(const Eight& s) { return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7])); }
+
+}  // namespace polhode::study::statistics::spectral
