@@ -23,8 +23,8 @@ struct Feature {
 
 /// One point of a contact patch. It has no default values, so that a manifold without contact costs next to nothing.
 struct ContactPoint {
-  Vector3<double> point;  ///< m, world, midway between the two surfaces
-  double depth;           ///< m, along the normal; positive if the shapes overlap
+  Vector3<double> point;  ///< point midway between the two surfaces, world axes, m
+  double depth;           ///< depth along the normal, positive if the shapes overlap, m
   Feature feature;
 };
 
@@ -41,7 +41,7 @@ struct Manifold {
 struct Distance {
   double distance = 0;                               ///< m
   Vector3<double> normal = Vector3<double>::Zero();  ///< unit, world, from B to A
-  Vector3<double> on_a = Vector3<double>::Zero();    ///< m, world: witness point on A
+  Vector3<double> on_a = Vector3<double>::Zero();    ///< witness point on A, world axes, m
   Vector3<double> on_b = Vector3<double>::Zero();
 };
 

@@ -31,7 +31,7 @@ struct PairMemory {
   std::array<std::array<std::uint32_t, 2>, 4> vertices;  ///< vertex numbers of A and B for each corner
   Shell shell;
   std::array<Vector3<double>, 4> corners_a,
-      corners_b;           ///< for curved surfaces: the points, each in the axes of its shape
+      corners_b;           ///< points of curved surfaces, each in the axes of its shape
   std::uint32_t axis = 0;  ///< the axis or feature that decided the last query
 };
 

@@ -25,8 +25,8 @@ class ContactScene;
 /// Position, motion and inverse mass of a body, as responses use them, world axes. A static body has zero inverse mass
 /// and zero inverse inertia.
 struct ImpulseBody {
-  Vector3<double> position = Vector3<double>::Zero();  ///< m, of the mass centre, or of the pivot of a pinned body
-  Vector3<double> velocity = Vector3<double>::Zero();  ///< m/s, of that point
+  Vector3<double> position = Vector3<double>::Zero();  ///< position of the mass centre, or of a pinned body's pivot, m
+  Vector3<double> velocity = Vector3<double>::Zero();  ///< velocity of that point, m/s
   Vector3<double> angular_velocity = Vector3<double>::Zero();  ///< rad/s
   double inverse_mass = 0;                                     ///< 1/kg
   Matrix3<double> inverse_inertia = Matrix3<double>::Zero();   ///< 1/(kg m²), world axes, about `position`
@@ -51,15 +51,15 @@ struct ImpulseBody {
 struct ImpulseContact {
   std::uint32_t a = 0, b = 0;                        ///< numbers of the bodies, a < b; contacts are sorted by them
   Vector3<double> normal = Vector3<double>::Zero();  ///< unit, world, from B to A
-  Vector3<double> point = Vector3<double>::Zero();   ///< m, world
-  double depth = 0;                                  ///< m; negative if the surfaces are apart
+  Vector3<double> point = Vector3<double>::Zero();   ///< position of the point, world axes, m
+  double depth = 0;                                  ///< depth, negative if the surfaces are apart, m
   double friction = 0;                               ///< Coulomb's coefficient
   double restitution = 0;                            ///< Newton's restitution; 0 for a contact too slow to bounce
-  double approach = 0;                               ///< m/s, v·n before the impact; restitution reflects it
-  double wanted = 0;  ///< m/s, lower bound of v'·n: −restitution · approach in an impact, 0 at rest, −gap/h if the
+  double approach = 0;  ///< normal velocity v·n before the impact, m/s; restitution reflects it
+  double wanted = 0;  ///< lower bound of v'·n, m/s: −restitution · approach in an impact, 0 at rest, −gap/h if the
                       ///< surfaces may still meet within the step h
   Feature feature{};
-  Vector3<double> impulse = Vector3<double>::Zero();  ///< N s, on A: the result
+  Vector3<double> impulse = Vector3<double>::Zero();  ///< impulse on A: the result, N s
 };
 
 class Response {
@@ -77,13 +77,13 @@ class Response {
 
 /// Parameters of a response by forces, besides restitution and friction.
 struct Compliance {
-  double stiffness = 0;      ///< N/m, of one contact point; 0: derived from the masses
-  double slip_speed = 1e-3;  ///< m/s; at this slip speed friction is 1/√2 of its limit
+  double stiffness = 0;      ///< stiffness of one contact point, N/m; 0: derived from the masses
+  double slip_speed = 1e-3;  ///< slip speed at which friction is 1/√2 of its limit, m/s
 };
 
 /// A response by impulses has `make`. A response by a force, which every method integrates, has `make_force`.
 struct ResponseEntry {
-  std::string name;     ///< as in the catalogue: "sequential_impulses"
+  std::string name;     ///< name in the catalogue: "sequential_impulses"
   std::string summary;  ///< one line of mathematics
   std::unique_ptr<Response> (*make)() = nullptr;
   /// System and scene must outlive the force. Nobody else may query the scene during its lifetime.

@@ -12,7 +12,7 @@
 
 namespace polhode::inline collision {
 
-using Bounds = Eigen::AlignedBox3d;  ///< m, closed, axis-aligned in the world
+using Bounds = Eigen::AlignedBox3d;  ///< closed box along the world's axes, m
 
 /// Volume (m³), centroid (m) and inertia about the centroid (m⁵, for a density of 1 kg/m³), in the shape's axes.
 struct MassProperties {

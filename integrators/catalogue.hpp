@@ -29,7 +29,7 @@ struct IntegratorEntry {
   IntegratorMaker<double> make;
   IntegratorMaker<float> make_float{};
   IntegratorMaker<long double> make_long_double{};
-  IntegratorMaker<Lanes> make_lanes{};  ///< for the lanes of an ensemble
+  IntegratorMaker<Lanes> make_lanes{};  ///< builder for the lanes of an ensemble
   /// Returns why the method does not apply to this problem in this formulation; an empty string if it does. An empty
   /// function means that it always applies.
   std::function<std::string(const Problem&, const Formulation&)> refusal{};

@@ -10,7 +10,7 @@
 namespace polhode::inline collision {
 namespace {
 
-constexpr double duration = 5e-3;  // s, of an elastic impact, where no stiffness is given
+constexpr double duration = 5e-3;  // duration of an elastic impact, if no stiffness is given, s
 
 bool same_pose(const Pose& a, const Pose& b) { return a.position == b.position && a.rotation == b.rotation; }
 bool is_finite(const Pose& p) { return p.position.allFinite() && p.rotation.allFinite(); }
@@ -64,7 +64,7 @@ double Compliant::stiffness_of(const ImpulseContact& c) const {
   return rate * rate / (1 / matter_[c.a].mass + 1 / matter_[c.b].mass);
 }
 
-/// 1/kg: how fast the body's point gives way to a unit impulse along the normal.
+/// The velocity that a unit impulse along the normal gives to the body's point, 1/kg.
 double Compliant::mobility_of(std::uint32_t i, const BodyMotion<double>& body, const ImpulseContact& c) const {
   const Vector3<double> turn = body.rotation.transpose() * (c.point - body.position).cross(c.normal);
   return matter_[i].inverse_mass + turn.dot(matter_[i].inverse_inertia * turn);

@@ -49,17 +49,17 @@ class Compliant final : public ForceModel<double> {
 
  private:
   struct Matter {
-    double mass;                      ///< kg, infinite where static
-    double inverse_mass;              ///< 1/kg, as a push finds it: 0 when pinned
-    Matrix3<double> inverse_inertia;  ///< 1/(kg m²), body axes, about the reference point
-    Vector3<double> center;           ///< m, body axes: of the mass, from the reference point
-    double damping_ratio;             ///< ζ
+    double mass;                      ///< mass, infinite for a static body, kg
+    double inverse_mass;              ///< inverse of the mass, 0 for a pinned body, 1/kg
+    Matrix3<double> inverse_inertia;  ///< inverse inertia about the reference point, body axes, 1/(kg m²)
+    Vector3<double> center;           ///< mass centre from the reference point, body axes, m
+    double damping_ratio;             ///< damping ratio ζ
   };
   /// The force of one point on A, by parts.
   struct Push {
-    double spring = 0, normal = 0;   ///< N: k d, and f
-    double sinking = 0;              ///< m/s: ḋ
-    Vector3<double> slip, friction;  ///< m/s, N
+    double spring = 0, normal = 0;   ///< elastic part k d, and the whole normal force f, N
+    double sinking = 0;              ///< rate ḋ of the depth, m/s
+    Vector3<double> slip, friction;  ///< relative velocity along the surfaces, m/s; friction on A, N
   };
 
   std::span<const ImpulseContact> contacts(std::span<const BodyMotion<double>> bodies) const;

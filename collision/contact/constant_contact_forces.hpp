@@ -54,8 +54,8 @@ class ConstantContactForces final : public ForceModel<double> {
   struct Pair {
     std::uint32_t a, b;
     double share;                                      ///< weight of A in the point that moves with the line of action
-    Vector3<double> force = Vector3<double>::Zero();   ///< N, on A
-    Vector3<double> torque = Vector3<double>::Zero();  ///< N m, on A, about that point
+    Vector3<double> force = Vector3<double>::Zero();   ///< force on A, N
+    Vector3<double> torque = Vector3<double>::Zero();  ///< torque on A about that point, N m
   };
   bool internal_;
   std::vector<Pair> pairs_;

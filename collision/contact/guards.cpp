@@ -111,7 +111,7 @@ void Guards::look(const State<double>& state, Look& seen) {
   if (!std::isfinite(seen.least)) seen.least = 1;
 }
 
-/// m: how far A is beyond B along n.
+/// Distance by which A is beyond B along n, m.
 double Guards::separation(const Guard& g, const Vector3<double>& n, std::span<const Pose> poses) const {
   const Shape &a = *scene_.collider(g.pair.a).shape, &b = *scene_.collider(g.pair.b).shape;
   return -reach(a, poses[g.pair.a], -n) - reach(b, poses[g.pair.b], n);

@@ -30,9 +30,9 @@ class Guards {
  public:
   /// Values of the guards at an instant.
   struct Look {
-    double least = 0;  ///< m, the smallest value
+    double least = 0;  ///< smallest value, m
     std::vector<Pose> poses;
-    std::vector<double> values;  ///< m; positive if the pair has not met
+    std::vector<double> values;  ///< distance plus allowance of each pair, positive if it has not met, m
     std::vector<Vector3<double>> normals;
   };
 
@@ -61,15 +61,15 @@ class Guards {
  private:
   struct Guard {
     BodyPair pair;
-    double allowance = 0;  ///< m, depth up to which the pair does not count as met
-    double speed = 0;      ///< m/s, upper bound of the rate of the distance; 0: not checked between evaluations
+    double allowance = 0;  ///< depth up to which the pair does not count as met, m
+    double speed = 0;      ///< upper bound of the rate of the distance, m/s; 0: not checked between evaluations
     bool leaving = false;  ///< the pair touches and separates at the start
   };
   /// Upper bounds of the acceleration of a body's points.
   struct Pull {
-    double steady = 0;                        ///< m/s², of the mass centre, plus the part due to angular acceleration
-    double radius = 0, rate = 0, turned = 0;  ///< m, rad/s at most, rad/s between the ends
-    std::array<Vector3<double>, 2> turning;   ///< rad/s, at both ends
+    double steady = 0;  ///< bound for the mass centre, plus the part due to angular acceleration, m/s²
+    double radius = 0, rate = 0, turned = 0;  ///< radius, m; largest |ω| at an end, and its change between them, rad/s
+    std::array<Vector3<double>, 2> turning;   ///< angular velocity at both ends, rad/s
     double along(const Vector3<double>& n) const;
   };
   double separation(const Guard& g, const Vector3<double>& normal, std::span<const Pose> poses) const;

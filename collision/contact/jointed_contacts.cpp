@@ -13,14 +13,14 @@ namespace {
 constexpr int most_turns = 500;
 constexpr double longest = 1e3;      ///< step along the gradient
 constexpr double unresolved = 1e-3;  ///< share of the first change of velocities left where none obey all laws
-constexpr double tolerance = 1e-10;  ///< of velocities
+constexpr double tolerance = 1e-10;  ///< change of velocities at which the iteration ends, over their scale
 
 Vector3<double> relative(std::span<const ImpulseBody> bodies, const ImpulseContact& c) {
   return bodies[c.a].velocity_at(c.point) - bodies[c.b].velocity_at(c.point);
 }
 
-/// J: work of impulses on contacts whose velocities are those of the bodies before and after; `scale` (J) receives the
-/// magnitude of its terms.
+/// Work of impulses on contacts whose velocities are those of the bodies before and after, J; `scale` receives the
+/// magnitude of its terms, J.
 double work(std::span<const ImpulseContact> contacts, std::span<const ImpulseBody> before,
             std::span<const ImpulseBody> after, double& scale) {
   double sum = 0;

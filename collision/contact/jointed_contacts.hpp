@@ -40,7 +40,7 @@ class JointedContacts {
 
   const System<double>& system_;
   std::vector<BodyMotion<double>> motions_;
-  std::vector<ImpulseBody> free_, bouncing_;  ///< before the impulses; after those with restitution
+  std::vector<ImpulseBody> free_, bouncing_;  ///< bodies before the impulses; bodies after impulses with restitution
   std::vector<Vector3<double>> of_contacts_;
   std::vector<Wrench<double>> twists_, change_;  ///< changes of the velocities: m/s, rad/s
   VectorX<double> impulses_;                     ///< μ, N s or N m s

@@ -44,7 +44,7 @@ class TimeStepping final : public ContactModel {
   std::vector<Impact> impacts_;
   std::vector<Pose> poses_;
   std::vector<ImpulseBody> bodies_, start_, end_;
-  std::vector<double> reach_;  ///< m, by body: largest distance that it may move in the step
+  std::vector<double> reach_;  ///< largest distance that each body may move in the step, m
   State<double> free_, before_;
 };
 

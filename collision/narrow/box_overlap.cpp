@@ -60,7 +60,7 @@ struct QuickBoxes {
   Four half_a = three(a.half), half_b = three(b.half);
   Four between = three(b.pose.position) - three(a.pose.position);
   Four in_a = ra.transposed_times(between), in_b = rb.transposed_times(between);
-  double bound;  // m, of round-off
+  double bound;  // bound of the round-off, m
 
   QuickBoxes(const BoxAt& first, const BoxAt& second) : a(first), b(second) {
     const Four total = half_a + half_b + (absolute(in_a) + absolute(in_b));

@@ -28,7 +28,7 @@ struct BoxAt {
 /// One of the fifteen axes.
 struct BoxAxis {
   int index = 0;          ///< 0–2 faces of A, 3–5 faces of B, 6 + 3i + j edge i of A × edge j of B
-  double separation = 0;  ///< m, along the normal; negative: overlap
+  double separation = 0;  ///< separation along the normal, negative if the boxes overlap, m
   Vector3<double> normal = Vector3<double>::Zero();  ///< unit, in A's axes, from A to B
 };
 
@@ -37,7 +37,7 @@ struct RelativeBoxes {
   Vector3<double> half_a, half_b;
   Matrix3<double> b_in_a;  ///< column j is axis j of B in A's axes
   Vector3<double> offset;  ///< centre of B in A's axes, m
-  double scale;            ///< m, the length that round-off is relative to
+  double scale;            ///< length to which round-off is relative, m
 
   RelativeBoxes(const BoxAt& a, const BoxAt& b);
 };

@@ -41,7 +41,7 @@ Scratch& scratch() {
 struct Reference {
   PatchFrame frame;
   std::uint32_t face = 0;
-  double size = 0;  ///< m, a quarter of its sides' length
+  double size = 0;  ///< quarter of the perimeter, m
 };
 
 /// Two axes beside a unit vector, right-handed with it.
@@ -286,7 +286,7 @@ Manifold ordered_patch(const Placed& a, const Placed& b, const Distance& d, doub
 struct PartPatch {
   Manifold manifold;
   std::uint32_t part_a = 0, part_b = 0;
-  double depth = 0;  ///< m, of the deepest point
+  double depth = 0;  ///< depth of the deepest point, m
 };
 
 std::size_t count_of_parts(const Shape& shape) {

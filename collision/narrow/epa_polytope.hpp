@@ -26,7 +26,7 @@ class EpaPolytope {
     Vector3<double> normal;       ///< unit, outward; zero: the face has no area
     double offset;                ///< normal·x on the face
     std::array<Index, 3> corner;  ///< counter-clockwise seen from outside
-    std::array<Index, 3> across;  ///< for side i, from corner i to corner i + 1: the same side in the adjacent face
+    std::array<Index, 3> across;  ///< number of side i, from corner i to corner i + 1, in the adjacent face
   };
 
   int corner_count() const { return corner_count_; }
@@ -34,7 +34,7 @@ class EpaPolytope {
   const MinkowskiCorner& corner(Index i) const { return corners_[i]; }
   bool gone(Index i) const { return gone_[i]; }  ///< the face was removed, and its slot is free
   const Face& face(Index i) const { return faces_[i]; }
-  double scale() const { return scale_; }  ///< m: the largest |w| so far, which round-off is relative to
+  double scale() const { return scale_; }  ///< the largest |w| so far, to which round-off is relative, m
 
   void met(double size) { scale_ = std::max(scale_, size); }
   void clear() { corner_count_ = face_count_ = free_count_ = 0; }

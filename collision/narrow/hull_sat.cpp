@@ -28,7 +28,7 @@ constexpr double generous = 1e-9;    // sine by which arcs may miss each other
 /// The polytope within a shape, in A's axes. Of a ball it is the centre, of a capsule its segment; these have one edge,
 /// which may be of no length, and no faces.
 struct Core {
-  double radius = 0;  // m, around it
+  double radius = 0;  // radius of the shape around the polytope, m
   const Polytope* polytope = nullptr;
   std::vector<Vector> vertices, normals;
   std::span<const Polytope::Edge> edges;
@@ -81,7 +81,7 @@ struct Core {
 };
 
 struct Axis {
-  double separation = -infinity;   // m, along the normal; negative: overlap
+  double separation = -infinity;   // separation along the normal, negative if the shapes overlap, m
   Vector normal = Vector::Zero();  // unit, in A's axes, from A to B; zero: none
 };
 
@@ -117,7 +117,7 @@ struct Near {
 /// Two cores, and the nearest points known so far.
 struct Pair {
   Core a, b;
-  double scale = 0;  // m, what round-off is measured by
+  double scale = 0;  // length to which round-off is relative, m
   Near near_a, near_b;
   double nearest = infinity;       // m
   Vector on_a{}, on_b{}, apart{};  // apart = on_b − on_a

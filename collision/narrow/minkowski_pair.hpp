@@ -17,9 +17,8 @@ struct ConvexCore {
       0xffffffff;  ///< vertex number of a point that is no vertex, on a smooth core
 
   Kind kind = Kind::point;
-  double radius = 0;  ///< m, around the core
-  Vector3<double> half =
-      Vector3<double>::Zero();  ///< m: half extents of a box; for a segment only the last one is used
+  double radius = 0;                               ///< radius of the shape around the core, m
+  Vector3<double> half = Vector3<double>::Zero();  ///< half extents of a box, m; a segment uses the last one only
   const Shape* shape = nullptr;
 
   explicit ConvexCore(const Shape& s);  ///< s must be convex and finite
@@ -54,7 +53,7 @@ struct ConvexCore {
 /// them exact if the other shape is much larger.
 struct MinkowskiCorner {
   Vector3<double> w;
-  Vector3<double> a, turned_b;  ///< in A's axes, each relative to its own origin
+  Vector3<double> a, turned_b;  ///< parts a and R b in A's axes, each from the origin of its own shape, m
   std::uint32_t vertex_a, vertex_b;
 
   bool operator==(const MinkowskiCorner& o) const {
@@ -69,8 +68,8 @@ inline Vector3<double> edge(const MinkowskiCorner& i, const MinkowskiCorner& j) 
 
 struct MinkowskiPair {
   ConvexCore a, b;
-  Matrix3<double> rotation;  ///< from B's axes to A's
-  Vector3<double> offset;    ///< of B's origin, in A's axes
+  Matrix3<double> rotation;  ///< rotation from B's axes to A's
+  Vector3<double> offset;    ///< position of B's origin in A's axes, m
 
   MinkowskiPair(const Shape& shape_a, const Pose& at_a, const Shape& shape_b, const Pose& at_b)
       : a(shape_a),

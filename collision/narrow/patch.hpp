@@ -25,7 +25,7 @@ struct PatchSide {
 
 /// A corner of the incident face, or of its clipped rest, and the edge that leaves it.
 struct PatchCorner {
-  double x = 0, y = 0, height = 0;  ///< m; height above the plane of the reference face
+  double x = 0, y = 0, height = 0;  ///< place in the plane of the reference face, and height above it, m
   Feature feature{};                ///< of_a: feature of the reference shape, of_b: of the incident shape
   bool along_side = false;          ///< the leaving edge lies on a side of the reference face
   std::uint32_t edge = 0;           ///< number of the incident shape's edge, or of the side

@@ -18,13 +18,13 @@ namespace polhode::inline collision {
 struct SupportFeature {
   enum class Kind : std::uint8_t { point, edge, face };
   struct Corner {
-    Vector3<double> at;                  ///< m, in the shape's axes
+    Vector3<double> at;                  ///< position in the shape's axes, m
     std::uint32_t vertex = 0, edge = 0;  ///< the edge is the one that leaves the corner
   };
   Kind kind = Kind::point;
   std::uint32_t face = 0;
-  Vector3<double> normal;       ///< of a face: unit, outward, in the shape's axes
-  std::vector<Corner> corners;  ///< of a face: counter-clockwise seen from outside
+  Vector3<double> normal;       ///< outward unit normal of a face, in the shape's axes
+  std::vector<Corner> corners;  ///< corners, those of a face counter-clockwise seen from outside
 };
 
 /// Finds the feature of a finite convex shape along the unit direction d, in its axes: the face whose normal is at most

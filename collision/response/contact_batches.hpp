@@ -50,16 +50,17 @@ struct SymmetricLanes {
 /// World axes, SI units.
 struct PatchBatch {
   std::array<std::uint32_t, lane_count> a{}, b{};  ///< the bodies; one past the last body in an empty lane
-  std::uint32_t first_point = 0, point_count = 0;  ///< of the largest patch; the others have points without effect
+  std::uint32_t first_point = 0, point_count = 0;  ///< first point, and number of points of the largest patch
   Vector3<Lanes> normal = zero_lanes(), tangent = zero_lanes(), bitangent = zero_lanes();  ///< normal: from B to A
   Lanes inverse_mass_a = 0, inverse_mass_b = 0;
   SymmetricLanes inverse_inertia_a, inverse_inertia_b;
 };
 
-/// One point of each patch of a batch. A point without effect lies at the mass centres and has no mass.
+/// One point of each patch of a batch. Points without effect fill patches that are smaller than the largest one; they
+/// lie at the mass centres and have no mass.
 struct PointBatch {
-  Vector3<Lanes> lever_a = zero_lanes(), lever_b = zero_lanes();  ///< m, from the bodies' positions
-  Lanes normal_mass = 0;  ///< kg, 1/K_nn; 0 if no impulse can change the velocities
+  Vector3<Lanes> lever_a = zero_lanes(), lever_b = zero_lanes();  ///< lever arms from the bodies' positions, m
+  Lanes normal_mass = 0;  ///< effective mass 1/K_nn, kg; 0 if no impulse can change the velocities
 };
 
 /// The change of the velocity (m/s) of A relative to B at a point by an impulse j (N s) on A there, K j.
@@ -94,7 +95,7 @@ class ContactBatches {
 
   std::vector<Patch> found_, sorted_;
   std::vector<std::uint32_t> starts_;      ///< beginnings of the groups to be sorted
-  std::vector<std::uint64_t> colours_of_;  ///< for each body, the colours that it has
+  std::vector<std::uint64_t> colours_of_;  ///< colours that each body has, one in each bit
   std::vector<PatchBatch> patches_;
   std::vector<PointBatch> points_;
   std::vector<std::array<std::uint32_t, lane_count>> contacts_;

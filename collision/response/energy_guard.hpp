@@ -28,7 +28,7 @@ class EnergyGuard {
  private:
   struct Gain {
     double energy = 0;  ///< J
-    double scale = 0;   ///< J, magnitude of the terms that cancel in it
+    double scale = 0;   ///< magnitude of the terms that cancel in the energy, J
     bool rises() const { return energy > 1e-11 * scale; }
   };
 

@@ -13,10 +13,10 @@
 namespace polhode::inline collision {
 
 struct PositionCorrectionSettings {
-  double slop = 1e-3;       ///< m, depth that is left, so that resting contacts persist
+  double slop = 1e-3;       ///< depth that is left, so that resting contacts persist, m
   double share = 0.5;       ///< share of the depth beyond `slop` that one step undoes
   int iterations = 20;      ///< limit
-  double tolerance = 1e-2;  ///< relative to the largest displacement: the iteration stops below it
+  double tolerance = 1e-2;  ///< change, over the largest displacement, below which the iteration stops
 };
 
 class PositionCorrection {
@@ -36,7 +36,7 @@ class PositionCorrection {
   void visit(const ContactBatches& batches, std::size_t number);
 
   struct Point {
-    Lanes wanted;          ///< m, distance that the two bodies are to move apart
+    Lanes wanted;          ///< distance that the two bodies are to move apart, m
     Lanes impulse;         ///< kg m
     Lanes change, course;  ///< change by a sweep, and conjugate direction
   };

@@ -52,8 +52,8 @@ class SequentialImpulses final : public Response {
  private:
   /// When to stop.
   struct Stop {
-    int iterations;    ///< at most
-    double tolerance;  ///< of the largest impulse
+    int iterations;    ///< largest number of iterations
+    double tolerance;  ///< limit of the change, over the largest impulse
   };
 
   Stop when_to_stop(std::span<const ImpulseBody> bodies, std::span<const ImpulseContact> contacts, double step) const {
@@ -77,11 +77,11 @@ class SequentialImpulses final : public Response {
   /// Data of a point of each patch of a batch, besides its geometry.
   struct Point {
     Lanes wanted, friction;
-    Lanes mobility_tn, mobility_bn;  ///< how a normal impulse changes the slip
+    Lanes mobility_tn, mobility_bn;  ///< change of the slip by a unit normal impulse, 1/kg
     FrictionCone<Lanes> cone;
     Lanes normal;  ///< the impulse so far
     Tangential<Lanes> tangential;
-    Vector3<Lanes> change, course;  ///< of normal and tangents: what this sweep changed, and the conjugate course
+    Vector3<Lanes> change, course;  ///< change by this sweep, and conjugate course: normal, tangents
   };
 
   void prepare(std::span<const ImpulseContact> contacts) {
@@ -150,8 +150,8 @@ class SequentialImpulses final : public Response {
     return p.normal * patch.normal + p.tangential.t * patch.tangent + p.tangential.b * patch.bitangent;
   }
 
-  /// J: what the impulses do to the kinetic energy. Summed patch by patch, so that the digits do not depend on the
-  /// registers.
+  /// Change of the kinetic energy by the impulses, J. It is summed patch by patch, so that the digits do not depend on
+  /// the registers.
   double work_of_impulses() const {
     double work = 0;
     for (const PatchBatch& patch : batches_.patches()) {
@@ -300,7 +300,7 @@ class SequentialImpulses final : public Response {
   WarmStart memory_;
   ContactBatches batches_;
   std::vector<Point> points_;
-  std::vector<std::uint8_t> rough_;  ///< whether a batch has friction
+  std::vector<std::uint8_t> rough_;  ///< 1 for a batch with friction, 0 without
   std::vector<ImpulseMotion> before_, motions_;
   ConjugateCourse course_;
   EnergyGuard guard_;

@@ -10,10 +10,10 @@ namespace polhode::inline collision {
 
 struct SequentialSettings {
   int at_instant = 1000;             ///< limit of iterations, for an impact at an instant
-  double instant_tolerance = 1e-14;  ///< relative to the largest impulse: the iteration stops below it
+  double instant_tolerance = 1e-14;  ///< change, over the largest impulse, below which the iteration stops
   int in_step = 20;                  ///< limit of iterations, for a step in which bodies collide
   int at_rest = 100;  ///< limit of iterations, for a step in which all contacts rest; too few make a stack lean
-  double step_tolerance = 1e-6;  ///< relative to the largest impulse; the next step starts from the rest
+  double step_tolerance = 1e-6;  ///< the same for a step; the next step starts from its impulses
   PositionCorrectionSettings position_correction{};
 };
 

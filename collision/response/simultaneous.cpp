@@ -41,7 +41,7 @@ class Simultaneous final : public Response {
 
  private:
   static constexpr int most_rounds = 50, most_sweeps = 50, last_sweeps = 5000;
-  static constexpr double settled = 1e-13;  ///< of the largest impulse
+  static constexpr double settled = 1e-13;  ///< change that counts as none, over the largest impulse
 
   /// A contact in its own axes: number i has the normal i, and the tangents m + 2 i and m + 2 i + 1.
   struct Point {
@@ -229,11 +229,11 @@ class Simultaneous final : public Response {
   Islands islands_;
   std::vector<Point> points_;
   Eigen::MatrixXd matrix_;
-  Eigen::VectorXd velocity_;  ///< m/s, of the contacts
-  Eigen::VectorXd phase_;     ///< N s, of the phase
-  Eigen::VectorXd total_;     ///< N s, of both
-  Eigen::VectorXd given_;     ///< N s, what expansion gives back
-  Eigen::VectorXd between_;   ///< m/s, between the phases
+  Eigen::VectorXd velocity_;  ///< relative velocities at the contacts, m/s
+  Eigen::VectorXd phase_;     ///< impulses of the present phase, N s
+  Eigen::VectorXd total_;     ///< impulses of both phases, N s
+  Eigen::VectorXd given_;     ///< impulses of the expansion, N s
+  Eigen::VectorXd between_;   ///< velocities between the phases, m/s
   Eigen::VectorXd change_, smooth_, constant_, last_;
   Complementarity normals_;
   PositionCorrection position_correction_;

@@ -44,9 +44,9 @@ class SingleImpulse final : public Response {
     std::uint32_t a, b;
     Vector3<double> normal, point;
     double mass;         ///< 1/K
-    double met, wanted;  ///< m/s along the normal, before
+    double met, wanted;  ///< normal velocity before the impulses, and its lower bound after them, m/s
     double restitution;
-    double scale;  ///< m/s, of what cancels in a velocity
+    double scale;  ///< sum of the speeds that cancel in a relative velocity, m/s
     double impulse = 0;
   };
 

@@ -22,7 +22,7 @@ class WarmStart {
   struct Known {
     std::uint32_t a, b;
     Feature feature;
-    Vector3<double> place;  ///< m, relative to A's position
+    Vector3<double> place;  ///< place relative to A's position, m
     Vector3<double> force;  ///< N
     bool taken = false;
   };

@@ -10,7 +10,7 @@ namespace polhode::inline collision {
 
 class Capsule final : public Shape {
  public:
-  Capsule(double radius, double length);  ///< m; the length is that of the segment
+  Capsule(double radius, double length);  ///< the length is that of the segment; both in m
 
   double radius() const { return radius_; }
   double length() const { return 2 * half_; }

@@ -13,7 +13,7 @@ class Compound final : public Shape {
  public:
   using Part = std::shared_ptr<const ConvexHull>;
 
-  explicit Compound(std::vector<Part> parts);  ///< at least one, each in the axes of the compound
+  explicit Compound(std::vector<Part> parts);  ///< `parts`: one or more, each in the axes of the compound
 
   /// Builds a compound from the pieces (lines `o` or `g`) of an OBJ mesh, coordinates in m. Throws, with file and line,
   /// for a piece that is not closed or not convex.

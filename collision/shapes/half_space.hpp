@@ -13,7 +13,7 @@ class HalfSpace final : public Shape {
   explicit HalfSpace(const Vector3<double>& normal, double offset = 0);
 
   const Vector3<double>& normal() const { return normal_; }  ///< unit
-  double offset() const { return offset_; }                  ///< m, from the origin along the unit normal
+  double offset() const { return offset_; }  ///< signed distance of the plane from the origin along the normal, m
 
   bool finite() const override { return false; }
   std::string_view kind() const override { return "half_space"; }

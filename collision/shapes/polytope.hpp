@@ -13,7 +13,7 @@ namespace polhode::inline collision {
 struct Polytope {
   struct Face {
     Vector3<double> normal = Vector3<double>::Zero();  ///< unit, outward
-    double offset = 0;                                 ///< m: normal·x ≤ offset for all points of the polytope
+    double offset = 0;                                 ///< normal·x ≤ offset for all points of the polytope, m
     std::uint32_t first = 0, count = 0;                ///< its corners in `corners`: the first, and how many
   };
   /// An edge; from < to. Seen from outside, face `left` passes it from `from` to `to`, face `right` in the opposite

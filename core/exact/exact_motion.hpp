@@ -18,9 +18,9 @@ class ExactMotion {
   /// the gyroscopic term.
   explicit ExactMotion(const System<double>& system);
 
-  bool has_attitude() const { return has_attitude_; }                  ///< for every moving body
-  bool has_angular_velocity() const { return has_angular_velocity_; }  ///< for every moving body
-  bool has_position() const { return has_position_; }  ///< for every moving body that is not pinned, if there is one
+  bool has_attitude() const { return has_attitude_; }                  ///< the attitude is known for every moving body
+  bool has_angular_velocity() const { return has_angular_velocity_; }  ///< ω is known for every moving body
+  bool has_position() const { return has_position_; }  ///< unpinned moving bodies exist, and their positions are known
   /// Attitude and position are known for every moving body.
   bool is_complete() const { return has_attitude_ && (has_position_ || !any_path_); }
   bool has_anything() const { return has_attitude_ || has_angular_velocity_ || has_position_; }
@@ -39,9 +39,9 @@ class ExactMotion {
   VectorX<double> state(const System<double>& system, const State<double>& near) const;
 
   struct Error {
-    std::optional<double> position;          ///< m, largest over the bodies
-    std::optional<double> attitude;          ///< rad, likewise
-    std::optional<double> angular_velocity;  ///< relative to the largest |ω| at the start
+    std::optional<double> position;          ///< largest position error of a body, m
+    std::optional<double> attitude;          ///< largest attitude error of a body, rad
+    std::optional<double> angular_velocity;  ///< largest error of ω of a body, over the largest |ω| at the start
   };
   Error error(const System<double>& system, const State<double>& state) const;
 
@@ -56,7 +56,7 @@ class ExactMotion {
 /// The momenta that the forces of a problem conserve.
 struct ConservedMomenta {
   bool linear = false;
-  bool angular = false;  ///< of one body about its reference point; of several about the world's origin
+  bool angular = false;  ///< about the reference point of a single body, or about the world's origin
 };
 ConservedMomenta conserved_momenta(const System<double>& system);
 

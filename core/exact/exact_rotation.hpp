@@ -12,7 +12,7 @@ namespace polhode {
 
 struct RotationAt {
   std::optional<Quaternion<double>> orientation;  ///< body to world; absent if only the angular velocity is known
-  Vector3<double> angular_velocity;               ///< rad/s, world
+  Vector3<double> angular_velocity;               ///< angular velocity, world axes, rad/s
 };
 /// A rotation as a function of time (s).
 using ExactRotation = std::function<RotationAt(double)>;

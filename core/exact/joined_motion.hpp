@@ -9,8 +9,8 @@
 namespace polhode {
 
 struct JoinedMotion {
-  ExactRotation rotation;  ///< empty if none is known
-  ExactPath path;          ///< of the mass centre; empty if none is known
+  ExactRotation rotation;  ///< rotation of the joined bodies; empty if none is known
+  ExactPath path;          ///< path of their mass centre; empty if none is known
 };
 
 /// The motion of a body under uniform gravity whose only joint, to the world or a static body, is

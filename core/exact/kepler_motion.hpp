@@ -26,15 +26,15 @@ class KeplerMotion {
   Motion at(double t) const;
 
   double eccentricity() const { return static_cast<double>(eccentricity_); }
-  double period() const;  ///< s; infinite unless the conic is an ellipse
+  double period() const;  ///< period, infinite unless the conic is an ellipse, s
 
  private:
   using Real = long double;
   Real solve(Real since_pericentre) const;
 
   Real mu_, beta_, q_, eccentricity_, momentum_;  // momentum: L
-  Real since_pericentre_ = 0;                     // s, at t = 0
-  Real period_ = 0;                               // s, 0: none
+  Real since_pericentre_ = 0;                     // time since the pericentre at t = 0, s
+  Real period_ = 0;                               // period, s; 0: none
   Vector3<Real> towards_pericentre_, across_;     // unit vectors
 };
 

@@ -15,7 +15,7 @@ struct PathAt {
 /// Orientation and angular velocity of a top.
 struct TopAt {
   Quaternion<double> orientation;         ///< body to world
-  Vector3<double> angular_velocity_body;  ///< rad/s, body axes
+  Vector3<double> angular_velocity_body;  ///< angular velocity, body axes, rad/s
 };
 
 }  // namespace polhode

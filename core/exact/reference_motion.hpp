@@ -28,7 +28,7 @@ class ReferenceMotion {
   struct Uncertainty {
     double position = 0;          ///< m
     double attitude = 0;          ///< rad
-    double angular_velocity = 0;  ///< relative to the largest |ω| at the start
+    double angular_velocity = 0;  ///< angular velocity, over the largest |ω| at the start
     double largest() const;
   };
   const Uncertainty& uncertainty() const { return uncertainty_; }

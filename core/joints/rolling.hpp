@@ -68,7 +68,7 @@ class Rolling final : public JointModel<S> {
   struct Contact {
     Matrix3<S> frame;               ///< columns: normal and two tangents, fixed to the plane
     Vector3<S> point, plane_point;  ///< m
-    Vector3<S> x1, x2;              ///< from the reference points, m
+    Vector3<S> x1, x2;              ///< lever arms from the reference points, m
     Vector3<S> x1_rate, x2_rate;    ///< m/s
     Vector3<S> w1, w2;              ///< rad/s
     Vector3<S> slip;                ///< velocity of the first body against the second at the contact point, m/s

@@ -13,19 +13,19 @@ namespace polhode {
 /// are about that point.
 struct Body {
   std::string name;
-  double mass = 1;                                           ///< kg, positive
-  Matrix3<double> inertia = Matrix3<double>::Identity();     ///< kg m², body axes, about the reference point
+  double mass = 1;                                           ///< mass, positive, kg
+  Matrix3<double> inertia = Matrix3<double>::Identity();     ///< inertia about the reference point, body axes, kg m²
   bool pinned = false;                                       ///< turns about a point fixed in the world
   bool fixed = false;                                        ///< static: never moves, has no state
-  Vector3<double> center_of_mass = Vector3<double>::Zero();  ///< m, body axes, from the pivot; pinned only
+  Vector3<double> center_of_mass = Vector3<double>::Zero();  ///< mass centre from a pinned body's pivot, body axes, m
 };
 
 /// The start of a body as a scenario states it: of the reference point, with ω in the axes in which it was given.
 struct BodyStart {
-  Vector3<double> position = Vector3<double>::Zero();              ///< m, world, of the reference point
+  Vector3<double> position = Vector3<double>::Zero();              ///< position of the reference point, world axes, m
   Quaternion<double> orientation = identity_quaternion<double>();  ///< body to world
-  Vector3<double> velocity = Vector3<double>::Zero();              ///< m/s, world, of the reference point
-  Vector3<double> angular_velocity = Vector3<double>::Zero();  ///< rad/s, in world axes unless the next line says body
+  Vector3<double> velocity = Vector3<double>::Zero();              ///< velocity of the reference point, world axes, m/s
+  Vector3<double> angular_velocity = Vector3<double>::Zero();  ///< angular velocity, axes as the next line says, rad/s
   bool angular_velocity_in_body = false;
 };
 

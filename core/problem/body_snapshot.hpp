@@ -12,7 +12,7 @@ namespace polhode {
 template <class S>
 struct BodySnapshot {
   Vector3<S> position = Vector3<S>::Zero();              ///< position of the mass centre, m
-  Quaternion<S> orientation = identity_quaternion<S>();  ///< as stored, or from the matrix by Shepperd's method
+  Quaternion<S> orientation = identity_quaternion<S>();  ///< quaternion, stored or by Shepperd's method from R
   Matrix3<S> rotation = Matrix3<S>::Identity();          ///< rotation matrix R, body to world
   Vector3<S> velocity = Vector3<S>::Zero();              ///< velocity of the mass centre, m/s
   Vector3<S> angular_velocity = Vector3<S>::Zero();      ///< angular velocity ω, rad/s

@@ -14,10 +14,10 @@ namespace polhode {
 /// of a pinned body.
 template <class S>
 struct BodyMotion {
-  Vector3<S> position;          ///< m, of the reference point
+  Vector3<S> position;          ///< position of the reference point, m
   Matrix3<S> rotation;          ///< body to world
-  Vector3<S> velocity;          ///< m/s, of the reference point
-  Vector3<S> angular_velocity;  ///< rad/s
+  Vector3<S> velocity;          ///< velocity of the reference point, m/s
+  Vector3<S> angular_velocity;  ///< angular velocity, rad/s
 
   Vector3<S> point(const Vector3<S>& body_point) const { return position + rotation * body_point; }
   Vector3<S> point_velocity(const Vector3<S>& world_point) const {

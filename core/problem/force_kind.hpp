@@ -23,7 +23,7 @@ struct Parameter {
   enum class Range { any, non_negative, positive };
   std::string key;
   ParameterValue value;  ///< the default; for a required key only its type is used
-  std::string unit;      ///< as printed: "N/m"
+  std::string unit;      ///< unit as it is printed: "N/m"
   std::string meaning;
   Need need = Need::optional;
   Range range = Range::any;            ///< allowed range of a number

@@ -35,7 +35,7 @@ Matrix3<double> inertia_about_center(const Matrix3<double>& inertia_about_point,
 
 /// Principal moments and axes: I = A diag(moments) Aᵀ with A a rotation.
 struct PrincipalAxes {
-  Vector3<double> moments;  ///< kg m², ascending
+  Vector3<double> moments;  ///< principal moments, ascending, kg m²
   Matrix3<double> axes;     ///< columns: unit vectors in the axes of the tensor, right-handed
 };
 

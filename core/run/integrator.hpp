@@ -37,7 +37,7 @@ enum class JointEquations {
 /// Declared properties of a method. The conformance tests verify each of them by measurement.
 struct Declaration {
   std::string name;     ///< name in the catalogue
-  std::string family;   ///< for example textbook, SUNDIALS, Boost.Odeint
+  std::string family;   ///< family of the method: textbook, SUNDIALS, Boost.Odeint, …
   std::string summary;  ///< formula or principle in one line
   /// The scheme as it is coded, in LaTeX with amsmath: the rows of an `aligned` environment. Its symbols are those of
   /// guide/methods/notation.md.
@@ -75,7 +75,7 @@ struct Declaration {
 /// Settings of a method. Fixed-step methods read the step size, adaptive ones the tolerance.
 struct IntegratorSettings {
   double dt = 1e-3;         ///< step size, s
-  double tolerance = 1e-8;  ///< both relative and absolute tolerance
+  double tolerance = 1e-8;  ///< relative tolerance and absolute tolerance
   double t_end = 1;         ///< end time, s; only sets the sign and scale of the first step
   bool project = false;     ///< project after each step: by the method if it can, else by the loop
   SettingValues chosen{};   ///< chosen values of the method's own settings

@@ -19,7 +19,7 @@ struct Setting {
   std::string key;                     ///< a noun in the singular, '_' between words: "order"
   SettingValue usual;                  ///< value if the user chooses none; its type is the type of the setting
   std::string meaning;                 ///< words that follow the key: "of methods that offer several"
-  std::string unit{};                  ///< of a number, as printed: "s"; empty: none
+  std::string unit{};                  ///< unit of a number as it is printed: "s"; empty: none
   double lowest = 0, highest = 0;      ///< range of a number; lowest > 0
   std::vector<std::string> choices{};  ///< the names
 

@@ -36,7 +36,7 @@ struct Schedule {
 
 /// How a run ended.
 enum class RunStatus {
-  ok,          ///< at its end time, or at the end that its schedule or contact model set
+  ok,          ///< the run reached its end time, or the end that its schedule or contact model set
   diverged,    ///< the state was no longer finite, or the observer rejected a sample
   failed,      ///< the method could not continue
   interrupted  ///< stopped from outside; the result is incomplete

@@ -17,7 +17,7 @@ namespace polhode {
 /// A run for a lane of an ensemble.
 struct LaneRun {
   const System<double>* truth = nullptr;  ///< its system, alone
-  Schedule schedule{};                    ///< with fixed steps dt and a sample after every step
+  Schedule schedule{};                    ///< fixed steps dt, with a sample after every step
 };
 
 /// A quantity of the body of each lane.
@@ -26,7 +26,7 @@ using LaneQuantity = std::function<Lanes(const BodySnapshot<Lanes>&)>;
 /// Consecutive samples of all lanes. Those of vacant lanes, and those after the end of a run, mean nothing.
 struct LaneBlock {
   std::span<const LaneSample> samples;
-  std::span<const std::span<const Lanes>> watched;  ///< for each watched quantity a value for each sample
+  std::span<const std::span<const Lanes>> watched;  ///< values of each watched quantity, one for each sample
 };
 
 /// The sample in one lane.

@@ -159,7 +159,7 @@ class ConstraintSolver {
 
   MatrixX dense_;
   struct Sparse;
-  std::unique_ptr<Sparse> sparse_;  ///< of many rows
+  std::unique_ptr<Sparse> sparse_;  ///< the matrix and its factors, if it has many rows
   VectorX<S> diagonal_;
 };
 

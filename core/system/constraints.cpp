@@ -33,8 +33,8 @@ struct JointRows {
 
   std::vector<JointPointer<S>> joints;
   std::vector<std::string> names;
-  std::vector<std::size_t> offsets;   ///< of each joint in the rows
-  std::vector<std::size_t> joint_of;  ///< of each row
+  std::vector<std::size_t> offsets;   ///< first row of each joint
+  std::vector<std::size_t> joint_of;  ///< joint of each row
   std::vector<std::size_t> one, two;  ///< bodies of each row
 };
 
@@ -161,8 +161,8 @@ struct Constraints<S>::Parts : JointRows<S> {
 
   const Formulation formulation;
   ConstraintSolver<S> solver;
-  std::optional<ConstraintSolver<S>> unit_solver;  ///< for projections in the unit metric
-  S softness{};                                    ///< 1/a of penalty methods, 1/kg or 1/(kg m²)
+  std::optional<ConstraintSolver<S>> unit_solver;  ///< solver for projections in the unit metric
+  S softness{};                                    ///< softness 1/a of penalty methods, 1/kg or 1/(kg m²)
   const std::size_t moving;
   std::vector<BodyConstants<S>> bodies;
   const VectorX<S>* prescribed = nullptr;

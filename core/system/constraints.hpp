@@ -33,7 +33,7 @@ class ConstraintSolver;
 /// The rank of the constraint equations at one state.
 struct ConstraintRank {
   std::size_t rows = 0, rank = 0;
-  double condition = 1;                  ///< of the independent rows, scaled to unit length in the metric of the masses
+  double condition = 1;  ///< condition of the independent rows, scaled to unit length in the mass metric
   std::vector<std::string> dependent{};  ///< names of the joints with a row that depends on others
 };
 

@@ -36,14 +36,14 @@ enum class Stabilization {
 
 /// The metric in which a projection is orthogonal.
 enum class ProjectionMetric {
-  mass,  ///< of the kinetic energy
+  mass,  ///< metric of the kinetic energy
   unit   ///< 1 for each m and rad of the reference points and rotations
 };
 
 /// How the equations of the joints are solved.
 struct JointTreatment {
   Stabilization stabilization = Stabilization::none;
-  double alpha = 0, beta = 0;  ///< of Baumgarte's equation, 1/s; 0 for projections
+  double alpha = 0, beta = 0;  ///< coefficients of Baumgarte's equation, 1/s; 0 for projections
   double penalty = 0;          ///< a of penalty methods, in multiples of the mean mass of the bodies; 0 for the others
   ProjectionMetric metric = ProjectionMetric::mass;
 
@@ -90,8 +90,8 @@ struct Formulation {
   Orientation orientation = Orientation::quaternion;
   AngularState angular_state = AngularState::velocity_world;
   bool gyroscopic = true;  ///< include the term ω × Iω; both source documents omit it. momentum_world has no such term.
-  RotationFrom rotation_from = RotationFrom::normalized;  ///< for quaternions only
-  JointTreatment joints{};                                ///< for problems with joints only
+  RotationFrom rotation_from = RotationFrom::normalized;  ///< rotation matrix of a quaternion whose length is not 1
+  JointTreatment joints{};                                ///< treatment of joints, if the problem has any
 };
 
 }  // namespace polhode

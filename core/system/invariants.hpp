@@ -19,8 +19,8 @@ using LaneInvariant = std::function<Lanes(const BodySnapshot<Lanes>& first_body)
 
 /// An invariant of the first body.
 struct InvariantKind {
-  std::string name;     ///< for example "p_phi"; names the column <name>_drift_max_rel
-  std::string unit;     ///< for example "kg m^2/s"
+  std::string name;     ///< name, as "p_phi"; the column <name>_drift_max_rel is named after it
+  std::string unit;     ///< unit, as "kg m^2/s"
   std::string summary;  ///< formula and meaning
   /// Empty if the invariant applies to the problem; otherwise the reason, for example that the body is not pinned.
   std::string (*refusal)(const Problem&);

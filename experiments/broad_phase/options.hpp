@@ -19,14 +19,14 @@ inline constexpr const char* broad_phase_question =
 struct BroadPhaseOptions {
   std::vector<const BroadPhaseEntry*> phases;
   std::string boxes;  ///< file of a recorded motion whose pairs are computed; empty: measure FlyingBoxes
-  std::string out;    ///< for a recorded motion the file of pairs to write; otherwise the results folder
+  std::string out;    ///< file of pairs to write for a recorded motion; otherwise the results folder
   std::vector<std::size_t> bodies;
   double filling = 0.1;   ///< volume of the boxes over that of the cube
   double motion = 0.02;   ///< mean path of a box in a step, over the mean edge
   double patience = 0.5;  ///< longest wall time of a step to measure, s
   std::uint64_t seed = 1;
   bool figures = true;
-  Look look{};  ///< of the figures
+  Look look{};  ///< look of the figures
   bool article = false;
   std::string command;
   std::optional<std::string> list;

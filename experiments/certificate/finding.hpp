@@ -11,7 +11,7 @@ namespace polhode::study::certificate {
 enum class TraitVerdict {
   holds,           ///< declared, and measured to hold
   does_not_hold,   ///< declared, but measured not to hold
-  undeclared,      ///< not declared, but measured to hold
+  undeclared,      ///< measured to hold, though not declared
   absent,          ///< neither declared nor measured to hold
   undecided,       ///< the measurement does not decide
   not_applicable,  ///< the trait is not defined for this method or these motions

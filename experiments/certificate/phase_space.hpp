@@ -24,7 +24,7 @@ using MatrixX = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
 template <class S>
 struct PhasePoint {
   struct Body {
-    Vector3<S> position;       ///< of the mass centre, world frame, m; free bodies only
+    Vector3<S> position;       ///< position of the mass centre of a free body, world frame, m
     Quaternion<S> attitude;    ///< unit quaternion
     Vector3<S> momentum;       ///< world frame, kg m/s; free bodies only
     Vector3<S> body_momentum;  ///< π, body frame, kg m²/s

@@ -47,7 +47,7 @@ IntegratorSettings settings(const Course& course) {
   return {.dt = course.step, .tolerance = course.tolerance, .t_end = course.t_end};
 }
 
-constexpr double start_time = 0.3;  // s: time at which no component of the time-dependent force is 0 or an extremum
+constexpr double start_time = 0.3;  // time at which no component of the time-dependent force is 0 or an extremum, s
 
 /// Largest change of a component, over 1 + the largest magnitude of a component of `before`.
 double change(const VectorX<double>& now, const VectorX<double>& before) {

@@ -27,7 +27,7 @@ std::vector<std::pair<std::string, std::string>> identity_of_run(const Explained
 
 struct KeyDifference {
   std::string key;
-  std::string first, second;  ///< empty: the run does not have the key
+  std::string first, second;  ///< values of the key; empty: the run does not have it
 };
 
 /// The keys in which two runs differ. Keys of the scenario are those of its TOML text with the varied keys set,

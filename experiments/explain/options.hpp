@@ -10,7 +10,7 @@ namespace polhode::study::explain {
 
 struct ExplainOptions {
   std::vector<std::string> ids;      ///< one or two
-  std::vector<std::string> folders;  ///< at least one
+  std::vector<std::string> folders;  ///< folders of results, one at least
   std::optional<int> exit_status{};  ///< set if the program must end at once (--help)
 };
 

@@ -17,8 +17,8 @@
 namespace polhode::study::joints {
 namespace {
 
-constexpr double closed = 1e-12;         // m: joints that open by less are closed to round-off
-constexpr double right_reaction = 1e-3;  // of the largest force at the start
+constexpr double closed = 1e-12;         // largest opening of a joint that is closed to round-off, m
+constexpr double right_reaction = 1e-3;  // error of a reaction, over the largest force at the start
 
 /// The largest force at the start, N: of a joint, or of all forces on a body.
 double force_at_start(const Scenario& scenario) {

@@ -59,7 +59,7 @@ class FaultyMotion {
   void change_slots(VectorX<double>& y, bool to_body) const;
 
   Equations equations_;
-  std::unique_ptr<System<double>> system_;  ///< without the gyroscopic term
+  std::unique_ptr<System<double>> system_;  ///< system without the gyroscopic term
 };
 
 }  // namespace polhode::study::judge

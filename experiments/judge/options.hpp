@@ -16,9 +16,9 @@ struct JudgeOptions {
   std::vector<std::string> files;  ///< trajectories, without duplicates
   bool reference = false;
   RotationFrom rotation_from = RotationFrom::normalized;
-  std::string out;  ///< empty: results/judge-<scenario>-<hash>
+  std::string out;  ///< results folder; empty: results/judge-<scenario>-<hash>
   bool force = false, figures = true;
-  Look look{};                     ///< of the figures
+  Look look{};                     ///< look of the figures
   std::string command;             ///< the command line, quoted for a shell
   std::optional<int> exit_status;  ///< set if the program must end at once (--help)
 };

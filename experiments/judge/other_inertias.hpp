@@ -10,7 +10,7 @@
 namespace polhode::study::judge {
 
 struct OtherInertia {
-  Matrix3<double> inertia;  ///< about the body's reference point, body frame, kg m²
+  Matrix3<double> inertia;  ///< inertia about the body's reference point, body frame, kg m²
   std::string words;        ///< description, as a clause
 };
 

@@ -17,7 +17,7 @@ namespace polhode::study::judge {
 /// Errors at one instant; absent if they are not known.
 struct ErrorPoint {
   double t = 0;                                                ///< s
-  std::optional<double> position, attitude, angular_velocity;  ///< m, rad, relative
+  std::optional<double> position, attitude, angular_velocity;  ///< errors in m, in rad, relative
   std::optional<double> phase, off;                            ///< errors along the polhode (s) and off it (relative)
 };
 
@@ -25,7 +25,7 @@ struct TrajectoryScore {
   RunRecord record;  ///< method: label of the file; dt: largest spacing of the rows; steps: their number
   std::size_t instants = 0;
   double t_first = 0;              ///< time of the first instant, s
-  std::vector<ErrorPoint> errors;  ///< at most 257, spread evenly over the instants, including the last one
+  std::vector<ErrorPoint> errors;  ///< errors at up to 257 instants, evenly spread, the last one included
   /// Largest difference between the energy column of the file and the computed energy, over the energy scale.
   std::optional<double> energy_column_difference_max_rel;
   std::vector<std::string> notes;  ///< derived quantities, and missing ones with the reason

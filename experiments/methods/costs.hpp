@@ -29,8 +29,8 @@ struct Problem {
 /// What becomes of the energy in the runs that follow the motion.
 enum class EnergyFate {
   unknown,
-  bounded,  ///< at round-off, bounded or settled in some run, and growing in none
-  growing   ///< growing in some run
+  bounded,  ///< some run stays at round-off, bounded or settled, and none grows
+  growing   ///< some run grows
 };
 
 /// One contender on one problem.
@@ -44,7 +44,7 @@ struct Reach {
   /// Right-hand sides per characteristic time; absent if the error was not reached within the budget. Between two runs
   /// it is interpolated linearly in the logarithms.
   std::array<std::optional<double>, targets> cost{};
-  std::optional<double> cheapest_error{};  ///< of the run with the fewest right-hand sides that follows the motion
+  std::optional<double> cheapest_error{};  ///< error of the cheapest run that follows the motion
   std::array<bool, targets> at_most{};     ///< the cheapest run has a smaller error: the cost is an upper bound
 };
 

@@ -31,8 +31,8 @@ class Ruler {
   bool lacks_first_impact(const RunRecord& run) const;
 
  private:
-  std::map<std::string, std::optional<double>> first_impacts_;  ///< s, by motion
-  std::map<std::string, double> sizes_;                         ///< m, by motion
+  std::map<std::string, std::optional<double>> first_impacts_;  ///< time of the first impact of each motion, s
+  std::map<std::string, double> sizes_;                         ///< extent of each motion, m
 };
 
 /// The motion of a run: scenario, varied keys, duration.

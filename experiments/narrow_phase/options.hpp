@@ -12,12 +12,12 @@ namespace polhode::study::narrow_phase {
 
 struct NarrowPhaseOptions {
   std::string pairs;         ///< file of pairs to compute; empty: make the comparison
-  std::string narrow_phase;  ///< empty: sat for --pairs, all narrow phases for the comparison
+  std::string narrow_phase;  ///< narrow phase; empty: sat for --pairs, all for the comparison
   std::string out;
   std::size_t count = 2000;  ///< number of pairs of each class in the comparison
   std::uint64_t seed = 1;
   bool figures = true;
-  Look look{};  ///< of the figures
+  Look look{};  ///< look of the figures
   bool article = false;
   std::optional<std::string> list;
   std::optional<int> exit_status{};  ///< set if the program must end at once (--help)

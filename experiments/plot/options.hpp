@@ -11,11 +11,11 @@
 
 namespace polhode::study::plot_program {
 
-inline constexpr std::size_t most_runs = 12;  ///< in one figure
+inline constexpr std::size_t most_runs = 12;  ///< largest number of runs in one figure
 
 struct PlotOptions {
-  std::vector<std::string> ids;      ///< of runs, or their beginnings; empty: those that satisfy `where`
-  std::vector<std::string> folders;  ///< of results
+  std::vector<std::string> ids;      ///< ids of runs, or their beginnings; empty: the runs that satisfy `where`
+  std::vector<std::string> folders;  ///< folders of results
   std::vector<std::string> where;    ///< conditions
   std::vector<const PlotQuantity*> quantities;
   std::string body, out;

@@ -28,15 +28,15 @@ using Measure = std::function<std::vector<double>(const Instant&)>;
 enum class Drawn {
   against_time,  ///< a panel for each component
   portrait,      ///< a panel for each pair of components
-  polhode,       ///< on the ellipsoid ω·Iω = 2T(0), in principal axes
-  herpolhode,    ///< in the world, with the plane of all ω of the same energy
+  polhode,       ///< a curve on the ellipsoid ω·Iω = 2T(0), in principal axes
+  herpolhode,    ///< a curve in the world, with the plane of all ω of the same energy
   stacked,       ///< one above another, with impacts
   events,        ///< impacts against time; nothing is measured
 };
 
 struct Component {
-  std::string label;   ///< of the axis, with unit
-  std::string column;  ///< in the data file
+  std::string label;   ///< label of the axis, with unit
+  std::string column;  ///< name in the data file
 };
 
 struct PlotQuantity {
@@ -44,7 +44,7 @@ struct PlotQuantity {
   Drawn drawn = Drawn::against_time;
   Scale scale = Scale::linear;
   std::vector<Component> components{};
-  bool of_a_body = false;  ///< of the body that --body names
+  bool of_a_body = false;  ///< the quantity belongs to the body that --body names
   /// Measures the components; empty: this motion does not have the quantity. `body`: index among the moving ones.
   std::function<Measure(const System<double>& system, std::size_t body)> measure{};
 };

@@ -36,7 +36,7 @@ struct Family {
 struct RoundingProblem {
   std::string method;
   std::string motion, formulation;  ///< options that differ from other problems of the study; empty if none does
-  std::vector<Family> families;     ///< in ascending order of precision, plain before compensated
+  std::vector<Family> families;     ///< families in ascending order of precision, plain before compensated
   std::string label() const;        ///< method, formulation and motion: "rk4 (matrix) on detest_b5"
 };
 

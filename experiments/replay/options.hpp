@@ -12,7 +12,7 @@ struct ReplayOptions {
   Options study;                  ///< runs to carry out, if no results are given
   std::filesystem::path results;  ///< results folder of a study; empty: carry out the runs
   std::vector<std::string> runs;  ///< run ids; empty: all
-  std::string scenario;           ///< as given on the command line; empty: not given
+  std::string scenario;           ///< scenario as given on the command line; empty: not given
   std::filesystem::path out;
   bool force = false;
   double limit_bytes = 0;

@@ -12,7 +12,7 @@ namespace polhode::study::replay {
 /// Texts on the page.
 struct PageWords {
   std::string scenario, title, description;
-  std::vector<std::string> answer{};    ///< what the runs tell, beside the motion
+  std::vector<std::string> answer{};    ///< sentences beside the motion: results of the runs
   std::vector<std::string> paragraphs;  ///< notes at the bottom: the runs, what was left out, accuracy
   std::string made_by;                  ///< versions of the programs
 };

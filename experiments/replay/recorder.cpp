@@ -93,7 +93,7 @@ class Recorder final : public TrajectoryWriter {
   Recording& recording_;
   MotionScales scales_;
   ContactLosses contact_;
-  VectorX<double> multipliers_;  ///< of the method at the last state
+  VectorX<double> multipliers_;  ///< multipliers of the method at the last state
   double energy_start_ = 0;
   Vector3<double> momentum_start_ = Vector3<double>::Zero();
   std::int64_t stride_ = 1;

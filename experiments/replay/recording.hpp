@@ -17,7 +17,7 @@ namespace polhode::study::replay {
 
 /// The part of a BodySnapshot that a page shows: 80 bytes instead of 200, for every body at every instant.
 struct Placement {
-  Vector3<double> position = Vector3<double>::Zero();              ///< of the mass centre, world frame, m
+  Vector3<double> position = Vector3<double>::Zero();              ///< position of the mass centre, world frame, m
   Quaternion<double> orientation = identity_quaternion<double>();  ///< body to world, any length
   Vector3<double> angular_velocity = Vector3<double>::Zero();      ///< world frame, rad/s
 };
@@ -34,13 +34,13 @@ struct Recording {
   std::string energy_drift_max;  ///< largest drift of the whole run, as in runs.csv
 
   std::size_t moving = 0;
-  std::vector<double> times;                         ///< times of the instants, s
-  std::vector<Placement> placements;                 ///< `moving` placements for each instant
-  std::size_t joints = 0;                            ///< number of joints with reactions
-  std::vector<Vector3<double>> reactions;            ///< `joints` forces for each instant, on first bodies, world, N
-  std::vector<double> energy_drift;                  ///< at each instant: relative, signed
-  std::vector<double> momentum_drift;                ///< at each instant: relative; 0 if no momentum is shown
-  std::vector<Impact> impacts;                       ///< sorted by time
+  std::vector<double> times;               ///< times of the instants, s
+  std::vector<Placement> placements;       ///< `moving` placements for each instant
+  std::size_t joints = 0;                  ///< number of joints with reactions
+  std::vector<Vector3<double>> reactions;  ///< `joints` forces for each instant, on first bodies, world, N
+  std::vector<double> energy_drift;        ///< energy drift at each instant, relative, signed
+  std::vector<double> momentum_drift;      ///< momentum drift at each instant, relative; 0 if no momentum is shown
+  std::vector<Impact> impacts;             ///< sorted by time
   std::int64_t instants_seen = 0, impacts_seen = 0;  ///< numbers before any were removed
 };
 

@@ -11,10 +11,10 @@
 namespace polhode::study::replay {
 
 struct KeptStudy {
-  Scenario scenario;                  ///< without the varied keys
+  Scenario scenario;                  ///< scenario of the study, without the varied keys
   std::string command;                ///< command line of the study
   std::string made_by;                ///< version of the program: "polhode 0.1.0, commit 1234abc"
-  std::vector<Recording> recordings;  ///< in the order of runs.csv
+  std::vector<Recording> recordings;  ///< recordings in the order of runs.csv
 };
 
 /// Reads the runs that have a trajectory, with these ids (empty: all). scenario: name or file that replaces the

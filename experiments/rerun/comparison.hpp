@@ -11,7 +11,7 @@ namespace polhode::study::rerun {
 
 /// A number that is not the same; both values have all digits, and are empty where there is none.
 struct Difference {
-  std::string name;  ///< of the metric, t_reached_s, or "series" and "attitude_errors" for the first point that differs
+  std::string name;  ///< metric, t_reached_s, or "series" and "attitude_errors" for the first point that differs
   std::string stored, again;
 };
 

@@ -10,11 +10,11 @@
 namespace polhode::study::rerun {
 
 struct RerunOptions {
-  std::string id;                       ///< empty: several runs
+  std::string id;                       ///< id of one run; empty: several runs
   std::optional<std::size_t> random{};  ///< number of runs to draw; absent without an id: all
   std::uint64_t seed = 1;
   int jobs = 0;                      ///< runs at a time; 0: one for each core
-  std::vector<std::string> folders;  ///< at least one
+  std::vector<std::string> folders;  ///< folders of results, one at least
   std::optional<int> exit_status{};  ///< set if the program must end at once (--help)
 };
 

@@ -19,7 +19,7 @@ struct Repeated {
   FoundRun run;
   std::string why_not;                  ///< reason for which it was not repeated; empty: it was
   std::string words;                    ///< scenario, method and step or tolerance
-  std::vector<Difference> differences;  ///< empty: the same
+  std::vector<Difference> differences;  ///< numbers that differ; empty: none
 };
 
 /// Repeats the runs, `jobs` at a time (0: one for each core), each alone in its thread, and calls done(result) for each

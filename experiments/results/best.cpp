@@ -61,7 +61,7 @@ struct Point {
   std::vector<OptionValue> method;  ///< method and formulation
   std::vector<OptionValue> sizes;   ///< step, tolerance
   std::string run;
-  std::vector<std::optional<double>> values;  ///< of all columns that may be asked for
+  std::vector<std::optional<double>> values;  ///< values in the columns of asked()
 };
 
 std::optional<double> number_of(const OptionValue& value) {

@@ -27,9 +27,9 @@ constexpr std::pair<std::string_view, Measure> measures[] = {{"count", Measure::
 
 /// One column of --show.
 struct Shown {
-  std::string name;  ///< as written
+  std::string name;  ///< name as it was given
   Measure measure = Measure::count;
-  std::optional<RunColumn> column;  ///< absent: the number of runs
+  std::optional<RunColumn> column;  ///< column that is shown; absent: the number of runs
 };
 
 Shown shown_of(const std::string& said, const RunColumns& columns) {
@@ -51,7 +51,7 @@ Shown shown_of(const std::string& said, const RunColumns& columns) {
 
 struct Group {
   std::int64_t runs = 0;
-  std::vector<std::vector<double>> values;  ///< by Shown
+  std::vector<std::vector<double>> values;  ///< values for each column of --show
 };
 
 /// Sorts rows by the columns that --sort names.

@@ -12,8 +12,8 @@
 namespace polhode::study::results {
 
 struct ResultsOptions {
-  bool best = false;                 ///< results best …
-  std::vector<std::string> folders;  ///< at least one
+  bool best = false;                 ///< true for the command results best …
+  std::vector<std::string> folders;  ///< folders of results, one at least
   bool list = false;                 ///< print the names of all columns
   std::vector<std::string> where;
   /// Names of columns as written, without blanks; empty: not given.

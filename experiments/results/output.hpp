@@ -34,7 +34,7 @@ class Output {
   std::optional<TextFile> file_;
   std::vector<std::string> names_;
   std::vector<std::vector<std::string>> rows_;
-  std::vector<bool> is_text_;  ///< by column
+  std::vector<bool> is_text_;  ///< one value for each column
   std::size_t count_ = 0;
 };
 

@@ -13,7 +13,7 @@ namespace polhode::study::stability {
 /// exceeds 1.
 struct LinearTheory {
   std::vector<std::optional<double>> radius;  ///< spectral radius at each step of the ladder
-  CriticalStep critical;                      ///< with a bracket of relative width 1e-6
+  CriticalStep critical;                      ///< critical step, bracketed to a relative width of 1e-6
   double smallest = 0, largest = 0;           ///< smallest and largest spectral radius
 };
 
@@ -32,7 +32,7 @@ struct StabilityFinding {
   Lost lost = Lost::nothing;  ///< quantity that is lost at the step motion.fails
   /// Verdict on the steps below growth.fails at which the motion is followed; if there is none, on the smallest step.
   Verdict below = Verdict::none;
-  std::optional<EnergyGain> gain{};  ///< absent if `below` is neither damped nor a gain
+  std::optional<EnergyGain> gain{};  ///< change of the energy; absent if `below` is neither damped nor a gain
   std::optional<LinearTheory> linear;
 };
 

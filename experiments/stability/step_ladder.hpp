@@ -27,14 +27,14 @@ inline constexpr double confirmed_by = 4;
 struct Ladder {
   struct Step {
     double dt = 0;                         ///< s
-    std::vector<const RunRecord*> runs{};  ///< in ascending order of duration
+    std::vector<const RunRecord*> runs{};  ///< runs in ascending order of duration
     Verdict verdict = Verdict::none;       ///< verdict on the energy; `none` if all runs have less than 500 steps
     Lost lost = Lost::nothing;             ///< quantity lost in the shortest run
     const RunRecord& longest() const { return *runs.back(); }
     const RunRecord& shortest() const { return *runs.front(); }
   };
   const Curve* curve = nullptr;
-  std::vector<Step> steps{};     ///< in ascending order, without refused runs
+  std::vector<Step> steps{};     ///< steps in ascending order, without refused runs
   std::optional<double> rate{};  ///< characteristic rate of the motion, rad/s
   std::optional<double> turn{};  ///< time unit of slow gains, s; absent: no gain counts as slow
   double duration = 0;           ///< time over which the motion must be followed, s

@@ -54,16 +54,16 @@ double mean_time(Call&& call, double slice) {
 }
 
 constexpr double shortest_slice = 3e-4;     // s
-constexpr std::size_t most_uses = 1000;     // of a true motion
-constexpr double seconds_of_reference = 2;  // if it takes longer than there is time
+constexpr std::size_t most_uses = 1000;     // largest number of uses of a true motion
+constexpr double seconds_of_reference = 2;  // assumed time of a reference that takes longer than there is time, s
 // Part of a run that tells its rate. The first steps of an adaptive method are small.
 constexpr double least_share = 1e-4, least_adaptive_share = 0.05;
 
 /// A run that was carried out, in part or in full.
 struct Timed {
   const PlannedRun* run;
-  double share;    ///< of the run that was done, 0 to 1
-  double seconds;  ///< of that part at the mean rate that the whole run is expected to have, s
+  double share;    ///< share of the run that was done, 0 to 1
+  double seconds;  ///< time of that share at the mean rate that is expected of the whole run, s
 };
 
 /// Times of several kinds.
@@ -76,7 +76,7 @@ struct Known {
 /// Runs of one kind.
 struct RunKind {
   std::vector<std::size_t> runs;
-  double cost = 0;  ///< of all runs together
+  double cost = 0;  ///< cost of all runs together
   std::size_t least = 0, largest = 0;
   std::vector<Timed> timed{};
 };

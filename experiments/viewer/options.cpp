@@ -39,7 +39,7 @@ constexpr RunArgument run_arguments[] = {
 struct Said {
   std::string scenario = "dzhanibekov", integrator = "rk4", dt = "1e-3", tolerance = "1e-8";
   std::string drive = "accumulator";
-  std::map<std::string, std::string> options;  ///< of run_arguments, by name; empty: not given
+  std::map<std::string, std::string> options;  ///< values of run_arguments, by name; empty: not given
   std::vector<std::string> vary;
   std::string size = "1280x720", show = "trails,contacts,joints,reactions";
   std::optional<double> t_end, azimuth, elevation;

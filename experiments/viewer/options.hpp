@@ -12,7 +12,7 @@ namespace polhode::viewer {
 
 struct Options {
   std::optional<int> exit_status;   ///< the program is done: help was printed, or the line is wrong
-  std::optional<std::string> list;  ///< as --list takes it
+  std::optional<std::string> list;  ///< value of --list
   std::string rerun;                ///< a recorded session; empty: none
   bool offscreen = false;
   StageSetup stage;

@@ -125,7 +125,7 @@ template class CollocationSolver<double>;
 template class CollocationSolver<long double>;
 
 std::string refuse_large_system(int stages, const Problem& problem, const Formulation& formulation) {
-  constexpr double most_memory = 4e9;  // bytes of the matrix in double; its factors take as much again
+  constexpr double most_memory = 4e9;  // memory of the matrix in double, bytes; its factors take as much again
   const int unknowns = stages * layout_of(problem, formulation).size();
   const double memory = 8.0 * unknowns * unknowns;
   if (memory <= most_memory) return {};

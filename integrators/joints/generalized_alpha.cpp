@@ -250,7 +250,7 @@ class GeneralizedAlpha final : public JointMethod, private StepEquations<double>
   bool fresh_ = true;        ///< no step yet
   Vector a_, v_dot_;         ///< history: a and v̇ at the start of the step, body axes
   double t_ = 0, h_ = 0;     ///< end and length of the step, s
-  const Flat* y_ = nullptr;  ///< at the start of the step
+  const Flat* y_ = nullptr;  ///< state at the start of the step
   Vector v_, along_;         ///< v at the start; (α_m a − α_f v̇)/(1 − α_f)
   Flat trial_, before_, after_;
   Vector trial_lambda_, unused_;

@@ -55,7 +55,7 @@ class JointMethod : public Integrator<double> {
   const ManyBodies<double>& bodies_;
   const Constraints<double>& joints_;
   double mean_mass_ = 1;                     ///< kg
-  std::vector<BodyMotion<double>> motions_;  ///< of the last evaluate()
+  std::vector<BodyMotion<double>> motions_;  ///< motions at the last evaluate()
   VectorX<double> lambda_;                   ///< multipliers at the end of the last step
   std::int64_t evaluations_ = 0;
 

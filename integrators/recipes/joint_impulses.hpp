@@ -16,7 +16,7 @@ struct Engine {
   double erp = 0.2;
   double cfm = 0;            ///< C = cfm/h, in SI units
   double cfm_share = 0;      ///< C = cfm_share times the diagonal
-  double relaxation = 1;     ///< of the sweeps
+  double relaxation = 1;     ///< relaxation of the sweeps
   bool together = false;     ///< the rows are solved by Cholesky
   bool first_order = false;  ///< q' = q + h/2 ω q, else exp(h ω) q
   /// The gyroscopic update of an angular momentum over h, in principal axes.

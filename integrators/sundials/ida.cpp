@@ -261,8 +261,8 @@ class Ida final : public SundialsIntegrator {
   const Constraints<double>& joints_;
   const Eigen::Index ny_, m_, size_;  ///< numbers of the state, of equations and of unknowns
   VectorX<double> y_, dy_, shifted_, rate_of_shifted_, trial_lambda_;
-  VectorX<double> lambda_;                  ///< at the end of the last step
-  mutable VectorX<double> between_lambda_;  ///< at the last interpolation
+  VectorX<double> lambda_;                  ///< multipliers at the end of the last step
+  mutable VectorX<double> between_lambda_;  ///< multipliers at the last interpolation
   std::vector<Wrench<double>> impulses_;
   Vector z_, dz_, between_, tolerances_, kinds_, moved_;
   Matrix matrix_;

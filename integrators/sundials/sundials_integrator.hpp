@@ -88,7 +88,7 @@ class SundialsIntegrator : public Integrator<double>,
   double t_now_ = 0;
   std::int64_t evaluations_ = 0;
   std::optional<std::int64_t> iterations_;
-  std::int64_t earlier_iterations_ = 0;  ///< before the last restart
+  std::int64_t earlier_iterations_ = 0;  ///< iterations before the last restart
   bool projects_ = false, projects_orientations_ = false;
   double injected_ = 0, last_injected_ = 0;  ///< energy injected by all steps and by the last projection, J
   std::vector<EventFunction<double>> events_;

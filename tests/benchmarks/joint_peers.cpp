@@ -29,7 +29,7 @@ using peers::Program;
 
 struct Known {
   Mechanism mechanism;
-  double x = 0, y = 0;  ///< m, of the probe at the end
+  double x = 0, y = 0;  ///< place of the probe at the end, m
 };
 
 Known pendulum() {
@@ -194,7 +194,7 @@ std::vector<Program> all_programs() {
 }
 
 void report(const Known& known, const Program& program, double size) {
-  constexpr double long_enough = 0.3;  // s: such a run is not repeated
+  constexpr double long_enough = 0.3;  // run time, s, from which a run is not repeated
   constexpr int most_runs = 5;
   try {
     Arrival best = program.run(known.mechanism, size);

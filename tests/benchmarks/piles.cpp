@@ -31,7 +31,7 @@ void piles(benchmark::internal::Benchmark* b) {
   b->ArgName("cubes")->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond);
 }
 
-/// m: the deepest of all points where two shapes touch.
+/// Depth of the deepest of all points where two shapes touch, m.
 double deepest(const Pile& pile, const std::vector<Pose>& poses) {
   ContactScene scene(pile.problem, pile.colliders, "sweep_and_prune", "sat");
   scene.near_pairs(poses, poses, {}, 0);

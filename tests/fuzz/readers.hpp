@@ -42,6 +42,6 @@ Reader obj_reader();
 Reader pairs_reader();
 Reader boxes_reader();
 Reader cells_reader();
-Reader session_reader();  ///< only where the viewer is built
+Reader session_reader();  ///< reader of sessions, defined only if the viewer is built
 
 }  // namespace polhode::fuzz

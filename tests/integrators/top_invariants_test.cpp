@@ -11,7 +11,7 @@ using laws::gyroscopic_formulations;
 using laws::label;
 
 struct Drift {
-  double energy = 0, p_phi = 0, p_psi = 0, kovalevskaya = 0;  // relative
+  double energy = 0, p_phi = 0, p_psi = 0, kovalevskaya = 0;  // relative drifts
 };
 /// The largest drifts over 10 s of RK4 at 1e-4, looked at every 0.05 s. k = mgl/I3.
 Drift drift_of_top(const Problem& p, const Formulation& f, double k) {
@@ -57,7 +57,7 @@ Problem top(const V3& moments, int axis) {
   p.forces.push_back(laws::force("uniform_gravity", {0}, {{"acceleration", V3(0, 0, -9.81)}}));
   return p;
 }
-constexpr double top_weight = 1.5 * 9.81 * 0.4;  // m g l, N m
+constexpr double top_weight = 1.5 * 9.81 * 0.4;  // weight times lever arm m g l, N m
 
 TEST(Tops, SlowLagrangeKeepsEnergyAndBothMomenta) {
   for (const Formulation& f : gyroscopic_formulations()) {

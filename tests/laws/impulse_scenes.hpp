@@ -43,7 +43,7 @@ inline ImpulseBody ball(double mass, double radius, const Vector3<double>& posit
   return b;
 }
 
-/// J; of what moves.
+/// Kinetic energy of the moving bodies, J.
 inline double kinetic_energy(std::span<const ImpulseBody> bodies) {
   double sum = 0;
   for (const ImpulseBody& b : bodies) {

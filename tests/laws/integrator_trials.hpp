@@ -23,7 +23,7 @@ namespace polhode::laws {
 struct Trial {
   std::string name;
   Problem problem;
-  bool shaken = false;  ///< by a force that depends on time
+  bool shaken = false;  ///< a force that depends on time acts
 };
 inline std::vector<Trial> trials() {
   return {{"free", free_top()},
@@ -65,7 +65,7 @@ inline bool same_bytes(const Sample& a, const Sample& b) {
 
 /// Keeps what a run shows: every sample, and the states.
 struct Rows final : Observer {
-  bool all_states = true;  ///< or the start alone
+  bool all_states = true;  ///< all states are kept; false: the first alone
   std::vector<Sample> samples{};
   std::vector<State<double>> states{};
   std::size_t on_samples(std::span<const Sample> seen) override {

@@ -186,9 +186,9 @@ std::unique_ptr<Operations> operations_of(std::unique_ptr<System<S>> erased, int
 /// A system on which the laws are tried.
 struct Subject {
   std::string name;
-  Problem problem;                         ///< of the lane, for an ensemble
+  Problem problem;                         ///< problem; for an ensemble that of the lane
   std::unique_ptr<System<double>> plain;   ///< the same problem, for the equations as a textbook writes them
-  std::unique_ptr<Operations> operations;  ///< what is under test
+  std::unique_ptr<Operations> operations;  ///< operations under test
   VectorX<double> y;                       ///< an arbitrary state on the manifold
 };
 

@@ -18,11 +18,11 @@ namespace polhode::laws {
 template <class S>
 struct PlainBody {
   Matrix3<S> inertia_body, rotation;
-  Vector3<S> position, velocity;     ///< of the reference point
+  Vector3<S> position, velocity;     ///< position and velocity of the reference point
   Vector3<S> state;                  ///< the angular state as stored
   Vector3<S> angular_velocity;       ///< ω
   Vector3<S> angular_velocity_body;  ///< Ω, of which energy and momentum are made
-  Vector3<S> angular_momentum;       ///< about the reference point
+  Vector3<S> angular_momentum;       ///< angular momentum about the reference point
   S kinetic{};
 };
 

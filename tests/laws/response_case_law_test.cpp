@@ -16,7 +16,7 @@ using Matrix = Matrix3<double>;
 
 class ResponseCase : public ResponseTrial {
  protected:
-  /// m/s; in a step some go only so far.
+  /// Tolerance of velocities after steps, m/s. It is larger for a response whose iteration in a step ends early.
   double in_a_step() const { return GetParam().name == "sequential_impulses" ? 1e-5 : 1e-9; }
 };
 
@@ -178,7 +178,7 @@ TEST_P(ResponseCase, BallsRollOnABoxThatIsPushed) {
     s.contacts.push_back(touch(1, 2 + k, {0, 0, -1}, place, 0, 0.8));
   }
   const Vector along = Vector(0.5, 0.866, 0).normalized();
-  const double slides = 150 - 0.4 * (mass + 25) * g;  // N, of the push, after the ground's friction
+  const double slides = 150 - 0.4 * (mass + 25) * g;  // force of the push, less the ground's friction, N
   const double a_box = slides / (mass + 25 / 3.5), a_ball = a_box / 3.5;
   for (int k = 1; k <= 50; ++k) {
     for (std::size_t i = 1; i < s.bodies.size(); ++i) s.bodies[i].velocity[2] -= g * h;

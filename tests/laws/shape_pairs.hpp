@@ -15,8 +15,8 @@ struct ShapePair {
   std::uint64_t seed = 0;
   ShapePointer a, b;
   Pose at_a, at_b;
-  double scale = 0;    ///< m: of sizes and positions
-  double smaller = 0;  ///< m: the smaller of the two shapes
+  double scale = 0;    ///< size of shapes and distances, m
+  double smaller = 0;  ///< size of the smaller shape, m
   bool round = false;  ///< one of them bends in two ways: a search for its depth ends near it
   bool convex = true;  ///< none is a compound
   bool finite = true;  ///< none is a half-space

@@ -138,7 +138,7 @@ Grouping group(const StudyView& study) {
   std::map<std::string, std::size_t> method_index, cases, variants;
   for (const auto& method : grouping.methods) method_index.emplace(method, method_index.size());
   std::map<std::tuple<std::size_t, std::size_t, std::size_t, bool>, std::size_t> curves;
-  std::vector<std::optional<double>> sizes;  // m, of the motions of the cases with measured positions
+  std::vector<std::optional<double>> sizes;  // extent of the motion of each case with measured positions, m
   const Durations durations(study);
   const Variants options(study.runs);
 

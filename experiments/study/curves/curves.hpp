@@ -18,7 +18,7 @@ namespace polhode::study::inline curves {
 struct Case {
   std::string scenario;
   std::vector<std::string> details;  ///< differences from other cases of the scenario: "body.0.mass = 2", "t_end = 5 s"
-  std::string label() const;         ///< on one line
+  std::string label() const;         ///< the scenario and the details in one line
 };
 
 struct Curve {
@@ -26,14 +26,14 @@ struct Curve {
   std::size_t variant_index = 0;
   std::size_t method_index = 0;
   bool adaptive = false;  ///< its runs differ in the tolerance; otherwise in the step
-  double motion_size = std::numeric_limits<double>::infinity();  ///< m; +inf if not known
+  double motion_size = std::numeric_limits<double>::infinity();  ///< extent of the motion, m; +inf if not known
   std::vector<const RunRecord*> runs;                            ///< largest step or loosest tolerance first
 };
 
 /// Points into the records of the study, which must outlive it.
 struct Grouping {
-  std::vector<std::string> methods;  ///< in the catalogue's order: a method has one colour in all figures
-  std::vector<Case> cases;           ///< in the order of the runs, like the rest
+  std::vector<std::string> methods;  ///< methods in the catalogue's order: a method has one colour in all figures
+  std::vector<Case> cases;           ///< cases in the order of the runs; so are the others
   std::vector<std::string>
       variants;  ///< differences of the variants: "matrix, gyroscopic off"; an empty text if there is one variant
   std::vector<Curve> curves;
@@ -64,8 +64,8 @@ Quantity angular_momentum_drift();
 Quantity orientation_defect();
 Quantity position_error();
 Quantity attitude_error();
-Quantity velocity_error();  ///< of runs with joints
-Quantity reaction_error();  ///< likewise, of the forces of joints
+Quantity velocity_error();  ///< velocity error of runs with joints
+Quantity reaction_error();  ///< error of the forces of joints
 Quantity invariant_drift(const std::string& name);
 }  // namespace quantity
 

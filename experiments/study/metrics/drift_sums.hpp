@@ -25,7 +25,7 @@ struct DriftOrigin {
   Mask linear_conserved{}, angular_conserved{};     ///< else the change counts as 0
   S bound = S(std::numeric_limits<double>::max());  ///< largest energy drift and kinetic energy, J
   S half{};                                         ///< half of t_end, s
-  S per_t_end{};                                    ///< 1/t_end, 1/s
+  S per_t_end{};                                    ///< inverse 1/t_end, 1/s
 };
 
 /// The changes in consecutive samples: one array for each quantity.
@@ -41,7 +41,7 @@ struct DriftColumns {
 
 /// Changes in consecutive samples of one run.
 struct DriftsOfRun {
-  Strided t, energy, linear2, angular2, defect;  ///< as in DriftColumns
+  Strided t, energy, linear2, angular2, defect;  ///< the same columns as in DriftColumns
 
   /// Those of a lane; for one run lane 0.
   template <class S>
@@ -112,7 +112,7 @@ template <class S>
 struct DriftSums {
   // Energies in J, squared linear momenta in (kg m/s)², squared angular momenta in (kg m²/s)².
   S worst_energy{}, last_energy{}, worst_linear2{}, worst_angular2{}, worst_defect{};
-  S worst_early_energy{};  ///< until half of t_end, J
+  S worst_early_energy{};  ///< largest energy drift until half of t_end, J
   S t{}, tt{}, d{}, td{};  ///< sums for the least-squares slope of the drift over t/t_end
 
   /// Adds the first `count` samples of the columns.

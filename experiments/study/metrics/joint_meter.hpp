@@ -49,7 +49,7 @@ class JointMeter final : public Observer {
   double t_end_;
   std::optional<ReferenceMotion::Follower> follower_;
   std::optional<ExactMotion> exact_;
-  VectorX<double> multipliers_;      ///< of the next state, from a method that solves for them; else empty
+  VectorX<double> multipliers_;      ///< multipliers of the next state, if the method solves for them; else empty
   std::int64_t instant_ = 0;         ///< number of the next instant of measurement, 0 … 1000
   std::int64_t instant_within_ = 0;  ///< likewise of the next measurement within a step
   JointMeasures found_;

@@ -35,7 +35,7 @@ class LaneMeter {
   std::array<bool, count> holds_{};  ///< sums of the lane are here, and not in its meter
   DriftOrigin<Lanes> origin_;
   DriftSums<Lanes> sums_;
-  std::vector<Lanes> starts_, worst_;  ///< of the invariants
+  std::vector<Lanes> starts_, worst_;  ///< start values and largest changes of the invariants
   DriftColumns<Lanes> columns_;
 };
 

@@ -194,7 +194,7 @@ MotionScales along_steps(const Scenario& scenario, const RunConfig& config, cons
 
 /// Sums over the moving bodies.
 struct MassAndInertia {
-  double mass = 0, inertia = 0;  ///< kg; kg m², traces
+  double mass = 0, inertia = 0;  ///< total mass, kg; sum of the traces of the inertias, kg m²
 };
 MassAndInertia moving_mass(const Scenario& scenario) {
   MassAndInertia sum;

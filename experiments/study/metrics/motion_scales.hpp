@@ -29,7 +29,7 @@ struct MotionScales {
   /// several bodies an upper bound of the magnitudes about their common mass centre at the start. √(2 tr(I) energy) if
   /// all are zero, tr(I) summed over the bodies.
   double angular = 0;
-  Vector3<double> mass_center = Vector3<double>::Zero();  ///< of all moving bodies at the start, world frame, m
+  Vector3<double> mass_center = Vector3<double>::Zero();  ///< mass centre of the moving bodies at the start, world, m
   std::vector<double> invariants;  ///< the largest InvariantKind::scale, in the order of the scenario's invariants
 
   double kinetic_terms = 0;  ///< largest kinetic energy, J

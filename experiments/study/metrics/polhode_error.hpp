@@ -23,7 +23,7 @@ class PolhodeError {
   struct At {
     double phase = 0;      ///< s
     double phase_rad = 0;  ///< |ω(0)| τ
-    double off = 0;        ///< relative
+    double off = 0;        ///< relative error off the polhode
   };
 
   /// Absent unless one body moves, no torque acts, and its body-frame ω varies; otherwise its polhode is a point.

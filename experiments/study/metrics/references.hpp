@@ -51,12 +51,12 @@ class References {
   };
   struct Shared {
     std::size_t expected = 0;
-    std::map<double, std::shared_ptr<Motion>> motions;  ///< by duration, s
+    std::map<double, std::shared_ptr<Motion>> motions;  ///< motions by their duration, s
   };
   std::shared_ptr<Motion> motion_of(std::uint64_t scenario, double t_end);
 
   std::mutex mutex_;
-  std::unordered_map<std::uint64_t, Shared> shared_;  ///< by scenario
+  std::unordered_map<std::uint64_t, Shared> shared_;  ///< motions by the number of the scenario
   std::size_t kept_ = 0;                              ///< number of motions
 };
 

@@ -43,11 +43,11 @@ class BoundConditions {
     const RunOption* option = nullptr;
     /// The varied keys that set it, the last of which counts.
     struct Setter {
-      std::string key;                ///< as the study names it
+      std::string key;                ///< key as it is written in the study
       std::vector<std::string> rest;  ///< the way from its value to that of the key: {"1"} from inertia to inertia.1
     };
     std::vector<Setter> setters;
-    HeldValue otherwise{};  ///< as the scenario has it
+    HeldValue otherwise{};  ///< value in the scenario
   };
   /// A place in a cell that may give a key its value.
   struct Giver {
@@ -69,10 +69,10 @@ class BoundConditions {
   WhereValue value_of(std::size_t key, const Cells& cells, const Cells::Place& place, const Default& otherwise);
 
   std::span<const Where> conditions_;
-  std::vector<Key> keys_;                             // of all conditions, each once
-  std::vector<std::vector<std::size_t>> keys_of_;     // of each condition
-  std::map<std::size_t, std::vector<Found>> blocks_;  // by block and key
-  std::vector<WhereValue> values_;                    // of the condition that is looked at
+  std::vector<Key> keys_;                             // keys of all conditions, each once
+  std::vector<std::vector<std::size_t>> keys_of_;     // keys of each condition
+  std::map<std::size_t, std::vector<Found>> blocks_;  // places of the values, by block and key
+  std::vector<WhereValue> values_;                    // values of the keys of one condition
 };
 
 }  // namespace polhode::study::plan

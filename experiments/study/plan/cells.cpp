@@ -20,8 +20,8 @@ bool decides(const DimensionKey& key) {
 
 /// The points of a dimension that agree in all options that decide.
 struct PointClass {
-  std::vector<OptionValue> values;    ///< by key; none for a key that does not decide
-  std::vector<std::uint32_t> points;  ///< empty: all
+  std::vector<OptionValue> values;    ///< value of each key; none for a key that does not decide
+  std::vector<std::uint32_t> points;  ///< points of the class; empty: all
 };
 
 std::vector<PointClass> classes_of(const Dimension& dimension) {
@@ -106,7 +106,7 @@ Cells::Cells(std::vector<Dimension> given, const std::function<Start(const std::
   struct Draft {
     Effect effect;
     std::string scenario;
-    std::vector<std::set<std::size_t>> classes;  // by dimension
+    std::vector<std::set<std::size_t>> classes;  // classes of each dimension
   };
   std::vector<Draft> drafts;
   std::map<std::vector<OptionValue>, std::size_t> known;

@@ -19,7 +19,7 @@
 namespace polhode::study::inline plan {
 
 struct Cell {
-  std::string scenario;                                           ///< as the study names it
+  std::string scenario;                                           ///< scenario as it is written in the study
   std::vector<std::pair<const RunOption*, OptionValue>> options;  ///< those that the study gives and that apply
   std::vector<Override> varied;                                   ///< sorted by key
 };
@@ -43,7 +43,7 @@ class Cells {
   /// Where a cell is: which product, and which point of each dimension.
   struct Place {
     std::size_t block = 0;
-    std::vector<std::size_t> points{};  ///< by dimension
+    std::vector<std::size_t> points{};  ///< point of each dimension
   };
   /// Finds cell k, below count().
   void find(std::size_t k, Place& place) const;
@@ -64,9 +64,9 @@ class Cells {
  private:
   using Points = std::vector<std::uint32_t>;
   struct Block {
-    std::vector<std::vector<bool>> applies;  ///< by dimension and key
-    std::vector<Points> points;              ///< by dimension; empty: all points
-    std::vector<std::size_t> sizes;          ///< by dimension
+    std::vector<std::vector<bool>> applies;  ///< true if the key affects a run, by dimension and key
+    std::vector<Points> points;              ///< points of each dimension; empty: all points
+    std::vector<std::size_t> sizes;          ///< number of points of each dimension
     double first = 0;                        ///< number of its first cell
     std::string scenario;
   };

@@ -18,7 +18,7 @@ class CellsFile {
 
   const std::string& path() const { return path_; }
   const std::vector<std::string>& keys() const { return keys_; }
-  const std::vector<std::string>& labels() const { return labels_; }  ///< of the columns: "cells.csv:1:4: dt"
+  const std::vector<std::string>& labels() const { return labels_; }  ///< places of the columns: "cells.csv:1:4: dt"
   std::size_t rows() const { return lines_.size(); }
   std::size_t column(std::string_view key) const;  ///< the file must have the key
 

@@ -21,7 +21,7 @@ namespace polhode::study::inline plan {
 class PointRandom {
  public:
   PointRandom(std::uint64_t seed, std::string_view key, std::uint32_t point);
-  double uniform();  ///< in (0, 1), a multiple of 2^-53
+  double uniform();  ///< number in (0, 1), a multiple of 2^-53
 
  private:
   std::uint64_t seed_, key_;

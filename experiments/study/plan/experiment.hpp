@@ -19,8 +19,8 @@ namespace polhode::study::inline plan {
 struct FurtherAxes {
   std::map<std::string, std::string> defaults{};
   std::vector<std::pair<std::string, std::string>> vary{};  ///< keys of the scenario and their values
-  bool reference = false;                                   ///< as --reference, for motions without contact
-  bool by_default_only = false;                             ///< omitted if the user gives any axis
+  bool reference = false;        ///< motions without contact have a reference, as with --reference
+  bool by_default_only = false;  ///< omitted if the user gives any axis
 };
 
 /// How the wall time of a run is taken if the experiment requires best times: a short run is repeated and the least
@@ -41,7 +41,7 @@ struct Experiment {
   /// Defaults of --vary: keys of the scenario and their values. Used only if the user gives neither a scenario nor a
   /// study file; --vary replaces a default for the same key.
   std::vector<std::pair<std::string, std::string>> vary{};
-  bool reference = false;             ///< as if --reference were given, for motions without contact
+  bool reference = false;             ///< motions without contact have a reference, as with --reference
   std::vector<FurtherAxes> more{};    ///< further products of axes
   bool one_run = false;               ///< exactly one run, whose trajectory is written to the results folder itself
   bool best_times = false;            ///< wall times are taken as BestTime says

@@ -20,13 +20,13 @@
 namespace polhode::study::inline plan {
 
 struct Options {
-  std::vector<StudyAxes> studies;  ///< at least one; all are carried out as one list of runs
+  std::vector<StudyAxes> studies;  ///< studies, one at least; all are carried out as one list of runs
   std::set<std::string> shared;    ///< options that the command line or the file's defaults give to all studies
   bool plain = false;              ///< no axis is given: all are defaults of the experiment
   std::string study_file;          ///< path of the study file as given; empty: none
   std::string study_file_hash;     ///< text_hash() of its text
-  std::uint64_t seed = 1;          ///< of random points without a seed of their own
-  std::string out;                 ///< empty: results/<experiment>-<scenarios>-<hash>
+  std::uint64_t seed = 1;          ///< seed of random points that have none of their own
+  std::string out;                 ///< results folder; empty: results/<experiment>-<scenarios>-<hash>
   bool force = false;
   int jobs = 0;                           ///< number of concurrent runs; 0: one for each core
   std::optional<std::int64_t> max_steps;  ///< largest number of steps of adaptive methods; absent: that of Schedule
@@ -37,7 +37,7 @@ struct Options {
   bool article = false;  ///< write the article of the study and its PDF
   bool dry_run = false;
   std::optional<Shard> shard;        ///< the part of the study that is carried out; absent: all of it
-  std::optional<std::string> slurm;  ///< what --slurm says of the jobs; absent: no job scripts
+  std::optional<std::string> slurm;  ///< value of --slurm; absent: no job scripts
   bool submit = false;               ///< submit the job scripts
   std::vector<std::string> words;    ///< options of the command line that the jobs repeat
   bool merge = false;                ///< join the results of shards; carry out no run
@@ -58,11 +58,11 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
 
 /// What a study file holds.
 struct StudyFile {
-  std::vector<StudyAxes> studies;  ///< with the file's defaults
+  std::vector<StudyAxes> studies;  ///< studies, with the file's defaults
   std::set<std::string> shared;    ///< options that its defaults give
-  std::string curves;              ///< what --curves would say; empty: nothing
+  std::string curves;              ///< value in the words of --curves; empty: none
   std::string curves_label;        ///< its place: "study.toml:1:10: curves"
-  std::string path;                ///< as given
+  std::string path;                ///< path as given
   std::string hash;                ///< text_hash() of its text
 };
 

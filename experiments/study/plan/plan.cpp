@@ -26,7 +26,7 @@
 namespace polhode::study::inline plan {
 namespace {
 
-constexpr std::size_t most_values = 24;  // of an axis, with runs in Plan::values
+constexpr std::size_t most_values = 24;  // largest number of values of an axis that have runs in Plan::values
 
 double cost_of(const RunConfig& config) {
   if (!config.dt) return 200 * config.t_end * (1 - std::log10(*config.tolerance));
@@ -37,8 +37,8 @@ double cost_of(const RunConfig& config) {
 /// The identity of a run.
 struct Identity {
   std::uint64_t id = 0;
-  std::uint64_t scenario = 0;  ///< as PlanRow::scenario
-  std::uint64_t motion = 0;    ///< as the id, without --reference, which does not change the motion
+  std::uint64_t scenario = 0;  ///< number of the scenario, the same as PlanRow::scenario
+  std::uint64_t motion = 0;    ///< the id without --reference, which does not change the motion
 };
 
 Identity identity_of_run(const RunConfig& config, const Scenario& scenario) {
@@ -75,9 +75,9 @@ std::uint16_t number_of_kind(const std::string& kind, std::vector<std::string>& 
 
 /// A run on its way into the plan.
 struct Draft {
-  PlanRow row;  ///< without its kind
+  PlanRow row;  ///< the row, whose kind is not yet set
   std::string kind;
-  std::uint64_t motion = 0;      ///< as Identity::motion
+  std::uint64_t motion = 0;      ///< the same as Identity::motion
   std::vector<OptionValue> key;  ///< sort_key()
 };
 

@@ -19,31 +19,31 @@ namespace polhode::study::inline plan {
 class Product;
 
 struct PlannedRun {
-  std::string id;  ///< as RunRecord::id
+  std::string id;  ///< id, the same as RunRecord::id
   RunConfig config;
   std::shared_ptr<const Scenario> scenario;
   std::string refusal;       ///< reason for which the run cannot be carried out; empty if it can
-  double cost = 0;           ///< as PlanRow::cost
-  bool keeps_curves = true;  ///< as PlanRow::keeps_curves
+  double cost = 0;           ///< estimated work, the same as PlanRow::cost
+  bool keeps_curves = true;  ///< curves against time are kept, the same as PlanRow::keeps_curves
 };
 
 /// What is held of each run of a plan.
 struct PlanRow {
-  std::uint64_t id = 0;        ///< as number_of_id()
+  std::uint64_t id = 0;        ///< id as a number: number_of_id()
   std::uint64_t scenario = 0;  ///< number_of() its scenario, with the varied keys set
   std::uint64_t cell = 0;      ///< number of its cell in its product, or of its run among the further ones
   double cost = 0;             ///< estimated work, in evaluations of the right-hand side
   std::uint16_t product = 0;   ///< index of its product; that after the last one: the further runs
   std::uint16_t kind = 0;      ///< index in Plan::kinds
   bool refused = false;        ///< it cannot be carried out
-  bool own_presets = false;    ///< as Product::Run::own_presets
+  bool own_presets = false;    ///< the same as Product::Run::own_presets
   bool keeps_curves = true;    ///< its curves against time are kept (--curves)
 };
 
 /// How one study became runs.
 struct StudyCount {
-  std::string name;                 ///< empty: the only one
-  std::size_t cells = 0;            ///< of the product of its axes and tables
+  std::string name;                 ///< name of the study; empty: the only one
+  std::size_t cells = 0;            ///< number of cells of the product of its axes and tables
   std::size_t left_out = 0;         ///< cells that its conditions leave out
   std::vector<std::string> tables;  ///< its tables of points in words: "zip of dt, t-end: 2 points: (0.001, 10), …"
 };
@@ -71,7 +71,7 @@ class Variants {
 class Plan {
  public:
   std::vector<Scenario> scenarios;          ///< each scenario of the study once, without overrides
-  std::vector<std::string> scenario_names;  ///< as the study names them: "peters_hsu", "tops/heavy.toml"
+  std::vector<std::string> scenario_names;  ///< scenarios as written in the study: "peters_hsu", "tops/heavy.toml"
   std::vector<std::string> varied_keys;     ///< scenario keys that are axes, sorted
   NamedOptions named{};                     ///< options on demand that the study gives
   std::vector<std::string> invariants;      ///< further declared invariants of all scenarios, sorted
@@ -85,7 +85,7 @@ class Plan {
   };
   std::map<std::string, Values> values;
   std::vector<StudyCount> studies;
-  double runs_of_a_row = 1;  ///< above 1: the rows are a choice of so many times as many runs (glance_at_plan)
+  double runs_of_a_row = 1;  ///< runs for each row; above 1 if the rows are a choice of the runs (glance_at_plan)
   /// Axes of each further product of the experiment (Experiment::more), in the syntax of the command line.
   std::vector<std::map<std::string, std::string>> further_axes;
   std::string identity;  ///< hash of the ids of all runs

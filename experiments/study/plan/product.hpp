@@ -25,8 +25,8 @@ namespace polhode::study::inline plan {
 /// Which motions without a known exact solution are compared with a reference.
 enum class WithReference {
   none,
-  without_contact,  ///< all for which a reference can be made
-  all               ///< with contact too: such a run is refused
+  without_contact,  ///< all motions for which a reference can be made
+  all               ///< motions with contact too: such a run is refused
 };
 
 class Product {
@@ -41,7 +41,7 @@ class Product {
 
   /// A scenario of the product, without overrides.
   struct Opened {
-    std::string name;  ///< as the study names it
+    std::string name;  ///< name as it is written in the study
     ScenarioSource source;
     std::shared_ptr<const Scenario> scenario;
     BoundConditions conditions;
@@ -101,7 +101,7 @@ class Product {
   std::vector<const RunOption*> needed_;
   std::vector<Where> conditions_;
   std::vector<std::unique_ptr<Opened>> opened_;
-  std::map<std::string, Opened*> by_name_;  ///< by the name that the study says
+  std::map<std::string, Opened*> by_name_;  ///< scenarios by the name that is written in the study
   double counted_ = 0;
   std::optional<Cells> cells_;
 };

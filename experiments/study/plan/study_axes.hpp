@@ -44,7 +44,7 @@ struct Condition {
 };
 
 struct StudyAxes {
-  std::string name;  ///< empty: the only study
+  std::string name;  ///< name of the study; empty: the only one
   /// Values of the axes as written, by option name without dashes: {"dt", "1e-3,1e-2"}. Includes defaults.
   std::map<std::string, std::string> axes;
   std::vector<std::pair<std::string, std::string>> vary;  ///< keys of the scenario and their values, as written
@@ -59,7 +59,7 @@ struct StudyAxes {
   std::string label(const std::string& option) const;
   /// The table that has the key; null: none.
   const PointTable* table_with(const std::string& key) const;
-  bool has(const std::string& key) const;  ///< in the grid or in a table
+  bool has(const std::string& key) const;  ///< the grid or a table has the key
   /// Adds an axis to the grid. `key` as axis_key() returns it, or any key of the scenario with `of_scenario`. Throws
   /// InputError if the study has the key.
   void add_axis(const std::string& key, const std::string& text, const std::string& label, bool of_scenario = false);

@@ -62,7 +62,7 @@ class StudyFileReader {
     return studies_of(file, only);
   }
 
-  const std::string& hash() const { return hash_; }  ///< of the text, after run()
+  const std::string& hash() const { return hash_; }  ///< hash of the text, set by run()
 
  private:
   TomlValue read_tree() {

@@ -63,7 +63,7 @@ class Where {
   struct Instruction {
     Code code;
     double number = 0;
-    std::size_t index = 0;  ///< of a key or a text; number of arguments of min and max
+    std::size_t index = 0;  ///< index of a key or a text; number of arguments of min and max
   };
   std::string label_;
   std::vector<Instruction> program_;

@@ -24,7 +24,7 @@ struct Tick {
 };
 
 struct Axis {
-  std::string label{};  ///< with its unit
+  std::string label{};  ///< label with its unit
   Scale scale = Scale::linear;
   double low = 0, high = 1;
   double threshold = 1e-16;  ///< used by symlog only
@@ -39,7 +39,7 @@ struct Axis {
 
 /// Position of a point on its panel.
 enum class Mark {
-  value,  ///< at its value
+  value,  ///< a point at its value
   zero,   ///< exactly zero on a logarithmic axis: at the bottom
   edge    ///< diverged, failed or off the scale: a cross at the edge of the panel
 };
@@ -50,7 +50,7 @@ constexpr double off_scale_above = 1000;
 
 struct Point {
   double x = 0;
-  double value = 0;  ///< as measured; not finite if there is no value
+  double value = 0;  ///< value as measured; not finite if there is none
   double drawn = 0;  ///< position on the y axis
   Mark mark = Mark::value;
 };
@@ -74,16 +74,16 @@ struct NameMark {
   double x = 0, y = 0;
   std::string name{};
   std::size_t method = 0;
-  bool left = true;     ///< of the point; false: right of it
+  bool left = true;     ///< the name is left of the point; false: right of it
   bool above = false;   ///< a little above the point
-  bool opaque = false;  ///< over other marks: with a white ground
+  bool opaque = false;  ///< the name covers other marks, on a white ground
 };
 
 /// A straight line in log–log that shows a slope.
 struct Guide {
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   std::string label;   ///< "h^{2}"; right of the second end
-  double label_y = 0;  ///< at the second end, or slightly above it to avoid another label
+  double label_y = 0;  ///< height of the label: the second end, or slightly above it to avoid another label
 };
 
 /// A rectangle of a map, in the units of the axes.
@@ -112,11 +112,11 @@ struct Panel {
 
 /// Size, letters and language of a figure.
 struct Look {
-  std::optional<double> width_cm{};            ///< absent: 17 of pictures, the line of an article on A4 of PGFPlots
-  std::string font = "sans-serif";             ///< family, of pictures; PGFPlots takes that of the document
-  double font_size = 9;                        ///< pt
-  bool title = false;                          ///< the figure has its title above it
-  std::shared_ptr<const Language> language{};  ///< of its words; null: English
+  std::optional<double> width_cm{};  ///< width; absent: 17 for pictures, the line of an article on A4 for PGFPlots
+  std::string font = "sans-serif";   ///< family, of pictures; PGFPlots takes that of the document
+  double font_size = 9;              ///< pt
+  bool title = false;                ///< the figure has its title above it
+  std::shared_ptr<const Language> language{};  ///< language of its words; null: English
 
   /// Width of pictures in pixels; 96 are an inch.
   double width() const { return width_cm.value_or(17) * 96 / 2.54; }
@@ -134,7 +134,7 @@ struct Figure {
   std::string caption{};  ///< contents of the figure, what was left out, meaning of the marks
   std::size_t rows = 1, columns = 1;
   std::vector<Panel> panels{};
-  std::vector<std::string> methods{};  ///< of the study
+  std::vector<std::string> methods{};  ///< methods of the study
   std::vector<std::size_t> used_methods{};
   std::vector<std::string> variants{};  ///< distinguished by dashes; one entry if there is only one
   std::vector<Shade> shades{};          ///< kinds of the cells

@@ -10,7 +10,7 @@
 namespace polhode::study::inline plot {
 
 struct FigureChoice {
-  std::vector<std::string> names{};  ///< empty: all
+  std::vector<std::string> names{};  ///< names of the chosen figures; empty: all
   Look look{};
 };
 

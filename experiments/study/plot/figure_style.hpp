@@ -51,8 +51,8 @@ constexpr double mark_size(std::size_t method) { return 1.6 - 0.14 * rank(method
 /// Of a curve of so many points every how manyth has a marker, so that markers do not run into a band.
 constexpr std::size_t points_to_a_mark(std::size_t points) { return points < 30 ? 1 : points / 15; }
 
-inline constexpr double one_column = 8.6, two_columns = 17.8;  // cm, of journals with two columns
-inline constexpr double font_size = 9;                         // pt
+inline constexpr double one_column = 8.6, two_columns = 17.8;  // column widths of journals with two columns, cm
+inline constexpr double font_size = 9;                         // size of the letters, pt
 
 // Sizes in pixels with letters of this size; 96 pixels are an inch. Those of margins and legends grow with the letters.
 inline constexpr double narrowest_panel = 130;

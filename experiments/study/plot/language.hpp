@@ -38,7 +38,7 @@ class Language {
 
  private:
   struct Pattern {
-    std::vector<std::string> english, said;  ///< what stands before, between and after the {}
+    std::vector<std::string> english, said;  ///< pieces before, between and after the {}
   };
 
   std::string name_;

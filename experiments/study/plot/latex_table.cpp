@@ -65,8 +65,8 @@ double width_of(const Column& column, const std::string& cell, double size, bool
 
 /// A column in one size of letters.
 struct Measured {
-  double natural = 0;  ///< on one line, pt
-  double least = 0;    ///< with all breaks that there may be; numbers do not break
+  double natural = 0;  ///< width on one line, pt
+  double least = 0;    ///< width with all breaks that there may be, pt; numbers do not break
   double header = 0;
 };
 

@@ -203,7 +203,7 @@ bool carries_legend(const Page& page, const Panel& panel) { return panel.row + 1
 struct Frame {
   double left = 0, gap = 0, right = 0, width = 0, height = 0;
   double title_lines = 0;
-  double row = 0;  ///< from one row of panels to the next
+  double row = 0;  ///< distance from one row of panels to the next
 };
 
 /// Width of the whole figure, pt.

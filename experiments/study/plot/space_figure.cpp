@@ -18,7 +18,7 @@
 namespace polhode::study::inline plot {
 namespace {
 
-constexpr double turn_x = 62, turn_z = 124;  // degrees; gnuplot's view
+constexpr double turn_x = 62, turn_z = 124;  // angles of gnuplot's view, degrees
 
 /// Unit vector to the viewer, in the coordinates of the data.
 Place to_viewer() {
@@ -132,7 +132,7 @@ double square_of(const std::array<std::pair<double, double>, 3>& ranges, double 
 struct Blocks {
   std::string text;
   bool grid = false;
-  std::vector<std::pair<bool, bool>> curves;  ///< whether each has a part in front, behind
+  std::vector<std::pair<bool, bool>> curves;  ///< each curve: true for a part in front, for a part behind
 };
 
 Blocks blocks_of(const SpaceFigure& figure) {

@@ -16,17 +16,17 @@ using Place = std::array<double, 3>;
 
 struct SpaceCurve {
   std::string label{};
-  std::size_t method = 0, variant = 0;  ///< as of PlottedCurve
+  std::size_t method = 0, variant = 0;  ///< indices as those of PlottedCurve
   std::vector<Place> points{};
 };
 
 struct SpaceFigure {
   std::string name, title, caption{};
   std::array<std::string, 3> axes{}, columns{};  ///< labels with units; names in the data file
-  std::optional<Place> semi_axes{};              ///< of an ellipsoid about the origin, along the axes
+  std::optional<Place> semi_axes{};              ///< semi-axes of an ellipsoid about the origin, along the axes
   std::optional<double> plane{};                 ///< height of a plane across the third axis
   std::vector<SpaceCurve> curves{};
-  std::vector<std::string> methods{}, variants{};  ///< as of Figure
+  std::vector<std::string> methods{}, variants{};  ///< names as those of Figure
   Look look{};
 };
 

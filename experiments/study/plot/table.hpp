@@ -31,7 +31,7 @@ Table without_empty_columns(Table table);
 
 enum class Caption {
   shown,
-  spoken  ///< for screen readers only, if the page shows it elsewhere
+  spoken  ///< a caption for screen readers only, if the page shows it elsewhere
 };
 /// A cell with " ≈ " names two that tie; it is grey.
 std::string html(const Table& table, Caption caption = Caption::shown);
@@ -42,7 +42,7 @@ std::vector<std::vector<bool>> best_cells(const Table& table);
 /// The caption's words for the marks; empty if no cell is marked.
 std::string words_for_best(const Table& table);
 
-std::string markdown(const Table& table);  ///< what is best is bold
+std::string markdown(const Table& table);  ///< the best cells are bold
 /// The cells as they are printed, and the column `best` with the headers of those columns in which the row is best.
 std::string csv(const Table& table);
 

@@ -19,7 +19,7 @@ namespace polhode::study::inline query {
 struct OpenStore {
   OpenStore(std::filesystem::path folder, const std::filesystem::path& place);
 
-  std::filesystem::path folder;  ///< of the study
+  std::filesystem::path folder;  ///< folder of the study
   std::filesystem::path file;    ///< results.sqlite, in the folder or in that of a shard
   Store store;
   std::map<std::int64_t, Configuration> configurations;
@@ -41,7 +41,7 @@ class ResultStores {
 
   /// All stores: folders in the order of their names on the command line, a study before its shards.
   const std::vector<std::unique_ptr<OpenStore>>& all() const { return stores_; }
-  std::vector<std::string> folders() const;  ///< of the studies, each once
+  std::vector<std::string> folders() const;  ///< folders of the studies, each once
   const std::vector<std::string>& remarks() const { return remarks_; }
 
   /// The run whose id is this, or begins so if no other does. In several stores: the first in which it is not damaged.

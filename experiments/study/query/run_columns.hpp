@@ -19,16 +19,16 @@ namespace polhode::study::inline query {
 struct RunColumn {
   enum class Of {
     run,        ///< the id
-    folder,     ///< of the study
+    folder,     ///< the folder of the study
     option,     ///< an option of the run, max_steps or reference
     scenario,   ///< a key of the scenario: its varied value, else that of the scenario
     metric,     ///< a column of the store, wall_s among them
     invariant,  ///< one of the numbers in invariant_drifts_max_rel
   };
   Of of = Of::run;
-  std::string name;       ///< as headings show it: "dt_s"
-  std::string key{};      ///< of the option, the scenario or the invariant
-  std::size_t index = 0;  ///< of metrics and invariants: in RunRows::columns()
+  std::string name;       ///< name in headings: "dt_s"
+  std::string key{};      ///< key of the option, the scenario or the invariant
+  std::size_t index = 0;  ///< index in RunRows::columns(), for metrics and invariants
   bool in_store() const { return of == Of::metric || of == Of::invariant; }
 };
 
@@ -41,11 +41,11 @@ class RunColumns {
   RunColumn find(const std::string& name, const std::string& label) const;
 
   std::vector<std::string> names()
-      const;  ///< of all columns that find() takes, sorted; of the scenario: the varied keys
-  std::vector<RunColumn> options() const;  ///< of which some run has a value, in the order of runs.csv
+      const;  ///< names of all columns that find() takes, sorted; varied keys stand for the scenario's
+  std::vector<RunColumn> options() const;  ///< options with a value in some run, in the order of runs.csv
   /// All metrics in the order of runs.csv, without those that are defined for no run.
   std::vector<RunColumn> metrics(const RunKinds& kinds) const;
-  std::size_t index(std::string_view column) const;  ///< in RunRows::columns(). Throws std::logic_error
+  std::size_t index(std::string_view column) const;  ///< index in RunRows::columns(). Throws std::logic_error
 
  private:
   bool is_scenario_key(const std::string& name) const;
@@ -83,7 +83,7 @@ class CellReader {
   const OpenStore* last_store_ = nullptr;  ///< neighbouring rows mostly have the same configuration
   std::int64_t last_key_ = 0;
   const Configuration* last_ = nullptr;
-  std::map<std::tuple<const OpenStore*, std::string, std::string>, Known> known_;  ///< with scenario, key
+  std::map<std::tuple<const OpenStore*, std::string, std::string>, Known> known_;  ///< keys by store, scenario and key
 };
 
 /// Names of the invariants that the scenarios of the store declare. Scenarios that cannot be read are left out.

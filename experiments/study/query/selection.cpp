@@ -92,7 +92,7 @@ class Filter {
  private:
   struct Known {
     std::vector<WhereValue> values;  ///< those of options stay
-    std::vector<OptionValue> held;   ///< from which texts of these are taken
+    std::vector<OptionValue> held;   ///< values that hold the texts of these
     bool holds = false;
   };
   struct HashOfKey {
@@ -177,7 +177,7 @@ SelectedRuns select(const ResultStores& stores, const RunColumns& columns, std::
 
   SelectedRuns selection;
   std::unordered_map<std::string, std::uint32_t> known_varied;
-  std::vector<std::vector<OptionValue>> sort_values(sort.size());  // by key and hit
+  std::vector<std::vector<OptionValue>> sort_values(sort.size());  // values by sort key and hit
   CellReader cells;
   for (std::size_t s = 0; s < stores.all().size(); ++s) {
     const OpenStore& open = *stores.all()[s];

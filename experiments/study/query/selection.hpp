@@ -39,7 +39,7 @@ struct SelectedRuns {
 
 enum class Order {
   sorted,
-  stored,  ///< as they stand in the stores, which is read fastest
+  stored,  ///< the order in the stores, which is read fastest
 };
 
 /// The runs that satisfy all conditions, sorted by `sort`, runs without a value last; of equals those come first that
@@ -51,7 +51,7 @@ SelectedRuns select(const ResultStores& stores, const RunColumns& columns, std::
 /// A checked row.
 struct CheckedRow {
   RunPlace place;
-  std::span<const Value> values;  ///< by RunRows::columns(), valid until the next row
+  std::span<const Value> values;  ///< values in the order of RunRows::columns(), valid until the next row
 };
 
 /// Reads chosen runs.

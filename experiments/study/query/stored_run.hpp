@@ -33,7 +33,7 @@ ScenarioSource source_of(const std::map<std::string, StoredScenario>& scenarios,
 /// A run that can be carried out.
 struct ReadRun {
   RunConfig config;
-  std::shared_ptr<const Scenario> scenario;  ///< with the varied keys set
+  std::shared_ptr<const Scenario> scenario;  ///< scenario with the varied keys set
   std::optional<int> version;                ///< results version with which the id is that of the store; absent: none
 };
 

@@ -12,7 +12,7 @@ namespace polhode::study::inline query {
 
 struct StoredStudyView {
   StudyView view;
-  std::vector<std::string> remarks;  ///< what was left out, and why
+  std::vector<std::string> remarks;  ///< reasons for what was left out
 };
 
 /// The runs of all stores that satisfy the conditions (select()), each once, in the order of runs.csv. Refused runs are

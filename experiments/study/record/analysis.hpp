@@ -19,8 +19,8 @@ inline constexpr const char* timings_folder = "timings";
 
 /// The answer to the question of a study, with which its report begins.
 struct Answer {
-  std::vector<std::string> sentences{};  ///< at most three
-  std::vector<std::string> depends{};    ///< what the answer depends on
+  std::vector<std::string> sentences{};  ///< sentences of the answer, three at most
+  std::vector<std::string> depends{};    ///< circumstances on which the answer depends
   std::optional<Table> table{};          ///< a few rows
 };
 

@@ -53,7 +53,7 @@ struct Metric {
   bool least_is_best = false;                       ///< an error or a drift: tables mark its least value
   bool in_summary = false;                          ///< also in the narrow table (tables/summary.md and .tex)
   std::string (*cell)(const RunResult&) = nullptr;  ///< text of the table's cell; null: the number
-  int table_rank = 5;                               ///< as list_rank, for the tables of runs and the LaTeX values
+  int table_rank = 5;                               ///< rank as list_rank, for the tables of runs and the LaTeX values
 
   // In the summary on the terminal, in the order of the tables of runs.
   std::string terminal_label{};                              ///< heading of its column; empty: no column

@@ -72,7 +72,7 @@ const std::deque<RunOption>& run_options();
 
 /// All options in the order of the columns of runs.csv: options on demand come last, sorted by column name.
 const std::vector<const RunOption*>& options_by_column();
-std::vector<const RunOption*> options_of_role(RunOption::Role role);  ///< in the order of options_by_column()
+std::vector<const RunOption*> options_of_role(RunOption::Role role);  ///< options in the order of options_by_column()
 
 NamedOptions options_on_demand();  ///< names of all options on demand
 

@@ -43,15 +43,15 @@ using NamedOptions = std::set<std::string>;
 /// Algorithms of contact detection and response, as names in the catalogues.
 struct ContactConfig {
   std::string broad_phase, narrow_phase, response;
-  std::string impact_timing;  ///< empty if the response is a force
+  std::string impact_timing;  ///< name of the timing; empty if the response is a force
 };
 
 /// How a run solves the equations of the joints.
 struct JointConfig {
   Stabilization stabilization = Stabilization::none;
-  std::optional<double> alpha, beta;     ///< of Baumgarte's equation, 1/s; absent: 10
+  std::optional<double> alpha, beta;     ///< coefficients of Baumgarte's equation, 1/s; absent: 10
   std::optional<double> alpha_per_step;  ///< a, α = β = a/h in place of them; fixed-step methods only
-  std::optional<double> penalty;         ///< of penalty methods, in multiples of the mean mass; absent: 1e7
+  std::optional<double> penalty;         ///< penalty in multiples of the mean mass; absent: 1e7
   ProjectionMetric metric = ProjectionMetric::mass;
 };
 
@@ -65,14 +65,14 @@ struct RunConfig {
   Formulation formulation;
   bool normalize = false;  ///< --normalize step
   Precision precision = Precision::double_precision;
-  std::optional<Summation> summation;            ///< absent: plain, and not given by the study
-  std::optional<ContactConfig> contact;          ///< absent: the scenario has no contact
-  std::optional<JointConfig> joints;             ///< absent: the scenario has no joints
-  std::optional<double> dt;                      ///< s; fixed-step methods only
-  std::optional<double> tolerance;               ///< adaptive methods only
-  std::optional<std::int64_t> max_steps;         ///< adaptive methods only; absent: the default of Schedule
-  double t_end = 1;                              ///< s
-  std::optional<std::int64_t> samples;           ///< absent: observed after every step
+  std::optional<Summation> summation;            ///< summation; absent: plain, and not given by the study
+  std::optional<ContactConfig> contact;          ///< contact; absent: the scenario has none
+  std::optional<JointConfig> joints;             ///< joints; absent: the scenario has none
+  std::optional<double> dt;                      ///< step of fixed-step methods, s
+  std::optional<double> tolerance;               ///< tolerance of adaptive methods
+  std::optional<std::int64_t> max_steps;         ///< limit for adaptive methods; absent: that of Schedule
+  double t_end = 1;                              ///< end time, s
+  std::optional<std::int64_t> samples;           ///< number of samples; absent: every step is observed
   bool reference = false;                        ///< --reference: a reference motion replaces unknown exact solutions
   SettingValues settings{};                      ///< chosen values of the method's own settings (Declaration::settings)
   std::map<std::string, OptionValue> further{};  ///< values of the options without a member here, by option name
@@ -129,9 +129,9 @@ struct JointMeasures {
   std::optional<double> solves;           ///< linear systems of the joints solved by the method and by projections
   std::optional<double> condition_max;  ///< largest condition of the independent equations, in the metric of the masses
   // Against the exact motion or a reference.
-  std::optional<double> speed_error_max;            ///< of the velocities of mass centres, m/s
-  std::optional<double> reaction_error_max;         ///< of the forces of the joints, N
-  std::optional<double> reaction_torque_error_max;  ///< of their torques about their anchors, N m
+  std::optional<double> speed_error_max;            ///< largest error of the velocity of a mass centre, m/s
+  std::optional<double> reaction_error_max;         ///< largest error of the force of a joint, N
+  std::optional<double> reaction_torque_error_max;  ///< largest error of the torque of a joint about its anchor, N m
 };
 
 struct RunResult {
@@ -154,15 +154,15 @@ struct RunResult {
   std::optional<double> drift_exponent_low, drift_exponent_high;
   /// Estimated duration of a run that would decide the class, s; only for the class "undecided".
   std::optional<double> drift_decided_after;
-  std::optional<double> linear_momentum_drift_max_rel;    ///< absent: the forces do not conserve linear momentum
-  std::optional<double> angular_momentum_drift_max_rel;   ///< absent: the forces do not conserve angular momentum
-  std::map<std::string, double> invariant_drift_max_rel;  ///< by name of the invariant that the scenario declares
+  std::optional<double> linear_momentum_drift_max_rel;    ///< drift; absent if the forces do not conserve it
+  std::optional<double> angular_momentum_drift_max_rel;   ///< drift; absent if the forces do not conserve it
+  std::map<std::string, double> invariant_drift_max_rel;  ///< drifts of the declared invariants, by name
   std::optional<double> orientation_defect_max;           ///< | |q| − 1 | or the Frobenius norm of RᵀR − 1
   /// Errors against the exact motion. Absent without an exact solution or a proven reference, and for a run that
   /// broke off.
   std::optional<double> position_error_max;              ///< m
   std::optional<double> attitude_error_max;              ///< rad
-  std::optional<double> angular_velocity_error_max_rel;  ///< over the largest |ω| at the start
+  std::optional<double> angular_velocity_error_max_rel;  ///< error over the largest |ω| at the start
   /// Errors of the body-frame angular momentum of a single free body, along its polhode and off it
   /// (polhode_error.hpp).
   std::optional<double> polhode_phase_error_max;      ///< s
@@ -179,7 +179,7 @@ struct RunResult {
   std::map<std::string, double> further;
   double seconds = 0;  ///< wall time of the simulation including measurements, s; written to timings.csv only
   std::vector<SeriesPoint> series;
-  std::vector<AttitudeError> attitude_errors;  ///< empty without an exact solution of the attitude
+  std::vector<AttitudeError> attitude_errors;  ///< attitude errors; empty without an exact solution of the attitude
 };
 
 /// Removes the curves against time and frees their memory.
@@ -192,7 +192,7 @@ struct RunRecord {
   std::string id;  ///< 16 hexadecimal digits: hash of the resolved scenario, the options and the results version
   RunConfig config;
   RunResult result;
-  std::shared_ptr<const Scenario> scenario{};  ///< with the varied keys set; present in the runs of a StudyView
+  std::shared_ptr<const Scenario> scenario{};  ///< scenario with the varied keys set; the runs of a StudyView have it
 };
 
 }  // namespace polhode::study::record

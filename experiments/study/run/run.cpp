@@ -238,7 +238,7 @@ class SideBySide final : public EnsembleObserver {
   std::size_t next_ = 0;
   std::array<Lane, std::size_t(lane_count)> lanes_;
   LaneMeter meter_;
-  double steps_ = 0, steps_done_ = 0;  ///< of all runs
+  double steps_ = 0, steps_done_ = 0;  ///< steps of all runs; those that are done
 };
 
 /// The reason for which a method and options cannot answer contacts and joints together; empty if they can.

@@ -51,7 +51,7 @@ struct LanedWork {
   std::function<void(std::size_t run, RunResult&& result)> finish;
   const std::atomic<bool>* stop = nullptr;     ///< ends the runs under way
   const std::atomic<bool>* no_more = nullptr;  ///< no further run begins
-  References* references = nullptr;            ///< as in carry_out()
+  References* references = nullptr;            ///< references, the same as in carry_out()
   std::atomic<double>* share = nullptr;        ///< gets the part of all steps that is done, 0 to 1
 };
 /// Carries out runs in the lanes of an ensemble, with the digits that carry_out() gives to each. The lane of a run that

@@ -13,7 +13,7 @@ struct ReadBody {
   BodyStart start;
   bool has_mass = false;  ///< false for a static body without a mass
   ShapePointer shape;     ///< null if the scenario names no shape, or one that cannot collide
-  Collider collider;      ///< without a shape if the scenario has no contact
+  Collider collider;      ///< collider, without a shape if the scenario has no contact
   std::string canonical_collider{};
 };
 

@@ -14,7 +14,7 @@
 namespace polhode::study::inline scenario {
 namespace {
 
-constexpr double closed_to = 1e-9;  // m, rad, m/s, rad/s
+constexpr double closed_to = 1e-9;  // opening of a closed joint and its rate: m, rad, m/s, rad/s
 
 const JointKind& read_joint_kind(const TomlCursor& joint) {
   const TomlCursor name = joint.at("kind", "the name of a kind of joint");

@@ -17,7 +17,7 @@ namespace polhode::study::inline scenario {
 
 struct ScenarioSource::Parsed {
   std::string name;
-  std::string origin;  ///< as messages name it: the path as the user gave it, or "builtin NAME"
+  std::string origin;  ///< name in messages: the path as the user gave it, or "builtin NAME"
   std::shared_ptr<const std::string> text;
   TomlValue root;
 

@@ -34,11 +34,11 @@ struct Scenario {
   std::string description;             ///< one line of physics; may be empty
   double t_end = 1;                    ///< s
   Problem problem;                     ///< moving bodies first, in the scenario's order
-  std::vector<ShapePointer> shapes;    ///< by body, contact or not; null if the scenario names no known shape
-  std::vector<Collider> colliders;     ///< by body if the scenario has contact; else empty
-  Compliance compliance;               ///< of all surfaces, for a response by forces
+  std::vector<ShapePointer> shapes;    ///< shape of each body, contact or not; null if no known shape is named
+  std::vector<Collider> colliders;     ///< collider of each body if the scenario has contact; else empty
+  Compliance compliance;               ///< compliance of all surfaces, for a response by forces
   bool end_at_contact = false;         ///< a run ends at its first impact, before it is answered
-  std::optional<double> energy_scale;  ///< J, scale of relative energy drifts; absent: computed from the motion
+  std::optional<double> energy_scale;  ///< scale of relative energy drifts, J; absent: computed from the motion
   std::vector<std::string>
       invariants;  ///< declared invariants besides energy and momenta; names of core/system/invariants
   /// What a user should know of the scenario as it was read: bodies that were moved to close joints, joints that repeat
@@ -56,8 +56,8 @@ std::uint64_t number_of(const Scenario& scenario);
 
 /// A key of a scenario.
 struct FoundKey {
-  std::string path;                ///< with bodies by number: "body.0.mass" for body.box.mass
-  std::optional<TomlValue> value;  ///< as the file gives it, else its default; absent: it has neither
+  std::string path;                ///< path with bodies by number: "body.0.mass" for body.box.mass
+  std::optional<TomlValue> value;  ///< value in the file, else its default; absent: it has neither
 };
 
 /// A parsed scenario, from which variants are made.

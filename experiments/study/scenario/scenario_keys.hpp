@@ -17,7 +17,7 @@ enum class Decides { always, with_contact, never };
 
 struct ScenarioKey {
   std::string_view name;
-  std::optional<TomlValue> otherwise;  ///< absent: the key has no default of its own
+  std::optional<TomlValue> otherwise;  ///< default of the key; absent: it has none of its own
   Decides decides = Decides::always;
 };
 

@@ -37,7 +37,7 @@ Surface inertia_box(const Body& body) {
   return surface;
 }
 
-/// m, from end to end along the axis where it is longest.
+/// Length from end to end along the axis where it is longest, m.
 double extent(const Surface& surface) {
   Eigen::AlignedBox3f around;
   for (const Vector3<float>& x : surface.points) around.extend(x);
@@ -87,7 +87,7 @@ class SceneMaker {
     return scene_.surfaces.size() - 1;
   }
 
-  /// m, the extent of the smallest body so far; moving bodies stand first.
+  /// Extent of the smallest body so far, m; moving bodies stand first.
   double smallest() const {
     double least = extent(scene_.surfaces.front());
     for (const SceneBody& b : scene_.bodies) {

@@ -20,19 +20,19 @@ struct SceneBody {
   bool from_inertia = false;  ///< the scenario names no shape; a box of the same mass and inertia is drawn
   Pose start;                 ///< pose of the surface; a fixed body stays there
   Vector3<double> center_of_mass =
-      Vector3<double>::Zero();                             ///< m, body axes, from the reference point; of pinned bodies
-  Vector3<double> floor_normal = Vector3<double>::Zero();  ///< of a half-space: unit normal, world
-  double floor_offset = 0;                                 ///< of a half-space: m, along the normal
+      Vector3<double>::Zero();  ///< mass centre of a pinned body from its pivot, body axes, m
+  Vector3<double> floor_normal = Vector3<double>::Zero();  ///< unit normal of a half-space, world axes
+  double floor_offset = 0;                                 ///< offset of a half-space along the normal, m
   double mass = 0;                                         ///< kg
-  Matrix3<double> inertia = Matrix3<double>::Identity();   ///< kg m², body axes, about the reference point
+  Matrix3<double> inertia = Matrix3<double>::Identity();   ///< inertia about the reference point, body axes, kg m²
 };
 
 /// A point of one body and a point of another or of the world. Between them is a spring or a joint.
 struct SceneLink {
   std::size_t body = 0;
   std::optional<std::size_t> other;
-  Vector3<double> anchor = Vector3<double>::Zero();        ///< m, in the body's axes from its reference point
-  Vector3<double> anchor_other = Vector3<double>::Zero();  ///< m, in the other's axes, or in the world
+  Vector3<double> anchor = Vector3<double>::Zero();        ///< anchor in the body's axes from its reference point, m
+  Vector3<double> anchor_other = Vector3<double>::Zero();  ///< anchor in the other's axes, or in the world, m
 };
 
 struct SceneJoint {
@@ -41,8 +41,8 @@ struct SceneJoint {
   bool on_plane = false;                                 ///< the second anchor only says where a plane is
   Vector3<double> axis = Vector3<double>::Zero();        ///< unit, in the body's axes; zero: the joint has none
   Vector3<double> axis_other = Vector3<double>::Zero();  ///< unit, in the other's axes or in the world; zero: none
-  double radius = 0;  ///< m, of a disk or sphere that rolls on the plane; 0: a joint that does not roll
-  Vector3<double> normal = Vector3<double>::Zero();  ///< of the plane: unit, in the other's axes or in the world
+  double radius = 0;  ///< radius of a disk or sphere that rolls on the plane, m; 0: a joint that does not roll
+  Vector3<double> normal = Vector3<double>::Zero();  ///< unit normal of the plane, in the other's axes or in the world
 };
 
 struct Scene {

@@ -25,7 +25,7 @@ Formulation formulation_of(const RunConfig& config) {
   JointTreatment& joints = formulation.joints;
   joints.stabilization = config.joints->stabilization;
   joints.metric = config.joints->metric;
-  constexpr double usual = 10, usual_penalty = 1e7;  // 1/s; times the mean mass
+  constexpr double usual = 10, usual_penalty = 1e7;  // usual coefficients, 1/s; usual penalty, over the mean mass
   if (joints.is_soft()) joints.penalty = config.joints->penalty.value_or(usual_penalty);
   if (!joints.has_baumgarte_terms()) return formulation;
   if (config.joints->alpha_per_step && config.dt) {

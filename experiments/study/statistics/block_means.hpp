@@ -11,7 +11,7 @@ namespace polhode::study::inline statistics {
 
 struct BlockMean {
   double t = 0;      ///< s
-  double value = 0;  ///< of the drift, in any unit
+  double value = 0;  ///< mean of the drift, in any unit
 };
 
 /// Means of a series over blocks of equally many samples; when all blocks are in use, neighbours are merged.

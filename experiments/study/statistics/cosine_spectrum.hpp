@@ -17,8 +17,8 @@ using Matrix = Eigen::MatrixXd;
 
 constexpr Index most_regressors = 6;
 constexpr std::size_t noise_shapes = 9;
-using Spectrum = Vector;    ///< over the cosines
-using Regressors = Matrix;  ///< a column each, over the cosines
+using Spectrum = Vector;    ///< one number for each cosine
+using Regressors = Matrix;  ///< one column for each regressor, one row for each cosine
 using Normal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_regressors, most_regressors>;
 using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_regressors, 1>;
 
@@ -61,10 +61,10 @@ double dot(const double* a, const double* b, Index n);
 /// Generalised least squares of c on the columns of x with variances s² v_k.
 struct Fit {
   Coefficients coefficients;
-  Normal covariance;      ///< of them, over s²
+  Normal covariance;      ///< covariance of the coefficients, over s²
   double squares = 0;     ///< weighted sum of the residuals' squares
   double restricted = 0;  ///< logarithm of the restricted likelihood, the scale s² at its best
-  double degrees = 0;     ///< of freedom
+  double degrees = 0;     ///< degrees of freedom
   double scale2() const { return squares / degrees; }
 };
 

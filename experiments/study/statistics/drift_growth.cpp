@@ -229,7 +229,7 @@ class Estimator {
   Spectrum with_lines_;                  ///< the drift's cosines below its lowest line
   Spectrum below_;         ///< the drift's cosines without its lines, those that are well below what is left of them
   Spectrum c_;             ///< the first of these, which trends are fitted to
-  std::size_t shape_ = 0;  ///< that of their variances
+  std::size_t shape_ = 0;  ///< shape of their variances
   Vector smooth_;          ///< the drift without its lines
   Spectrum misfit_;        ///< c_ without t^p
   double largest_oscillation_ = 0, change_ = 0;
@@ -238,7 +238,7 @@ class Estimator {
 
 /// The series of a drift, over its largest deviation from its mean.
 struct Series {
-  Vector t;      ///< over the last time
+  Vector t;      ///< time over the last time
   Vector drift;  ///< less its mean, over `size`
   double size = 0, end = 0;
 };

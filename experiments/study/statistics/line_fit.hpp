@@ -12,7 +12,7 @@ struct LinePoint {
 
 struct LineFit {
   double slope = 0;
-  double standard_error = 0;  ///< of the slope; not a number for two points
+  double standard_error = 0;  ///< standard error of the slope; not a number for two points
   double worst = 0;           ///< largest distance |y − line| of a point
 };
 

@@ -11,7 +11,7 @@
 namespace polhode::study::inline statistics {
 namespace {
 
-constexpr double above_rounding = 10;  ///< so that rounding adds no more than a tenth to an error
+constexpr double above_rounding = 10;  ///< error over round-off, from which rounding adds no more than a tenth
 constexpr std::size_t least_points = 3, wanted_points = 4;
 constexpr double margin = 0.25;
 

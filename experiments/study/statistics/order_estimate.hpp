@@ -28,8 +28,8 @@ inline constexpr double motion_lost = 1;
 inline constexpr double lost_to_fits = 0.5 * motion_lost;
 
 struct LadderPoint {
-  double step = 0;       ///< or a tolerance; positive
-  double error = 0;      ///< not finite: the motion is lost, or the run diverged or failed
+  double step = 0;       ///< step or tolerance; positive
+  double error = 0;      ///< error; not finite: the motion is lost, or the run diverged or failed
   double round_off = 0;  ///< upper limit of the rounding error of that run; +inf: no digit of the error is proven
 };
 
@@ -53,7 +53,7 @@ struct OrderEstimate {
     double standard_error = 0;
     double half_width_95 = 0;  ///< half the 95 % confidence interval of the slope
   };
-  std::optional<Line> line;  ///< absent with fewer than three points
+  std::optional<Line> line;  ///< line through the points; absent with fewer than three
   bool straight = false;     ///< no point is further than `straightness` from the line
   double floor = 0;          ///< largest error, below √ε, of the smallest steps at which the error no longer falls
   bool exact = false;        ///< every error that is not blown up is round-off

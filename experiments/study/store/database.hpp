@@ -61,10 +61,10 @@ class Statement {
   void bind(int parameter, const Value& value);  ///< counted from 1; a text or a blob must live until the next step()
   bool step();                                   ///< advances to the next row; false if there is none
   void reset();                                  ///< allows further bind() and step()
-  Value value(int column) const;                 ///< counted from 0; valid until the next step() or reset()
-  int columns() const;                           ///< number of columns of a row
-  std::string name(int column) const;            ///< of a column, counted from 0
-  std::int64_t integer(int column) const;        ///< throws std::runtime_error if the value is no integer
+  Value value(int column) const;       ///< value of a column, counted from 0; valid until the next step() or reset()
+  int columns() const;                 ///< number of columns of a row
+  std::string name(int column) const;  ///< name of a column, counted from 0
+  std::int64_t integer(int column) const;  ///< throws std::runtime_error if the value is no integer
 
  private:
   const Database* db_;

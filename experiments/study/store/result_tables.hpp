@@ -33,7 +33,7 @@ struct ResultColumn {
 
 struct ResultTable {
   std::string name;
-  std::vector<ResultColumn> columns;  ///< in the order of their names, without `number`, `id` and `checksum`
+  std::vector<ResultColumn> columns;  ///< columns in the order of their names, without `number`, `id` and `checksum`
   bool has_id = false;                ///< true for `runs`
 
   std::string definition() const;  ///< CREATE TABLE …

@@ -28,13 +28,13 @@ class RunRows {
   /// Columns of `runs` in the order of their names, then wall_s; without number, id and checksum.
   const std::vector<std::string>& columns() const { return columns_; }
   std::optional<std::size_t> find(std::string_view column) const;  ///< its index in columns()
-  std::int64_t count() const;                                      ///< of all rows, damaged ones too
+  std::int64_t count() const;                                      ///< number of all rows, damaged ones too
 
   /// Columns of a row whose checksum is not checked; the values are valid until the next row.
   struct Part {
     std::int64_t number;
     std::int64_t id;
-    std::span<const Value> values;  ///< of the chosen columns
+    std::span<const Value> values;  ///< values of the chosen columns
   };
   /// Calls use(part) for each row, in the order of numbers. `chosen`: indices in columns().
   void scan(std::span<const std::size_t> chosen, const std::function<void(const Part&)>& use) const;
@@ -42,10 +42,10 @@ class RunRows {
   /// A row whose checksum was checked.
   struct Row {
     std::int64_t id;
-    std::span<const Value> values;  ///< by columns(); valid until the next row
+    std::span<const Value> values;  ///< values in the order of columns(); valid until the next row
     std::string_view damage;        ///< "runs.checksum", "timings.checksum"; empty: none
   };
-  void for_each(const std::function<void(const Row&)>& use) const;  ///< in the order of numbers
+  void for_each(const std::function<void(const Row&)>& use) const;  ///< calls use(row) in the order of numbers
   /// The row with this number, valid until the next call. Throws if there is none any more.
   Row at(std::int64_t number);
 

@@ -26,7 +26,7 @@ namespace polhode::study::inline store {
 struct StoredRun {
   std::string id;
   std::int64_t configuration = 0;  ///< key in configurations()
-  std::string varied;              ///< as varied_text() writes it
+  std::string varied;              ///< varied keys, as varied_text() writes them
   RunResult result;                ///< unspecified if the run is damaged
   std::string damage;  ///< first invalid column: "runs.status", "curves.series", "runs.checksum"; empty: none
 };
@@ -73,7 +73,7 @@ class Store {
     const Database& db_;
   };
   Reading reading() const { return Reading(db_); }
-  std::vector<std::uint64_t> ids() const;  ///< of all runs, damaged ones too, in ascending order
+  std::vector<std::uint64_t> ids() const;  ///< ids of all runs, damaged ones too, in ascending order
   /// Ids of the runs, damaged ones too, that begin with these 1 to 16 hexadecimal digits, in ascending order.
   std::vector<std::string> ids_with(const std::string& beginning) const;
 
@@ -107,7 +107,7 @@ class Store {
 
   static constexpr const char* file_name = "results.sqlite";
 
-  const Database& database() const { return db_; }  ///< for reading
+  const Database& database() const { return db_; }  ///< the database, for reading
 
  private:
   struct Tables;

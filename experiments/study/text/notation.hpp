@@ -33,7 +33,7 @@ std::string words(const std::vector<std::string>& items);
 std::vector<std::string> first_items(std::vector<std::string> items, std::size_t most);
 
 std::string html(std::string_view text);
-std::string markdown(std::string_view text);  ///< for a cell of a table
+std::string markdown(std::string_view text);  ///< the text for a cell of a table
 std::string tex(std::string_view text);
 /// A number printed by number() or exact_number() as LaTeX mathematics: "$3.25\times10^{-5}$".
 std::string tex_number(std::string_view printed);

@@ -44,7 +44,7 @@ class TextFile {
   void abandon();
   [[noreturn]] void fail(int reason);
 
-  std::filesystem::path path_, target_, at_;  ///< as named; behind links (empty: written directly); being written
+  std::filesystem::path path_, target_, at_;  ///< given name; file behind links (empty: written directly); open file
   std::FILE* file_ = nullptr;
 };
 

@@ -52,7 +52,7 @@ class CsvTables {
   std::vector<CsvTable*> tables();
 
   CsvTable trajectory_, energy_, events_;
-  std::optional<CsvTable> reactions_;  ///< of a system with joints
+  std::optional<CsvTable> reactions_;  ///< reactions of a system with joints
 };
 
 }  // namespace polhode::study::trajectory

@@ -51,7 +51,7 @@ class Hdf5Tables {
   std::filesystem::path path_;
   Hdf5Handle file_;
   Hdf5Table trajectory_, energy_, impacts_, slide_ends_;
-  std::optional<Hdf5Table> reactions_;  ///< of a system with joints
+  std::optional<Hdf5Table> reactions_;  ///< reactions of a system with joints
 };
 
 }  // namespace polhode::study::trajectory

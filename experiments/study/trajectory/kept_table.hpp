@@ -18,13 +18,13 @@ class KeptTable {
   /// Goes to the next row; false at the end, and at the first row that cannot be read.
   virtual bool next() = 0;
 
-  double t = 0;       ///< s, of the present row
+  double t = 0;       ///< time of the present row, s
   double second = 0;  ///< number in its second column; 0 in the events of a CSV file, where that is a word
 
   std::uint64_t rows = 0;   ///< number of rows up to the present one
-  std::uint64_t bytes = 0;  ///< of a CSV file, up to the end of the present row
+  std::uint64_t bytes = 0;  ///< length of a CSV file up to the end of the present row, bytes
   bool cut = false;         ///< the last line of a CSV file has no end
-  std::string fault;        ///< what ended the reading, with its place, unless it was the end of the table
+  std::string fault;        ///< fault that ended the reading, with its place; empty at the end of the table
 };
 
 /// The table of a CSV file; empty with a fault if it cannot be opened. Rows are good if they have as many cells as the

@@ -20,19 +20,19 @@ struct KeptTrajectory {
   };
   /// A table, and how much of it belongs to the instants.
   struct Table {
-    std::string name;            ///< of its file, or of its dataset in an HDF5 file
-    std::filesystem::path file;  ///< that holds it now
+    std::string name;            ///< name of its file, or of its dataset in an HDF5 file
+    std::filesystem::path file;  ///< file in which it now is
     std::uint64_t rows = 0;
-    std::uint64_t bytes = 0;  ///< of a CSV file
+    std::uint64_t bytes = 0;  ///< length of that part of a CSV file, bytes
   };
 
   TrajectoryFormat format = TrajectoryFormat::none;
   std::filesystem::path folder;
   Condition condition = Condition::whole;
   std::uint64_t instants = 0;  ///< number of instants, from the start, at which all tables are complete
-  double t_last = 0;           ///< s, the last of them
+  double t_last = 0;           ///< time of the last of them, s
   std::vector<Table> tables{};
-  std::string fault{};  ///< what is damaged, with its place
+  std::string fault{};  ///< damage, with its place
 };
 
 /// Reads all files of the format in the folder; none if there is no such file.

@@ -59,7 +59,7 @@ class Writer final : public TrajectoryWriter {
   BlockEnd block_;
   Tables tables_;
   ContactLosses contact_;
-  VectorX<double> multipliers_;  ///< of the next state, from a method that solves for them; else empty
+  VectorX<double> multipliers_;  ///< multipliers of the next state, if the method solves for them; else empty
   double energy_start_ = 0;
   std::size_t rows_in_block_ = 0;
   Clock::time_point flushed_ = Clock::now();

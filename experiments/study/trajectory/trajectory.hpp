@@ -23,8 +23,8 @@ class TrajectoryWriter : public Observer {
 /// When a block of rows ends, at an instant. What it holds, in all tables, is then in the hands of the operating
 /// system: a kill of the program cannot take it away.
 struct BlockEnd {
-  std::size_t rows = 1000;              ///< of the trajectory, at most, unless one instant has more
-  std::chrono::milliseconds age{1000};  ///< or the first instant after this time
+  std::size_t rows = 1000;              ///< rows of the trajectory, at most, unless one instant has more
+  std::chrono::milliseconds age{1000};  ///< time from which the first instant ends the block
 };
 
 /// Creates `folder` and the files in it; null for TrajectoryFormat::none. Throws TrajectoryError.

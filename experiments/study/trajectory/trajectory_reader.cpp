@@ -43,7 +43,7 @@ constexpr double first_defect = 0.02, least_length = 1e-6;
 
 struct Cell {
   std::string_view text;
-  std::size_t column;  ///< of its first character, from 1
+  std::size_t column;  ///< column of its first character, from 1
 };
 
 constexpr std::string_view around_cells = " \t\r\"";

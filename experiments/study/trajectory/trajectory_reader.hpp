@@ -19,9 +19,9 @@ struct Trajectory {
   bool has_matrix = false, has_position = false, has_velocity = false, has_angular_velocity = false;
   bool has_angular_momentum = false, has_energy = false;
   std::size_t moving = 1;                    ///< number of moving bodies
-  std::vector<double> times;                 ///< s, increasing, not negative
+  std::vector<double> times;                 ///< times, increasing, not negative, s
   std::vector<BodySnapshot<double>> bodies;  ///< `moving` bodies for each instant, in the problem's order
-  std::vector<double> energy;                ///< J, at each instant, as given in the file
+  std::vector<double> energy;                ///< energy at each instant, as given in the file, J
 };
 
 /// Parses a text; `origin` is its name in errors. Required columns: t_s; an orientation (qw … qz, or r11 … r33, which

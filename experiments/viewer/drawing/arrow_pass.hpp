@@ -10,9 +10,9 @@
 namespace polhode::viewer::inline drawing {
 
 struct ArrowInstance {
-  Vector3<float> from;  ///< m, relative to the eye
-  Vector3<float> way;   ///< m, from tail to tip
-  float radius = 0;     ///< m, of the shaft; reduced if the arrow is too short for it
+  Vector3<float> from;  ///< tail relative to the eye, m
+  Vector3<float> way;   ///< way from tail to tip, m
+  float radius = 0;     ///< radius of the shaft, reduced if the arrow is too short for it, m
   Colour colour;
 };
 

@@ -17,7 +17,7 @@ struct BodyInstance {
   Matrix3<float> rotation;
   Vector3<float> position;
   Colour colour;
-  float emphasis = 0;  ///< 1: edges are drawn stronger
+  float emphasis = 0;  ///< emphasis; 1: edges are drawn stronger
 };
 
 class BodyPass {

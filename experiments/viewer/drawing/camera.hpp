@@ -10,11 +10,11 @@
 namespace polhode::viewer::inline drawing {
 
 struct Camera {
-  Vector3<double> target = Vector3<double>::Zero();  ///< m, in the centre of the picture
-  double distance = 5;                               ///< m, from the target
-  double azimuth = 0.7;                              ///< rad, about z from x
-  double elevation = 0.35;                           ///< rad, above the horizon; less than at the poles
-  double field_of_view = 0.8;                        ///< rad, from the lower to the upper edge
+  Vector3<double> target = Vector3<double>::Zero();  ///< point in the centre of the picture, m
+  double distance = 5;                               ///< distance from the target, m
+  double azimuth = 0.7;                              ///< angle about z from x, rad
+  double elevation = 0.35;                           ///< angle above the horizon, less than at the poles, rad
+  double field_of_view = 0.8;                        ///< angle from the lower to the upper edge, rad
 
   Vector3<double> eye() const;
   /// Rotation from world to camera axes: x right, y up, z towards the viewer.
@@ -28,7 +28,7 @@ struct Camera {
 
   void orbit(double by_azimuth, double by_elevation);
   void zoom(double factor);           ///< scales the distance
-  void pan(double right, double up);  ///< m, moves the target
+  void pan(double right, double up);  ///< moves the target by these lengths, m
   /// Moves the camera so that a ball with that centre and radius (m) is completely visible.
   void look_at(const Vector3<double>& middle, double radius);
 };

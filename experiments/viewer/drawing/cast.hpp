@@ -10,9 +10,9 @@ namespace polhode::viewer::inline drawing {
 
 struct Cast {
   std::vector<std::size_t> moving;  ///< indices into Scene::bodies, ascending
-  std::vector<double> radius;       ///< m, by body: radius about the mass centre that contains its surface; never 0
-  double typical_radius = 1;        ///< m, their median
-  double joint_size = 1;            ///< m, that, or half the longest distance at the start between the ends of a joint
+  std::vector<double> radius;       ///< radius about the mass centre that contains the body's surface, never 0, m
+  double typical_radius = 1;        ///< median of the radii, m
+  double joint_size = 1;            ///< median, or half the longest distance at the start between a joint's ends, m
 };
 
 Cast cast_of(const study::Scene& scene);

@@ -10,10 +10,10 @@
 namespace polhode::viewer::inline drawing {
 
 struct LineInstance {
-  Vector3<float> from, to;  ///< m, relative to the eye
+  Vector3<float> from, to;  ///< ends relative to the eye, m
   Colour colour_from, colour_to;
   float width = 1;  ///< pixels, times the view's line_scale
-  float round = 0;  ///< 1: the ends are half discs
+  float round = 0;  ///< shape of the ends; 1: half discs
 };
 
 class LinePass {

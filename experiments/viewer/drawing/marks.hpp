@@ -19,7 +19,7 @@ struct VectorScales {
   void see(const Frame& frame);
 };
 
-/// rad/s; a body that rotates more slowly is drawn without ω and L.
+/// Rate, rad/s, below which a body is drawn without ω and L.
 constexpr double least_angular_velocity = 1e-9;
 
 /// Length of the longest arrows in radii of a typical body. The arrow of L is longer than that of ω, so that both are

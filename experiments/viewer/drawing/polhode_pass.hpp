@@ -20,9 +20,9 @@ namespace polhode::viewer::inline drawing {
 struct InertiaEllipsoid {
   Matrix3<double> body;       ///< columns: the axes of the body in the axes of the inset, which are body or world axes
   Matrix3<double> axes;       ///< columns: the principal axes in the axes of the inset, right-handed
-  Vector3<double> moments;    ///< kg m², ascending
+  Vector3<double> moments;    ///< principal moments, ascending, kg m²
   Vector3<double> semi_axes;  ///< the first is 1
-  double unit = 1;            ///< rad/s, length of the longest semi-axis
+  double unit = 1;            ///< length of the longest semi-axis, rad/s
   Vector3<double> omega;      ///< ω relative to `unit`, in the axes of the inset
   Vector3<double> momentum;   ///< unit vector of L, in the axes of the inset
 

@@ -20,7 +20,7 @@ struct MeshVertex {
 struct SurfaceMesh {
   std::vector<MeshVertex> vertices;
   std::vector<std::uint32_t> corners;
-  float radius = 0;  ///< m, of the ball about the origin that contains the surface
+  float radius = 0;  ///< radius of the ball about the origin that contains the surface, m
 };
 
 /// Builds the mesh. Edges are drawn where the two adjacent triangles have different normals at its ends, and at the

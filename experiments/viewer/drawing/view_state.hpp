@@ -12,10 +12,10 @@ namespace polhode::viewer::inline drawing {
 
 struct ViewState {
   Vector3<double> eye;
-  Eigen::Matrix4f to_clip;    ///< from world axes, relative to the eye
+  Eigen::Matrix4f to_clip;    ///< matrix from world axes, relative to the eye, to clip space
   Eigen::Vector3f forward;    ///< unit, world axes
   Eigen::Vector2f half_size;  ///< pixels
-  double distance;            ///< m, from the eye to the target
+  double distance;            ///< distance from the eye to the target, m
   Vector3<double> target;
   float line_scale;        ///< pixels for each unit of width
   float pixels_per_slope;  ///< pixels of a length of 1 m at a distance of 1 m

@@ -35,7 +35,7 @@ class Panel {
   void change(Stage& stage, const Configuration& configuration);
 
   std::size_t run_ = 0;  ///< the run whose method is shown
-  double speed_ = 1;     ///< of all runs
+  double speed_ = 1;     ///< speed of all runs
   bool pause_on_collision_ = false;
   std::string refused_;  ///< reason why the last change was refused
 };

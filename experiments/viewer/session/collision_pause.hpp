@@ -43,7 +43,7 @@ class CollisionPause {
   void show(const Wanted& wanted, bool at_pause, const System<double>& system, const VectorX<double>& y, Frame& frame);
 
  private:
-  std::optional<ContactLookout> lookout_;  ///< absent if the scenario has no contact
+  std::optional<ContactLookout> lookout_;  ///< search for new contacts; absent if the scenario has no contact
   bool on_ = false, paused_ = false;
   std::optional<Kept> impact_;
   std::vector<FrameContact> contacts_;

@@ -17,7 +17,7 @@ class CommandQueue {
 
   /// Commands and wall time received since the last take().
   struct News {
-    std::vector<Command> commands;      ///< in the order in which they were sent
+    std::vector<Command> commands;      ///< commands in the order in which they were sent
     double seconds = 0, held_back = 0;  ///< elapsed wall time, and the part of it not to be simulated, s
   };
 

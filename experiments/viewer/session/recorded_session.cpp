@@ -272,7 +272,7 @@ class RecordedSession final : public Session {
   Vector3<double> momentum_start_ = Vector3<double>::Zero();
   double energy_start_ = 0;
   std::vector<double> drift_;            ///< energy drift at each instant, J; empty: unknown
-  std::vector<Vector3<double>> forces_;  ///< of the joints at each instant, N; empty: not recorded
+  std::vector<Vector3<double>> forces_;  ///< forces of the joints at each instant, N; empty: not recorded
   std::vector<PlotPoint> plot_;
   double t_ = 0, speed_ = 1;
   std::size_t sample_ = 0;  ///< index of the last sample at or before t_

@@ -49,7 +49,7 @@ class SegmentObserver final : public Observer {
   Kept present_;
   State<double> before_;
   std::vector<Impact> impacts_;
-  VectorX<double> multipliers_;           ///< of the method at the state that is due
+  VectorX<double> multipliers_;           ///< multipliers of the method at the state that is due
   double projection_before_ = 0;          ///< energy injected by projection in earlier segments, J
   ContactLosses losses_before_, losses_;  ///< losses in earlier segments, and in the present one
   bool fresh_ = true;                     ///< the segment is the start of the session

@@ -58,7 +58,7 @@ std::string refusal(const Configuration& configuration, const study::Scenario& s
 struct SessionSetup {
   std::string scenario;  ///< built-in name or path, as for --scenario
   std::vector<study::Override> overrides;
-  std::optional<Configuration> configuration;  ///< absent: usual_configuration()
+  std::optional<Configuration> configuration;  ///< configuration; absent: usual_configuration()
   std::filesystem::path record;                ///< path of session.toml to write; empty: none is written
   /// Folder of the trajectories to write, segment_1/trajectory.csv and so on, one for each segment; empty: none are
   /// written.
@@ -70,7 +70,7 @@ struct SessionSetup {
 struct Wanted {
   bool contacts = false, cells = false;
   std::vector<std::size_t> traced;  ///< indices of the moving bodies to trace
-  bool reactions = false;           ///< of joints
+  bool reactions = false;           ///< reactions of joints
   bool operator==(const Wanted&) const = default;
 };
 
@@ -86,12 +86,12 @@ struct PlotPoint {
 /// A point of a body's path and of its polhode.
 struct TracePoint {
   double t = 0;                                          ///< s
-  Vector3<double> position = Vector3<double>::Zero();    ///< of the mass centre, world frame, m
+  Vector3<double> position = Vector3<double>::Zero();    ///< position of the mass centre, world frame, m
   Vector3<double> omega_body = Vector3<double>::Zero();  ///< angular velocity, body frame, rad/s
 };
 struct Trace {
   std::size_t body = 0;
-  std::vector<TracePoint> points;  ///< in order of time, thinned
+  std::vector<TracePoint> points;  ///< points in order of time, thinned
 };
 
 struct SessionStatus {
@@ -112,8 +112,8 @@ struct SessionStatus {
 /// Contents of the window at one instant. Immutable once published.
 struct View {
   Frame frame;
-  std::vector<PlotPoint> plot;  ///< over the range of scrub(), thinned to 2048 points
-  std::vector<Trace> traces;    ///< of the requested bodies, each thinned to 2048 points
+  std::vector<PlotPoint> plot;  ///< points over the range of scrub(), thinned to 2048
+  std::vector<Trace> traces;    ///< traces of the requested bodies, each thinned to 2048 points
   SessionStatus status;
   Configuration configuration;  ///< present configuration
 };

@@ -12,7 +12,7 @@ namespace polhode::viewer::inline stage {
 struct Shown {
   bool axes = false, angular_velocity = false, angular_momentum = false, trails = true, polhode = false,
        poinsot = false, contacts = true, cells = false, joints = true, reactions = true;
-  std::optional<double> azimuth, elevation;  ///< rad; absent: those of the scene
+  std::optional<double> azimuth, elevation;  ///< angles of the camera, rad; absent: those of the scene
   double zoom = 1;                           ///< factor by which the camera is nearer
 };
 void show(const Shown& shown, Stage& stage);

@@ -14,7 +14,7 @@ struct WindowSettings {
   std::optional<int> samples;  ///< samples for each pixel; absent: 4, or 1 with a software renderer
   bool play = false;
   double speed = 1;
-  std::filesystem::path script;  ///< empty: none
+  std::filesystem::path script;  ///< script; empty: none
   std::filesystem::path out;     ///< folder for pictures
   Shown shown;
 };

@@ -9,7 +9,7 @@
 namespace polhode::peers {
 
 struct FclShape {
-  std::vector<double> half_extents;  ///< of a box; empty for a hull
+  std::vector<double> half_extents;  ///< half extents of a box; empty for a hull
   std::vector<double> vertices;      ///< x, y, z, …
   std::vector<int> faces;            ///< count, then as many vertices, …
   int face_count = 0;
@@ -21,7 +21,7 @@ class FclPairs {
   FclPairs();
   ~FclPairs();
   void add(const FclShape& a, const FclShape& b);
-  double distances() const;  ///< of all pairs; their sum
+  double distances() const;  ///< sum of the distances of all pairs
 
  private:
   struct Impl;

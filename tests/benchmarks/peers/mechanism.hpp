@@ -10,9 +10,9 @@
 namespace polhode::peers {
 
 struct PlaneBody {
-  double mass = 1, inertia = 1;     ///< kg; kg m² about the mass centre, the same about every axis
-  double x = 0, y = 0;              ///< m, of the mass centre at the start
-  double vx = 0, vy = 0, spin = 0;  ///< m/s, rad/s at the start
+  double mass = 1, inertia = 1;     ///< mass, kg; inertia about the mass centre, the same about every axis, kg m²
+  double x = 0, y = 0;              ///< place of the mass centre at the start, m
+  double vx = 0, vy = 0, spin = 0;  ///< velocity at the start, m/s; angular velocity, rad/s
 };
 
 /// A hinge at a place of the start, of a body on another that comes before it, or on the ground: −1.
@@ -35,7 +35,7 @@ struct Mechanism {
 /// Where the mass centre of the probe is at t_end, and what it took.
 struct Arrival {
   double x = 0, y = 0;  ///< m
-  double wall = 0;      ///< s, of the steps alone
+  double wall = 0;      ///< wall time of the steps alone, s
   long steps = 0;
 };
 

@@ -27,8 +27,8 @@ ContactRun bouncing_ball(double restitution) {
 struct LocatedBy {
   const char* method;
   double accuracy;      // s
-  std::size_t bounces;  // that rise well above the method's own error
-  double at_the_end;    // s and m: what that error makes of the lowest ones
+  std::size_t bounces;  // number of bounces that rise well above the method's own error
+  double at_the_end;    // effect of that error on the lowest bounces, s and m
 };
 class BouncingBall : public testing::TestWithParam<LocatedBy> {};
 

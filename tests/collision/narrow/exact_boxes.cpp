@@ -29,7 +29,7 @@ struct WholeRotation {
 };
 
 struct WholeBox {
-  std::array<Whole3, 3> axis;  ///< of length `squared`
+  std::array<Whole3, 3> axis;  ///< axes, each of length `squared`
   Whole squared;
   std::array<Whole3, 3> edge;  ///< half an edge
   std::array<Whole, 3> reach;  ///< half an edge · its axis

@@ -11,7 +11,7 @@ namespace polhode {
 using ExactBox = study::narrow_phase::TurnedBox;
 
 struct ExactDistance {
-  int sign = 0;              ///< of the signed distance, exact: −1 where the interiors overlap
+  int sign = 0;              ///< exact sign of the signed distance: −1 where the interiors overlap
   long double distance = 0;  ///< signed, to a few units of the last place of long double
 };
 

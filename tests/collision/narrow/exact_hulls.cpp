@@ -55,7 +55,7 @@ class Difference {
   Real unit() const { return std::ldexp(Real(1), exponent_); }  ///< m
   Whole3 exact(const Corner& c) const { return a_.exact[c.a] - b_.exact[c.b]; }
   Real3 real(const Corner& c) const { return a_.real[c.a] - b_.real[c.b]; }
-  Real reach() const { return reach_; }  ///< of the rounded vertices, a bound on their error when times epsilon
+  Real reach() const { return reach_; }  ///< reach of the rounded vertices: a bound on their error when times epsilon
 
   Corner support(const Real3& d) const { return {furthest(a_, d), furthest(b_, -d)}; }
   Corner support(const Whole3& d) const { return {furthest(a_, d), furthest(b_, -d)}; }

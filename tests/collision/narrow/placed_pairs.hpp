@@ -11,7 +11,7 @@ namespace polhode {
 struct PlacedPair {
   ShapePointer a, b;
   Pose at_a, at_b;
-  double size_a = 0, size_b = 0;  ///< m: the largest half extent, or of that order
+  double size_a = 0, size_b = 0;  ///< largest half extent, or its order of magnitude, m
   bool polytopes = true;          ///< spheres and capsules count, since their cores have corners only
 };
 

@@ -49,7 +49,7 @@ inline Whole magnitude(const Whole& x) { return x < 0 ? Whole(-x) : x; }
 inline long double rounded(const Whole& x) { return x.convert_to<long double>(); }
 inline Three<long double> rounded(const Whole3& x) { return {rounded(x[0]), rounded(x[1]), rounded(x[2])}; }
 
-inline constexpr int no_bits = 2000;  ///< above the exponent of any double
+inline constexpr int no_bits = 2000;  ///< number of a bit above the exponent of any double
 
 /// The power of two in the last bit of x, or a smaller one; large where x is 0.
 inline int last_bit(double x) {

@@ -21,7 +21,7 @@ struct Pile {
 
   Problem problem;
   std::vector<Collider> colliders;
-  double half_width;  ///< m, of the box, whose middle is the origin of x and y
+  double half_width;  ///< half the width of the box, whose middle is the origin of x and y, m
 
   /// `tilt`: rad, at most, about a direction of its own.
   explicit Pile(int cubes, double tilt = 0.5) {
@@ -59,7 +59,7 @@ struct Pile {
   }
 
   struct Wall {
-    Vector3<double> normal;  ///< into the box
+    Vector3<double> normal;  ///< normal into the box
     double offset;           ///< m
   };
   std::array<Wall, 5> walls() const {

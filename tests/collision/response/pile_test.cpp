@@ -13,7 +13,7 @@ using Vector = Vector3<double>;
 
 /// Energies of a run, and where the bodies are at the end of each step.
 struct Watch final : Observer {
-  double first = 0, least = 0, rise = 0;  ///< J: of the start, the least so far, and the largest rise above that
+  double first = 0, least = 0, rise = 0;  ///< energy at the start, least energy so far, and largest rise above it, J
   bool started = false;
   std::size_t on_samples(std::span<const Sample> seen) override {
     for (const Sample& s : seen) {

@@ -30,7 +30,7 @@ struct Row {
 
   LagrangeTop top() const { return {mass, inertia, center, gravity, q0, omega0}; }
   double least_moment() const { return inertia.diagonal().minCoeff(); }
-  /// rad/s, of the fastest change: of the start, and of what the fall of the mass centre can add.
+  /// Bound of the fastest change: the rate at the start, and what the fall of the mass centre can add, rad/s.
   double rate() const { return omega0.norm() + 2 * std::sqrt(mass * gravity.norm() * center.norm() / least_moment()); }
 };
 

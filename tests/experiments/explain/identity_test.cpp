@@ -24,7 +24,7 @@ using query_tests::top;
 
 /// A change of one key of a run.
 struct Change {
-  std::string key;  ///< as explain must name it
+  std::string key;  ///< key that explain must name
   std::function<void(RunConfig&, std::string& text)> make;
 };
 

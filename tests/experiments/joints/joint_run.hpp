@@ -26,7 +26,7 @@ struct End {
   Sample last;
   double largest_drift = 0;
   double largest_gap = 0;
-  VectorX<double> multipliers{};  ///< of the method at the last state; empty: they follow from the state
+  VectorX<double> multipliers{};  ///< multipliers of the method at the last state; empty: they follow from the state
 
   Vector point(std::size_t body, const Vector& in_body) const { return motion(body).point(in_body); }
   BodyMotion<double> motion(std::size_t body) const { return system->motion_of(state.y, body); }

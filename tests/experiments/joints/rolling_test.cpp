@@ -18,7 +18,7 @@
 namespace polhode::study::joints_tests::rolling_test {
 namespace {
 
-constexpr double pull = 9.81, weight = 15;  // m/s², kg; the radius is 1 m
+constexpr double pull = 9.81, weight = 15;  // acceleration of gravity, m/s²; mass, kg; the radius is 1 m
 
 enum class Wheel { disk, hoop };
 enum class Upright { rolls, spins };
@@ -59,7 +59,7 @@ struct Threshold {
   const char* name;
   Wheel wheel;
   Upright motion;
-  double square;  ///< of the rate, rad²/s²
+  double square;  ///< square of the rate, rad²/s²
 };
 
 const Threshold thresholds[] = {{"disk that rolls", Wheel::disk, Upright::rolls, pull / 3},

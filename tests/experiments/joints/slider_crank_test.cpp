@@ -15,8 +15,8 @@ namespace {
 /// cos φ), the slider at (x, 0, 0), the rod's direction is u = ((x, 0, 0) - b)/0.3. Derivatives are those by φ.
 struct CrankAngle {
   long double x;        ///< m
-  long double inertia;  ///< kg m², the kinetic energy is inertia φ'^2 / 2
-  long double height;   ///< kg m, the potential energy is 9.81 m/s² of it
+  long double inertia;  ///< inertia, kg m²; the kinetic energy is inertia φ'^2 / 2
+  long double height;   ///< potential energy over 9.81 m/s², kg m
 
   /// `centre`: of the crank's mass, as a part of the crank's length from A.
   CrankAngle(long double angle, long double centre) {

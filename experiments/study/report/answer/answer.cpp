@@ -29,7 +29,7 @@ constexpr std::array decades = {-3, -2, -4, -1, -5, -6, -7, -8, -9, -10};
 struct Candidate {
   const Curve* curve = nullptr;
   const RunRecord* run = nullptr;  ///< its cheapest run with an error not above the target
-  double cost = 0;                 ///< for the target, between two runs
+  double cost = 0;                 ///< cost of the target, interpolated between two runs
   bool at_most = false;            ///< larger steps may reach the target too: the cost is that of the run
 };
 
@@ -45,7 +45,7 @@ struct Ranked {
 std::optional<Candidate> candidate_of(const Curve& curve, const Quantity& quantity,
                                       const std::vector<WorkPoint>& points, double target) {
   Candidate candidate{&curve, nullptr, 0, true};
-  double least = std::numeric_limits<double>::infinity();  // of all its runs that follow the motion
+  double least = std::numeric_limits<double>::infinity();  // least cost of its runs that follow the motion
   for (const WorkPoint& point : points) {
     least = std::min(least, point.cost);
     // The error as measured: a point is not better than its rounding, which a run may be by chance.

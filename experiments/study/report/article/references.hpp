@@ -8,7 +8,7 @@
 namespace polhode::study::inline report::inline article {
 
 struct Bibliography {
-  std::string_view name;  ///< of the file without its ending
+  std::string_view name;  ///< name of the file without its ending
   std::string_view text;
 };
 

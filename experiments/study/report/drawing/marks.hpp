@@ -51,7 +51,7 @@ class Marks {
 
   Svg& svg_;
   Eigen::AlignedBox2d around_;
-  std::vector<Eigen::AlignedBox2d> taken_;  ///< by arrows and labels
+  std::vector<Eigen::AlignedBox2d> taken_;  ///< places of the arrows and labels so far
   std::vector<Label> labels_;
 };
 

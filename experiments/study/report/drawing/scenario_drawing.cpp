@@ -61,7 +61,7 @@ std::string shade(std::size_t body, bool fixed, const Vector3<double>& normal, c
   return text;
 }
 
-/// 1, 2 or 5 times a power of ten, not above x.
+/// The largest number 1, 2 or 5 times a power of ten that is not above x.
 double round_length(double x) {
   const double unit = std::pow(10.0, std::floor(std::log10(x)));
   for (const double k : {5.0, 2.0}) {
@@ -72,7 +72,7 @@ double round_length(double x) {
 
 struct Arrow {
   std::size_t body;
-  Vector3<double> from, vector;  ///< m; rad/s, m/s, N or N m
+  Vector3<double> from, vector;  ///< tail, m; vector in rad/s, m/s, N or N m
   const char *style, *label;
   int heads;
   double scale = 0;  ///< m for a unit of the vector
@@ -454,8 +454,8 @@ class Drawer {
   std::vector<std::size_t> body_of_piece_;
   Eigen::AlignedBox3d bodies_;  ///< around all bodies and springs, m
   std::vector<Arrow> arrows_;
-  std::vector<std::pair<bool, std::vector<Vector3<double>>>> floors_;  ///< in front; corners
-  std::vector<Vector3<double>> seen_points_;                           ///< to be on the page
+  std::vector<std::pair<bool, std::vector<Vector3<double>>>> floors_;  ///< true for a floor in front; its corners
+  std::vector<Vector3<double>> seen_points_;                           ///< points that must be on the page
   double height_ = 0;
   Svg svg_;
 };

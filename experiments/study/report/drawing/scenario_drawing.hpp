@@ -11,7 +11,7 @@ namespace polhode::study::inline report::inline drawing {
 
 struct ScenarioDrawing {
   std::string svg;      ///< an element <svg>, with a text in its place for who cannot see it
-  std::string reading;  ///< what its arrows, numbers and lines are
+  std::string reading;  ///< meaning of its arrows, numbers and lines
 };
 
 /// Empty texts for a scenario without bodies.

@@ -18,7 +18,7 @@ namespace polhode::study::inline report::inline drawing {
 struct Piece {
   struct Face {
     Vector3<double> normal = Vector3<double>::Zero();  ///< unit, outward
-    double offset = 0;                                 ///< m: normal·x = offset on the face
+    double offset = 0;                                 ///< value of normal·x on the face, m
     std::vector<std::uint32_t> corners;                ///< points, counter-clockwise seen from outside
   };
   struct Triangle {
@@ -42,9 +42,9 @@ struct SeenPiece {
   };
   std::vector<Line> outlines;  ///< closed
   std::vector<Face> faces;     ///< flat faces that look at the viewer
-  std::vector<Line> rings;     ///< where planes through the middle along the body axes cut the rest of the surface
+  std::vector<Line> rings;     ///< curves on the rest of the surface, in planes through the middle along the body axes
   std::vector<Vector3<double>> points;
-  std::vector<std::pair<Vector3<double>, double>> planes;  ///< of all flat faces: outward normal, offset (m)
+  std::vector<std::pair<Vector3<double>, double>> planes;  ///< outward normal and offset (m) of each flat face
   Vector3<double> centre = Vector3<double>::Zero();
 };
 

@@ -8,7 +8,7 @@
 
 namespace polhode::study::inline report::inline drawing {
 
-using PagePoint = Eigen::Vector2d;  ///< on the page: to the right, and downwards
+using PagePoint = Eigen::Vector2d;  ///< place on the page, measured to the right and downwards
 
 /// Sum of the uniform accelerations of a problem, m/s², world axes; zero without gravity.
 Vector3<double> gravity_of(const Problem& problem);
@@ -19,7 +19,7 @@ class View {
   explicit View(const Vector3<double>& up);
 
   const Vector3<double>& toward() const { return toward_; }                ///< unit vector to the viewer, world axes
-  double depth(const Vector3<double>& x) const { return toward_.dot(x); }  ///< m; larger is nearer
+  double depth(const Vector3<double>& x) const { return toward_.dot(x); }  ///< depth, larger for a nearer point, m
 
   /// A point of the world on the page; m before fit(), units of the picture after it.
   PagePoint on_page(const Vector3<double>& x) const { return scale_ * direction(x) + shift_; }

@@ -25,8 +25,8 @@ std::string write_figures(const StudyView& study);
 
 struct RedrawnFigures {
   std::vector<std::string> names;   ///< figures that were drawn
-  std::vector<std::string> others;  ///< that are in the folder and were not drawn, unless --figure chose some
-  std::string said;                 ///< as write_figures() returns
+  std::vector<std::string> others;  ///< figures in the folder that were not drawn, unless --figure chose some
+  std::string said;                 ///< result of write_figures()
 };
 /// Writes the figures of stored runs, without an analysis, among those that are in figures/.
 RedrawnFigures redraw_figures(const StudyView& study);

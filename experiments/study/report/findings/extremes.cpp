@@ -65,8 +65,8 @@ struct Ranking {
     double value;
     bool off_the_motion;
   };
-  std::vector<Entry> above;  ///< above round-off and not lost, least first
-  std::vector<Entry> lost;   ///< from lost_level() on, likewise
+  std::vector<Entry> above;  ///< methods above round-off that are not lost, least first
+  std::vector<Entry> lost;   ///< methods from lost_level() on, least first
   std::vector<Entry> at_round_off;
   double largest_round_off = 0;
   std::vector<std::string> ended_early;

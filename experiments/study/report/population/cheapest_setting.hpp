@@ -40,7 +40,7 @@ class CheapestSetting {
   std::map<std::string, Settings::const_iterator> cheapest(const Settings& settings, std::size_t decade) const;
   Answer ranked(const Settings& settings, const char* what, const char* unit) const;
 
-  Settings attitude_, position_;  ///< by the quantity that is compared
+  Settings attitude_, position_;  ///< settings for the attitude and for the position
   std::map<std::string, std::size_t> outcomes_;
   bool too_many_ = false;
 };

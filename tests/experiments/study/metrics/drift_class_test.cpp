@@ -46,12 +46,12 @@ struct Drift {
   double t_end = 1, round_off = 0;
   std::function<double(double)> law = [](double) { return 0.0; };
   double walk = 0;                ///< standard deviation at the end
-  double noise = 0;               ///< from sample to sample
-  std::vector<double> impacts{};  ///< over t_end
+  double noise = 0;               ///< standard deviation of the noise of each sample
+  std::vector<double> impacts{};  ///< times of the impacts, over t_end
 };
 
-/// 1 in size, of `periods` in the run: a sine, one with a harmonic, or a row of pulses as a body near its unstable axis
-/// has.
+/// An oscillation of size 1, with `periods` in the run: a sine, a sine with a harmonic, or a row of pulses as a body
+/// near its unstable axis has.
 std::function<double(double)> oscillation(Chance& chance, double periods) {
   const double phase = chance.uniform(0, 2 * pi), sharp = chance.logarithmic(2, 30), other = chance.uniform(0, 2 * pi);
   switch (chance.below(3)) {

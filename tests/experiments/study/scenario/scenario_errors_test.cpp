@@ -15,7 +15,7 @@ namespace {
 struct Wrong {
   const char* from;
   const char* to;
-  const char* where;  ///< how the message begins, after "test.toml:"
+  const char* where;  ///< beginning of the message after "test.toml:"
   const char* says;
 };
 

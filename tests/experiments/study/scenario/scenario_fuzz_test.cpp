@@ -144,7 +144,7 @@ void expect_sound(const Scenario& s) {
   ASSERT_FALSE(s.canonical.empty());
 }
 
-/// 1 if it was read, 0 if it was refused in the way it must be.
+/// Returns 1 if it was read, 0 if it was refused in the way it must be.
 int read(const std::string& text, const std::vector<Override>& overrides, const std::string& begins) {
   try {
     expect_sound(ScenarioSource::parse(text, "fuzz.toml").resolve(overrides));

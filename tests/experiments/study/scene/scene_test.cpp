@@ -84,8 +84,7 @@ void expect_normals_outward(const Surface& s) {
   }
 }
 
-/// m, how far a point lies inside of a convex shape: the least of h(d) - d·x over the directions, found by descent from
-/// d.
+/// Depth of a point inside a convex shape, m: the least of h(d) - d·x over the directions, found by descent from d.
 double depth(const Shape& shape, const Vector& x, Vector d) {
   const auto gap = [&](const Vector& u) { return u.dot(shape.support(u) - x); };
   double step = 1;

@@ -30,8 +30,8 @@ struct Law {
   const char* expected;
   double exponent;
   std::function<double(double)> trend;
-  double slope;                      ///< of the least-squares line, per t_end
-  double amplitude = 0;              ///< of the oscillation, with a second harmonic
+  double slope;                      ///< slope of the least-squares line, per t_end
+  double amplitude = 0;              ///< amplitude of the oscillation, which has a second harmonic
   double shortest = 1, longest = 5;  ///< period, s
   double walk = 0;                   ///< standard deviation at the end
   double noise = 0;

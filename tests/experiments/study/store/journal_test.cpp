@@ -59,7 +59,7 @@ std::uint64_t kept_until_killed(const std::filesystem::path& folder, Journal jou
   return done - first;
 }
 
-/// 1: rollback journal, 2: write-ahead logging (sqlite.org/fileformat2.html, offset 18).
+/// Mode of the journal: 1 rollback journal, 2 write-ahead logging (sqlite.org/fileformat2.html, offset 18).
 int mode_of(const std::filesystem::path& folder) {
   char header[20] = {};
   std::ifstream(folder / Store::file_name, std::ios::binary).read(header, sizeof header);
