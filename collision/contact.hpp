@@ -31,7 +31,7 @@ struct ContactPoint {
 /// The contact patch of two convex shapes: one normal, and the points that determine the contact.
 struct Manifold {
   static constexpr std::size_t capacity = 8;
-  Vector3<double> normal = Vector3<double>::Zero();  ///< unit, world, from B to A; the impulse on A is +j n
+  Vector3<double> normal = Vector3<double>::Zero();  ///< unit normal from B to A, world axes; the impulse on A is +j n
   std::array<ContactPoint, capacity> points{};
   std::size_t count = 0;  ///< 0: no contact
 };
@@ -40,7 +40,7 @@ struct Manifold {
 /// translation that separates them.
 struct Distance {
   double distance = 0;                               ///< m
-  Vector3<double> normal = Vector3<double>::Zero();  ///< unit, world, from B to A
+  Vector3<double> normal = Vector3<double>::Zero();  ///< unit normal from B to A, world axes
   Vector3<double> on_a = Vector3<double>::Zero();    ///< witness point on A, world axes, m
   Vector3<double> on_b = Vector3<double>::Zero();
 };

@@ -50,7 +50,7 @@ struct ImpulseBody {
 ///   v'·n >= wanted,   j·n >= 0,   one of them with equality;   |j − (j·n) n| <= friction · j·n, against the slip.
 struct ImpulseContact {
   std::uint32_t a = 0, b = 0;                        ///< numbers of the bodies, a < b; contacts are sorted by them
-  Vector3<double> normal = Vector3<double>::Zero();  ///< unit, world, from B to A
+  Vector3<double> normal = Vector3<double>::Zero();  ///< unit normal from B to A, world axes
   Vector3<double> point = Vector3<double>::Zero();   ///< position of the point, world axes, m
   double depth = 0;                                  ///< depth, negative if the surfaces are apart, m
   double friction = 0;                               ///< Coulomb's coefficient

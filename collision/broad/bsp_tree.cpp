@@ -33,15 +33,15 @@ using Index = std::uint32_t;
 constexpr Index none = ~Index(0);
 constexpr Index capacity = 16;       // entries of a leaf, before a plane is looked for
 constexpr Index poor = 8;            // entries of two leaves, to be one again
-constexpr double larger_side = 0.8;  // of the entries, at most, for a plane to be worth it
+constexpr double larger_side = 0.8;  // largest share of the entries on one side of a plane that is worth it
 constexpr double both_sides = 1.7;   // entries on both sides together, over those before
 
-constexpr std::size_t leaves_ahead = 24, heads_ahead = 16, chunks_ahead = 8;  // visits, when memory is asked for them
+constexpr std::size_t leaves_ahead = 24, heads_ahead = 16, chunks_ahead = 8;  // visits by which memory is fetched ahead
 
 /// The part of a node that is read while descending.
 struct Node {
   double plane = 0;
-  Index child = none;  // below the plane; the next one is the rest; none: a leaf
+  Index child = none;  // number of the child below the plane; the next number is the other child; none: a leaf
   std::uint8_t axis = 0;
 };
 
@@ -76,7 +76,7 @@ struct alignas(32) Leaf {
   Index head = none;  // the entries, in chunks of which only the first may have room
   Index count = 0;
   Index limit = capacity;  // entries at which a plane is looked for
-  Index parent = none;     // of an inner node too
+  Index parent = none;     // parent of an inner node too
   Frame frame{};
 };
 
@@ -184,7 +184,7 @@ class BspTree final : public BroadPhase {
     }
   }
 
-  /// Notes the leaves at and below v that the box before or now reaches; the visit says which of them reach v.
+  /// Notes the leaves at and below v that the box before or now reaches; a visit holds which of the boxes reach v.
   void visit(Index v, Visit at, const PlainBox& before, const PlainBox& now) {
     while (nodes_[v].child != none) {
       const Node node = nodes_[v];
@@ -221,7 +221,7 @@ class BspTree final : public BroadPhase {
     broad::fetch(bodies_in_[lanes * c + lanes - 1]);
   }
 
-  /// The number of a search, by which it knows whom it has met.
+  /// Begins a search with a number of its own, which marks the bodies that it has met.
   void ask() {
     if (++question_ != 0) return;
     settle_hits();
@@ -306,7 +306,7 @@ class BspTree final : public BroadPhase {
     }
   }
 
-  /// From the parent of a leaf upwards.
+  /// Joins poor leaves, from the parent of a leaf upwards.
   void join_above(Index v) {
     do {
       v = leaves_[v].parent;
@@ -338,7 +338,7 @@ class BspTree final : public BroadPhase {
     return true;
   }
 
-  /// Looks for the plane that leaves the least on its larger side, and splits by it if it is worth it.
+  /// Finds the plane that leaves the least on its larger side, and splits by it if it is worth it.
   void split(Index v) {
     if (leaves_[v].count <= capacity) return;
     const auto count = static_cast<double>(leaves_[v].count);
@@ -414,7 +414,8 @@ class BspTree final : public BroadPhase {
     return *middle;
   }
 
-  /// At and below v the pairs of a body that left its fat box: with bodies that did not, and before it.
+  /// Finds the pairs, at and below v, of a body that left its fat box: with bodies that did not, and with those before
+  /// it.
   void search(Index v, Index body) {
     const PlainBox& box = fat_.fat(body);
     while (nodes_[v].child != none) {
@@ -464,7 +465,7 @@ class BspTree final : public BroadPhase {
 
   broad::FatBoxes fat_;
   std::vector<Node> nodes_;   // the root first
-  std::vector<Leaf> leaves_;  // of the same numbers
+  std::vector<Leaf> leaves_;  // leaves with the numbers of their nodes
   std::vector<Visit> visits_;
   std::vector<Chunk> chunks_;
   std::vector<Index> bodies_in_;   // the lanes of the chunks
@@ -477,7 +478,7 @@ class BspTree final : public BroadPhase {
   std::array<Hit, 256> hits_;
   std::size_t hit_count_ = 0;
   Index question_ = 0;                // the number of a search
-  std::vector<Index> last_question_;  // of each body, the one that met it last
+  std::vector<Index> last_question_;  // number of the last search that met each body
   broad::KeptPairs kept_;
   std::span<const BodyPair> pairs_;
 };

@@ -79,7 +79,7 @@ class Bvh final : public BroadPhase {
     outside_.reserve(fat_.size());
   }
 
-  /// From nothing, by halves along the longest side.
+  /// Builds the tree anew, by halves along the longest side.
   void build() {
     nodes_.clear();
     free_.clear();
@@ -251,7 +251,7 @@ class Bvh final : public BroadPhase {
       const Node& o = nodes_[other];
       if (o.leaf()) continue;
       const double before = area(o.box);
-      const double left = area(hull(nodes_[child].box, nodes_[o.right].box)) - before;  // in the left one's place
+      const double left = area(hull(nodes_[child].box, nodes_[o.right].box)) - before;  // child in the left's place
       const double right = area(hull(nodes_[child].box, nodes_[o.left].box)) - before;
       if (left < best) best = left, best_child = child, best_grandchild = o.left;
       if (right < best) best = right, best_child = child, best_grandchild = o.right;
@@ -313,8 +313,8 @@ class Bvh final : public BroadPhase {
   std::vector<Node> nodes_;
   std::vector<Index> free_, leaf_, order_, outside_;
   Index root_ = none;
-  std::size_t jumps_ = 0;  // since the tree was built
-  bool built_ = false;     // in this step, so that all pairs are to be found
+  std::size_t jumps_ = 0;  // number of jumps since the tree was built
+  bool built_ = false;     // the tree was built in this step, so that all pairs are to be found
   broad::KeptPairs kept_;
   std::span<const BodyPair> pairs_;
 };

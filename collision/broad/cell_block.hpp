@@ -38,7 +38,7 @@ using Word = std::uint64_t;
 using Words [[gnu::vector_size(16)]] = Word;
 inline constexpr std::size_t lanes = 16, lanes_of_word = 8;
 inline constexpr Word in_all_lanes = 0x0101010101010101, top_bits = 0x80 * in_all_lanes;
-inline constexpr std::int64_t largest = 127;  // below the top bit
+inline constexpr std::int64_t largest = 127;  // largest number below the top bit
 
 inline Words both(Word word) { return Words{word, word}; }
 
@@ -67,7 +67,7 @@ struct Limits {
 
 /// The sides of up to sixteen boxes, relative to the beginning of their cell.
 struct Sides {
-  std::array<Words, 3> begins, ends;  // by lane; the end is stored as its distance from the largest number
+  std::array<Words, 3> begins, ends;  // sides by lane; an end is stored as its distance from the largest number
 
   void set(std::size_t lane, const Reach& in_cell) {
     for (std::size_t k = 0; k < 3; ++k) {

@@ -13,7 +13,7 @@ class CellSize {
  public:
   /// False if the size stays, as it does while it is about right for the boxes and the largest common one fits.
   bool choose(const FatBoxes& boxes);
-  /// The next choose() does not look at the present size.
+  /// The next choose() ignores the present size.
   void forget() { half_cell_ = -1; }
 
   double half_cell() const { return half_cell_; }  ///< m

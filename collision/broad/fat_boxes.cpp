@@ -14,9 +14,9 @@ constexpr double widest = 0.5;                        // reach ahead over the lo
 constexpr double hopeless = 0.1;  // path of a step over the longest edge, above which room is of no use
 constexpr double thin = 0.01;     // margin on all sides over the edge across it
 
-constexpr std::size_t boxes_ahead = 64, bodies_ahead = 8;  // asked of memory, which does not foresee it
+constexpr std::size_t boxes_ahead = 64, bodies_ahead = 8;  // boxes and bodies by which memory is fetched ahead
 
-/// A number from 0 to 1 that looks like chance, but is the same in every run.
+/// A number from 0 to 1 that appears random, but is the same in every run.
 double scatter(std::uint32_t body, std::uint32_t step) {
   std::uint32_t h = body * 0x9E3779B1u ^ step * 0x85EBCA77u;
   h = (h ^ h >> 15) * 0xC2B2AE3Du;

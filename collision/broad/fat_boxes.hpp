@@ -46,7 +46,7 @@ class FatBoxes {
   void renew(std::uint32_t body, const PlainBox& now, double fewest_steps);
 
   std::vector<PlainBox> fat_, before_,
-      now_;  // by number; of those that left: the fat box that they had, and the true one
+      now_;  // boxes by number; for bodies that left: their old fat boxes, and their true boxes
   std::vector<Origin> origin_;
   std::vector<std::uint32_t> left_;
   std::vector<std::uint8_t> has_left_;

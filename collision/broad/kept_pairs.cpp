@@ -7,7 +7,7 @@
 namespace polhode::inline collision::broad {
 namespace {
 
-// When memory is asked for bounds, those of pairs that were kept and those of fresh ones.
+// Pairs by which the bounds of kept pairs and of fresh pairs are fetched ahead.
 constexpr std::ptrdiff_t pairs_ahead = 32;
 constexpr std::size_t fresh_ahead = 8;
 

@@ -22,7 +22,8 @@ class KeptPairs {
   /// Adds a pair of fat boxes of which at least one is new in this step; each pair once.
   void add(std::uint32_t a, std::uint32_t b) { fresh_.add(a, b); }
 
-  /// After all calls of add() in a step: the pairs whose true boxes overlap, sorted; valid until the next call.
+  /// The pairs whose true boxes overlap, sorted, valid until the next call. All calls of add() in a step come before
+  /// it.
   std::span<const BodyPair> renew(const FatBoxes& boxes, std::span<const Bounds> bounds);
 
  private:

@@ -320,7 +320,7 @@ class LooseTree final : public BroadPhase {
   std::vector<PlainBox> boxes_;
   std::vector<Node> nodes_;                  // the root first
   std::vector<Index> free_;                  // blocks of four or eight children that are not in use
-  std::vector<Index> home_, next_, before_;  // for each body: its node, and its neighbours in the list of that node
+  std::vector<Index> home_, next_, before_;  // node of each body, and its neighbours in the list of that node
   std::size_t astray_ = 0;                   // bodies inserted in the last step that lie outside the root cell
   std::vector<PlainBox> laid_;               // boxes of the bodies in the order of the tree
   std::vector<Index> bodies_;

@@ -26,7 +26,7 @@ namespace {
 using broad::PlainBox;
 
 constexpr std::size_t block = 16;           // boxes compared at a time
-constexpr std::size_t moves_per_body = 32;  // by insertion, before sorting anew is cheaper
+constexpr std::size_t moves_per_body = 32;  // moves by insertion, up to which sorting anew is not cheaper
 constexpr double worth_another_axis = 1.5;  // times the spread on the present one
 
 class SweepAndPrune final : public BroadPhase {
@@ -154,7 +154,7 @@ class SweepAndPrune final : public BroadPhase {
   }
 
   std::size_t axis_ = 0;
-  std::vector<PlainBox> boxes_, swept_;  // by number; by where they begin
+  std::vector<PlainBox> boxes_, swept_;  // boxes by number; boxes by where they begin
   std::vector<std::uint32_t> order_;     // the bodies by where they begin
   std::vector<Begin> begins_;
   std::vector<float> low1_, low2_, high2_, low3_, high3_;

@@ -35,8 +35,8 @@ constexpr Index none = ~Index(0), on_no_level = none - 1;
 constexpr std::size_t most_levels = 16;
 constexpr double coarser = 4;  // cells of the next level
 constexpr std::size_t slots_per_body = 1;
-constexpr std::size_t boxes_ahead = 8, blocks_ahead = 6;  // bodies, when memory is asked for theirs
-constexpr std::uint32_t steps_between_looks = 32;         // at the sizes of boxes
+constexpr std::size_t boxes_ahead = 8, blocks_ahead = 6;  // bodies by which memory is fetched ahead
+constexpr std::uint32_t steps_between_looks = 32;         // steps from one check of the sizes of boxes to the next
 
 class UniformGrid final : public BroadPhase {
  public:
@@ -80,8 +80,8 @@ class UniformGrid final : public BroadPhase {
     int bits = 6;
     while (std::size_t(1) << bits < slots_per_body * fat_.size()) ++bits;
     slots_.resize(std::size_t(1) << bits);
-    // In a cube of about as many cells as there are slots no two share one; the odd steps fill all slots from any row
-    // of cells.
+    // No two cells share a slot in a cube of about as many cells as there are slots; the odd steps fill all slots from
+    // any row of cells.
     step_y_ = (Index(1) << (bits + 2) / 3) + 1;
     step_z_ = (Index(1) << (2 * bits + 2) / 3) + 1;
     blocks_.reserve(fat_.size() + 1);  // each but the first holds a body
@@ -408,7 +408,7 @@ class UniformGrid final : public BroadPhase {
     hit_count_ = 0;
   }
 
-  /// If both bodies left their fat boxes, the pair is reported for the later one only.
+  /// True if the pair is reported for this body. If both left their fat boxes, it is reported for the later one only.
   bool is_fresh(Index body, Index other) const {
     return (int(other < body) | (int(other > body) & int(!fat_.has_left(other)))) != 0;
   }
@@ -423,17 +423,17 @@ class UniformGrid final : public BroadPhase {
 
   FatBoxes fat_;
   broad::KeptPairs kept_;
-  broad::CellSize cell_size_;                    // of the first level
+  broad::CellSize cell_size_;                    // size of the cells of the first level
   std::array<double, most_levels> per_metre_{};  // units
-  std::array<Index, most_levels> bodies_{};      // how many on each level
+  std::array<Index, most_levels> bodies_{};      // number of bodies on each level
   struct Hit {
-    Index body, other;  // or the other one's place
+    Index body, other;  // number of the body, or its place
   };
   std::array<Hit, 1024> hits_;
   std::size_t hit_count_ = 0;
-  std::size_t levels_ = 0;         // that have ever held one
+  std::size_t levels_ = 0;         // number of levels that have ever held a body
   std::vector<Index> slots_;       // the first block of each hash
-  Index step_y_ = 1, step_z_ = 1;  // of the hash, from a cell to the next
+  Index step_y_ = 1, step_z_ = 1;  // steps of the hash from a cell to the next
   std::vector<Block> blocks_;
   std::vector<Index> bodies_in_;  // the lanes of the blocks
   Index free_block_ = no_block;   // a list of those not in use
@@ -441,11 +441,11 @@ class UniformGrid final : public BroadPhase {
     Index body;
     Home home;
   };
-  std::vector<Home> homes_;    // of those that left their fat boxes
+  std::vector<Home> homes_;    // cells of the bodies that are being placed
   std::vector<Mover> movers_;  // the same in the order of their cells' slots
-  std::vector<Index> starts_;  // of that order
-  std::vector<Index> place_;   // of each body: its block and lane
-  std::vector<Index> large_;   // on no level
+  std::vector<Index> starts_;  // beginnings of the groups of slots in movers_
+  std::vector<Index> place_;   // block and lane of each body
+  std::vector<Index> large_;   // bodies on no level
   std::uint32_t steps_ = 0;
   std::span<const BodyPair> pairs_;
 };

@@ -16,7 +16,7 @@ const Entry& known(const Entry* entry, const char* what, std::string_view name) 
   return *entry;
 }
 
-/// A pair remembers some 600 bytes, and has up to 8 points of some 200 bytes each.
+/// The data of a pair take some 600 bytes, and up to 8 points of some 200 bytes each.
 constexpr std::size_t most_near_pairs = 1'000'000;
 
 /// The radius about the origin of a shape's axes.

@@ -73,8 +73,8 @@ void Guards::watch(const State<double>& from, const State<double>& to, std::span
     const bool held = std::any_of(resting.begin(), resting.end(),
                                   [&](const ImpulseContact& c) { return c.a == g.pair.a && c.b == g.pair.b; });
     if (held) {
-      // As deep as it is, and no deeper: sinking from one bounce to the next would feed them. A body that rolls may
-      // sink on.
+      // The pair may be as deep as it is, and no deeper: sinking from one bounce to the next would feed the bounces. A
+      // body that rolls may sink further.
       g.allowance = std::max(lengths_.allowed_penetration, deeper - distance);
       g.speed = 0;
       g.leaving = g.allowance > lengths_.allowed_penetration;
@@ -127,7 +127,7 @@ bool Guards::may_dip(const Look& from, const Look& to, double length) const {
       return std::min(here, there) > sag - lengths_.met;
     };
     const Vector3<double>&n = from.normals[k], &m = to.normals[k];
-    if (n == m) {  // as a half-space's is
+    if (n == m) {  // the normal of a half-space is always the same
       if (!n.isZero(0) && stays(n, first, last)) continue;
     } else {
       if (!n.isZero(0) && stays(n, first, separation(g, n, to.poses) + g.allowance)) continue;

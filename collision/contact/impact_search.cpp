@@ -14,7 +14,7 @@ std::optional<double> ImpactSearch::first_impact(FlightPath& path, const State<d
   guards_.look(start, at_start_);
   guards_.look(end, at_end_);
   if (at_end_.least <= 0 && (guards_.some_leave() || !(at_start_.least > 0))) {
-    // For pairs that touch and separate at the start, search from an instant at which they are apart.
+    // If pairs touch and separate at the start, the search begins at an instant at which they are apart.
     from = length;
     at_start_ = at_end_;
     for (int halvings = 0; halvings < 60 && !(at_start_.least > lengths_.met); ++halvings) {

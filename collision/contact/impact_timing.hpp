@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The catalogue of timings: at which instants a run looks for contact and answers it.
+// The catalogue of timings: at which instants a run searches for contact and answers it.
 #pragma once
 
 #include <memory>

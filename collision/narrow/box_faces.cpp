@@ -85,7 +85,7 @@ bool faces_patch(const ReferenceFace& reference, const IncidentBox& incident, do
   const Vector3<double>& half = reference.half;
   const Matrix3<double>& turn = incident.turn;
   const Vector3<double> towards =
-      -sign * turn.row(k).transpose();  // into the reference box, in the incident box's axes
+      -sign * turn.row(k).transpose();  // vector into the reference box, in the incident box's axes
   const int axis = largest_component(towards), u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
   const std::uint32_t incident_face = face_along(towards, axis);
 

@@ -41,7 +41,7 @@ void edge_point(const RelativeBoxes& boxes, const Pose& pose, const BoxAxis& axi
 
 /// The feature of a box that a point on its surface belongs to.
 struct Part {
-  int faces = 0;             // how many it lies on: 1 a face, 2 an edge, 3 a vertex
+  int faces = 0;             // number of faces on which the point lies: 1 a face, 2 an edge, 3 a vertex
   int along = 0;             // axis of the edge, or of the face's normal
   std::uint32_t vertex = 0;  // bits as the box numbers its vertices
 
@@ -58,7 +58,7 @@ struct Part {
     along = faces == 1 ? on : in;
   }
   std::uint32_t face() const { return std::uint32_t(2 * along) + (vertex >> along & 1); }
-  /// For a vertex: its edge that is most nearly parallel to d.
+  /// The edge of the vertex that is most nearly parallel to d.
   std::uint32_t edge(const BoxAt& box, const Vector3<double>& d) const {
     return edge_from[vertex & ~(1u << axis(box, d))][axis(box, d)];
   }

@@ -23,9 +23,9 @@
 namespace polhode::inline collision {
 namespace {
 
-// In units of half extents and offset; a sum over all entries of the poses, so that a NaN in one of them decides
-// nothing. An undivided edge product is off by as much at most, however short it is; and where it is shorter than
-// `parallel`, the axis tells nothing that a face normal does not.
+// Bound of the round-off, in units of half extents and offset. It is over a sum of all entries of the poses, so that a
+// NaN in one of them decides nothing. An undivided edge product is off by as much at most, however short it is; where
+// it is shorter than `parallel`, the axis decides nothing that a face normal does not.
 constexpr double undecided = 6e-15;
 constexpr double parallel_squared = 1e-28;
 
@@ -42,7 +42,7 @@ struct Rows {
     row[1] = __builtin_shufflevector(first, middle, 1, 4, 7, 7);
     row[2] = __builtin_shufflevector(first, last, 2, 4, 7, 7);
   }
-  /// Of the transposed matrix and x.
+  /// The product of the transposed matrix and x.
   Four transposed_times(Four x) const { return all(x[0]) * row[0] + all(x[1]) * row[1] + all(x[2]) * row[2]; }
 };
 
@@ -121,7 +121,7 @@ inline Answer QuickBoxes::by_axes() const {
 
 inline Lanes larger(Lanes a, Lanes b) { return select(a > b, a, b); }
 
-/// Of both signs the number nearest to x that is no larger than `most`.
+/// The number nearest to x, of either sign, that is no larger than `most`.
 inline Lanes clamped(Lanes x, Lanes most) {
 #ifdef __AVX512DQ__
   return Lanes(Lanes::Pack(_mm512_range_pd(std::bit_cast<Lanes::Pack>(x), std::bit_cast<Lanes::Pack>(most),
@@ -261,7 +261,7 @@ inline Lanes::Pack packed(Lanes x) { return std::bit_cast<Lanes::Pack>(x); }
 /// Several pairs, one in each lane.
 struct LanedPairs {
   LanedBoxes a, b;
-  Lanes between[3], in_a[3], in_b[3];  // from the centre of A to that of B, in three frames
+  Lanes between[3], in_a[3], in_b[3];  // vector from the centre of A to that of B, in three frames
   Lanes halves{0.0};
 
   [[gnu::always_inline]] LanedPairs(const PosedBox* const (&of_a)[lane_count],

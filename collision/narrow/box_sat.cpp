@@ -11,9 +11,9 @@
 namespace polhode::inline collision {
 namespace {
 
-constexpr double round_off = 5e-16;    // of a separation, in units of RelativeBoxes::scale
+constexpr double round_off = 5e-16;    // rounding error of a separation, in units of RelativeBoxes::scale
 constexpr double parallel = 1e-15;     // sine of an angle below which two edges span no axis that others do not
-constexpr double nearly_best = 1e-12;  // in the same units: an edge axis that may hold the nearest points
+constexpr double nearly_best = 1e-12;  // margin, in the same units, of an edge axis that may hold the nearest points
 
 /// Gap between the projections of the boxes on n; n is a unit vector in A's axes, from A to B.
 double shadow_gap(const RelativeBoxes& boxes, const Vector3<double>& offset, const Vector3<double>& n) {
@@ -83,8 +83,7 @@ void offer_edges(const RelativeBoxes& boxes, int i, int j, const Vector3<double>
   const double x = std::clamp(difference[i], -reach_a, reach_a);
   const bool both_within = u == best && x == difference[i];
   difference[i] -= x;
-  // For nearly parallel edges that are well apart, the difference of the points gives a better direction than the
-  // product.
+  // If nearly parallel edges are well apart, the difference of the points gives a better direction than the product.
   const Vector3<double> straight = normal * difference.dot(normal);
   if (both_within && (difference - straight).norm() <= 4 * round_off * boxes.scale) difference = straight;
   Vector3<double> on_a = a;
@@ -119,7 +118,7 @@ void offer_edge_pairs(const RelativeBoxes& boxes, const Vector3<double>& offset,
 
 /// The relative rotation, three entries side by side.
 struct Sides {
-  Four row[3], magnitude[3];  // of a row
+  Four row[3], magnitude[3];  // the rows, and their magnitudes
 
   explicit Sides(const Matrix3<double>& c) {
     for (int i = 0; i < 3; ++i) {
@@ -173,7 +172,7 @@ Nearest nearest_points(const RelativeBoxes& boxes, const Vector3<double>& offset
   for (std::uint32_t left = possible_edges(boxes, Sides(boxes.b_in_a), wanted); left != 0; left &= left - 1) {
     const BoxAxis axis = edge_axis(boxes, std::countr_zero(left));
     if (axis.separation < wanted) continue;
-    // For boxes with the same centre a product may point either way; such boxes were moved apart along `best`.
+    // A product may point either way if the boxes have the same centre; such boxes were moved apart along `best`.
     const Vector3<double> normal = axis.normal.dot(best.normal) < 0 ? Vector3<double>(-axis.normal) : axis.normal;
     offer_edge_pairs(boxes, offset, (axis.index - 6) / 3, (axis.index - 6) % 3, normal, nearest);
   }
@@ -193,7 +192,7 @@ Distance ordered_distance(const BoxAt& a, const BoxAt& b) {
   const Nearest nearest = nearest_points(boxes, offset, axis);
   if (apart) {
     result.distance = std::max(axis.separation, nearest.distance);
-    // If the boxes touch up to round-off, the axis gives the better direction.
+    // The axis gives the better direction if the boxes touch up to round-off.
     const bool touch = (nearest.apart - axis.separation * axis.normal).norm() <= 20 * round_off * boxes.scale;
     const bool known =
         nearest.distance > 0 && (!touch || nearest.gap(nearest.apart) >= axis.separation - round_off * boxes.scale);

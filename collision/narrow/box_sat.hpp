@@ -29,7 +29,7 @@ struct BoxAt {
 struct BoxAxis {
   int index = 0;          ///< 0–2 faces of A, 3–5 faces of B, 6 + 3i + j edge i of A × edge j of B
   double separation = 0;  ///< separation along the normal, negative if the boxes overlap, m
-  Vector3<double> normal = Vector3<double>::Zero();  ///< unit, in A's axes, from A to B
+  Vector3<double> normal = Vector3<double>::Zero();  ///< unit normal from A to B, in A's axes
 };
 
 /// B in the axes of A.

@@ -21,9 +21,9 @@ using Kind = SupportFeature::Kind;
 using Corner = SupportFeature::Corner;
 
 constexpr std::uint32_t end_of_edge = 1u << 31;
-constexpr double parallel = 1e-5;   // of edges side by side: how far they part, across the normal, over their length
-constexpr double as_deep = 1e-3;    // how much depth, of the least, a normal may have too much to be as good
-constexpr double round_off = 1e-9;  // of a face's size
+constexpr double parallel = 1e-5;   // distance by which edges side by side part, across the normal, over their length
+constexpr double as_deep = 1e-3;    // excess of depth, over the least, up to which a normal is as good
+constexpr double round_off = 1e-9;  // rounding error, over the size of a face
 
 /// Buffers that are filled anew for each pair.
 struct Scratch {

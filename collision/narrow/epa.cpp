@@ -80,7 +80,7 @@ class Expansion {
                                                  Vector3<double>::UnitZ()};
     const double length = choose(axes, found[1], [&](const MinkowskiCorner& c) { return edge(found[0], c).norm(); });
     if (length <= flat_share * polytope_.scale()) {
-      // Two points: apart they tell the normal, together any will do.
+      // Two points that are apart give the normal; if they are together, any normal will do.
       flat_normal_ = found[0].w.norm() > 0 ? found[0].w.stableNormalized() : Vector3<double>::UnitZ();
       return false;
     }
@@ -124,7 +124,7 @@ class Expansion {
         polytope_.retire(*at);
         continue;
       }
-      if (met) return false;  // what was remembered is not convex here any more
+      if (met) return false;  // the polytope of the last query is not convex here any more
       if (polytope_.full() || !polytope_.grow(*at, next)) return least < 0;
     }
     return true;
@@ -155,7 +155,7 @@ class Expansion {
       result.on_b = r.simplex.turned_on_b() + pair_.offset;
       const Vector3<double> step = r.v / r.distance - result.normal;
       const double before = result.distance;
-      // If depth and radius are nearly equal the steps are short: lengthens them as long as that improves the result.
+      // Steps are short if depth and radius are nearly equal; they are lengthened as long as that improves the result.
       const Vector3<double> from = result.normal;
       for (double stretch = 1; stretch < 1e6; stretch *= 2) {
         const Vector3<double> n = (from + stretch * step).normalized();

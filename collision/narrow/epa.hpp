@@ -18,7 +18,7 @@ double separation(const MinkowskiPair& pair, const Vector3<double>& n);
 
 struct Penetration {
   double distance = 0;                                ///< signed distance: minus the depth of the cores, m
-  Vector3<double> normal = Vector3<double>::UnitX();  ///< unit, from B to A, in A's axes
+  Vector3<double> normal = Vector3<double>::UnitX();  ///< unit normal from B to A, in A's axes
   Vector3<double> on_a = Vector3<double>::Zero();     ///< witness points, both in A's axes, relative to A's origin
   Vector3<double> on_b = Vector3<double>::Zero();
 };

@@ -79,7 +79,7 @@ bool EpaPolytope::grow(Index seen, const MinkowskiCorner& next) {
       open_[std::size_t(open++)] = faces_[face].across[std::size_t(k)];
     }
   };
-  // Depth first round the faces that the corner sees, so that the rim comes out in order.
+  // The faces that are visible from the corner are visited depth first, so that the rim comes out in order.
   enter(seen, 0);
   while (open > 0) {
     const Index side = open_[std::size_t(--open)];

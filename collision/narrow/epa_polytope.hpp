@@ -23,7 +23,7 @@ class EpaPolytope {
   static constexpr int corner_room = 512, face_room = 2 * corner_room;  // Euler: n corners have 2n − 4 triangles
 
   struct Face {
-    Vector3<double> normal;       ///< unit, outward; zero: the face has no area
+    Vector3<double> normal;       ///< outward unit normal; zero: the face has no area
     double offset;                ///< normal·x on the face
     std::array<Index, 3> corner;  ///< counter-clockwise seen from outside
     std::array<Index, 3> across;  ///< number of side i, from corner i to corner i + 1, in the adjacent face

@@ -12,7 +12,7 @@
 
 #include "core/math/linear_algebra.hpp"
 
-// On processors with narrower registers, GCC warns about the calling convention of such vectors. They are passed within
+// GCC warns about the calling convention of such vectors on processors with narrower registers. They are passed within
 // one file only.
 #pragma GCC diagnostic ignored "-Wpsabi"
 

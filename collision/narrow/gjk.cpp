@@ -117,7 +117,7 @@ Penetration with_sure_normal(const MinkowskiPair& pair, const GjkResult& r, cons
     if (!(p.distance >= best.distance - rounding)) break;
     best = p;
   }
-  if (best.distance < r.distance - rounding) {  // not even sure that they are apart
+  if (best.distance < r.distance - rounding) {  // the shapes may not be apart
     const Penetration p = epa(pair, r, nullptr);
     if (p.distance >= best.distance - rounding) return p;
   }
@@ -189,7 +189,7 @@ std::span<const Compound::Part> parts_of(const Shape& shape) {
   return static_cast<const Compound&>(shape).parts();
 }
 
-/// In the order of `exchanged`.
+/// The distance with the shapes in the order of `exchanged`.
 Distance ordered_distance(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, PairMemory* memory,
                           bool swapped) {
   if (a.tag() == ShapeTag::half_space && b.tag() == ShapeTag::half_space) {

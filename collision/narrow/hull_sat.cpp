@@ -21,7 +21,7 @@ namespace {
 
 using Vector = Vector3<double>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double round_off = 1e-15;  // of a separation, in units of Pair::scale
+constexpr double round_off = 1e-15;  // rounding error of a separation, in units of Pair::scale
 constexpr double parallel = 1e-15;   // sine of an angle below which two edges span no axis that faces do not
 constexpr double generous = 1e-9;    // sine by which arcs may miss each other
 
@@ -82,7 +82,7 @@ struct Core {
 
 struct Axis {
   double separation = -infinity;   // separation along the normal, negative if the shapes overlap, m
-  Vector normal = Vector::Zero();  // unit, in A's axes, from A to B; zero: none
+  Vector normal = Vector::Zero();  // unit normal from A to B, in A's axes; zero: none
 };
 
 /// Features of a core that may contain the nearest point.
@@ -248,7 +248,8 @@ struct Pair {
     const auto share = [](const Vector& x, const Vector& line, double square) {
       return square > 0 ? std::clamp(x.dot(line) / square, 0.0, 1.0) : 0.0;
     };
-    // Between its ends a line is met upright, however near: what round-off leaves along it is taken off.
+    // The difference is perpendicular to a line between its ends, however near: what round-off leaves along the line is
+    // taken off.
     const auto upright = [](const Vector& x, const Vector& line, double square, double at) {
       return at > 0 && at < 1 ? Vector(x - line * (x.dot(line) / square)) : x;
     };
@@ -278,8 +279,7 @@ struct Pair {
     const Vector x = p + s * u, y = q + t * v;
     const Vector difference = upright(y - x, line, length, same),
                  straight = product * (product.dot(difference) / square);
-    // For nearly parallel edges that are well apart, the difference of the points gives a better direction than the
-    // product.
+    // If nearly parallel edges are well apart, the difference of the points gives a better direction than the product.
     offer(x, y, (difference - straight).norm() <= 2 * round_off * scale ? straight : difference);
   }
 
@@ -330,7 +330,7 @@ Distance ordered_distance(const Shape& a, const Pose& at_a, const Shape& b, cons
   if (axis.normal.isZero(0) || axis.separation > 0) {
     pair.find_nearest(axis.normal, axis.separation);
     distance = std::max({axis.separation, pair.apart.stableNorm()});
-    // If the shapes touch up to round-off, the axis gives the better direction.
+    // The axis gives the better direction if the shapes touch up to round-off.
     const Vector towards = pair.apart.stableNormalized();
     if (axis.normal.isZero(0)) {
       normal = pair.nearest > 2 * round_off * pair.scale ? towards : across(pair);

@@ -18,7 +18,7 @@ int compare(const V& a, const V& b) {
   return 0;
 }
 
-/// By kind, bounds, mass and how far it reaches along some directions.
+/// Compares two shapes by kind, bounds, centroid and inertia; half-spaces by kind, bounds, normal and offset.
 int compare_shapes(const Shape& a, const Shape& b) {
   if (&a == &b) return 0;
   if (const int by_kind = a.kind().compare(b.kind()); by_kind != 0) return by_kind;

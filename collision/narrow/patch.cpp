@@ -13,7 +13,7 @@
 namespace polhode::inline collision {
 namespace {
 
-constexpr double least_gain = 1.0 / 32;  // of the patch's area, for a point beside four others to matter
+constexpr double least_gain = 1.0 / 32;  // least gain, over the patch's area, by a point beside four others
 
 /// The feature at which the edge that leaves a corner crosses a side: another side's edge (then it is a vertex of the
 /// reference face), or an edge of the incident face.

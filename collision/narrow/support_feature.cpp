@@ -18,7 +18,7 @@ namespace {
 using Kind = SupportFeature::Kind;
 using Corner = SupportFeature::Corner;
 
-constexpr double sine_of_rocking = 0.0998;  // with cosine_of_rocking
+constexpr double sine_of_rocking = 0.0998;  // sine of the angle whose cosine is cosine_of_rocking
 
 std::uint32_t edge_between(const Polytope& p, std::uint32_t u, std::uint32_t v) {
   const std::uint32_t from = std::min(u, v), to = std::max(u, v);

@@ -71,7 +71,8 @@ void ContactBatches::find_patches(std::span<const ImpulseBody> bodies, std::span
   }
 }
 
-/// By colour, then the largest first, so that the lanes of a batch have about as many points; otherwise as they came.
+/// Sorts the patches by colour, then the largest first, so that the lanes of a batch have about as many points. Patches
+/// that are equal in both stay in their order.
 void ContactBatches::sort_patches() {
   const auto group = [](const Patch& p) { return p.colour * most_points + (most_points - p.count); };
   starts_.assign((colour_count + 1) * most_points + 1, 0);

@@ -17,8 +17,8 @@
 
 namespace polhode::inline collision {
 
-/// What a sweep changes of a body: its velocity (m/s, rad/s), or the displacement that undoes penetration (m, rad), of
-/// the mass centre or pivot, world axes. One cache line.
+/// The quantity of a body that a sweep changes: its velocity (m/s, rad/s), or the displacement that undoes penetration
+/// (m, rad), of the mass centre or pivot, world axes. One cache line.
 struct alignas(64) ImpulseMotion {
   std::array<double, 3> linear{}, angular{};
 };

@@ -50,7 +50,7 @@ class SequentialImpulses final : public Response {
   void forget() override { memory_.forget(); }
 
  private:
-  /// When to stop.
+  /// Limits at which the iteration stops.
   struct Stop {
     int iterations;    ///< largest number of iterations
     double tolerance;  ///< limit of the change, over the largest impulse
@@ -166,8 +166,8 @@ class SequentialImpulses final : public Response {
     return work;
   }
 
-  /// Over all points to the last and back, until hardly anything changes, and further while each sweep halves the
-  /// change of the one before: where they are so few that it costs little, the answer is exact.
+  /// Sweeps over all points to the last and back, until hardly anything changes, and further while each sweep halves
+  /// the change of the one before: the answer is exact if the points are so few that it costs little.
   void sweep(const Stop& stop) {
     course_.start(motions_.size());
     for (Point& p : points_) p.course = zero_lanes();
@@ -251,7 +251,7 @@ class SequentialImpulses final : public Response {
     motion.push(patch, at, added);
   }
 
-  /// The impulses, as the contacts tell them.
+  /// Writes the impulses to the contacts.
   void write(std::span<ImpulseContact> contacts) const {
     for (ImpulseContact& c : contacts) c.impulse.setZero();
     for (const PatchBatch& patch : batches_.patches()) {

@@ -12,7 +12,7 @@ class HalfSpace final : public Shape {
   /// Throws std::invalid_argument if that distance is not finite.
   explicit HalfSpace(const Vector3<double>& normal, double offset = 0);
 
-  const Vector3<double>& normal() const { return normal_; }  ///< unit
+  const Vector3<double>& normal() const { return normal_; }  ///< unit normal
   double offset() const { return offset_; }  ///< signed distance of the plane from the origin along the normal, m
 
   bool finite() const override { return false; }

@@ -12,7 +12,7 @@ namespace polhode::inline collision {
 
 struct Polytope {
   struct Face {
-    Vector3<double> normal = Vector3<double>::Zero();  ///< unit, outward
+    Vector3<double> normal = Vector3<double>::Zero();  ///< outward unit normal
     double offset = 0;                                 ///< normal·x ≤ offset for all points of the polytope, m
     std::uint32_t first = 0, count = 0;                ///< its corners in `corners`: the first, and how many
   };

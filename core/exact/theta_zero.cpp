@@ -17,7 +17,7 @@ ThetaZeroDirection::ThetaZeroDirection(double m, double m_c, double beta) : cons
   if (!transformed_) {
     // Series: Σ (−1)^n q^(n(n+1)) (sin νx cosh νy − i cos νx sinh νy), ν = 2n + 1, x = πu/2K, y = πβ/2K, over exp(y)/2
     frequency_ = pi / (2 * k);
-    double re = 0, im = 0;  // at u = K: real part, derivative of the imaginary part
+    double re = 0, im = 0;  // real part and derivative of the imaginary part at u = K
     for (std::size_t n = 0; n < terms; ++n) {
       const double order = static_cast<double>(n), odd = 2 * order + 1, sign = n % 2 == 0 ? 1 : -1;
       const double decayed = std::exp(-2 * odd * frequency_ * beta);

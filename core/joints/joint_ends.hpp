@@ -25,7 +25,7 @@ inline Matrix3<double> frame_with(const Vector3<double>& axis) {
   return frame;
 }
 
-/// Which end a direction is fixed to.
+/// The end to which a direction is fixed.
 enum class JointEnd { world, first, second };
 
 /// Anchors, axes and motions of the two ends at one instant, world axes.

@@ -64,7 +64,7 @@ class Rolling final : public JointModel<S> {
   Vector3<S> anchor(std::span<const BodyMotion<S>> bodies) const override { return contact(bodies).point; }
 
  private:
-  /// The contact point, seen from both bodies, world axes.
+  /// The contact point on both bodies, world axes.
   struct Contact {
     Matrix3<S> frame;               ///< columns: normal and two tangents, fixed to the plane
     Vector3<S> point, plane_point;  ///< m

@@ -9,12 +9,12 @@
 
 namespace polhode {
 
-/// Whether a is parallel to a unit vector: |a × unit| <= roundings ε |a|. True for a = 0.
+/// True if a is parallel to a unit vector: |a × unit| <= roundings ε |a|. True for a = 0.
 inline bool is_parallel(const Vector3<double>& a, const Vector3<double>& unit, double roundings) {
   return a.cross(unit).norm() <= roundings * std::numeric_limits<double>::epsilon() * a.norm();
 }
 
-/// Whether |a · b| <= roundings ε |a| |b|. True if one of them is 0.
+/// True if |a · b| <= roundings ε |a| |b|. True if one of them is 0.
 inline bool is_perpendicular(const Vector3<double>& a, const Vector3<double>& b, double roundings) {
   return std::abs(a.dot(b)) <= roundings * std::numeric_limits<double>::epsilon() * a.norm() * b.norm();
 }

@@ -114,7 +114,7 @@ ThetaDirection::ThetaDirection(double m, double m_c, double beta) {
   const double k = elliptic_k(m_c), k_prime = elliptic_k(m);
   half_period_ = k;
   transformed_ = !(k < 2 * k_prime);
-  double re = 0, im = 0;  // at u = 0: real part of θ, imaginary part of its derivative
+  double re = 0, im = 0;  // real part of θ and imaginary part of its derivative at u = 0
   if (!transformed_) {
     // Series: 1 + 2 Σ (−1)^n q^(n²) cos(2nπ(u + iβ)/2K)
     frequency_ = pi / k;

@@ -63,7 +63,7 @@ struct ForceEntry {
   ForcePointer<Lanes> (*make_lanes)(const ForceParameters&, std::span<const Body>) = nullptr;  ///< null: lane by lane
 };
 
-/// Tells force_entry that a class does not branch on its numbers, and so can be instantiated on Lanes.
+/// The argument of force_entry for a class that does not branch on its numbers, and so can be instantiated on Lanes.
 inline constexpr bool in_lanes = true;
 
 /// The one line that registers a force: force_entry<Spring>(). F<S> has a static kind() and a constructor

@@ -24,7 +24,7 @@ struct StepResult {
   bool ok() const { return failure.empty(); }
 };
 
-/// Which equations of the joints a method satisfies with multipliers of its own.
+/// The equations of the joints that a method satisfies with multipliers of its own.
 enum class JointEquations {
   of_formulation,  ///< none: it integrates the index-1 form, and drifts as the formulation's stabilization lets it
   acceleration,    ///< G v̇ = γ

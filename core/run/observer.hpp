@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The port of observers: what a run tells while it goes, in double for every scalar type of the run.
+// The port of observers: the data that a run gives while it goes, in double for every scalar type of the run.
 #pragma once
 
 #include <algorithm>

@@ -23,7 +23,7 @@ auto is_finite(const SampleOf<T>& s) {
   return abs(sum) <= T(std::numeric_limits<double>::max());
 }
 
-/// Why a run ends at a sample that its observer did not accept.
+/// The reason why a run ends at a sample that its observer did not accept.
 const char* reason_of_end(bool sample_is_finite);
 
 /// Number of samples that were accepted. If it is less than all, the run ends as diverged at the next sample and `why`

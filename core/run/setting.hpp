@@ -37,7 +37,8 @@ const Setting* find_setting(const std::vector<Setting>& settings, std::string_vi
 /// The chosen value of the setting, or the usual one. Throws std::invalid_argument if it is not allowed.
 SettingValue value_of(const SettingValues& chosen, const Setting& setting);
 
-/// Why a method with these settings does not take the values: "takes no order; leave it out"; empty: it does.
+/// The reason why a method with these settings does not take the values: "takes no order; leave it out"; empty: it
+/// does.
 std::string settings_fault(const std::vector<Setting>& settings, const SettingValues& values);
 
 }  // namespace polhode

@@ -34,7 +34,7 @@ struct Schedule {
   std::function<double()> next_step{};
 };
 
-/// How a run ended.
+/// The end of a run.
 enum class RunStatus {
   ok,          ///< the run reached its end time, or the end that its schedule or contact model set
   diverged,    ///< the state was no longer finite, or the observer rejected a sample

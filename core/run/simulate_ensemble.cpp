@@ -58,7 +58,7 @@ class EnsembleLoop {
       }
     }
     if (changed) compose();
-    shared_until_ = Clock::now();  // what is made before a run is not its time
+    shared_until_ = Clock::now();  // the time before a run is no part of its time
     return std::any_of(running_.begin(), running_.end(), [](bool is) { return is; });
   }
 
@@ -85,7 +85,7 @@ class EnsembleLoop {
 
   /// Makes the system and the method for the runs that are now in the lanes.
   void compose() {
-    std::size_t some = 0;  // lanes without a run take the place of this one, and nobody looks at them
+    std::size_t some = 0;  // a lane with a run, whose problem fills lanes without a run; their results are unused
     while (!running_[some]) ++some;
     const auto user_of = [&](std::size_t i) -> const Lane& { return lanes_[running_[i] ? i : some]; };
     std::vector<Problem> problems;
@@ -138,7 +138,7 @@ class EnsembleLoop {
     return ended;
   }
 
-  /// As many steps as end before the last step of a run and before the state of a run is due.
+  /// The next steps: as many as end before the last step of a run and before the state of a run is due.
   LaneBatch next_batch() {
     LaneBatch batch;
     batch.count = longest;
@@ -184,7 +184,7 @@ class EnsembleLoop {
     }
   }
 
-  /// For each lane with a run the number of samples before the first one that is not finite.
+  /// The number of samples before the first one that is not finite, for each lane with a run.
   std::array<std::size_t, lanes_of_all> finite_of(std::span<const LaneSample> samples) const {
     Lanes::Mask all(true);
     for (const LaneSample& s : samples) all = all & is_finite(s);

@@ -52,11 +52,11 @@ class EnsembleObserver {
   virtual void on_end(std::size_t lane, RunOutcome&& outcome, double seconds) = 0;
 };
 
-/// Where the runs of an ensemble come from and what carries them out.
+/// The source of the runs of an ensemble, and the functions that carry them out.
 struct EnsembleParts {
   /// The next run, for this lane; none: there are no more.
   std::function<std::optional<LaneRun>(std::size_t lane)> next;
-  /// Builds the method, which must remember nothing from one step to the next.
+  /// Builds the method, which must keep nothing from one step to the next.
   std::function<std::unique_ptr<Integrator<Lanes>>(const System<Lanes>&)> method;
   /// The quantities to be watched, for the problems of all lanes; empty: none.
   std::function<std::vector<LaneQuantity>(std::span<const Problem>)> watched{};

@@ -19,7 +19,8 @@ class BodyWrenches : public BodyVariables<S, O, A, N> {
   /// A single free body has no joint: a body that is joined to the world is one of `many`.
   static constexpr bool may_have_joints = N == BodyCount::many;
 
-  /// As System::has_forces(). Lanes have no joints; to ask for them in every stage costs a twentieth of a step.
+  /// Result of System::has_forces(). Lanes have no joints; a check for joints in every stage costs a twentieth of a
+  /// step.
   bool has_forces() const {
     if constexpr (is_lanes<S>) return !this->forces().empty();
     else return BodyVariables<S, O, A, N>::has_forces();

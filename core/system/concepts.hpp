@@ -92,8 +92,9 @@ concept BodyFrame = PartitionedOde<System> && InertiaMap<System> &&
 /// The splitting of the motion into kicks (forces act, configurations are fixed) and free flow (no forces act).
 ///   kick(t, h, y):        The momentum increases by h w(t, y), and the work by the trapezoidal rule for the power over
 ///                         the kick. q is unchanged. If w does not depend on v, the kick is the exact flow.
-///   kick(t, h, seen, y):  The momentum increases by h w(t, seen), the work by h P(t, seen). seen and y have the same
-///   q. free_flow(h, y, rotor):  Motion over h without forces. World momentum and work are unchanged.
+///   kick(t, h, seen, y):  The momentum increases by h w(t, seen), the work by h P(t, seen). The states seen and y
+///                         have the same q.
+///   free_flow(h, y, rotor):  Motion over h without forces. World momentum and work are unchanged.
 ///                         rotor(constants, h, m) advances the angular momentum m (principal axes) of a body over h and
 ///                         returns the unit quaternion of the rotation dR, R' = R dR. The flow is exact if the rotor
 ///                         is exact, and conserves the energy if the rotor does.

@@ -12,8 +12,8 @@
 namespace polhode {
 namespace {
 
-constexpr std::size_t most_small_rows = 6;   // up to it the size of the matrix is known at compile time
-constexpr std::size_t most_dense_rows = 24;  // above it the sparse factorization is faster for a chain
+constexpr std::size_t most_small_rows = 6;   // limit up to which the size of the matrix is fixed at compile time
+constexpr std::size_t most_dense_rows = 24;  // limit above which the sparse factorization is faster for a chain
 
 /// Least square of a pivot relative to its diagonal entry.
 template <class S>

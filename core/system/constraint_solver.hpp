@@ -151,7 +151,7 @@ class ConstraintSolver {
   S softness_{0}, share_{0};
   std::int64_t solved_ = 0;
 
-  // Of the last set().
+  // Results of the last set().
   Motions motions_;
   std::vector<ConstraintRow<S>> rows_;
   std::vector<Wrench<S>> first_, second_;  ///< M⁻¹ Gᵀ of each row

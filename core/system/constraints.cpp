@@ -55,7 +55,7 @@ struct Constraints<S>::Parts : JointRows<S> {
     right = lambda = rates = VectorX<S>::Zero(Eigen::Index(this->joint_of.size()));
     free.resize(moving);
     if (formulation.joints.is_soft()) {
-      double mass = 0;  // of all bodies, kg
+      double mass = 0;  // mass of all bodies, kg
       for (std::size_t i = 0; i < moving; ++i) mass += problem.bodies[i].mass;
       softness = S(double(moving) / (formulation.joints.penalty * mass));
     }

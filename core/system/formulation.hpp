@@ -40,7 +40,7 @@ enum class ProjectionMetric {
   unit   ///< 1 for each m and rad of the reference points and rotations
 };
 
-/// How the equations of the joints are solved.
+/// Method by which the equations of the joints are solved.
 struct JointTreatment {
   Stabilization stabilization = Stabilization::none;
   double alpha = 0, beta = 0;  ///< coefficients of Baumgarte's equation, 1/s; 0 for projections

@@ -8,11 +8,11 @@
 namespace polhode {
 
 /// Projects the configuration onto g(q) = 0 (Newton's method, to round-off) and then the velocity onto G v = 0, as the
-/// formulation of the system asks. Does nothing without joints.
+/// formulation of the system requires. Does nothing without joints.
 template <class S>
 void project_joints(const System<S>& system, VectorX<S>& y);
 
-/// Projects the configuration or the velocity, whatever the formulation asks.
+/// Projects the configuration or the velocity, independently of the formulation.
 template <class S>
 void project_joint_positions(const System<S>& system, VectorX<S>& y);
 template <class S>

@@ -213,7 +213,7 @@ class Measurement {
     return order;
   }
 
-  /// Which broad phase is the cheapest for how many boxes, and whether all report the same pairs.
+  /// The cheapest broad phase for each number of boxes, and whether all report the same pairs.
   Answer answer() const {
     struct Stretch {
       std::string name;

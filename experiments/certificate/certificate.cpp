@@ -44,7 +44,7 @@ void drop_what_needs_the_full_equations(std::vector<Finding>& findings) {
 Measures measures_of(const StudyView& study) {
   Measures measures{.stages = stages_of(study.scenarios), .course = {}, .steps = {}, .tolerances = {}};
   double longest = 0;
-  std::map<double, std::set<double>> steps, tolerances;  // by duration
+  std::map<double, std::set<double>> steps, tolerances;  // steps and tolerances by duration
   for (const RunRecord& run : study.runs) {
     longest = std::max(longest, run.config.t_end);
     if (run.config.dt) steps[run.config.t_end].insert(*run.config.dt);

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double order_margin = 0.25;
 constexpr double above_rounding = 10;
-constexpr double tolerance_margin = 0.4;  // for the slope against the tolerance, as in the laws of integrators
-constexpr double straightness = 0.03;  // in ln(error); small, since multistep methods reach their order at small steps
+constexpr double tolerance_margin = 0.4;  // margin of the slope against the tolerance, as in the laws of integrators
+constexpr double straightness = 0.03;  // deviation in ln(error); small, since multistep methods reach their order late
 
 TraitVerdict verdict_of(OrderVerdict seen) {
   switch (seen) {

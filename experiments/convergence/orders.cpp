@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t most_items = 16;  // largest number of items of a sentence
 
-/// What an error is of.
+/// The quantity that has an error.
 enum class Of { attitude, position, velocity, reactions };
 
 std::string word_of(Of of) {

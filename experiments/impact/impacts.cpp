@@ -316,7 +316,7 @@ class Impacts {
         methods_, timings_, std::move(panels));
   }
 
-  /// To the eye.
+  /// True if the curves differ by at most a hundredth, which is invisible.
   static bool same(const std::vector<PlainCurve>& a, const std::vector<PlainCurve>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const PlainCurve& p, const PlainCurve& q) {
       return std::equal(p.points.begin(), p.points.end(), q.points.begin(), q.points.end(),

@@ -8,8 +8,8 @@
 
 namespace polhode::study::impact {
 
-/// For each motion, a run that replaces the exact solution up to the first impact: impacts located in time, a method of
-/// order 8, and a tolerance at round-off.
+/// Runs that replace the exact solution of each motion up to its first impact. Their impacts are located in time, the
+/// method has order 8, and the tolerance is at round-off.
 std::vector<RunConfig> exact_impacts(const StudyView& study);
 
 /// The analysis: errors of energy, momenta and first impact time against the step.

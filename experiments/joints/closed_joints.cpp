@@ -109,7 +109,7 @@ class HeldJoints {
   }
 
   std::string openings() const {
-    std::map<std::string, double> widest;  // by label, over the scenarios, at the smallest step or tolerance
+    std::map<std::string, double> widest;  // widest opening for each label, at the smallest step or tolerance
     for (const Curve* curve : curves_) {
       const RunRecord* run = finest(*curve);
       if (!run || !found(*run).gap_max) continue;
@@ -146,7 +146,7 @@ class HeldJoints {
       std::string name;
       const RunRecord* run = nullptr;
     };
-    std::vector<std::pair<std::string, Best>> all;  // by case, in their order
+    std::vector<std::pair<std::string, Best>> all;  // best runs by case, in their order
     for (const Curve* curve : curves_) {
       const std::string place = grouping_.cases[curve->case_index].label();
       auto at = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.first == place; });

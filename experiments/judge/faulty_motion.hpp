@@ -12,8 +12,8 @@
 
 namespace polhode::study::judge {
 
-/// Equations of rotation, modified from I Ω̇ = Rᵀτ − Ω × I Ω and q̇ = ½ ω q. Ω: angular velocity in the body frame, ω: in
-/// the world frame.
+/// Equations of rotation, modified from I Ω̇ = Rᵀτ − Ω × I Ω and q̇ = ½ ω q. Ω is the angular velocity in the body
+/// frame, ω that in the world frame.
 struct Equations {
   /// Frames of the angular velocity and of the inertia.
   enum class Frame {

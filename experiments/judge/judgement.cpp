@@ -179,7 +179,7 @@ std::string errors_of(const RunResult& r) {
   return words(parts);
 }
 
-/// What a trajectory is most like.
+/// The cause that explains a trajectory best, in words.
 std::string likeness(const Diagnosis& d) {
   if (d.name.empty())
     return "what it is like the rows do not tell" + (d.untried.empty() ? std::string() : ": " + d.untried);
@@ -188,7 +188,7 @@ std::string likeness(const Diagnosis& d) {
   return fmt::format("most like it: {}", d.words);
 }
 
-/// How far the trajectories are from the exact motion, which is the nearest, and what they are most like.
+/// The distances of the trajectories from the exact motion, the nearest trajectory, and the likeness of each.
 Answer answer_of(const std::vector<Judged>& judged) {
   Answer answer;
   const std::string scenario = judged.front().score.record.config.scenario;

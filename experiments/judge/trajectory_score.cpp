@@ -131,7 +131,7 @@ void blank(const States& states, const Trajectory& trajectory, const System<doub
 /// Adds a note if the first row differs from the scenario's start, which affects every score.
 void compare_start(const System<double>& system, const State<double>& first, const Trajectory& trajectory,
                    std::vector<std::string>& notes) {
-  constexpr double negligible = 1e-5;  // relative difference above that of numbers in single precision
+  constexpr double negligible = 1e-5;  // relative difference, above that of numbers in single precision
   if (first.t != 0) {
     notes.emplace_back(fmt::format("its first row is at t = {:.6g} s: drifts are against that row", first.t));
     return;

@@ -43,7 +43,7 @@ bool is_exact(const std::vector<WorkPoint>& points) {
   if (points.size() < 2) return false;
   const auto largest =
       std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.error < b.error; });
-  constexpr double rounding = 1e-8;  // of a motion that amplifies it
+  constexpr double rounding = 1e-8;  // rounding error of a motion that amplifies it
   const bool falls = points.front().error < 0.1 * points.back().error;
   return largest->error <= target(targets - 1) || (largest->error <= rounding && !falls);
 }

@@ -26,7 +26,7 @@ struct Problem {
   double time = 0;        ///< characteristic time, s
 };
 
-/// What becomes of the energy in the runs that follow the motion.
+/// The course of the energy in the runs that follow the motion.
 enum class EnergyFate {
   unknown,
   bounded,  ///< some run stays at round-off, bounded or settled, and none grows

@@ -9,7 +9,7 @@
 
 namespace polhode::study::methods {
 
-/// What the error of a run is (see Ruler).
+/// The kind of the error of a run (see Ruler).
 enum class Measure {
   motion,  ///< distance from the exact motion or the reference
   impact,  ///< time of the first impact, and energy

@@ -15,7 +15,7 @@
 namespace polhode::study::methods {
 namespace {
 
-constexpr double steps_at_first = 16;  // in a characteristic time
+constexpr double steps_at_first = 16;  // steps of the first run in a characteristic time
 constexpr int loosest = 1, tightest = 14, first_tolerance = 3;
 constexpr int most_halvings = 40;
 

@@ -15,7 +15,7 @@ namespace polhode::study::methods {
 
 /// Right-hand sides per characteristic time that a run may cost.
 inline constexpr double budget = 2e4;
-/// Errors that are asked for: 10^-2 … 10^-10.
+/// Errors for which costs are found: 10^-2 … 10^-10.
 inline constexpr int first_decade = -2, last_decade = -10;
 inline constexpr std::size_t targets = first_decade - last_decade + 1;
 double target(std::size_t k);           ///< 10^(first_decade − k)

@@ -18,7 +18,7 @@
 namespace polhode::study::methods {
 namespace {
 
-constexpr std::size_t opponents = 5;  // in the table of pairs
+constexpr std::size_t opponents = 5;  // number of opponents in the table of pairs
 
 /// The methods of the study in the order of the catalogue.
 std::vector<std::string> methods_of(const Costs& costs) {

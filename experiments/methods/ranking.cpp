@@ -12,7 +12,7 @@
 namespace polhode::study::methods {
 namespace {
 
-constexpr int resamples = 2000;  // of the bootstrap
+constexpr int resamples = 2000;  // number of resamples of the bootstrap
 
 /// Least cost of a task among contenders; +inf if none of them reaches it.
 double least_cost(const Costs& costs, Task task, const std::vector<std::size_t>& contenders) {

@@ -12,7 +12,7 @@
 
 namespace polhode::study::methods {
 
-/// A task: a problem (index into Costs::problems) and a target (index of the error that is asked for).
+/// A task: a problem (index into Costs::problems) and a target (index of the error to be reached).
 struct Task {
   std::size_t problem = 0, target = 0;
 };
@@ -38,7 +38,7 @@ std::vector<std::size_t> exact_on_all(const Costs& costs, std::span<const std::s
 /// The first contender of another method in a ranking.
 const Ranked* runner_up(const Costs& costs, const std::vector<Ranked>& ranked);
 
-/// What the recommendation costs on a problem that it does not know: the contender that is recommended for the other
+/// The cost of the recommendation on a problem that is not used for it: the contender that is recommended for the other
 /// problems of the group, its cost on this one over the least cost.
 struct Regret {
   Task task;
@@ -46,8 +46,8 @@ struct Regret {
   double ratio = 0;             ///< +inf if it does not reach the error and another one does
   bool other_winner = false;    ///< another method is recommended without the problem than with it
 };
-/// For all targets and all problems of groups with at least three problems. Tasks that no contender solves are left
-/// out.
+/// The regrets for all targets and all problems of groups with at least three problems. Tasks that no contender solves
+/// are left out.
 std::vector<Regret> regrets(const Costs& costs, const ContenderTest& allowed);
 
 /// The smallest of the numbers that at least this share of them does not exceed; the numbers may be infinite.

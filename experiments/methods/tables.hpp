@@ -24,8 +24,8 @@ ContenderTest bounded_energy(const Costs& costs, std::size_t group);
 /// "rk4 (quaternion, velocity_body)".
 std::string label(const Contender& contender);
 
-/// For each group and the errors 1e-3, 1e-6 and 1e-9: the recommended contender among the allowed, its mean cost, and
-/// the runner-up.
+/// The recommended contender among the allowed, its mean cost, and the runner-up, for each group and the errors 1e-3,
+/// 1e-6 and 1e-9.
 Table recommended(const Costs& costs, const std::string& caption,
                   const std::function<ContenderTest(std::size_t group)>& allowed);
 
@@ -35,10 +35,10 @@ Table in_short(const Costs& costs);
 /// The cheapest method for each problem and error; two names where the second costs at most 20 % more.
 Table cheapest(const Costs& costs);
 
-/// For each group the method that is best over all errors against the others, in pairs.
+/// The method that is best over all errors in each group, against the others, in pairs.
 Table duels(const Costs& costs, std::size_t opponents);
 
-/// For each group how far the recommendation holds on a problem that it does not know.
+/// The cost of the recommendation of each group on a problem that is not used for it.
 Table robustness(const Costs& costs);
 
 /// The methods that do not reach an error of 1e-2 on a problem, and why.

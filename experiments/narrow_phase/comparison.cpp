@@ -59,14 +59,14 @@ double cost_ns(const std::vector<std::unique_ptr<Placed>>& pairs, const Ask& ask
   return least / static_cast<double>(pairs.size());
 }
 
-/// How far the answers of one narrow phase are from those of sat, over all classes.
+/// The differences between the answers of one narrow phase and those of sat, over all classes.
 struct Agreement {
   std::string name;
   std::size_t pairs = 0, wrong = 0, missed = 0;
   double difference = 0;  ///< largest, of the signed distance, in units of the smaller box
 };
 
-/// Whether the narrow phases agree with sat.
+/// An answer: whether the narrow phases agree with sat.
 Answer answer_of(const std::vector<Agreement>& all) {
   std::vector<std::string> agree, differ;
   double most = 0;
@@ -160,7 +160,7 @@ void compare_narrow_phases(const std::vector<const NarrowPhaseEntry*>& entries, 
                    {}};
   // 1. For each class of pairs: errors and cost of each narrow phase.
   std::map<std::string, std::array<Range, 3>> ranges;
-  std::vector<std::vector<std::array<double, 3>>> costs_by_class(entries.size());  // by narrow phase, then by class
+  std::vector<std::vector<std::array<double, 3>>> costs_by_class(entries.size());  // costs by narrow phase and class
   std::vector<Agreement> agreements;
   for (const NarrowPhaseEntry* entry : entries) agreements.push_back({entry->name});
   BoxPairs make(seed);

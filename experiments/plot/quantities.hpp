@@ -24,7 +24,7 @@ struct Instant {
 
 using Measure = std::function<std::vector<double>(const Instant&)>;
 
-/// How the components of a quantity are drawn.
+/// The form in which the components of a quantity are drawn.
 enum class Drawn {
   against_time,  ///< a panel for each component
   portrait,      ///< a panel for each pair of components

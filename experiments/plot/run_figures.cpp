@@ -358,8 +358,8 @@ class RunFigureMaker {
   const Look look_;
   StudyView view_;
   Grouping grouping_;
-  std::vector<std::pair<std::size_t, std::size_t>> places_;  // of each run: method, variant
-  std::vector<std::string> rests_;                           // what is left of a run's label without its method
+  std::vector<std::pair<std::size_t, std::size_t>> places_;  // method and variant of each run
+  std::vector<std::string> rests_;                           // label of each run without its method
   double t_end_ = 0;
   RunFigures made_;
 };

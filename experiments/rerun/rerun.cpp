@@ -41,7 +41,7 @@ std::string words_of_run(const RunConfig& config) {
   return text;
 }
 
-/// Why the run cannot be compared although it could be read; empty: it can.
+/// The reason why the run cannot be compared although it could be read; empty: it can.
 std::string other_identity(const ReadRun& run) {
   if (run.version == results_version) return "";
   if (run.version) {

@@ -14,7 +14,7 @@
 
 namespace polhode::study::rerun {
 
-/// What became of one run.
+/// The outcome of one run that was repeated.
 struct Repeated {
   FoundRun run;
   std::string why_not;                  ///< reason for which it was not repeated; empty: it was
@@ -30,7 +30,7 @@ void repeat(const std::vector<FoundRun>& runs, int jobs, const std::atomic<bool>
 
 /// All runs of the stores once, in the order of their ids.
 std::vector<FoundRun> all_runs(const ResultStores& stores);
-/// So many of them, drawn at random without repetition, in the order of their ids; all if there are not more.
+/// Runs drawn at random without repetition, in the order of their ids; all if there are not more than `number`.
 std::vector<FoundRun> drawn(std::vector<FoundRun> runs, std::size_t number, std::uint64_t seed);
 
 }  // namespace polhode::study::rerun

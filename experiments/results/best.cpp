@@ -221,7 +221,7 @@ int list_best(const ResultStores& stores, const ResultsOptions& options) {
   add_names(headings.sizes, std::vector<bool>(headings.sizes.size(), true));
   names.emplace_back("run");
 
-  // By group and method, in their order; of each the runs that have both values.
+  // Runs by group and method, in their order, without those that lack one of the two values.
   std::map<std::vector<OptionValue>, std::map<std::vector<OptionValue>, std::vector<const Point*>, RowLess>, RowLess>
       groups;
   for (const Point& point : points) {
@@ -247,7 +247,7 @@ int list_best(const ResultStores& stores, const ResultsOptions& options) {
   };
   for (const auto& [group, methods] : groups) {
     if (question.bound()) {
-      std::vector<const Point*> best;  // of each method that has a run within the bound
+      std::vector<const Point*> best;  // best run of each method that has a run within the bound
       for (const auto& [method, runs] : methods) {
         const Point* least = nullptr;
         for (const Point* run : runs) {

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t most_names = 12;
 
-/// What is in a folder.
+/// The content of a folder.
 struct Content {
   std::set<std::string> studies;
   std::map<std::string, std::int64_t> scenarios, methods, statuses;  ///< number of runs

@@ -192,7 +192,7 @@ class Stability {
     return without_empty_columns(std::move(table));
   }
 
-  // In words.
+  // The functions below give words.
 
   static std::string listed(std::vector<std::string> items) { return words(first_items(std::move(items), most_items)); }
 
@@ -266,7 +266,7 @@ class Stability {
     return fmt::format("{}", fmt::join(items, ", "));
   }
 
-  /// For each scenario the methods that follow its motion up to the largest steps.
+  /// The methods that follow the motion of a scenario up to the largest steps, for each scenario.
   std::vector<std::string> answer() const {
     constexpr std::size_t most_sentences = 3, most_named = 4;
     std::vector<std::string> all;

@@ -12,8 +12,8 @@
 
 namespace polhode::study {
 
-/// What is soon known of a large study: the number of its cells, and about how many runs and right-hand sides they are.
-/// `chosen`: glance_at_plan().
+/// The size of a large study in words: the number of its cells, and estimates of the numbers of runs and right-hand
+/// sides. `chosen`: glance_at_plan().
 std::string glance_text(const Experiment& experiment, const Plan& chosen);
 
 /// The plan in words: the number of runs, how many of them are in the folder already (`done`: ids in ascending order),

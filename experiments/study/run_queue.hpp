@@ -37,10 +37,10 @@ class RunQueue {
 
   const Plan& plan_;
   std::vector<OfKind> kinds_;
-  std::priority_queue<std::pair<double, std::size_t>> longest_;  // of each kind with runs left: its cost, and the kind
+  std::priority_queue<std::pair<double, std::size_t>> longest_;  // cost of each kind with runs left, and its number
   std::vector<std::size_t> together_;
   double cost_left_ = 0;
-  double shares_ = 1;  // of the cost that is left; a worker takes one of them at a time
+  double shares_ = 1;  // number of shares of the cost that is left; a worker takes one of them at a time
   std::mutex mutex_;
 };
 

@@ -301,7 +301,7 @@ class Calibration {
     struct Settled {
       double work = 0, rate = 0;  // cost times bodies; s per unit of that
     };
-    std::map<ResponseKey, Settled> rates;  // of the largest run that came to its end
+    std::map<ResponseKey, Settled> rates;  // rate of the largest run that came to its end
     for (const RunKind& kind : kinds_) {
       for (const Timed& timed : kind.timed) {
         if (!in_contact(*timed.run) || timed.share < 1) continue;
@@ -321,12 +321,12 @@ class Calibration {
     }
   }
 
-  /// Without repetitions.
+  /// Time of a run without repetitions, s.
   double seconds_of(const RunKind& kind, const PlannedRun& run) const {
     return run.config.dt ? seconds_at_step(kind, run) : seconds_at_tolerance(kind, run);
   }
 
-  /// In proportion to the number of steps, with a part that each run has.
+  /// Time in proportion to the number of steps, with a part that each run has, s.
   double seconds_at_step(const RunKind& kind, const PlannedRun& run) const {
     const auto done = [](const Timed& timed) { return timed.run->cost * timed.share; };
     const auto [low, high] = std::minmax_element(kind.timed.begin(), kind.timed.end(),
@@ -340,9 +340,9 @@ class Calibration {
     return fixed + rate * run.cost;
   }
 
-  /// In proportion to the duration, and by a power of the tolerance.
+  /// Time in proportion to the duration, and by a power of the tolerance, s.
   double seconds_at_tolerance(const RunKind& kind, const PlannedRun& run) const {
-    const auto rate = [&](const Timed& timed) {  // of its logarithm
+    const auto rate = [&](const Timed& timed) {  // logarithm of the rate
       const double least = timed.seconds / 10;
       return std::log(std::max(timed.seconds - overhead_, least) / (timed.share * timed.run->config.t_end));
     };
@@ -410,9 +410,9 @@ class Calibration {
   References references_;
   std::mutex mutex_;
   std::set<TrueMotionKey> known_motions_;
-  std::map<std::string, MotionTimes> motion_times_;  // by scenario
-  Alarm::Clock::time_point end_{};                   // of the time for all
-  double overhead_ = 2e-4;                           // of each run, s
+  std::map<std::string, MotionTimes> motion_times_;  // times of the motions by scenario
+  Alarm::Clock::time_point end_{};                   // end of the time for all runs
+  double overhead_ = 2e-4;                           // overhead of each run, s
   Alarm alarm_;
 };
 

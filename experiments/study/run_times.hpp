@@ -17,7 +17,7 @@ struct RunTimes {
   double known = 0;             ///< share of the sum of these that runs of the same kind were timed for, 0 to 1
 };
 
-/// How runs are timed.
+/// The settings by which runs are timed.
 struct Timing {
   bool best_times = false;  ///< short runs are repeated (Experiment::best_times)
   bool in_lanes = false;    ///< runs that can share the lanes of an ensemble do

@@ -9,7 +9,7 @@
 
 namespace polhode::study {
 
-/// What a user says of the jobs. An empty text leaves the choice to the site.
+/// The user's choices for the jobs. An empty text leaves the choice to the site.
 struct SlurmJobs {
   std::size_t shards = 0;  ///< tasks of the job array
   std::size_t cpus = 1;    ///< cores of a task

@@ -102,7 +102,7 @@ void for_each_result(const std::filesystem::path& folder, const UseResult& use) 
 /// The further runs that the experiment requests, given the results of the plan among these.
 std::vector<RunConfig> further_runs(const Experiment& experiment, const Options& options, const Plan& plan,
                                     const std::filesystem::path& folder, ResultsById& results) {
-  ResultsById used;  // by the view, without the curves that the plan does not keep
+  ResultsById used;  // results in the view, without the curves that the plan does not keep
   StudyView view = view_of(experiment, options, plan, folder, all_of(plan), [&](std::size_t i) {
     const auto found = results.find(plan.rows[i].id);
     if (found == results.end()) return std::optional<RunResult>();

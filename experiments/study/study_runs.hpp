@@ -74,7 +74,7 @@ class StudyRuns {
   std::filesystem::path folder_, own_;
   Store store_;
   std::vector<std::filesystem::path> others_;    // folders of the other stores of the study that can be read
-  std::vector<Place> places_;                    // by run of the plan
+  std::vector<Place> places_;                    // places of the runs of the plan
   ResultsById held_;                             // results of all stores, from one widen() to the next and to view()
   std::unordered_set<std::uint64_t> elsewhere_;  // those of held_ that only other stores have
   bool begun_ = false;                           // runs have been carried out

@@ -117,7 +117,7 @@ double work_of_figures(const Experiment& experiment, const Plan& plan) {
   return work / std::clamp<double>(std::thread::hardware_concurrency(), 1, figures_at_a_time);
 }
 
-/// What is done after the runs, besides the analysis, s.
+/// The work after the runs, besides the analysis, s.
 double work_after_runs(const Experiment& experiment, const Options& options, const Plan& plan) {
   const double planned = static_cast<double>(plan.size()) * plan.runs_of_a_row;
   const double runs = planned * (1 + experiment.needs.refined);

@@ -11,8 +11,8 @@ namespace polhode::inline integrators {
 
 enum class Rows { may_depend, independent };
 
-/// Why such a method does not apply: no joints, a stabilization of the index-1 form, or, if it needs independent
-/// equations, some that depend on others. Empty if it does.
+/// The reason why such a method does not apply: no joints, a stabilization of the index-1 form, or, if it needs
+/// independent equations, some that depend on others. Empty if it does.
 std::string joint_refusal(const Problem& problem, const Formulation& formulation, Rows needed);
 
 }  // namespace polhode::integrators

@@ -11,7 +11,7 @@
 
 namespace polhode::inline integrators {
 
-/// What an engine does in a step, and its numbers.
+/// The actions of an engine in a step, and its numbers.
 struct Engine {
   double erp = 0.2;
   double cfm = 0;            ///< C = cfm/h, in SI units

@@ -132,7 +132,7 @@ class JointRecipe : public JointMethod {
   VectorX<double> before_, after_;
 };
 
-/// Why a recipe for joints does not apply; empty if it does.
+/// The reason why a recipe for joints does not apply; empty if it does.
 inline std::string joint_recipe_refusal(const Problem& problem, const Formulation& formulation) {
   const std::string why = joint_refusal(problem, formulation, Rows::may_depend);
   return why.empty() ? needs_an_engine_state(problem, formulation) : why;

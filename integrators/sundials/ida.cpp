@@ -40,7 +40,7 @@ using namespace sundials;
 enum class Form { index1, index2, index3, ggl, ah };
 
 void free_ida(void* memory) { IDAFree(&memory); }
-constexpr int most_failures = 50;  // of one step; the defaults are 10
+constexpr int most_failures = 50;  // limit for one step; the defaults are 10
 
 using IdaMemory = std::unique_ptr<void, Destroy<free_ida>>;
 using Map = Eigen::Map<VectorX<double>>;

@@ -48,7 +48,7 @@ using Clock = std::chrono::steady_clock;
 
 using Gas = polhode::study::broad_phase::FlyingBoxes;
 
-constexpr double filling = 0.1;  // of the space
+constexpr double filling = 0.1;  // share of the space that is filled
 
 /// One way to find the pairs of a step.
 class Contender {
@@ -56,7 +56,7 @@ class Contender {
   explicit Contender(std::string called) : name(std::move(called)) {}
   virtual ~Contender() = default;
   virtual std::size_t step(const Gas& gas) = 0;  ///< the number of pairs that it hands over
-  /// How many of these are pairs of boxes that overlap.
+  /// The number of these that are pairs of boxes that overlap.
   virtual std::size_t true_pairs(const Gas&, std::size_t handed_over) { return handed_over; }
   std::string name;
 };
@@ -177,7 +177,7 @@ std::vector<std::unique_ptr<Contender>> contenders(std::size_t n) {
 struct Result {
   std::string name;
   double median = 0, mean = 0;  // ns per box and step
-  double pairs = 0;             // per box, as handed over
+  double pairs = 0;             // pairs per box, as handed over
   std::size_t most_wrong = 0;   // true pairs more or fewer than the first one's, in any step
 };
 
@@ -193,9 +193,9 @@ double median(std::vector<double>& numbers) {
 }
 
 Measurement measure(std::size_t n, double motion) {
-  constexpr std::size_t warm = 40, rounds = 2;  // after so many steps most boxes have left their first margins
+  constexpr std::size_t warm = 40, rounds = 2;  // number of steps after which most boxes have left their first margins
   const std::size_t steps = std::clamp<std::size_t>(1000000 / n, 30, 400);
-  std::vector<std::vector<double>> ns;  // of each contender, a step's time per box
+  std::vector<std::vector<double>> ns;  // time of a step per box, for each contender
   Measurement m;
   for (std::size_t round = 0; round < rounds; ++round) {
     Gas gas(n, filling, motion, 1);

@@ -28,7 +28,7 @@ const IntegratorEntry& method(const std::string& name) {
   return *entry;
 }
 
-/// To t_end in steps of the method's choice; how many.
+/// Advances to t_end in steps of the method's choice; returns their number.
 int run(Integrator<double>& integrator, State<double>& state, double t_end) {
   int steps = 0;
   for (integrator.begin(state); state.t < t_end; ++steps) {
@@ -138,7 +138,7 @@ TEST(OdeintAdamsBashforthMoulton, IsItsFormulas) {
     system->rate(t, y.data(), dy.data());
     return dy;
   };
-  std::array<Flat, 4> f;  // at the present and the three states before it
+  std::array<Flat, 4> f;  // rates at the present state and the three states before it
   for (int n = 0; n < 12; ++n) {
     for (int k = 3; k > 0; --k) f[std::size_t(k)] = f[std::size_t(k - 1)];
     f[0] = rate(state.t, state.y);

@@ -74,7 +74,7 @@ TEST(ExplicitEuler, GrowsByTheAngularVelocityOfEachStep) {
     double square = 1, determinant = 1;
     for (int n = 1; n <= 100; ++n) {
       const double theta = h * q.body().angular_velocity.norm();
-      // Of a matrix that is no rotation any more ω and Ω differ in length; each acts where it is the state.
+      // ω and Ω differ in length once the matrix is no rotation; each acts where it is the state.
       const V3 turn = a == AngularState::velocity_body ? r.angular_state() : r.body().angular_velocity;
       square *= 1 + theta * theta / 4;
       determinant *= 1 + h * h * turn.squaredNorm();
@@ -130,8 +130,8 @@ TEST_P(Textbook, Rk4PhaseErrorPerStep) {
   }
 }
 
-// Explicit Euler: ΔE = (h²/2) Ω̇·JΩ̇ ≥ 0 and Δ|y|² = h²|ẏ|², exactly, at every step. Semi-implicit Euler does the same to
-// the body rates: with Ω as the state it is explicit Euler.
+// Explicit Euler: ΔE = (h²/2) Ω̇·JΩ̇ ≥ 0 and Δ|y|² = h²|ẏ|², exactly, at every step. Semi-implicit Euler does the
+// same to the body rates: with Ω as the state it is explicit Euler.
 TEST(ExplicitEuler, FeedsEulersEquations) {
   for (const Orientation orientation : {Orientation::quaternion, Orientation::matrix}) {
     const Formulation f{orientation, AngularState::velocity_body};

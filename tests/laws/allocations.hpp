@@ -5,7 +5,7 @@
 
 namespace polhode {
 
-/// How often this program has asked for memory by `new` so far, in all threads.
+/// The number of requests for memory by `new` in this program so far, in all threads.
 std::size_t allocations();
 
 }  // namespace polhode

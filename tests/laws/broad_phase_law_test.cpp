@@ -165,7 +165,7 @@ TEST_P(BroadPhaseLaw, FindsAllPairsOfIdenticalBoxes) {
 }
 
 TEST_P(BroadPhaseLaw, BoxesThatTouchAreAPair) {
-  std::vector<Bounds> boxes;  // of a lattice: each touches 26 others
+  std::vector<Bounds> boxes;  // boxes of a lattice: each touches 26 others
   for (int x = 0; x < 6; ++x) {
     for (int y = 0; y < 6; ++y) {
       for (int z = 0; z < 6; ++z) boxes.emplace_back(Vector(x, y, z), Vector(x + 1, y + 1, z + 1));
@@ -180,7 +180,7 @@ TEST_P(BroadPhaseLaw, BoxesThatTouchAreAPair) {
     }
     expect_right(scaled, "lattice with gaps, times " + std::to_string(scale));
   }
-  std::vector<Bounds> flat;  // without volume: plates, needles and points on one another's edges
+  std::vector<Bounds> flat;  // boxes without volume: plates, needles and points on one another's edges
   for (int i = 0; i < 50; ++i) {
     flat.emplace_back(Vector(i, 0, 0), Vector(i + 1, 1, 0));
     flat.emplace_back(Vector(i, 1, 0), Vector(i, 1, 3));
@@ -189,7 +189,7 @@ TEST_P(BroadPhaseLaw, BoxesThatTouchAreAPair) {
   expect_right(flat, "plates, needles and points");
 }
 
-/// Whether a box is in one cell, or in several that are disjoint and share its volume out; up to rounding.
+/// True if a box is in one cell, or in several that are disjoint and share its volume out; up to rounding.
 bool held(const Bounds& box, const std::vector<Bounds>& cells) {
   const double slack = 1e-9 * (1 + box.min().cwiseAbs().maxCoeff() + box.max().cwiseAbs().maxCoeff());
   double shared = 0;

@@ -49,7 +49,7 @@ inline std::string label(const Formulation& f) {
 
 namespace polhode {
 
-/// How GoogleTest shows one.
+/// The form in which GoogleTest prints one.
 inline void PrintTo(const Formulation& f, std::ostream* out) { *out << laws::label(f); }
 
 }  // namespace polhode

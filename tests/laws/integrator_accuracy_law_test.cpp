@@ -12,7 +12,7 @@
 
 namespace polhode::laws {
 
-/// In S the same 60 steps, or those to a tolerance, differ from those in long double by the round-off of S, and not by
+/// The same 60 steps in S, or those to a tolerance, differ from those in long double by the round-off of S, and not by
 /// less.
 template <class S>
 void IntegratorLaw::expect_precision(double round_off) const {

@@ -9,7 +9,7 @@ namespace polhode::laws {
 
 class IntegratorLaw : public OverTheCatalogue {
  protected:
-  /// Defined where they are used: integrator_stretch_law_test.cpp, integrator_accuracy_law_test.cpp.
+  /// Defined in the files that use them: integrator_batch_law_test.cpp, integrator_accuracy_law_test.cpp.
   template <class S>
   void expect_advance_is_single_steps() const;
   template <class S>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The laws of an integrator: what every entry of the catalogue must keep, in every formulation, on a free problem, a
 // forced one and one that depends on time. A new method needs nothing here. Its accuracy is in
-// integrator_accuracy_law_test.cpp, several steps in one call in integrator_stretch_law_test.cpp, what it declares
-// beyond its order in integrator_trait_law_test.cpp.
+// integrator_accuracy_law_test.cpp, several steps in one call in integrator_batch_law_test.cpp, what it declares beyond
+// its order in integrator_trait_law_test.cpp.
 #include "tests/laws/integrator_law.hpp"
 
 #include <gtest/gtest.h>

@@ -120,7 +120,7 @@ class OverTheCatalogue : public testing::TestWithParam<std::string> {
     return entry().maker<S>()(system, {.dt = 1.0 / 64, .tolerance = tolerance, .t_end = t_end});
   }
 
-  /// To t_end as the driver goes there: whole steps of h, or the steps of the method.
+  /// Advances to t_end as the driver does: whole steps of h, or the steps of the method.
   template <class S>
   static void go(Integrator<S>& integrator, State<S>& state, double t_end, std::int64_t fixed_steps, bool adaptive) {
     if (!adaptive) {

@@ -23,7 +23,7 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// How far a point is outside a shape's convex hull, by the planes across many directions: never too far.
+/// The distance of a point outside a shape's convex hull, by the planes across many directions: never too large.
 double outside(const Shape& shape, const Pose& pose, const Vector& point) {
   const Vector x = pose.to_body(point);
   if (shape.tag() == ShapeTag::half_space) {

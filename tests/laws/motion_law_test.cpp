@@ -36,7 +36,7 @@ Vector configuration(const Subject& s, const Vector& y) { return y.head(s.plain-
 Vector rest(const Subject& s, const Vector& y) { return y.tail(y.size() - s.plain->layout().configuration_size); }
 double work(const Vector& y) { return y[y.size() - 1]; }
 
-/// Where the parts of body i stand in a tangent vector.
+/// The places of the parts of body i in a tangent vector.
 Eigen::Index angular_index(const Subject& s, std::size_t i) {
   return s.plain->layout().slots[i].angular - s.plain->layout().configuration_size;
 }

@@ -25,7 +25,7 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// Where rounding alone tells two answers apart. The depth of shapes that bend is the end of a search.
+/// The difference of two answers that rounding alone may make. The depth of shapes that bend is the end of a search.
 double slack(const ShapePair& p) { return (p.round ? 1e-7 : 1e-13) * p.scale; }
 
 template <class T>
@@ -106,7 +106,7 @@ class NarrowPhaseLaw : public testing::TestWithParam<NarrowPhaseEntry> {
 
   static int faults() { return testing::UnitTest::GetInstance()->current_test_info()->result()->total_part_count(); }
 
-  /// Of two kinds, as far as the first pair that breaks the law.
+  /// Tries the law on pairs of two kinds, as far as the first pair that breaks it.
   void for_pairs(std::uint64_t count, const std::function<void(const ShapePair&, const Asked&)>& law) {
     for (const auto& [kind_a, kind_b] : answered(*narrow)) {
       for (std::uint64_t seed = 0; seed < count; ++seed) {

@@ -161,7 +161,7 @@ class OperationsOf final : public Operations {
     change(to);
     return narrow(to);
   }
-  /// What fill writes; a number that it leaves out is seen.
+  /// The numbers that fill writes; a number that it leaves out stays 7.
   template <class Fill>
   Tangent filled(const Fill& fill) const {
     typename System::Tangent out = system_.zero_tangent();

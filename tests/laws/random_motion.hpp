@@ -11,7 +11,7 @@
 
 namespace polhode::laws {
 
-/// How many numbers in [−1, 1] say where a body is and how it moves.
+/// Count of numbers in [−1, 1] that give the place and the motion of a body.
 constexpr std::size_t numbers_per_body = 13;
 
 inline std::vector<double> random_numbers(std::size_t count, std::uint32_t seed) {

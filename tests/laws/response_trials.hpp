@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A response on trial: scenes for it, and what is seen of them.
+// A response on trial: scenes for it, and the results.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ inline void PrintTo(const ResponseEntry& e, std::ostream* out) { *out << e.name;
 
 namespace laws {
 
-/// What a contact did, in its own axes.
+/// The effect of a contact, in its own axes.
 struct Seen {
   double normal_impulse, normal_velocity;
   Vector3<double> friction, slip;
@@ -55,7 +55,7 @@ class ResponseTrial : public testing::TestWithParam<ResponseEntry> {
   std::unique_ptr<Response> response = GetParam().make();
 
   bool has_friction() const { return GetParam().name != "single_impulse"; }
-  /// Whether it sees each point of a patch.
+  /// True if it treats each point of a patch.
   bool sees_points() const { return GetParam().name != "single_impulse"; }
 
   ImpulseScene after(ImpulseScene s, double step = 0) {

@@ -23,7 +23,7 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// Of a height and a radius, its tip on +z.
+/// A cone of a height and a radius, its tip on +z.
 class Cone final : public Shape {
  public:
   Cone(double radius, double height) : radius_(radius), height_(height) {}

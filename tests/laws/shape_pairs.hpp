@@ -27,7 +27,7 @@ const std::vector<std::string>& shape_kinds();
 
 ShapePair shape_pair(const std::string& kind_a, const std::string& kind_b, std::uint64_t seed);
 
-/// How far x is from the surface of the solid where it reaches furthest along `out`: inside it or beyond the plane
+/// The distance of x from the surface of the solid where it reaches furthest along `out`: inside it or beyond the plane
 /// there.
 double off_surface(const Shape& shape, const Pose& at, const Vector3<double>& x, const Vector3<double>& out);
 

@@ -12,7 +12,7 @@
 namespace polhode::study::inline curves {
 namespace {
 
-/// Over the runs of a scenario.
+/// The uncertainties of references over the runs of a scenario.
 struct Uncertain {
   std::optional<double> position, attitude, angular_velocity;
   std::size_t runs = 0, unjudged = 0;

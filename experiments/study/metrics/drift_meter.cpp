@@ -239,7 +239,7 @@ void DriftMeter::judge_by_reference(RunResult& result) const {
     if (!(error && *error >= better * uncertainty)) error.reset();
   };
   const ReferenceMotion::Uncertainty& u = reference_->uncertainty();
-  bool all_pinned = true;  // if so, no position is measured
+  bool all_pinned = true;  // if true, no position is measured
   for (std::size_t i = 0; i < system_.moving(); ++i) all_pinned = all_pinned && system_.problem().bodies[i].pinned;
   judge(exact_.has_position() || all_pinned, u.position, result.position_error_max, result.position_reference);
   judge(exact_.has_attitude(), u.attitude, result.attitude_error_max, result.attitude_reference);

@@ -14,7 +14,7 @@
 
 namespace polhode::study::inline metrics {
 
-/// What drifts are measured from, and the bound beyond which a run is hopeless.
+/// The origin of drifts, and the bound beyond which a run is hopeless.
 template <class S>
 struct DriftOrigin {
   using Mask = typename LaneType<S>::Mask;

@@ -33,7 +33,7 @@ class JointMeter final : public Observer {
   void report(RunResult& result) const { result.joints = found_; }
 
  private:
-  /// By how much the joints are open, and how fast they open.
+  /// The openings of the joints, and their rates.
   struct Opening {
     std::optional<double>&gap, &angle, &velocity, &rate;
   };

@@ -16,10 +16,11 @@ namespace polhode::study::inline metrics {
 
 class LaneMeter {
  public:
-  /// The meter takes the place of the one in this lane. It has seen the start of its run.
+  /// The meter takes the place of the one in this lane. The start of its run has been measured.
   void begin(std::size_t lane, DriftMeter& meter);
 
-  /// As EnsembleObserver::on_samples(). The watched quantities are the invariants of the runs, in their order.
+  /// Takes samples as EnsembleObserver::on_samples() does. The watched quantities are the invariants of the runs, in
+  /// their order.
   void on_samples(const LaneBlock& block, std::span<const bool> running, std::span<std::size_t> accepted);
 
   /// Gives the meter of the lane what was measured. To be called once, after the run.

@@ -119,7 +119,7 @@ class LargestScales final : public Observer {
   const System<double>& system_;
   std::vector<double> radii_;
   std::vector<const InvariantKind*> kinds_;
-  /// For each moving body: all forces on it are constant with a sum other than zero, and it is not pinned.
+  /// True for a moving body that is not pinned, if all forces on it are constant with a sum other than zero.
   std::vector<bool> steady_;
   std::optional<double> potential_start_;
   std::vector<BodyMotion<double>> motions_;

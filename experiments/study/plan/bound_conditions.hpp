@@ -57,7 +57,7 @@ class BoundConditions {
     std::string text;
     HeldValue value{};
   };
-  /// Where the cells of one block have the value of a key.
+  /// The places in the cells of one block that hold the value of a key.
   struct Found {
     std::vector<Giver> givers;  ///< the first that gives a value counts
     std::optional<HeldValue> otherwise;

@@ -40,7 +40,7 @@ class Cells {
   /// The tables of points in words.
   std::vector<std::string> tables() const;
 
-  /// Where a cell is: which product, and which point of each dimension.
+  /// The place of a cell: a product, and a point of each dimension.
   struct Place {
     std::size_t block = 0;
     std::vector<std::size_t> points{};  ///< point of each dimension

@@ -23,8 +23,8 @@ struct FurtherAxes {
   bool by_default_only = false;  ///< omitted if the user gives any axis
 };
 
-/// How the wall time of a run is taken if the experiment requires best times: a short run is repeated and the least
-/// time kept, since disturbances by other programs only increase it.
+/// The wall time of a run if the experiment requires best times: a short run is repeated and the least time kept, since
+/// disturbances by other programs only increase it.
 struct BestTime {
   static constexpr double repeated_below = 0.04;  ///< s
   static constexpr int repetitions = 5;
@@ -58,7 +58,7 @@ struct Experiment {
   bool analysis_alone = false;  ///< the analysis replaces the figures of every study (Analysis::alone)
   /// Analysis of the finished runs beyond that of every study; empty: none.
   std::function<Analysis(const StudyView&)> analysis{};
-  /// What the default study was measured to need besides its first runs, for the time that --dry-run says.
+  /// The measured needs of the default study besides its first runs, for the time that --dry-run prints.
   struct Needs {
     double refined = 0;       ///< processor time of the runs that `refine` requests, over that of the others
     double analysis = 0;      ///< processor time of the analysis, on all threads, over that of all runs

@@ -111,7 +111,7 @@ std::optional<std::size_t> curves_of(const std::string& text, const std::string&
   return number;
 }
 
-/// What the command line says about each study.
+/// The axes of each study on the command line.
 StudyAxes said_by(const Words& words, const std::map<std::string, std::string>& given,
                   const std::vector<std::string>& vary, std::uint64_t seed) {
   StudyAxes study;

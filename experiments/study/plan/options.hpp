@@ -56,7 +56,7 @@ struct ParsedOptions {
 ParsedOptions parse_options(const Experiment& experiment, int argc, const char* const* argv,
                             const std::function<void(CommandLine&)>& more = {});
 
-/// What a study file holds.
+/// The content of a study file.
 struct StudyFile {
   std::vector<StudyAxes> studies;  ///< studies, with the file's defaults
   std::set<std::string> shared;    ///< options that its defaults give

@@ -27,7 +27,7 @@ struct PlannedRun {
   bool keeps_curves = true;  ///< curves against time are kept, the same as PlanRow::keeps_curves
 };
 
-/// What is held of each run of a plan.
+/// The data that a plan holds for each run.
 struct PlanRow {
   std::uint64_t id = 0;        ///< id as a number: number_of_id()
   std::uint64_t scenario = 0;  ///< number_of() its scenario, with the varied keys set
@@ -40,7 +40,7 @@ struct PlanRow {
   bool keeps_curves = true;    ///< its curves against time are kept (--curves)
 };
 
-/// How one study became runs.
+/// The counts by which one study became runs.
 struct StudyCount {
   std::string name;                 ///< name of the study; empty: the only one
   std::size_t cells = 0;            ///< number of cells of the product of its axes and tables

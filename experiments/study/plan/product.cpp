@@ -145,7 +145,7 @@ RunConfig Product::configured(const Cell& cell, const Opened& opened, const Scen
 RunConfig Product::completed(const Cell& cell, const Opened& opened, const Scenario& scenario) const {
   RunConfig config = configured(cell, opened, scenario);
   if (config.tolerance) config.max_steps = max_steps_;
-  // Without a step the run is refused by check().
+  // check() refuses a run without a step.
   if (experiment_.duration && (config.tolerance || config.dt))
     config.t_end = experiment_.duration(config.t_end, config.tolerance ? *config.tolerance : *config.dt);
   return config;

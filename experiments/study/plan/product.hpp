@@ -22,7 +22,7 @@
 
 namespace polhode::study::inline plan {
 
-/// Which motions without a known exact solution are compared with a reference.
+/// The motions without a known exact solution that are compared with a reference.
 enum class WithReference {
   none,
   without_contact,  ///< all motions for which a reference can be made
@@ -62,7 +62,7 @@ class Product {
   std::uint64_t cells() const;              ///< their number; valid after open(), as are all members below
   std::vector<std::string> tables() const;  ///< the tables of points, in words
 
-  /// What was found in a part of the cells.
+  /// The findings in a part of the cells.
   struct Part {
     std::size_t left_out = 0;         ///< number of cells that the conditions leave out
     std::set<std::string> effective;  ///< names of options of the study that affect a run

@@ -49,7 +49,7 @@ void RunOrder::add(const std::vector<OptionValue>& key) {
 std::vector<std::uint32_t> RunOrder::sorted(const std::function<bool(std::uint32_t, std::uint32_t)>& before) const {
   struct Compared {
     const std::vector<Code>* codes;
-    std::vector<std::uint64_t> places;  // of the words, in alphabetical order
+    std::vector<std::uint64_t> places;  // places of the words, in alphabetical order
   };
   std::vector<Compared> compared;
   for (const Column& column : columns_) {
@@ -85,7 +85,7 @@ std::vector<RunOrder::Values> RunOrder::values(const std::vector<std::uint32_t>&
       values.runs = {runs.front()};
       continue;
     }
-    std::array<std::unordered_set<std::uint64_t>, std::variant_size_v<OptionValue>> seen;  // by type
+    std::array<std::unordered_set<std::uint64_t>, std::variant_size_v<OptionValue>> seen;  // values met so far, by type
     for (const std::uint32_t run : runs) {
       const auto [type, bits] = column.codes[run];
       if (!seen[type].insert(bits).second) continue;

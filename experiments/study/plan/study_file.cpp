@@ -190,7 +190,7 @@ class StudyFileReader {
     return all;
   }
 
-  /// What --curves says. All studies of a file are one list of runs, of which so many keep their curves.
+  /// Reads the value for --curves. All studies of a file are one list of runs, of which so many keep their curves.
   void read_curves(const TomlValue& value, const std::string& name, const std::string& above) {
     if (above.starts_with("study."))
       throw InputError(label(value, name) + ": it is for all studies of the file; put it into [defaults]");
@@ -279,7 +279,7 @@ class StudyFileReader {
     }
     const auto& kinds = distribution_kinds();
     const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.name == name->text; });
-    if (kind == kinds.end()) return name->text;  // which Distribution::parse refuses
+    if (kind == kinds.end()) return name->text;  // a name that Distribution::parse refuses
     for (const TomlEntry& entry : value.entries) {
       const auto& known = kind->parameters;
       if (entry.key == "distribution" || std::find(known.begin(), known.end(), entry.key) != known.end()) continue;

@@ -15,9 +15,9 @@ namespace polhode::study::inline plot {
 namespace {
 
 constexpr int max_ticks = 7;
-constexpr double first_lane = 0.035, lane_height = 0.04;  // of the height of a panel
+constexpr double first_lane = 0.035, lane_height = 0.04;  // height of a lane, over the height of a panel
 constexpr std::size_t most_lanes = 10;                    // further curves share them
-constexpr double all_zero_floor = 1e-17;                  // under round-off, where nothing else sets the scale
+constexpr double all_zero_floor = 1e-17;                  // floor under round-off, where nothing else sets the scale
 
 int floor_decade(double value) { return static_cast<int>(std::floor(std::log10(value) + 1e-9)); }
 int ceil_decade(double value) { return static_cast<int>(std::ceil(std::log10(value) - 1e-9)); }
@@ -30,7 +30,7 @@ Tick decade_tick(int exponent, bool negative = false) {
 /// A step between ticks so that no more than max_ticks stand on so many decades.
 int stride(int decades) { return std::max(1, (decades + max_ticks - 1) / max_ticks); }
 
-/// 1, 2 and 5 times powers of ten, for an axis too short for whole decades.
+/// Ticks at 1, 2 and 5 times powers of ten, for an axis too short for whole decades.
 std::vector<Tick> short_log_ticks(double low, double high) {
   std::vector<Tick> ticks;
   for (int e = floor_decade(low); e <= ceil_decade(high); ++e) {
@@ -44,7 +44,7 @@ std::vector<Tick> short_log_ticks(double low, double high) {
   return ticks;
 }
 
-/// At multiples of the stride, so that 10^0 is among them where it is on the axis.
+/// Ticks at multiples of the stride, so that 10^0 is among them where it is on the axis.
 std::vector<Tick> decade_ticks(int low, int high) {
   std::vector<Tick> ticks;
   const int step = stride(high - low);
@@ -181,7 +181,7 @@ std::size_t labels_apart(const Axis& axis, double length, double width) {
 void share_y_axis(std::vector<Panel>& panels, const Axis& axis) {
   for (auto& panel : panels) {
     panel.y = axis;
-    std::size_t lanes[2] = {0, 0};  // in use at the bottom and at the top
+    std::size_t lanes[2] = {0, 0};  // numbers of lanes in use, at the bottom and at the top
     for (auto& curve : panel.curves) {
       bool crosses[2] = {false, false};
       for (auto& point : curve.points) {

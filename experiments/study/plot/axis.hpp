@@ -22,7 +22,7 @@ struct Needs {
   bool floor = false;       ///< room at the bottom, with a tick labelled 0, for values that are exactly zero
   std::size_t crosses = 0;  ///< room at the top for the crosses of so many curves, one above another
 };
-/// What the points of the panels need on a common axis.
+/// The needs of the points of the panels on a common axis.
 Needs needs_of(const std::vector<Panel>& panels);
 
 /// A logarithmic axis for magnitudes; `values` are positive and finite, and may be empty.

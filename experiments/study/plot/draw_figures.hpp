@@ -11,7 +11,7 @@
 
 namespace polhode::study::inline plot {
 
-/// What becomes of figures that are in the folder and not drawn.
+/// The treatment of figures that are in the folder and not drawn.
 enum class Others { remove, keep };
 
 /// Draws into a subfolder of a study's folder. Returns a message for the user if gnuplot is not installed, or words of

@@ -48,7 +48,7 @@ constexpr double rank(std::size_t method) { return static_cast<double>(method % 
 constexpr double line_width(std::size_t method) { return 2.3 - 0.16 * rank(method); }
 constexpr double point_size(std::size_t method) { return 0.95 - 0.03 * rank(method); }
 constexpr double mark_size(std::size_t method) { return 1.6 - 0.14 * rank(method); }
-/// Of a curve of so many points every how manyth has a marker, so that markers do not run into a band.
+/// Number of points from one marker of a curve to the next, so that markers do not run into a band.
 constexpr std::size_t points_to_a_mark(std::size_t points) { return points < 30 ? 1 : points / 15; }
 
 inline constexpr double one_column = 8.6, two_columns = 17.8;  // column widths of journals with two columns, cm
@@ -59,7 +59,7 @@ inline constexpr double narrowest_panel = 130;
 inline constexpr double left_margin = 86, inner_margin = 24, right_margin = 18;
 inline constexpr double title_line = 18.5, title_gap = 20, bottom_margin = 58;
 inline constexpr double legend_line = 17, legend_gap = 8;
-inline constexpr std::array<double, 3> panel_height = {330, 270, 230};  // with 1, 2, 3 panels in a row
-inline constexpr double character_width = 7.4;  // of the widest usual sans-serif font at this size
+inline constexpr std::array<double, 3> panel_height = {330, 270, 230};  // panel heights with 1, 2, 3 panels in a row
+inline constexpr double character_width = 7.4;  // width of the widest usual sans-serif font at this size
 
 }  // namespace polhode::study::inline plot::style

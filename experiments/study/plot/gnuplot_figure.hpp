@@ -16,7 +16,7 @@ inline constexpr const char* style_file = "style.gnuplot";
 /// The line styles of the methods of all figures, which every script loads.
 std::string gnuplot_style(const FigureSet& set);
 
-/// How many line styles stand before those of each figure. Figures of the same methods share theirs.
+/// Number of line styles before those of each figure. Figures of the same methods share theirs.
 std::vector<std::size_t> first_styles(const FigureSet& set);
 
 std::string gnuplot_script(const Figure& figure, std::size_t first_style = 0);

@@ -32,7 +32,7 @@ std::size_t letters_of(const std::vector<std::string>& parts) {
                          [](std::size_t sum, const auto& part) { return sum + part.size(); });
 }
 
-/// What stands in the holes of a phrase, none of it empty; absent if the text is not this phrase.
+/// The texts in the holes of a phrase, none of them empty; absent if the text is not this phrase.
 std::optional<std::vector<std::string>> holes_of(const std::vector<std::string>& phrase, const std::string& text) {
   if (!text.starts_with(phrase.front()) || !text.ends_with(phrase.back())) return std::nullopt;
   std::vector<std::string> found;

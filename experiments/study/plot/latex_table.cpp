@@ -13,13 +13,13 @@
 #include "experiments/study/text/notation.hpp"
 
 namespace polhode::study::inline plot {
-namespace tabular {  // as several files of this folder are compiled together
+namespace tabular {  // a namespace of its own, since several files of this folder are compiled together
 namespace {
 
-constexpr double gap = 5;                             // between columns, pt
-constexpr double room_of_line = tex_line_width - 3;   // widths are known to a hundredth
-constexpr double most_of_keys = 0.62 * room_of_line;  // of the columns that are repeated
-constexpr std::size_t most_lines = 42;                // of a table on one page, its headings among them
+constexpr double gap = 5;                             // gap between columns, pt
+constexpr double room_of_line = tex_line_width - 3;   // width of a line; widths are exact to a hundredth
+constexpr double most_of_keys = 0.62 * room_of_line;  // share of the line for the columns that are repeated
+constexpr std::size_t most_lines = 42;                // lines of a table on one page, its headings among them
 constexpr std::size_t header_length = 12;             // characters of a line of a heading
 constexpr std::size_t longest_piece = 24;             // characters without a place to break
 

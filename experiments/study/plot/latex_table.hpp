@@ -14,7 +14,7 @@ struct LatexTable {
   std::string text;         ///< needs the packages booktabs, longtable and array
   bool over_pages = false;  ///< longtables, which may not stand in a float
 };
-/// What is best in a column is bold.
+/// The table in LaTeX, with the best cells of a column in bold.
 LatexTable latex_table(const Table& table);
 
 /// Packages that latex_table() needs: "\usepackage{…}".

@@ -21,12 +21,12 @@ namespace polhode::study::inline plot {
 
 namespace {
 
-constexpr std::array<double, 3> panel_height_pt = {185, 142, 114};  // with 1, 2, 3 panels in a row
+constexpr std::array<double, 3> panel_height_pt = {185, 142, 114};  // heights of a panel with 1, 2, 3 panels in a row
 constexpr double label_size = 9, tick_size = 8;                     // letters, pt
-constexpr double label_line = 11, tick_length = 24;                 // with the gaps around labels, pt
-constexpr double node_margin = 3.7;                                 // about the text of a node, pt
-constexpr double least_height = 130;                                // of a panel, pt
-constexpr double caption_size = 10, caption_line = 12;              // letters and lines of a caption, pt
+constexpr double label_line = 11, tick_length = 24;  // line of labels and length of ticks with the gaps around them, pt
+constexpr double node_margin = 3.7;                  // margin about the text of a node, pt
+constexpr double least_height = 130;                 // least height of a panel, pt
+constexpr double caption_size = 10, caption_line = 12;  // letters and lines of a caption, pt
 
 template <class... T>
 void tex_line(std::string& out, fmt::format_string<T...> format, T&&... values) {
@@ -199,7 +199,7 @@ struct Page {
 /// The legend stands below the first panel of the last row, the width of the figure.
 bool carries_legend(const Page& page, const Panel& panel) { return panel.row + 1 == page.end && panel.column == 0; }
 
-/// What the panels of a figure leave free, and their size, pt.
+/// The room that the panels of a figure leave free, and their size, pt.
 struct Frame {
   double left = 0, gap = 0, right = 0, width = 0, height = 0;
   double title_lines = 0;
@@ -214,7 +214,7 @@ double line_width(const Figure& figure) {
 
 /// Width of the widest entry of the legend, pt.
 double legend_entry_width(const Figure& figure) {
-  constexpr double mark = 36;  // with the room between columns
+  constexpr double mark = 36;  // width of a mark, with the room between columns
   double widest = 0;
   const auto take = [&](const std::string& text) { widest = std::max(widest, tex_width(text, label_size)); };
   for (const auto m : figure.used_methods) take(figure.methods[m]);
@@ -327,7 +327,7 @@ Figure part_of(const Figure& whole, const Page& page) {
   return part;
 }
 
-/// As many rows on each page as fit, the legend among them.
+/// Pages with as many rows as fit, the legend among them.
 std::vector<Page> pages_of(const Figure& figure, const Frame& frame) {
   const double room = room_beside_caption(figure);
   const auto height = [&](const Page& page) {

@@ -9,8 +9,8 @@
 
 namespace polhode::study::inline plot {
 
-/// As wide as the line of an article of 11 pt on A4, with letters of 8 and 9 pt. One picture for each page that the
-/// figure takes: it has a row of panels or more.
+/// Pictures as wide as the line of an article of 11 pt on A4, with letters of 8 and 9 pt. One picture is made for each
+/// page that the figure takes: it has a row of panels or more.
 std::vector<std::string> pgfplots(const Figure& figure);
 
 /// Name of the file of a page, counted from 0: "momentum.tex", "momentum_page_2.tex".

@@ -21,7 +21,7 @@ std::string header_of(const Column& column) {
 }
 
 std::string html_cell(const Column& column, const std::string& cell, bool heads_row) {
-  constexpr std::size_t short_text = 24;  // not worth a line break
+  constexpr std::size_t short_text = 24;  // length of a text that is not worth a line break
   const char* tag = heads_row ? "th" : "td";
   const char* kind = column.kind == Column::Kind::number ? "number"
                      : column.kind == Column::Kind::name ? "name"

@@ -15,7 +15,7 @@
 
 namespace polhode::study::inline query {
 
-/// What a store says of a run does not make a run here. what() is one line without the name of the store.
+/// The data of a run in a store do not make a run here. what() is one line without the name of the store.
 struct NotReproduced : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -272,7 +272,7 @@ RunOption option_of(const Setting& setting, const std::string& method) {
 
 /// One option for each key among the settings that methods declare. Methods that share a key may differ in the choices.
 std::vector<RunOption> options_of_settings() {
-  std::vector<std::pair<Setting, std::string>> settings;  // with the first method that has it
+  std::vector<std::pair<Setting, std::string>> settings;  // settings, each with the first method that has it
   for (const IntegratorEntry& entry : integrator_catalogue()) {
     for (const Setting& setting : entry.declaration.settings) {
       const auto same = [&](const auto& known) { return known.first.key == setting.key; };

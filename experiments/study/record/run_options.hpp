@@ -123,7 +123,7 @@ std::string identity_of(const RunConfig& config);
 
 /// The values of a configuration by which runs are sorted. Keys are comparable if both runs vary the same keys.
 std::vector<OptionValue> sort_key(const RunConfig& config);
-/// For each value of a sort_key(), the name of its column in config_columns().
+/// The name of the column in config_columns() of each value of a sort_key().
 std::vector<std::string> sort_columns(const std::vector<std::string>& varied_keys);
 
 }  // namespace polhode::study::record

@@ -30,7 +30,7 @@ constexpr double epsilon(Precision p) {
                                             : static_cast<double>(std::numeric_limits<long double>::epsilon());
 }
 
-/// How increments are added to the state.
+/// The form of the additions of increments to the state.
 enum class Summation { plain, compensated };
 constexpr std::string_view name(Summation s) { return s == Summation::plain ? "plain" : "compensated"; }
 
@@ -46,7 +46,7 @@ struct ContactConfig {
   std::string impact_timing;  ///< name of the timing; empty if the response is a force
 };
 
-/// How a run solves the equations of the joints.
+/// The method by which a run solves the equations of the joints.
 struct JointConfig {
   Stabilization stabilization = Stabilization::none;
   std::optional<double> alpha, beta;     ///< coefficients of Baumgarte's equation, 1/s; absent: 10
@@ -101,8 +101,8 @@ struct ContactMeasures {
   std::optional<double> first_impact;  ///< time of the first impact that events.csv lists, s
   /// Energy lost to impacts, lost to friction, and injected by undoing penetration, each until the end of the run, J.
   std::optional<double> impact_loss, friction_loss, penetration_energy;
-  /// With E = kinetic + potential energy − work of non-conservative forces: largest rise of E above an earlier value,
-  /// and largest |E − E(0)|, J. The exact values are 0 for an elastic motion without friction.
+  /// Largest rise of E above an earlier value, and largest |E − E(0)|, J, with E = kinetic + potential energy − work of
+  /// non-conservative forces. The exact values are 0 for an elastic motion without friction.
   std::optional<double> energy_rise_max, energy_change_max;
   std::optional<double> penetration_max, penetration_end;  ///< largest depth of any two bodies, and that at the end, m
   std::optional<double> displacement_max;                  ///< largest displacement of a mass centre since t = 2 s, m

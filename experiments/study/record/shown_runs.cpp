@@ -20,8 +20,8 @@ std::vector<std::size_t> evenly_spread(std::size_t n, std::size_t wanted) {
 std::vector<std::size_t> shown_runs(std::span<const std::uint64_t> runs, std::size_t most) {
   if (runs.size() <= most) return evenly_spread(runs.size(), most);
   if (most == 0) return {};
-  std::unordered_map<std::uint64_t, std::uint32_t> numbers;  // of the motions, in the order of their first runs
-  std::vector<std::uint32_t> motions;                        // of the runs
+  std::unordered_map<std::uint64_t, std::uint32_t> numbers;  // numbers of the motions, in the order of their first runs
+  std::vector<std::uint32_t> motions;                        // motions of the runs
   for (const std::uint64_t run : runs)
     motions.push_back(numbers.try_emplace(run, static_cast<std::uint32_t>(numbers.size())).first->second);
   std::vector<std::size_t> runs_of(numbers.size());

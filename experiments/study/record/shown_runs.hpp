@@ -10,7 +10,7 @@
 
 namespace polhode::study::inline record {
 
-/// Number of runs whose curves against time a study keeps, unless it is told another.
+/// Number of runs whose curves against time a study keeps if none is given.
 inline constexpr std::size_t most_curves = 2000;
 /// A study with more runs has rows of `rows_of_large_tables` runs in its tables, all others of all runs.
 inline constexpr std::size_t most_table_rows = 10'000, rows_of_large_tables = 1000;
@@ -21,7 +21,7 @@ inline constexpr std::size_t most_table_rows = 10'000, rows_of_large_tables = 10
 /// more runs than that are runs of a motion left out.
 std::vector<std::size_t> shown_runs(std::span<const std::uint64_t> motions, std::size_t most);
 
-/// So many indices of 0 … n−1, ascending, evenly spread, the ends among them; all if n is not larger.
+/// Indices of 0 … n−1, ascending, evenly spread, the ends among them; all if n is not larger than `wanted`.
 std::vector<std::size_t> evenly_spread(std::size_t n, std::size_t wanted);
 
 }  // namespace polhode::study::record

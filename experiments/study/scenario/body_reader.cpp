@@ -147,7 +147,7 @@ bool has_formula(const TomlCursor& shape) {
   return !entry || entry->moments;
 }
 
-/// With `mass` and `center_of_mass` known: the key `inertia`, or that of the shape.
+/// Reads the key `inertia`, or that of the shape; `mass` and `center_of_mass` are already set.
 void take_inertia(const TomlCursor& table, Body& body) {
   // A static body needs no inertia, and some shapes have none.
   const bool needed = table.has("shape") && (!body.fixed || has_formula(table.at("shape", "")));

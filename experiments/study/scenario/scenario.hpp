@@ -41,7 +41,7 @@ struct Scenario {
   std::optional<double> energy_scale;  ///< scale of relative energy drifts, J; absent: computed from the motion
   std::vector<std::string>
       invariants;  ///< declared invariants besides energy and momenta; names of core/system/invariants
-  /// What a user should know of the scenario as it was read: bodies that were moved to close joints, joints that repeat
+  /// Notes for a user about the scenario as it was read: bodies that were moved to close joints, joints that repeat
   /// each other's equations. One line each.
   std::vector<std::string> notes;
   /// Everything that affects the results, and nothing else, as text with every default filled in and numbers that read

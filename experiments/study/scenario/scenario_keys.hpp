@@ -12,7 +12,7 @@
 
 namespace polhode::study::inline scenario {
 
-/// When a key affects results. A key that does not cannot be varied.
+/// The cases in which a key affects results. A key that does not cannot be varied.
 enum class Decides { always, with_contact, never };
 
 struct ScenarioKey {

@@ -27,7 +27,7 @@ TomlCursor key(const TomlCursor& root, std::string_view name) { return root.at(n
 std::vector<ReadBody> read_all_bodies(const TomlCursor& list, bool contact) {
   const std::size_t tables = list.list("a list of tables, each under its own [[body]]");
   std::vector<ReadBody> bodies;
-  std::map<std::string, std::size_t> named;  // by which table
+  std::map<std::string, std::size_t> named;  // number of the table of each name
   for (std::size_t i = 0; i < tables; ++i) {
     const TomlCursor table = list.item(i);
     for (ReadBody& body : repeated(table, i, read_body(table, i, contact))) {

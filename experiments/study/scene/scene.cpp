@@ -13,8 +13,8 @@ namespace polhode::study::inline scene {
 
 namespace {
 
-constexpr double least_thickness = 0.04;  // of the longest edge of a box that stands for an inertia
-constexpr double post = 0.25;  // of the smallest moving body: the cube that marks a static one without a shape
+constexpr double least_thickness = 0.04;  // thickness over the longest edge of a box that stands for an inertia
+constexpr double post = 0.25;  // cube that marks a static body without a shape, over the smallest moving body
 
 Pose start_of(const Body& body, const BodyStart& start) {
   const Matrix3<double> rotation = rotation_matrix(start.orientation);

@@ -39,8 +39,8 @@ struct SceneJoint {
   std::string name;
   SceneLink ends;
   bool on_plane = false;                                 ///< the second anchor only says where a plane is
-  Vector3<double> axis = Vector3<double>::Zero();        ///< unit, in the body's axes; zero: the joint has none
-  Vector3<double> axis_other = Vector3<double>::Zero();  ///< unit, in the other's axes or in the world; zero: none
+  Vector3<double> axis = Vector3<double>::Zero();        ///< unit vector in the body's axes; zero: the joint has none
+  Vector3<double> axis_other = Vector3<double>::Zero();  ///< unit vector in the other's axes or the world; zero: none
   double radius = 0;  ///< radius of a disk or sphere that rolls on the plane, m; 0: a joint that does not roll
   Vector3<double> normal = Vector3<double>::Zero();  ///< unit normal of the plane, in the other's axes or in the world
 };

@@ -51,7 +51,7 @@ std::vector<Vector3<double>> spread_directions(const Vector3<double>& sizes) {
   return all;
 }
 
-/// What the shape reaches, each point once.
+/// The points that the shape reaches, each once.
 std::vector<Vector3<double>> reached(const Shape& shape) {
   const Vector3<double> sizes = shape.bounds({}).sizes();
   const double close = 1e-9 * sizes.maxCoeff();
@@ -123,7 +123,7 @@ void add_polytope(const Polytope& p, Surface& surface) {
     const SmoothGroups groups(p, v);
     std::vector<Vector3<double>> sums(groups.faces().size(), Vector3<double>::Zero());
     std::vector<std::uint32_t> numbers(sums.size(), 0);
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> corners;  // with their group
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> corners;  // corners with their groups
     for (const std::uint32_t f : groups.faces()) {
       const Polytope::Face& face = p.faces[f];
       for (std::uint32_t i = 0; i < face.count; ++i) {
@@ -147,7 +147,7 @@ void add_polytope(const Polytope& p, Surface& surface) {
   }
 }
 
-/// What is too thin for a hull is drawn as the box around it.
+/// Adds the surface of a shape; the box around it if it is too thin for a hull.
 void add_convex(const Shape& shape, Surface& surface) {
   const std::vector<Vector3<double>> points = reached(shape);
   try {

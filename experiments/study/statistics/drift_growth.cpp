@@ -18,7 +18,7 @@ namespace {
 using namespace spectral;
 
 constexpr Index most_cosines = 64;
-constexpr double significance = 0.005;  // of the test for a secular drift
+constexpr double significance = 0.005;  // level of significance of the test for a secular drift
 /// A number that comes once in some 3000 normal ones, in squares of their deviation.
 constexpr double stands_out = 13;
 
@@ -103,7 +103,7 @@ class Estimator {
     return peak_to_peak(low.sum()) > change_ / 2 ? static_cast<double>(at + 1) / 2 : 0;
   }
 
-  /// From peak to peak, of what t^p leaves, where that is smooth.
+  /// The misfit that t^p leaves, from peak to peak, where that is smooth.
   double smooth_misfit() const {
     constexpr Index smooth = 4;
     constexpr double far_above = 20;

@@ -122,7 +122,7 @@ class Store::Writer {
               "SELECT max(ifnull((SELECT max(number) FROM runs), 0), ifnull((SELECT max(number) FROM curves), 0), "
               "ifnull((SELECT max(number) FROM timings), 0))") {}
 
-  /// To be called once in a transaction, before write().
+  /// Finds the first number for new runs. Must be called once in a transaction, before write().
   void begin() {
     last_.step();
     next_ = last_.integer(0) + 1;

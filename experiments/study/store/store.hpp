@@ -42,7 +42,7 @@ struct StoredStudy {
   std::string experiment, command, manifest;
 };
 
-/// Whether curves against time are read too: RunResult::series and attitude_errors.
+/// The choice of curves against time to be read too: RunResult::series and attitude_errors.
 enum class Curves { without, with };
 
 /// Every function throws std::runtime_error with the file and the reason (disk full, locked, damaged, of another

@@ -21,7 +21,7 @@ class CommandLineOption {
  public:
   explicit CommandLineOption(CLI::Option& option) : option_(&option) {}
 
-  /// What the help shows for the value: "FILE".
+  /// The word for the value in the help: "FILE".
   CommandLineOption type_name(const std::string& name) const;
   /// The heading under which the help lists the option.
   CommandLineOption group(const std::string& heading) const;
@@ -37,7 +37,7 @@ class CommandLineOption {
   /// Refuses a command line with both options.
   CommandLineOption excludes(const CommandLineOption& other) const;
 
-  /// Whether the command line that was parsed has the option.
+  /// True if the command line that was parsed has the option.
   bool given() const;
   /// "--name".
   std::string name() const;

@@ -23,7 +23,7 @@ std::vector<std::string_view> near_names(std::string_view name, const std::vecto
 std::string suggestion(std::string_view name, std::string_view introduction,
                        const std::vector<std::string_view>& known);
 
-/// For catalogues too long for one line: "; did you mean 'rk4'? --list integrators prints all 45".
+/// A suggestion for catalogues too long for one line: "; did you mean 'rk4'? --list integrators prints all 45".
 std::string suggestion_of_many(std::string_view name, const std::vector<std::string_view>& known,
                                std::string_view list);
 

@@ -67,7 +67,7 @@ class TomlCursor {
 
   const TomlValue* value_;
   const TomlCursor* above_ = nullptr;
-  std::string_view key_;  // empty for an item of a list
+  std::string_view key_;  // key; empty for an item of a list
   std::size_t index_ = 0;
 };
 

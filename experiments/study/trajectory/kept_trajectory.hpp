@@ -41,10 +41,10 @@ std::optional<KeptTrajectory> kept_trajectory(const std::filesystem::path& folde
 /// The same of one HDF5 file of any name.
 KeptTrajectory kept_hdf5_file(const std::filesystem::path& path);
 
-/// In words: "unfinished, 12000 instants until t = 11.999 s".
+/// The trajectory in words: "unfinished, 12000 instants until t = 11.999 s".
 std::string in_words(const KeptTrajectory& kept);
 
-/// What to do about one that is not whole.
+/// The advice for a trajectory that is not whole.
 std::string remedy(const KeptTrajectory& kept);
 
 /// Copies the instants into new files that say that they end early: trajectory.recovered.csv and so on, with a first

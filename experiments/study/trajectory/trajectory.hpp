@@ -20,7 +20,8 @@ class TrajectoryWriter : public Observer {
   virtual void close() = 0;
 };
 
-/// When a block of rows ends, at an instant. What it holds, in all tables, is then in the hands of the operating
+/// The end of a block of rows, at an instant. Its rows, in all tables, are then in the hands of the operating system: a
+/// kill of the program cannot take them away.
 /// system: a kill of the program cannot take it away.
 struct BlockEnd {
   std::size_t rows = 1000;              ///< rows of the trajectory, at most, unless one instant has more

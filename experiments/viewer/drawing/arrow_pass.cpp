@@ -14,7 +14,7 @@ namespace {
 /// Numbers of sides of an arrow, and of an arrow among very many.
 constexpr std::uint32_t sides = 10, sides_of_many = 4;
 constexpr std::size_t many = 200;
-constexpr float head_radius = 2.7f, head_length = 7.5f;  // over the radius of the shaft
+constexpr float head_radius = 2.7f, head_length = 7.5f;  // lengths over the radius of the shaft
 
 struct ArrowVertex {
   Vector3<float> place;   // across in radii of the shaft; along: 0 at the start, 1 where the head begins, 2 at the tip

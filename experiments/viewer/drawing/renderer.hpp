@@ -42,10 +42,10 @@ class Renderer {
   LinePass lines_;
   ArrowPass arrows_;
   PolhodePass polhode_;
-  double polhode_reach_ = 1;  // of the last draw()
+  double polhode_reach_ = 1;  // reach at the last draw()
   Marks marks_;
   std::vector<Plane> planes_;                         // half-spaces
-  std::vector<std::vector<BodyInstance>> instances_;  // by surface
+  std::vector<std::vector<BodyInstance>> instances_;  // instances of each surface
 };
 
 }  // namespace polhode::viewer::drawing

@@ -13,7 +13,7 @@ namespace polhode::viewer::inline drawing {
 struct ViewState {
   Vector3<double> eye;
   Eigen::Matrix4f to_clip;    ///< matrix from world axes, relative to the eye, to clip space
-  Eigen::Vector3f forward;    ///< unit, world axes
+  Eigen::Vector3f forward;    ///< unit vector of the view, world axes
   Eigen::Vector2f half_size;  ///< pixels
   double distance;            ///< distance from the eye to the target, m
   Vector3<double> target;

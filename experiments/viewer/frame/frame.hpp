@@ -13,7 +13,7 @@ namespace polhode::viewer::inline frame {
 struct FrameContact {
   std::size_t a = 0, b = 0;
   Vector3<double> point = Vector3<double>::Zero();   ///< m
-  Vector3<double> normal = Vector3<double>::Zero();  ///< unit, from B to A
+  Vector3<double> normal = Vector3<double>::Zero();  ///< unit normal from B to A
   double depth = 0;                                  ///< depth, positive if the shapes overlap, m
 };
 

@@ -37,7 +37,7 @@ std::vector<ImU32> colours_of(const Stage& stage) {
   return colours;
 }
 
-/// What the runs tell so far: "energy drift so far: least with rk4, dt = 0.01 s (1e-9 J), most with …".
+/// The present answer of the runs: "energy drift so far: least with rk4, dt = 0.01 s (1e-9 J), most with …".
 std::string answer_of(const Stage& stage) {
   std::vector<std::pair<double, std::string>> drifts;
   for (std::size_t k = 0; k < stage.views().size(); ++k) {
@@ -141,7 +141,7 @@ void draw_plots(Stage& stage, float left, float upper, float width, float height
   ImGui::Begin("plots", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus);
   const float row = ImGui::GetTextLineHeight() + 4, margin = 12;
-  const float legend = stage.size() > 1 ? 2 * row : 0;  // of the runs, and what they tell below it
+  const float legend = stage.size() > 1 ? 2 * row : 0;  // height of the legend and of the answer below it
   const float each = (width - margin * float(quantities.size() + 1)) / float(quantities.size());
   const std::vector<ImU32> colours = colours_of(stage);
   for (std::size_t i = 0; i < quantities.size(); ++i) {

@@ -32,7 +32,7 @@ struct Mechanism {
   int probe = 0;  ///< body whose mass centre at t_end is known
 };
 
-/// Where the mass centre of the probe is at t_end, and what it took.
+/// The place of the mass centre of the probe at t_end, and the cost.
 struct Arrival {
   double x = 0, y = 0;  ///< m
   double wall = 0;      ///< wall time of the steps alone, s

@@ -11,7 +11,7 @@
 namespace polhode::crowd_test {
 namespace {
 
-/// What is said of so many spheres in one place; empty: they are let pass.
+/// The message that refuses so many spheres in one place; empty: they are let pass.
 std::string said_of(std::size_t count, const char* broad_phase) {
   Problem problem;
   problem.bodies.resize(count);

@@ -24,15 +24,15 @@ struct ContactRun {
   Problem problem;
   std::vector<Collider> colliders;
   std::string method = "rk4", response = "sequential_impulses", broad_phase = "sweep_and_prune", narrow_phase = "sat";
-  Timing timing = Timing::located;  // of responses by impulses
-  Compliance compliance{};          // of those by forces
+  Timing timing = Timing::located;  // timing of responses by impulses
+  Compliance compliance{};          // compliance of responses by forces
   double dt = 1e-3, tolerance = 1e-10, t_end = 1;
   Formulation formulation{};
 
-  // What came out.
+  // The results.
   RunOutcome outcome;
-  std::vector<Sample> samples;             // after every step
-  std::vector<BodySnapshot<double>> path;  // of the body 0, at the same times
+  std::vector<Sample> samples;             // samples after every step
+  std::vector<BodySnapshot<double>> path;  // snapshots of the body 0, at the same times
   std::vector<Impact> impacts;
   std::vector<Transition> transitions;
   ContactLosses losses;

@@ -19,7 +19,7 @@ namespace {
 
 Pose pose_of(const ExactBox& box) { return box.posed().pose; }
 
-/// How far apart the shadows of the boxes on n are, in long double.
+/// The gap between the shadows of the boxes on n, in long double.
 long double shadow_gap(const ExactBox& a, const ExactBox& b, const Vector3<double>& n) {
   using Long = long double;
   const auto reach = [&](const ExactBox& box) {
@@ -29,7 +29,7 @@ long double shadow_gap(const ExactBox& a, const ExactBox& b, const Vector3<doubl
   return n.cast<Long>().dot(b.position.cast<Long>() - a.position.cast<Long>()) - reach(a) - reach(b);
 }
 
-/// How far a point is outside a box, m.
+/// The distance of a point outside a box, m.
 double outside(const Vector3<double>& half, const Pose& pose, const Vector3<double>& x) {
   return (pose.to_body(x).cwiseAbs() - half).cwiseMax(0).norm();
 }

@@ -35,7 +35,7 @@ Pose at(const Vector& position, const Vector& turn = Vector::Zero()) {
   return {position, rotation_matrix<double>(quaternion_from_rotation_vector<double>(turn))};
 }
 
-/// Whether some point of the manifold is there.
+/// True if some point of the manifold is at that place.
 bool has(const Manifold& m, const Vector& point, double tolerance = 1e-12) {
   for (std::size_t k = 0; k < m.count; ++k) {
     if ((m.points[k].point - point).norm() <= tolerance) return true;

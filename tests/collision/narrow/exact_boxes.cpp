@@ -55,7 +55,7 @@ Whole3 vertex(const WholeBox& box, unsigned k) {
   return v;
 }
 
-/// Where both nearest points of the lines lie within the edges, their distance, if it is less than `least`.
+/// The distance of the edges, if both nearest points of the lines lie within the edges and it is less than `least`.
 long double edge_distance(const WholeBox& a, std::size_t i, unsigned p, const WholeBox& b, std::size_t j, unsigned q,
                           const Whole3& normal, const Whole& normal_squared, long double length, long double least) {
   const std::size_t y = (i + 1) % 3, z = (i + 2) % 3, v = (j + 1) % 3, w = (j + 2) % 3;

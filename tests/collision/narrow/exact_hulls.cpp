@@ -110,7 +110,7 @@ class Difference {
   Real reach_ = 0;
 };
 
-/// Of the hull of up to four points, the one nearest to the origin.
+/// The point nearest to the origin of the hull of up to four points.
 template <class T>
 struct Nearest {
   unsigned of = 0;           ///< bits: the points that it lies between
@@ -174,8 +174,8 @@ Three<T> corner(const Difference& difference, const Corner& c) {
   }
 }
 
-/// From `simplex`, which may be flat, to the one that holds the point nearest to the origin. In whole numbers each turn
-/// brings it nearer, and the end is proven; in long double rounding may end it early.
+/// Goes from `simplex`, which may be flat, to the simplex that holds the point nearest to the origin. Each turn in
+/// whole numbers brings it nearer, and the end is proven; rounding may end it early in long double.
 template <class T>
 Nearest<T> gjk(const Difference& difference, std::vector<Corner>& simplex) {
   for (int turn = 0;; ++turn) {

@@ -25,7 +25,7 @@ const NarrowPhase& gjk_phase() {
   return *narrow;
 }
 
-/// How far apart two shapes are along n, from B to A: what moving A by its negative along n makes touch.
+/// The distance of two shapes along n, from B to A: a motion of A by its negative along n makes them touch.
 double separation(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b, const Vector& n) {
   const Vector low = at_a.to_world(a.support(-(at_a.rotation.transpose() * n)));
   const Vector high = at_b.to_world(b.support(at_b.rotation.transpose() * n));

@@ -30,7 +30,7 @@ const NarrowPhase& gjk_phase() {
   return *narrow;
 }
 
-/// What every answer keeps: a unit normal, witness points that it joins, no NaN.
+/// Expects the properties of every answer: a unit normal, witness points that it joins, no NaN.
 void expect_sound(const Distance& d, double scale) {
   EXPECT_NEAR(d.normal.norm(), 1, 1e-14);
   EXPECT_LT((d.on_a - d.on_b - d.distance * d.normal).norm(), 1e-9 * scale);

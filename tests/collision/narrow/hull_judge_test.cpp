@@ -20,7 +20,7 @@ namespace {
 using Vector = Vector3<double>;
 using Real = long double;
 
-/// How far apart the shadows of the hulls on n are, if B lies beyond A.
+/// The gap between the shadows of the hulls on n, if B lies beyond A.
 Real shadow_gap(const HullPairCase& pair, const Vector& n) {
   const Vector3<Real> m = n.cast<Real>();
   const auto reach = [&](const std::vector<Vector>& points, const Pose& at, Real sign) {
@@ -59,7 +59,7 @@ class Faults {
   std::ostringstream said_;
 };
 
-/// What is wrong with the answers to a pair; empty: nothing.
+/// The faults of the answers to a pair; empty: none.
 std::string faults(const NarrowPhase& narrow, double tolerance, const HullPairCase& pair) {
   const ExactDistance exact = exact_distance(ExactHull{pair.points_a, pair.at_a}, ExactHull{pair.points_b, pair.at_b});
   const Sizes sizes(pair);

@@ -117,7 +117,7 @@ Quaternion<double> about(const Vector& axis, double angle) {
   return quaternion_from_rotation_vector<double>(axis * angle);
 }
 
-/// By no more than the angle of a rounding error, or by none.
+/// A turn by no more than the angle of a rounding error, or none.
 Quaternion<double> almost_none(PortableRandom& random) {
   return random.chance(0.5) ? Quaternion<double>(1, 0, 0, 0) : about(random.direction(), random.power_of_ten(-17, 0));
 }
@@ -155,8 +155,8 @@ HullPairCase pair_of(std::uint64_t seed, std::uint64_t k) {
   const std::size_t kind = k % hull_pair_classes().size();
   HullPairCase pair;
   pair.what = hull_pair_classes()[kind];
-  Quaternion<double> turn(1, 0, 0, 0);  // of B
-  // Of a power of two, so that a lattice stays one.
+  Quaternion<double> turn(1, 0, 0, 0);  // turn of B
+  // The scale is a power of two, so that a lattice stays one.
   const double scale = std::exp2(std::round(random.uniform(-10, 10))),
                ratio = random.chance(0.5) ? 1 : random.power_of_ten(-4, 0);
   pair.points_a = of_any_kind(random);

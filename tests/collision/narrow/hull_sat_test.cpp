@@ -40,7 +40,7 @@ ConvexHull corners(const Vector& half) {
   return ConvexHull(points);
 }
 
-/// What every answer keeps: a unit normal, and witness points that it joins.
+/// Expects the properties of every answer: a unit normal, and witness points that it joins.
 void expect_sound(const Distance& d, double scale) {
   EXPECT_NEAR(d.normal.norm(), 1, 1e-14);
   EXPECT_LT((d.on_a - d.on_b - d.distance * d.normal).norm(), 1e-9 * scale);

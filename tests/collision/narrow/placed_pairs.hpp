@@ -20,7 +20,7 @@ Pose random_pose(std::uint64_t seed, double spread);
 /// Hulls of 4 to 128 points.
 PlacedPair hull_pair(std::uint64_t k);
 
-/// Of every convex kind but the half-space.
+/// A pair of any convex kinds but the half-space.
 PlacedPair any_pair(std::uint64_t seed);
 
 /// Two hulls: the largest separation along all normals of faces and products of edges, in long double.

@@ -45,7 +45,7 @@ Three<T> operator-(const Three<T>& a) {
 
 inline Whole magnitude(const Whole& x) { return x < 0 ? Whole(-x) : x; }
 
-/// To a few units of the last place; of any size up to 2^16383.
+/// The number to a few units of the last place; its size may be up to 2^16383.
 inline long double rounded(const Whole& x) { return x.convert_to<long double>(); }
 inline Three<long double> rounded(const Whole3& x) { return {rounded(x[0]), rounded(x[1]), rounded(x[2])}; }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is recognised as having an exact motion, and that it is the motion: each against a reference in extended
-// precision that knows nothing of it (core/reference_motion), which proves its digits.
+// Tests which problems are recognised as having an exact motion, and that it is the motion. Each is compared with a
+// reference in extended precision that uses no part of it and proves its digits (core/exact/reference_motion.hpp).
 #include "core/exact/exact_motion.hpp"
 
 #include <gtest/gtest.h>

@@ -67,7 +67,7 @@ std::vector<TopCase> every_regime() {
   };
 }
 
-// So near the separatrix that rounding its state gives a motion which soon departs from it.
+// True so near the separatrix that rounding its state gives a motion which soon departs from it.
 bool is_delicate(const TopCase& c) {
   return c.regime == "separatrix" || c.name.starts_with("just") || c.name.starts_with("near the") ||
          c.name.starts_with("intermediate");

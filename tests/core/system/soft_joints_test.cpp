@@ -69,7 +69,7 @@ TEST(ProjectionMetrics, MassesDecideWhoMoves) {
   for (const auto metric : {ProjectionMetric::mass, ProjectionMetric::unit}) {
     Formulation f = treated(Stabilization::both);
     f.joints.metric = metric;
-    const double share = metric == ProjectionMetric::mass ? 1000.0 / 1001 : 0.5;  // of the upper rod
+    const double share = metric == ProjectionMetric::mass ? 1000.0 / 1001 : 0.5;  // share of the upper rod
     const auto system = make_system<double>(two, f);
     VectorX<double> y = system->start().y;
     project_joints(*system, y);

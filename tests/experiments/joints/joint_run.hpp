@@ -61,7 +61,7 @@ class Watch final : public Observer {
   double start_ = 0;
 };
 
-/// Of adaptive methods dt is the tolerance.
+/// A run. dt is the tolerance of adaptive methods.
 inline End run(const Problem& problem, double dt, double t_end, Stabilization stabilization = Stabilization::both,
                AngularState angular = AngularState::velocity_world, const std::string& method = "rk4") {
   Formulation f{.angular_state = angular};

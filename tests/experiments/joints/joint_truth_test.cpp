@@ -159,7 +159,7 @@ Problem hanging_chain(const std::vector<double>& angles, double ball) {
   Vector joint = Vector::Zero();
   const std::size_t n = angles.size();
   for (std::size_t i = 0; i < n; ++i) {
-    const double m = i + 1 == n ? ball : 0, center = (0.5 + m) / (1 + m);  // of the mass, from the upper end
+    const double m = i + 1 == n ? ball : 0, center = (0.5 + m) / (1 + m);  // mass centre from the upper end
     const double across = 1.0 / 12 + (center - 0.5) * (center - 0.5) + m * (1 - center) * (1 - center);
     Body rod;
     rod.name = "rod" + std::to_string(i);

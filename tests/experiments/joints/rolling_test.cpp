@@ -28,7 +28,7 @@ enum class Upright { rolls, spins };
 Problem wheel_with(Wheel wheel, const Vector& centre, const Quaternion<double>& orientation, const Vector& up,
                    const Vector& angular_velocity) {
   Problem problem = problem_of("rolling_disk");
-  const double part = wheel == Wheel::disk ? 0.5 : 1;  // of m r², about the axis
+  const double part = wheel == Wheel::disk ? 0.5 : 1;  // share of m r² in the inertia about the axis
   problem.bodies[0].inertia = (weight * part * Vector(0.5, 0.5, 1)).asDiagonal();
   BodyStart& start = problem.starts[0];
   start.position = centre;

@@ -57,7 +57,7 @@ TEST(SliderCrank, ReducedMotionIsThePublishedOne) {
   EXPECT_NEAR(static_cast<double>(crank_after(1, 0.5L)), 10.913590729864668, 1e-13) << "the scenario file states it";
 }
 
-/// How far the crank's angle is from an angle (rad), apart from full turns.
+/// The difference of the crank's angle from an angle (rad), apart from full turns.
 double angle_error(const End& end, long double angle) {
   const Matrix3<double> crank = end.motion(0).rotation;
   return std::remainder(std::atan2(crank(2, 1), crank(1, 1)) - static_cast<double>(angle), 2 * std::numbers::pi);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int samples = 128;
 
-/// Of a value at each of 128 instants and the start.
+/// Values at each of 128 instants and the start.
 template <class Value>
 std::vector<PathPoint> path(const Value& value) {
   std::vector<PathPoint> points;

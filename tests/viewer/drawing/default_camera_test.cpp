@@ -9,7 +9,7 @@
 namespace polhode::viewer::default_camera_test {
 namespace {
 
-/// How far towards an edge of the picture the bodies' corners reach, in shares of the half picture.
+/// The reach of the bodies' corners towards an edge of the picture, in shares of the half picture.
 double reach(const Camera& camera, std::span<const Frame> frames, double width_over_height) {
   const int height = 1000, width = int(height * width_over_height);
   double most = 0;

@@ -86,7 +86,7 @@ TEST(RecordedSession, InterpolatesTurns) {
   const auto session = recorded_session((folder.path() / "t.csv").string(), "peters_hsu");
   session->scrub(0.25);
   auto body = session->view()->frame.bodies[0];
-  const double half = std::numbers::pi / 16;  // of a quarter of the right angle
+  const double half = std::numbers::pi / 16;  // half of a quarter of the right angle
   EXPECT_LT(angle_between<double>(body.orientation, Quaternion<double>(std::cos(half), 0, 0, std::sin(half))), 1e-12);
   EXPECT_DOUBLE_EQ(body.position[0], 0.5);
   const auto nearest = recorded_session((folder.path() / "t.csv").string(), "peters_hsu", {}, Between::nearest);

@@ -7,7 +7,7 @@
 namespace polhode::viewer::session_collision_test {
 namespace {
 
-constexpr double g = 9.81, height = 4.9, restitution = 0.5;  // of the ball's lower end
+constexpr double g = 9.81, height = 4.9, restitution = 0.5;  // the height is that of the ball's lower end
 
 Configuration ball(const std::string& integrator, double dt, const std::string& timing) {
   Configuration c = with("bouncing_ball", integrator, dt, 4);

@@ -250,7 +250,7 @@ class General {
     return fmt::format("Next is {} with {}.", label(*next.curve), times(first, next));
   }
 
-  /// Which runs would decide: those of methods whose cheapest run is better than the target.
+  /// The runs that would decide: those of methods whose cheapest run is better than the target.
   std::string what_would_decide(const std::vector<Candidate>& candidates) const {
     std::vector<std::string> names;
     bool fixed = false, adaptive = false;

@@ -34,9 +34,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_rows = 90;         // of a table in the article
-constexpr std::size_t most_scenarios = 12;    // with tables of their bodies and forces
-constexpr std::size_t floats_at_a_time = 16;  // between two places where all of them are set
+constexpr std::size_t most_rows = 90;         // largest number of rows of a table in the article
+constexpr std::size_t most_scenarios = 12;    // largest number of scenarios with tables of their bodies and forces
+constexpr std::size_t floats_at_a_time = 16;  // number of floats between two places where all of them are set
 
 constexpr const char* preamble = R"(\documentclass[11pt,a4paper]{article}
 \usepackage[utf8]{inputenc}\usepackage[T1]{fontenc}\usepackage{textcomp,lmodern}

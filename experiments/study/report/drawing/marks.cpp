@@ -11,7 +11,7 @@ namespace polhode::study::inline report::inline drawing {
 namespace {
 
 constexpr double head_length = 10, head_width = 3.6;
-constexpr double shortest = 9;  // of an arrow that is not drawn as a circle
+constexpr double shortest = 9;  // shortest length of an arrow that is not drawn as a circle
 constexpr double letter = 8.2, line_height = 17;
 
 std::string of_class(std::string_view name) { return fmt::format("class=\"{}\"", name); }

@@ -20,12 +20,12 @@
 namespace polhode::study::inline report::inline drawing {
 namespace {
 
-constexpr double width = 520, most_height = 380, least_height = 150;  // of the picture, without the strip below
-constexpr double strip = 44;                                          // below the picture: the bar and the world's axes
+constexpr double width = 520, most_height = 380, least_height = 150;  // size of the picture, without the strip below
+constexpr double strip = 44;  // height of the strip below the picture: the bar and the world's axes
 constexpr double margin = 34, gravity_margin = 30;
 constexpr std::size_t most_named = 8;    // bodies with axes and names
 constexpr std::size_t most_ringed = 40;  // bodies with lines on their curved sides
-constexpr double smallest_seen = 7;      // of a body on the page; a smaller one stands in a circle
+constexpr double smallest_seen = 7;      // size of a body on the page; a smaller one stands in a circle
 
 constexpr const char* style = R"css(
 .scene text{font:15px system-ui,"Segoe UI",Roboto,"DejaVu Sans",sans-serif;fill:#1d2126}
@@ -149,7 +149,7 @@ class Drawer {
                                : joint.of.vector("anchor_world")};
   }
 
-  /// How far the surface of a body reaches from its mass centre along a direction, m.
+  /// Distance by which the surface of a body reaches from its mass centre along a direction, m.
   double reach(std::size_t body, const Vector3<double>& direction) const {
     double most = 0;
     for (std::size_t k = 0; k < pieces_.size(); ++k) {

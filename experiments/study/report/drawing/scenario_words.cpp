@@ -54,7 +54,7 @@ std::string surface_words(const Scenario& scenario, std::size_t i) {
   return parts.empty() ? std::string() : "; " + words(parts);
 }
 
-/// What there is to say about a body, apart from its name and its place.
+/// The words about a body, apart from its name and its place.
 std::string body_words(const Scenario& scenario, std::size_t i) {
   const Body& body = scenario.problem.bodies[i];
   const BodyStart& start = scenario.problem.starts[i];

@@ -10,7 +10,7 @@
 namespace polhode::study::inline report::inline drawing {
 namespace {
 
-using Edge = std::pair<std::uint32_t, std::uint32_t>;  // from, to
+using Edge = std::pair<std::uint32_t, std::uint32_t>;  // from the first point to the second
 
 /// The numbers of the triangles at which pieces begin: those whose points no earlier triangle has.
 std::vector<std::size_t> starts_of_pieces(const Surface& surface) {
@@ -105,7 +105,7 @@ Piece piece_of(const Surface& surface, std::size_t first, std::size_t end) {
 
 /// The segments in which a plane x_k = height cuts the curved triangles that look at the viewer, joined to lines.
 std::vector<SeenPiece::Line> rings_of(const Piece& piece, const std::vector<bool>& front, int k, double height) {
-  std::map<Edge, Vector3<double>> cuts;  // by edge, from < to
+  std::map<Edge, Vector3<double>> cuts;  // cuts of the edges, from < to
   std::map<Edge, std::vector<Edge>> joined;
   for (std::size_t i = 0; i < piece.triangles.size(); ++i) {
     const Piece::Triangle& t = piece.triangles[i];
@@ -148,7 +148,7 @@ std::vector<SeenPiece::Line> rings_of(const Piece& piece, const std::vector<bool
   return rings;
 }
 
-/// Whether b hides a, a hides b, or neither: 1 if b is nearer, -1 if it is further, 0 if no face of a tells.
+/// The order of a and b: 1 if b is nearer, -1 if it is further, 0 if no face of a decides.
 int side_of(const SeenPiece& a, const SeenPiece& b, const View& view, double touching) {
   for (const auto& [normal, offset] : a.planes) {
     const double facing = normal.dot(view.toward());

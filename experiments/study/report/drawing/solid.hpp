@@ -17,7 +17,7 @@ namespace polhode::study::inline report::inline drawing {
 /// A closed piece of a surface, in the axes of the shape. Each convex piece of a compound is a piece.
 struct Piece {
   struct Face {
-    Vector3<double> normal = Vector3<double>::Zero();  ///< unit, outward
+    Vector3<double> normal = Vector3<double>::Zero();  ///< outward unit normal
     double offset = 0;                                 ///< value of normal·x on the face, m
     std::vector<std::uint32_t> corners;                ///< points, counter-clockwise seen from outside
   };

@@ -102,7 +102,7 @@ double lowest_decade(const Axis& axis) {
 struct Area {
   double x0, y0, width, height;
 };
-/// Without the level of zeros at the bottom and the crosses, with their names, at the top.
+/// The area without the level of zeros at the bottom and the crosses, with their names, at the top.
 Area drawing_area(const Panel& panel) {
   const double x = panel.x.place(panel.x.low), y = panel.y.place(lowest_decade(panel.y));
   double top = panel.y.place(panel.y.high);

@@ -278,7 +278,7 @@ class Figures {
   FigureSet set_;
 };
 
-/// What to say of chosen figures that the study does not have.
+/// A sentence about chosen figures that the study does not have.
 std::string words_of_missing(const StudyView& study, const FigureSet& set, const FigureSet& timed) {
   std::string said;
   for (const std::string& name : study.figure_choice.names) {

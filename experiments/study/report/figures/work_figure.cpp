@@ -97,7 +97,7 @@ class WorkFigure {
   /// Writes the name of each method that is the next after the cheapest at some error and the cheapest at none, where
   /// it is the next.
   void name_the_next(Panel& panel, const MotionWork& motion, const std::set<std::size_t>& coloured) const {
-    std::map<std::size_t, std::vector<const EnvelopePoint*>> next;  // by curve
+    std::map<std::size_t, std::vector<const EnvelopePoint*>> next;  // points of each curve
     for (const auto& p : motion.envelope) {
       if (p.next) next[*p.next].push_back(&p);
     }

@@ -17,7 +17,7 @@
 namespace polhode::study::inline report::inline page {
 namespace {
 
-/// Something in the picture that this file does not know.
+/// An element or an attribute of the picture for which this file has no rule.
 struct Unknown {};
 
 using Attributes = std::map<std::string, std::string>;
@@ -239,7 +239,7 @@ bool is_style(const std::string& name) {
   return name == "color" || in(of_shapes) || in(of_texts);
 }
 
-/// What an element inherits, with its own styles in place of them.
+/// The attributes that an element inherits, with its own styles in place of them.
 Attributes inherited(Attributes style, const Attributes& own) {
   for (const auto& [name, value] : own) {
     if (is_style(name))
@@ -248,7 +248,7 @@ Attributes inherited(Attributes style, const Attributes& own) {
   return style;
 }
 
-/// Names other than those of styles and the ones given are not known.
+/// Throws if a name is neither that of a style nor one of `others`.
 void allow(const Attributes& attributes, std::initializer_list<std::string_view> others) {
   for (const auto& [name, value] : attributes) {
     if (!is_style(name) && std::find(others.begin(), others.end(), name) == others.end()) throw Unknown{};

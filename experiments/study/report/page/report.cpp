@@ -187,7 +187,7 @@ std::string figure_beside_answer(const StudyView& study) {
   return has_answer(study) && !study.analysis->figures.empty() ? study.analysis->figures.front().name : "";
 }
 
-/// What the page is opened for: the answer, the table and the figure that show it, and what it depends on.
+/// The first part of the page: the answer, the table and the figure that show it, and its conditions.
 std::string answer_html(const StudyView& study, const Grouping& grouping, const FigureSet& set) {
   if (!has_answer(study)) return {};
   std::string out = "<section id=\"answer\">\n<h2 class=\"spoken\">The answer</h2>\n";

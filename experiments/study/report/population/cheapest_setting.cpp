@@ -47,7 +47,7 @@ void CheapestSetting::add(const RunRecord& run) {
   count(position_, run.result.position_error_max);
 }
 
-/// For each method the setting with the least median cost among those that reach the error in nearly all runs.
+/// The setting of each method with the least median cost among those that reach the error in nearly all runs.
 std::map<std::string, CheapestSetting::Settings::const_iterator> CheapestSetting::cheapest(const Settings& settings,
                                                                                            std::size_t decade) const {
   std::map<std::string, Settings::const_iterator> found;

@@ -37,11 +37,11 @@ class Population {
   Analysis analysis() const;
 
  private:
-  static constexpr std::size_t bins = 32;  // of an axis
+  static constexpr std::size_t bins = 32;  // number of bins of an axis
 
   /// A column of the configuration with numbers.
   struct NumericAxis {
-    std::size_t column = 0;  // of config_columns()
+    std::size_t column = 0;  // index of the column in config_columns()
     std::string name;
     bool logarithmic = false;
     double low = 0, high = 1;
@@ -54,8 +54,8 @@ class Population {
   struct Distribution {
     QuantileSketch all;
     std::string largest_in;                                 // id of the run with the largest value
-    std::vector<std::array<QuantileSketch, bins>> along{};  // by axis; of metrics that are drawn
-    std::vector<QuantileSketch> map{};  // by the bins of the first two axes; of the first such metric
+    std::vector<std::array<QuantileSketch, bins>> along{};  // quantiles by axis and bin, of metrics that are drawn
+    std::vector<QuantileSketch> map{};  // quantiles by the bins of the first two axes, of the first such metric
   };
 
   void find_axes(const StudyView& sample);
@@ -69,9 +69,9 @@ class Population {
 
   std::vector<NumericAxis> axes_;
   std::vector<const Metric*> metrics_;            // numbers with a column in the narrow tables
-  std::vector<const Metric*> drawn_;              // of these
-  std::vector<std::string> methods_;              // in the order in which they are met
-  std::vector<std::vector<Distribution>> found_;  // by method, then by metric
+  std::vector<const Metric*> drawn_;              // metrics that are drawn
+  std::vector<std::string> methods_;              // methods in the order of their first runs
+  std::vector<std::vector<Distribution>> found_;  // distributions by method, then by metric
   std::map<std::string, Outcome> outcomes_;
   CheapestSetting cheapest_;
   std::size_t runs_ = 0;

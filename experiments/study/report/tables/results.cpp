@@ -173,7 +173,7 @@ void write_timings_csv(const StudyView& study) {
 
 namespace {
 
-/// What a study varies, in the words of the command line.
+/// The axes of a study, in the words of the command line.
 nlohmann::ordered_json in_words(const StudyAxes& study) {
   using Json = nlohmann::ordered_json;
   Json said = Json::object();

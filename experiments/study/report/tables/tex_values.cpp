@@ -38,7 +38,7 @@ constexpr const char* explanation =
 % AngularVelocityErrorMax are relative. What is not defined for a run has no command.
 )";
 
-constexpr std::size_t most_runs_of_a_method = 1000;  // in its file
+constexpr std::size_t most_runs_of_a_method = 1000;  // largest number of runs of a method in its file
 
 constexpr std::array<std::string_view, 10> digits = {"Zero", "One", "Two",   "Three", "Four",
                                                      "Five", "Six", "Seven", "Eight", "Nine"};
@@ -218,7 +218,7 @@ void write_tex_values(const StudyView& study, std::span<const std::size_t> shown
   std::vector<std::size_t> all(shown.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const bool one_file = shown.size() <= most_runs_of_a_values_file;
-  std::map<std::string, std::vector<std::size_t>> places;  // by method
+  std::map<std::string, std::vector<std::size_t>> places;  // places of the runs by method
   for (const std::size_t k : all) places[study.runs[shown[k]].config.integrator].push_back(k);
   std::string out = head(study, shown, names, one_file ? all : std::vector<std::size_t>{}, "values.tex");
   if (shown.size() < study.size()) {
@@ -234,7 +234,7 @@ void write_tex_values(const StudyView& study, std::span<const std::size_t> shown
   write_text(folder / "values.tex", out);
   for (const auto& [method, all_of_method] : places) {
     const std::string file = fmt::format("values_{}.tex", method);
-    std::filesystem::remove(folder / file);  // of an earlier call, with more runs
+    std::filesystem::remove(folder / file);  // a file of an earlier call, with more runs
     if (one_file) continue;
     std::vector<std::size_t> those;
     for (const std::size_t i : evenly_spread(all_of_method.size(), most_runs_of_a_method))

@@ -82,7 +82,7 @@ Drift drift(const std::string& kind, Chance& chance) {
   const int lengths[] = {40, 64, 100, 300, 1000, 4000, 8000};
   d.samples = lengths[chance.below(7)];
   d.t_end = chance.logarithmic(0.1, 1e4);
-  d.round_off = chance.logarithmic(1e-17, 1e-9);  // of terms of 1 J
+  d.round_off = chance.logarithmic(1e-17, 1e-9);  // round-off of terms of 1 J
   const double most_periods = std::max(9.0, d.samples / 5.0);
   if (kind == "round-off") {
     if (chance.one_in(2)) {

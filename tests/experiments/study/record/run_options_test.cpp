@@ -33,7 +33,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// How tidy a run is. No code obeys it.
+/// The tidiness of a run. No code uses it.
 RunOption tidiness() {
   RunOption option{.name = "tidy-up",
                    .values = "never|daily",

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 inline const std::vector<double> seven_steps = {0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
 inline const std::vector<double> seven_tolerances = {1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
 
-/// How a made-up method drifts: energy drift = scale · stepᵖ, attitude error likewise.
+/// The drifts of a made-up method: energy drift = scale · stepᵖ, attitude error likewise.
 struct Law {
   std::string method;
   double scale = 1, p = 1;
@@ -162,7 +162,7 @@ inline std::optional<OrderEstimate::Line> attitude_line(const StudyView& study) 
   return told_line(observed_order(grouping.curves.front(), quantity::attitude_error()));
 }
 
-// As they were measured on peters_hsu.
+// Errors that were measured on peters_hsu.
 inline const std::vector<double> of_heun = {6.29e-3, 4.97e-2, 0.351, 0.600, 2.24, 2.61, 2.78, 0.971, 2.28};
 inline const std::vector<double> of_crouch_grossman3 = {1.6e-3, 1.3e-2, 9.9e-2, 0.59, 3.0, 0.77, 2.2, 1.7, -1};
 inline const std::vector<double> of_exact_rotor = {6.9e-10, 8.3e-11, 2.5e-10, 1.2e-10, 6.0e-11,

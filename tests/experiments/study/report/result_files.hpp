@@ -39,7 +39,7 @@ inline bool gnuplot_is_installed() { return std::system("command -v gnuplot >/de
 #define NEEDS_GNUPLOT() \
   if (!gnuplot_is_installed()) GTEST_SKIP() << "skipped, because gnuplot is not installed"
 
-/// What a reader sees of a page, without tags and style.
+/// The text that a reader finds on a page, without tags and style.
 inline std::string visible_text(const std::string& page) {
   const auto body = page.substr(page.find("<body>"));
   return std::regex_replace(std::regex_replace(body, std::regex("</?span[^>]*>"), ""), std::regex("<[^>]*>"), " ");

@@ -119,7 +119,7 @@ void mutate_number(std::string& text, FuzzRandom& dice) {
   }
 }
 
-/// What a scenario that was let through must keep to; a step of its equations must not crash.
+/// Expects what every scenario that was let through must meet; a step of its equations must not crash.
 void expect_sound(const Scenario& s) {
   ASSERT_GT(s.t_end, 0);
   ASSERT_TRUE(std::isfinite(s.t_end));

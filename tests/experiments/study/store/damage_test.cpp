@@ -109,7 +109,7 @@ std::string damaging_sql(const std::vector<std::pair<std::string, std::string>>&
   }
 }
 
-/// What was read of a damaged store.
+/// The outcome of the reading of a damaged store.
 struct Outcome {
   bool refused = false;
   std::size_t right = 0, damaged = 0;

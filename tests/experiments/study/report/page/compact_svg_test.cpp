@@ -22,7 +22,7 @@ std::string picture(const std::string& content) {
          content + "</g>\n</svg>\n";
 }
 
-/// What remains of it between the definitions and the end.
+/// The text that remains of it between the definitions and the end.
 std::string drawn(const std::string& content) {
   const std::string all = compact_svg(picture(content));
   const auto start = all.find("</defs>") + 7;
