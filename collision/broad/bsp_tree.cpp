@@ -4,11 +4,11 @@
 // every leaf that its fat box reaches, and only the boxes of one leaf are tested against each other.
 //
 // When a body leaves its fat box, one way down the tree finds the leaves of the old box and of the new one; its entries
-// there are renewed, and the leaves of the new one looked through for new pairs. All others are kept. Memory is what
-// this waits for: all ways down come first, so that it is known beforehand which leaves are next; and the boxes of a
-// leaf are asked all at once, seven bits for a side (broad/cell_block.hpp), what is hit then of the boxes themselves.
-// Then leaves in which many gather are split at the median centre, where a plane tells enough of them apart, and two
-// that have become poor are joined.
+// there are renewed, and the new leaves are searched for new pairs. All others are kept. Most of the time is spent
+// waiting for memory: all ways down come first, so that the next leaves are known beforehand; and the boxes of a leaf
+// are tested all at once, seven bits for a side (broad/cell_block.hpp), and what is hit is then tested on the boxes
+// themselves. Then leaves with many boxes are split at the median centre, where a plane separates enough of them, and
+// two that have become poor are joined.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -4,11 +4,11 @@
 // (1996), section 3.4. Half a cell is as large as common boxes are (broad/cell_size.hpp); the cells of each further
 // level are four times as wide.
 //
-// The grid holds fat boxes, and only a body that left its own is looked up again; pairs of fat boxes are kept. A box
+// The grid holds fat boxes, and only a body that left its own is placed again; pairs of fat boxes are kept. A box
 // stands in the cell of its lower corner, on the first level on which it reaches no further than the next half cell.
-// What overlaps a box stands in two cells along each axis at most; this needs no more than that rounding keeps the
-// order of numbers. The boxes of a cell are asked all at once, seven bits for a side (broad/cell_block.hpp); what is
-// hit is then asked of the boxes themselves.
+// Boxes that overlap a box stand in two cells along each axis at most; this needs no more than that rounding keeps the
+// order of numbers. The boxes of a cell are tested all at once, seven bits for a side (broad/cell_block.hpp), and what
+// is hit is then tested on the boxes themselves.
 #include <algorithm>
 #include <array>
 #include <bit>

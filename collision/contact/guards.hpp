@@ -68,7 +68,7 @@ class Guards {
   /// Upper bounds of the acceleration of a body's points.
   struct Pull {
     double steady = 0;  ///< bound for the mass centre, plus the part due to angular acceleration, m/s²
-    double radius = 0, rate = 0, turned = 0;  ///< radius, m; largest |ω| at an end, and its change between them, rad/s
+    double radius = 0, rate = 0, turned = 0;  ///< radius, m; largest |ω| at an end, change of ω between them, rad/s
     std::array<Vector3<double>, 2> turning;   ///< angular velocity at both ends, rad/s
     double along(const Vector3<double>& n) const;
   };

@@ -270,7 +270,7 @@ class SequentialImpulses final : public Response {
   void finish(std::span<ImpulseBody> bodies, std::span<ImpulseContact> contacts, const Stop& stop) {
     const bool bounces = std::any_of(contacts.begin(), contacts.end(), [](const auto& c) { return c.wanted > 0; });
     if ((bounces || work_of_impulses() > 0) && guard_.gains(bodies, contacts)) {
-      // Without restitution none can, once the impulses are found.
+      // No contact can give energy without restitution, once the impulses are found.
       for (Point& p : points_) {
         p.wanted = select(p.wanted > Lanes(0), Lanes(0), p.wanted);
         p.normal = p.tangential.t = p.tangential.b = Lanes(0);

@@ -58,7 +58,7 @@ class Simultaneous final : public Response {
     const auto a = matrix_.topLeftCorner(n, n);
     auto v = velocity_.head(n), x = phase_.head(n), total = total_.head(n);
     auto given = given_.head(m);
-    for (Index i = 0; i < m; ++i) {  // what a contact gives back of its compression
+    for (Index i = 0; i < m; ++i) {  // share of the compression that a contact gives back
       const ImpulseContact& c = contacts[members[std::size_t(i)]];
       double& e = points_[std::size_t(i)].restitution;
       if (c.wanted < 0) e = 0;

@@ -4,11 +4,12 @@
 //
 //   j = −(1 + ε) v_n / (1/Ma + 1/Mb + n·((Ia⁻¹(ra × n)) × ra) + n·((Ib⁻¹(rb × n)) × rb))
 //
-// Policies. A pair has one point, the mean of the points of its patch; what it finds is shared evenly among them. A
-// pair is pushed only while it approaches, and faster than wanted where less than nothing is wanted. Pairs are treated
-// one after the other in the order of their bodies, each with the velocities that those before it left, in passes until
-// none approaches, or after 100 passes. What others have changed of a pair's velocity is reflected by its own
-// restitution. So a shock passes from ball to ball: Newton's cradle has its true outcome, one ball in, one ball out.
+// Policies. A pair has one point, the mean of the points of its patch; its impulse is shared evenly among them. A pair
+// is pushed only while it approaches, and if its `wanted` is negative, only while it approaches faster than that. Pairs
+// are treated one after the other in the order of their bodies, each with the velocities that those before it left, in
+// passes until none approaches, or after 100 passes. What others have changed of a pair's velocity is reflected by its
+// own restitution. So a shock passes from ball to ball: Newton's cradle has its true outcome, one ball in, one ball
+// out.
 #include <algorithm>
 #include <cmath>
 
@@ -82,7 +83,7 @@ class SingleImpulse final : public Response {
     const double v = normal_velocity(bodies, p);
     if (p.mass == 0 || !(v < std::min(p.wanted, 0.0) - rounding * p.scale)) return false;
     const double reflected = p.wanted < 0 ? p.wanted : p.wanted - p.restitution * (v - p.met);
-    // No faster apart than it came: where the patch turns, its points want more than its mean can give.
+    // The pair parts no faster than it met: on a patch that turns, the mean of `wanted` may be out of reach.
     const double j = (std::clamp(reflected, std::min(p.wanted, 0.0), -v) - v) * p.mass;
     p.impulse += j;
     bodies[p.a].push(p.point, j * p.normal);

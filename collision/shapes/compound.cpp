@@ -15,7 +15,7 @@ namespace polhode::inline collision {
 
 namespace {
 
-constexpr double slack = 1e-6;  // of a piece's size: the digits that OBJ files are written with
+constexpr double slack = 1e-6;  // tolerance over the size of a piece: the digits that OBJ files are written with
 
 /// A piece is convex if no vertex lies before a face, and every side is passed once in each direction by its faces.
 Compound::Part convex_piece(const ObjMesh& mesh, const ObjMesh::Piece& piece, const std::string& path) {
@@ -24,7 +24,7 @@ Compound::Part convex_piece(const ObjMesh& mesh, const ObjMesh::Piece& piece, co
     throw std::invalid_argument(path + ":" + std::to_string(line) + ": " + name + " " + why);
   };
   std::vector<std::uint32_t> used;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;  // with the line of their face
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;  // sides, each with the line of its face
   for (const ObjMesh::Face& face : piece.faces) {
     for (std::size_t i = 0; i < face.loop.size(); ++i) {
       const std::uint32_t from = face.loop[i], to = face.loop[(i + 1) % face.loop.size()];

@@ -15,8 +15,8 @@ namespace polhode::inline collision {
 
 namespace {
 
-constexpr double flat = 1e-10;           // of the spread
-constexpr std::size_t scan_limit = 256;  // vertices; with more of them climbing is faster than looking at all
+constexpr double flat = 1e-10;           // thickness of a flat hull, over the spread
+constexpr std::size_t scan_limit = 256;  // vertices; with more of them climbing is faster than visiting all
 
 /// f over all lanes, halves against halves.
 template <class F>
@@ -145,7 +145,7 @@ std::uint32_t ConvexHull::support_vertex(const Vector3<double>& d) const {
   return vertex < polytope_.vertices.size() ? vertex : 0;  // a repeated vertex 0 in the last pack
 }
 
-// On a convex polytope a vertex none of whose neighbours is further along d is furthest of all.
+// A vertex of a convex polytope is furthest along d if none of its neighbours is further.
 std::uint32_t ConvexHull::climb(const Vector3<double>& d) const {
   const auto along = [&](std::uint32_t i) { return polytope_.vertices[i].dot(d); };
   std::uint32_t at = extreme_[0];

@@ -34,7 +34,7 @@ struct Polytope {
   std::span<const Corner> corners_of(std::uint32_t face) const {
     return {&corners[faces[face].first], faces[face].count};
   }
-  /// For each vertex: the vertices at the other ends of its edges, and its faces, both sorted.
+  /// The neighbours of a vertex, which are the other ends of its edges, and its faces, both sorted.
   std::span<const std::uint32_t> neighbours_of(std::uint32_t vertex) const { return row(neighbours_, vertex); }
   std::span<const std::uint32_t> faces_of(std::uint32_t vertex) const { return row(vertex_faces_, vertex); }
 

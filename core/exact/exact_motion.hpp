@@ -56,7 +56,7 @@ class ExactMotion {
 /// The momenta that the forces of a problem conserve.
 struct ConservedMomenta {
   bool linear = false;
-  bool angular = false;  ///< about the reference point of a single body, or about the world's origin
+  bool angular = false;  ///< angular momentum about the reference point of a single body, or about the world's origin
 };
 ConservedMomenta conserved_momenta(const System<double>& system);
 

@@ -32,8 +32,8 @@ class ThetaZeroDirection {
   double slope_at_k() const { return slope_at_k_; }
 
  private:
-  // By the nome q = exp(−πK'/K) while K < K', else by p = exp(−πK/K') after Jacobi's imaginary transformation: the
-  // first term left out is below exp(−16π) of the first.
+  // The series is in the nome q = exp(−πK'/K) while K < K', else in p = exp(−πK/K') after Jacobi's imaginary
+  // transformation: the first term left out is below exp(−16π) of the first.
   static constexpr int terms = 4;
   bool constant_ = true, transformed_ = false;
   double half_period_ = 0;  // K

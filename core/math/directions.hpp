@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether vectors are parallel or perpendicular, within some roundings.
+// Tests whether vectors are parallel or perpendicular, within some roundings.
 #pragma once
 
 #include <cmath>

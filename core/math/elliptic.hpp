@@ -62,8 +62,8 @@ class ThetaDirection {
   double slope_at_zero() const { return slope_at_zero_; }
 
  private:
-  // By the nome while K < 2K', else by the nome of Jacobi's imaginary transformation; three terms beside the first give
-  // full digits in both.
+  // The series is in the nome while K < 2K', else in the nome of Jacobi's imaginary transformation; three terms beside
+  // the first give full digits in both.
   static constexpr int terms = 3;
   bool transformed_ = false;
   double half_period_ = 0;  // K

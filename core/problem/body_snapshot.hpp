@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a body is and how it moves at one instant, as trajectories, the window and measurements read it. A BodyMotion
+// The place and the motion of a body at one instant, as trajectories, the window and measurements read it. A BodyMotion
 // (core/problem/force.hpp) is about the reference point instead of the mass centre and has what forces read alone; a
 // BodyStart (core/problem/body.hpp) is what a scenario states.
 #pragma once

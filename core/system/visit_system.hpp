@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a System<S> to its concrete type, for which a method of our own is compiled.
+// The way from a System<S> to its concrete type, for which a method of our own is compiled.
 #pragma once
 
 #include <type_traits>

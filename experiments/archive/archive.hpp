@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Walks over a folder of results, and says or saves what there is of its trajectories.
+// Visits a folder of results, and prints or saves what there is of its trajectories.
 #pragma once
 
 #include <filesystem>

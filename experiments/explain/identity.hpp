@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What decides the id of a stored run, key by key.
+// The parts that decide the id of a stored run, key by key.
 #pragma once
 
 #include <string>

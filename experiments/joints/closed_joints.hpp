@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far joints open, what that costs, and how right their reactions are.
+// The openings of joints, the cost of keeping them closed, and the errors of their reactions.
 #pragma once
 
 #include "experiments/study/record/study_view.hpp"

@@ -48,7 +48,7 @@ void FaultyMotion::rate(double t, const VectorX<double>& y, VectorX<double>& dy)
   using Frame = Equations::Frame;
   const auto& slots = system_->layout().slots;
   dy.resize(y.size());
-  if (equations_.frame == Frame::body_turns_world) {  // the slots hold Ω: forces see ω
+  if (equations_.frame == Frame::body_turns_world) {  // the slots hold Ω, and forces read ω
     VectorX<double> seen = y;
     change_slots(seen, false);
     system_->rate(t, seen.data(), dy.data());

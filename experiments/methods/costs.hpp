@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What each method in each formulation has to spend on each motion to reach each error: the data of all comparisons.
+// The cost of each method in each formulation on each motion to reach each error: the data of all comparisons.
 #pragma once
 
 #include <array>
@@ -29,8 +29,8 @@ struct Problem {
 /// The course of the energy in the runs that follow the motion.
 enum class EnergyFate {
   unknown,
-  bounded,  ///< some run stays at round-off, bounded or settled, and none grows
-  growing   ///< some run grows
+  bounded,  ///< the energy stays at round-off, bounded or settled in some run, and grows in none
+  growing   ///< the energy grows in some run
 };
 
 /// One contender on one problem.

@@ -76,7 +76,7 @@ class Climb {
     const int rung = rung_of(fine.config);
     if (rung >= (fine.config.tolerance ? tightest : most_halvings)) return false;
     if (fine.result.status == "refused" || (fine.result.status == "ok" && !ruler_.error(fine))) return false;
-    const bool may_be_exact = !fine.config.tolerance && ladder_.runs.size() == 1;  // a second step tells
+    const bool may_be_exact = !fine.config.tolerance && ladder_.runs.size() == 1;  // a second step decides
     if (error(fine) <= target(targets - 1) && !may_be_exact) return false;
     const double spent = std::max(double(fine.result.evaluations), fine.config.tolerance ? 0 : steps(fine));
     return 2 * spent <= allowed(fine) && !at_floor();
@@ -137,7 +137,7 @@ std::vector<Rungs> ladders(const StudyView& study) {
 std::vector<RunConfig> next_rungs(const StudyView& study) {
   const Ruler ruler(study);
   std::vector<RunConfig> wanted;
-  std::set<std::string> impacts;  // motions whose first impact was asked for
+  std::set<std::string> impacts;  // motions whose first impact was requested
   for (const Rungs& ladder : ladders(study)) {
     const RunRecord& any = *ladder.any;
     if (ruler.lacks_first_impact(any)) {

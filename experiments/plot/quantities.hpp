@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `plot` can draw of a run: the table of quantities, and how each is measured while the run goes.
+// The quantities that `plot` can draw of a run: their table, and how each is measured while the run goes.
 #pragma once
 
 #include <functional>

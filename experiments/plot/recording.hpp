@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What was measured of a run while it was carried out again.
+// The measurements of a run that was carried out again.
 #pragma once
 
 #include <atomic>

@@ -25,7 +25,7 @@ namespace {
 constexpr double panel_height = 150;  // pixels
 constexpr std::size_t most_impacts_marked = 200;
 
-/// A linear axis about the values, with a margin; not shorter than what six digits tell apart.
+/// A linear axis about the values, with a margin; not shorter than six digits resolve.
 Axis axis_about(const std::string& label, double low, double high) {
   if (low == 0 && high == 0) return linear_axis(label, -1, 1);
   const double least = std::max(2e-5 * std::max(std::abs(low), std::abs(high)), 1e-12);
@@ -264,7 +264,7 @@ class RunFigureMaker {
   void stacked(std::size_t q) {
     const PlotQuantity& quantity = *quantities_[q];
     Figure figure = begun(q);
-    // Told apart by their lightness too.
+    // The colours differ by their lightness too.
     const std::array<std::string, 4> colours = {"08306B", "4292C6", "FDE0A0", "F0A030"};
     for (std::size_t c = 0; c < quantity.components.size(); ++c)
       figure.shades.push_back({quantity.components[c].label, colours[c]});

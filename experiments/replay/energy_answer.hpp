@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the runs of a page tell about the energy, for runs that are no study.
+// The answer about the energy on a page whose runs are no study.
 #pragma once
 
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace polhode::study::replay {
 
-/// Sentences: the run with the least energy drift and that with the most, and what would tell more.
+/// Sentences: the runs with the least and the most energy drift, the runs that did not come to the end, and the study
+/// that gives distances from the exact motion.
 std::vector<std::string> energy_answer(const std::vector<Recording>& recordings);
 
 }  // namespace polhode::study::replay

@@ -111,7 +111,7 @@ void repeat(const std::vector<FoundRun>& runs, int jobs, const std::atomic<bool>
 }
 
 std::vector<FoundRun> all_runs(const ResultStores& stores) {
-  std::map<std::string, std::vector<FoundRun>> found;  // by id
+  std::map<std::string, std::vector<FoundRun>> found;  // runs by id
   for (const auto& open : stores.all()) {
     for (const std::uint64_t id : open->store.ids()) {
       const std::string text = id_of_number(id);

@@ -14,7 +14,7 @@
 
 namespace polhode::study::rerun {
 
-/// The outcome of one run that was repeated.
+/// The outcome of one run that was to be repeated.
 struct Repeated {
   FoundRun run;
   std::string why_not;                  ///< reason for which it was not repeated; empty: it was

@@ -14,13 +14,13 @@ namespace polhode::study::results {
 
 constexpr int damaged_runs = 1;  ///< exit status if damaged runs were left out
 
-/// Writes the runs, or the groups, that the options ask for. Returns the exit status. Throws InputError and WriteError.
+/// Writes the runs, or the groups, that the options choose. Returns the exit status. Throws InputError and WriteError.
 int list_runs(const ResultStores& stores, const ResultsOptions& options);
 
 /// The conditions of --where. Throws InputError.
 std::vector<Where> conditions_of(const ResultsOptions& options);
 
-/// Says on stderr how many runs are damaged and left out, if any. Returns the exit status.
+/// Prints on stderr how many runs are damaged and left out, if any. Returns the exit status.
 int say_damage(const RunReader& reader);
 
 }  // namespace polhode::study::results

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is in the stores: experiments, scenarios, methods, runs by status, damaged runs.
+// The contents of the stores: experiments, scenarios, methods, runs by status, damaged runs.
 #pragma once
 
 #include "experiments/study/query/result_stores.hpp"

@@ -14,8 +14,8 @@
 namespace polhode::study::stack {
 namespace {
 
-/// For boxes of 1 m: largest displacement since t = 2 s of a box at rest, and largest penetration depth of boxes that
-/// have not sunk in, m.
+/// Largest displacement since t = 2 s of a box of 1 m at rest, and largest penetration depth of such boxes that have
+/// not sunk in, m.
 constexpr double still = 1e-3, shallow = 5e-3;
 
 struct Stack {

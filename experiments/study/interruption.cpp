@@ -11,7 +11,7 @@ namespace polhode::study {
 namespace {
 
 static_assert(std::atomic<bool>::is_always_lock_free);  // so that a signal handler may access it
-static_assert(grace == 5);                              // as the message says
+static_assert(grace == 5);                              // the message states this number
 std::atomic<bool> no_more_runs{false}, stop_runs{false}, all_is_stored{false};
 
 constexpr std::array warnings = {SIGINT, SIGTERM, SIGUSR1, SIGXCPU};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What --dry-run prints.
+// The texts that --dry-run prints.
 #pragma once
 
 #include <cstdint>

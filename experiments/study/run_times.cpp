@@ -56,7 +56,7 @@ double mean_time(Call&& call, double slice) {
 constexpr double shortest_slice = 3e-4;     // s
 constexpr std::size_t most_uses = 1000;     // largest number of uses of a true motion
 constexpr double seconds_of_reference = 2;  // assumed time of a reference that takes longer than there is time, s
-// Part of a run that tells its rate. The first steps of an adaptive method are small.
+// Part of a run from which its rate is estimated. The first steps of an adaptive method are small.
 constexpr double least_share = 1e-4, least_adaptive_share = 0.05;
 
 /// A run that was carried out, in part or in full.
@@ -244,7 +244,7 @@ class Calibration {
   }
 
   /// Makes the scales and the reference of a run, and takes the time of that if it is the first run that shares them.
-  /// A reference may take half of the time left, since no run that needs it tells its time before.
+  /// A reference may take half of the time left, since no run that needs it gives its time before.
   /// False if there was not enough time for a reference.
   bool time_true_motion(const PlannedRun& run, double slice, std::size_t worker) {
     bool first = false;
@@ -295,8 +295,8 @@ class Calibration {
     return batch;
   }
 
-  /// A contact run that was stopped may have seen its bodies fall and not yet rest on each other. It is held against
-  /// the largest run with the same response that came to its end.
+  /// A contact run that was stopped may have ended after its bodies fell and before they rested on each other. It is
+  /// compared with the largest run with the same response that came to its end.
   void settle() {
     struct Settled {
       double work = 0, rate = 0;  // cost times bodies; s per unit of that
@@ -432,7 +432,7 @@ double time_of_whole(double seconds, double share, double share_at_half) {
 double time_of_falling(double seen, double settled) { return settled > seen ? std::sqrt(seen * settled) : seen; }
 
 double time_of_workers(std::span<const double> seconds, std::size_t workers) {
-  std::priority_queue<double, std::vector<double>, std::greater<>> free;  // when each worker is free
+  std::priority_queue<double, std::vector<double>, std::greater<>> free;  // times at which the workers become free
   for (std::size_t k = 0; k < std::max<std::size_t>(workers, 1); ++k) free.push(0);
   double end = 0;
   for (const double time : seconds) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long the runs of a plan will take, found by carrying out some of them for a few milliseconds each.
+// The times that the runs of a plan will take, found by carrying out some of them for a few milliseconds each.
 #pragma once
 
 #include <cstddef>

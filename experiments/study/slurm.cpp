@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t usual_shards = 64;
 constexpr std::size_t usual_array_size = 1001;  // MaxArraySize of Slurm, unless a site sets another
 
-/// Largest index of a job array at this site, or Slurm's own default where the site cannot be asked.
+/// Largest index of a job array at this site, or Slurm's own default if the site's cannot be read.
 std::size_t largest_index() {
   std::size_t size = usual_array_size;
   if (auto asked = ChildProcess::start({"scontrol", "show", "config"}, ".", {})) {

@@ -81,7 +81,7 @@ int run_shard(const Experiment& experiment, const Options& options, Plan plan, c
   return 0;
 }
 
-/// Writes the job scripts of the study, and submits them if asked to.
+/// Writes the job scripts of the study, and submits them if requested.
 int prepare_jobs(const Experiment& experiment, const Options& options, const Plan& plan,
                  const std::filesystem::path& folder) {
   const SlurmJobs jobs = read_slurm_jobs(*options.slurm, plan.size());

@@ -83,9 +83,9 @@ class StudyRuns {
 /// Chooses the runs of the plan whose curves against time are kept (--curves).
 void choose_curves(const Options& options, Plan& plan);
 
-/// Tells the runs of the study, with all further ones that follow from the results in its folder, even if some results
-/// are missing, because the study was interrupted or has more runs than before. Changes no file. `plan` must outlive
-/// what is returned.
+/// Recognises the runs of the study, with all further ones that follow from the results in its folder, even if some
+/// results are missing, because the study was interrupted or has more runs than before. Changes no file. `plan` must
+/// outlive what is returned.
 BelongsToStudy runs_of_study(const Experiment& experiment, const Options& options, const Plan& plan,
                              const std::filesystem::path& folder);
 

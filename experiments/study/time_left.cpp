@@ -6,7 +6,7 @@
 namespace polhode::study {
 namespace {
 
-/// Smallest share of work under way that tells a rate.
+/// Smallest share of work under way from which a rate is estimated.
 constexpr double telling_share = 0.01;
 
 }  // namespace

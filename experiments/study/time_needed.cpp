@@ -177,7 +177,7 @@ std::string time_needed_text(const Experiment& experiment, const Options& option
   std::vector<const PlannedRun*> timed;
   for (const PlannedRun& run : runs) timed.push_back(&run);
   std::stable_sort(timed.begin(), timed.end(),
-                   [](const PlannedRun* a, const PlannedRun* b) { return a->cost > b->cost; });  // as run_all() does
+                   [](const PlannedRun* a, const PlannedRun* b) { return a->cost > b->cost; });  // run_all() does so
   const StoredTimes stored = stored_times(plan, folder, done);
   std::vector<KnownTime> known;
   for (std::size_t k = 0; k < stored.runs.size(); ++k) known.push_back({&stored.runs[k], stored.seconds[k]});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What --dry-run says about the time that a study still takes.
+// The time that a study still takes, in the words of --dry-run.
 #pragma once
 
 #include <cstdint>

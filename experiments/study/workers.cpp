@@ -50,7 +50,7 @@ class Keeper {
     thread_ = std::thread([this] { loop(); });
   }
 
-  /// Says that a worker begins a batch. Returns the share of it that is done.
+  /// Marks the beginning of a worker's batch. Returns the share of it that is done.
   std::atomic<double>& begin(std::size_t worker, const std::string& kind, double cost) {
     const std::lock_guard lock(mutex_);
     Desk& desk = desks_[worker];
@@ -68,7 +68,7 @@ class Keeper {
     pending_.push_back(std::move(record));
   }
 
-  /// Says that a worker has done its batch.
+  /// Marks the end of a worker's batch.
   void end(std::size_t worker) {
     const std::lock_guard lock(mutex_);
     Desk& desk = desks_[worker];
@@ -205,7 +205,7 @@ std::vector<std::uint32_t> run_all(const std::string& name, const Plan& plan, co
                                    const Work& work, int jobs, Store& store, std::atomic<bool>& no_more) {
   if (runs.empty()) return {};
   const auto count = static_cast<int>(std::min({number_of_threads(jobs), runs.size(), std::size_t{4096}}));
-  // One run of each kind tells whether others can be carried out together with it.
+  // One run of each kind decides whether others can be carried out together with it.
   std::vector<std::size_t> together(plan.kinds.size());
   for (const std::uint32_t i : runs) {
     std::size_t& most = together[plan.rows[i].kind];

@@ -76,7 +76,7 @@ class GeneralizedAlpha final : public JointMethod, private StepEquations<double>
     fresh_ = true;
   }
 
-  /// The first a, and the change of the first v that perturbed start values ask for.
+  /// The first a, and the change of the first v that perturbed start values require.
   void begin_at(double t, double h, Flat& y) {
     const double ahead = (alpha_m_ - alpha_f_) * h;
     a_ = acceleration(t + ahead, flown(t, ahead, y));

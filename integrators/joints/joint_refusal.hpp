@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What methods that solve the equations of joints themselves cannot take.
+// The problems that methods which solve the equations of joints themselves cannot take.
 #pragma once
 
 #include <string>

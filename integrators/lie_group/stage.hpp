@@ -20,8 +20,8 @@ class LieStage {
 
   explicit LieStage(const System& system) : rate_(system.zero()), twist_(system.zero_tangent()) {}
 
-  // Not inlined: the cost of a call is negligible beside the trigonometric functions, and a method compiles in half the
-  // time.
+  // The function is not inlined: the cost of a call is negligible beside the trigonometric functions, and a method
+  // compiles in half the time.
   [[gnu::noinline]] POLHODE_FLATTEN void evaluate(const System& system, S t, const Flat& y) {
     system.rate(t, y, rate_);
     system.twist(y, twist_);

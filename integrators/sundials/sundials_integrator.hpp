@@ -70,8 +70,9 @@ class SundialsIntegrator : public Integrator<double>,
   }
   bool projects_within_steps() const { return projects_; }
   bool projects_joints() const { return system_.has_joints() && system_.formulation().joints.projects(); }
-  /// Projects y as the run asks: the orientations, then the joints. A library may reject a step that it has projected,
-  /// so that only the energy of the last projection before the end of a step counts. False: y ceased to be finite.
+  /// Projects y as the run requires: the orientations, then the joints. A library may reject a step that it has
+  /// projected, so that only the energy of the last projection before the end of a step counts. False: y ceased to be
+  /// finite.
   bool project(VectorX<double>& y);
 
   void count_evaluation() { ++evaluations_; }

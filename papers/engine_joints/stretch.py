@@ -116,7 +116,7 @@ def main():
             iterations = int(run.get("iterations") or 0)
             mass = [1.0] * RODS + [ball]
             load = [(sum(mass[k:])) * GRAVITY for k in range(len(mass))]
-            ends = read(results / "trajectories" / run["run"] / "trajectory.csv")[-1]  # of the ball, the last body
+            ends = read(results / "trajectories" / run["run"] / "trajectory.csv")[-1]  # end of the ball, the last body
             stretch = -RODS - float(ends["pz_m"])
             h /= substeps
             if method == "recipe_box2d_soft_step":

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `sat` costs on two boxes, per pair, beside ODE's dBoxTouchesBox (overlap) and Bullet's btBoxBoxDetector
+// The cost of `sat` on two boxes, per pair, beside ODE's dBoxTouchesBox (overlap) and Bullet's btBoxBoxDetector
 // (contacts), on the same mixed set of pairs. The lines: overlap at most 0.7 times ODE, in lanes 0.3 times with
 // AVX-512, contacts at most 0.7 times Bullet.
 #include "collision/narrow/box_sat.hpp"

@@ -2,7 +2,7 @@
 // Broad phases side by side in one run: ns per box per step at a fixed density, for every one of the catalogue and,
 // where Debian's libraries are installed, Bullet's dynamic tree, FCL's two trees and ODE's sweep. The same boxes on the
 // same paths, at speeds from none to twice the mean, so that the load of each step is much the same; the steps of all
-// take turns, with what it takes to tell the library where the boxes are. The motion is run twice, and the faster
+// take turns, with the cost of passing the boxes to the library. The motion is run twice, and the faster
 // counts for each step. Beside the median step stands the mean, which is what a run pays: work that is put off must be
 // done some time.
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the generality costs: n RK4 steps of one free body through `advance`, beside the same arithmetic written out by
+// The cost of generality: n RK4 steps of one free body through `advance`, beside the same arithmetic written out by
 // hand for that body alone. Both consume the whole state. The line: at most 1.25 times the hand-written loop.
 #include <benchmark/benchmark.h>
 

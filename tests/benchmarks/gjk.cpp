@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `gjk` costs beside FCL's signed distance and libccd, on the same pairs in one run: the median of rounds in which
-// all take turns. A library that the build did not find is skipped.
+// The cost of `gjk` beside FCL's signed distance and libccd, on the same pairs in one run: the median of rounds in
+// which all take turns. A library that the build did not find is skipped.
 // Like for like: FCL's signed distance with witness points is libccd's GJK, and its EPA where the shapes overlap
 // (GST_LIBCCD, FCL's default, with its default tolerances); ours gives distance, normal and witness points to
 // round-off. libccd's boolean (ccdGJKIntersect) gives yes or no, as does ours; its ccdGJKPenetration depth, direction
 // and position. Cold and warm are the same pairs; warm ones have moved a hundredth of a metre and of a radian since the
-// last question, and are asked with what they remember. The peers have no memory of a pair.
+// last question, and use the memory of the pair. The peers have no memory of a pair.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -201,7 +201,7 @@ std::function<void()> ccd_questions(const std::vector<Placed>& pairs, bool depth
 }
 #endif
 
-/// With what the build found of the peers; the last rival is the one that ratios refer to.
+/// Questions to gjk and to the peers that the build found; the last rival is the one that ratios refer to.
 void questions(const std::string& what, ShapePointer (*make)(PortableRandom&)) {
   for (const int overlapping : {0, 1, -1}) {
     const std::string set = what + (overlapping < 0 ? ", mixed" : overlapping ? ", overlapping" : ", apart");

@@ -4,7 +4,7 @@
 //   pendulum  a rod of 1.5 m from the horizontal, 10 s: an elliptic function, that of a point on 1 m (IFToMM A01);
 //   squares   two four-bar mechanisms, 4 s, through the configuration in which they lie flat: a quadrature (A02);
 //   chain     ten rods and a ball a hundred times as heavy, let go 30° from the vertical, 2 s: our own Fehlberg 7(8)
-//             at 1e-13, whose agreement with IDA is told first;
+//             at 1e-13, whose agreement with IDA is printed first;
 //   hanging   the same chain at rest, straight down, with a ball of 1 to 10000 kg, 5 s at 1/60 s: the error is how far
 //             the chain has stretched.
 // Writes a table (CSV) to standard output; joint_peers.sh draws it. Wall times are the best of several runs.

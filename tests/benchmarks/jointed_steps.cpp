@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What joints cost: RK4 steps of a pendulum on a rod by index 1, beside the same equations written out by hand; and
+// The cost of joints: RK4 steps of a pendulum on a rod by index 1, beside the same equations written out by hand; and
 // steps of a hanging chain of n bodies, whose time per step must grow linearly. Lines: at most 2 times the hand-written
 // loop; exponent at most 1.1 from 10 to 1000 bodies. Every loop consumes the whole state.
 #include <benchmark/benchmark.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What polhode costs a library's method: the same stepper, settings and right-hand side called directly and through the
-// port of integrators, on a free body in the quaternion chart with the body angular velocity as the state. An item is a
-// second of motion; `evaluations` must agree.
+// The overhead of polhode on a library's method: the same stepper, settings and right-hand side called directly and
+// through the port of integrators, on a free body in the quaternion chart with the body angular velocity as the state.
+// An item is a second of motion; `evaluations` must agree.
 #include <benchmark/benchmark.h>
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
@@ -48,7 +48,7 @@ void polhode_fixed(benchmark::State& bench, const char* name) {
   for (auto _ : bench) {
     State<double> state = system->start();
     integrator->begin(state);
-    for (int k = 0; k < int(t_end / h); ++k) integrator->step(state, h);  // as the driver does
+    for (int k = 0; k < int(t_end / h); ++k) integrator->step(state, h);  // the steps of the driver
     benchmark::DoNotOptimize(state.y.data());
   }
   report(bench, integrator->evaluations());

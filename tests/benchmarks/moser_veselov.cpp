@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a step of the conserving family costs: n steps of the asymmetric body of Hairer & Vilmart 2006 with h = 0.05
+// The cost of a step of the conserving family: n steps of the asymmetric body of Hairer & Vilmart 2006 with h = 0.05
 // through `advance`. The line: a step of dmv6 at most 1.7 times one of dmv (the paper: about 1.5).
 #include <benchmark/benchmark.h>
 

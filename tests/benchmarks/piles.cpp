@@ -103,7 +103,7 @@ void bullet_pile(benchmark::State& state) {
       info.m_startWorldTransform.setOrigin(bullet(start.position));
       const auto& q = start.orientation;
       info.m_startWorldTransform.setRotation({btScalar(q[1]), btScalar(q[2]), btScalar(q[3]), btScalar(q[0])});
-      info.m_friction = btScalar(std::sqrt(Pile::friction));  // of a pair the product
+      info.m_friction = btScalar(std::sqrt(Pile::friction));  // the product is the friction of a pair
       bodies.push_back(std::make_unique<btRigidBody>(info));
       bodies.back()->setFriction(btScalar(std::sqrt(Pile::friction)));
       bodies.back()->setActivationState(DISABLE_DEACTIVATION);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What ten iterations of `sequential_impulses` cost on a thousand cubes, 7600 points, beside Bullet's solver on the
+// The cost of ten iterations of `sequential_impulses` on a thousand cubes, 7600 points, beside Bullet's solver on the
 // same points (btSequentialImpulseConstraintSolver as it is by default, with one direction of friction, and with two).
 // A step's whole resolve(): sorting the contacts into batches, warm start, iterations, reading out.
 #include <benchmark/benchmark.h>

@@ -23,7 +23,7 @@ NEXT = re.compile(r"(?:Next is (\S+) with|(\S+) ties with it:) (\S+) times as ma
 ENERGY = re.compile(r"(\S+) keeps the energy to round-off, but its (attitude|position) error is up to (\S+) (?:rad|m):")
 SEVERAL = re.compile(r"For an error of at most (\S+) \(rad, or m where no attitude is compared\), the method with the fewest "
                      r"right-hand sides is (.*) of (\d+) motions\.")
-ROUNDED = 0.006  # of numbers with three digits
+ROUNDED = 0.006  # rounding of numbers with three digits
 COLUMN = {"attitude": "attitude_error_max_rad", "position": "position_error_max_m"}
 
 

@@ -791,14 +791,14 @@ class Results(StudyTest):
             self.assertEqual(status, 0)
             return usage.ru_maxrss
 
-        # The peak counts this Python before exec as well; 8 bytes kept of each of the 4e6 steps would still be seen.
+        # The peak counts this Python before exec as well; 8 bytes kept of each of the 4e6 steps would still show.
         short = peak(10)
         for t_end in (1000, 4000):
             self.assertLess(peak(t_end), 1.2 * short, f"kB, for {t_end} s; {short} kB for 10 s")
 
 
 class Physics(StudyTest):
-    DRIFT = 0.0325276  # of the angular momentum without the gyroscopic term, at every step
+    DRIFT = 0.0325276  # drift of the angular momentum without the gyroscopic term, at every step
 
     def test_energy_alone_would_call_a_missing_gyroscopic_term_perfect(self):
         out = self.study("--gyroscopic", "off", "--integrator", "rk4,semi_implicit_euler", "--dt",

@@ -65,7 +65,7 @@ TEST(PetersHsu, PositionErrorIsThatOfSemiImplicitEuler) {
   }
 }
 
-// Without the gyroscopic term ω is constant in the world, to the bit; energy sees nothing of it.
+// Without the gyroscopic term ω is constant in the world, to the bit; the energy does not show its absence.
 TEST(PetersHsu, TheGyroscopicTermCanBeLeftOut) {
   Formulation without = engine;
   without.gyroscopic = false;

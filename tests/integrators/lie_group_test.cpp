@@ -64,8 +64,8 @@ TEST(Buss2, TurnsAsThePaperWrites) {
   }
 }
 
-// From an attitude far from the identity, over some five turns: the order in y and in the attitude, which both charts
-// and all frames must give; a product of exponentials in the wrong order is seen here.
+// The order in y and in the attitude, which both charts and all frames must give, from an attitude far from the
+// identity, over some five turns. A product of exponentials in the wrong order shows here.
 TEST(LieMethods, ConvergeFarFromTheIdentity) {
   const Quaternion<double> start = quaternion_from_rotation_vector<double>(V3(-1.7, 2.1, 1.2));
   Problem p = hairer_vilmart();
@@ -129,7 +129,7 @@ const std::vector<std::string> ours = {"lie_euler",     "crouch_grossman3", "rkm
                                        "heun",          "velocity_verlet",  "recipe_ode", "recipe_bullet",
                                        "recipe_simbody"};
 
-// What is declared is kept to round-off in every formulation, and what is not declared is lost in one of them.
+// Declared quantities are kept to round-off in every formulation, and others are lost in one of them.
 TEST(LieMethods, KeepOfFreeBodiesWhatTheyDeclare) {
   const double round_off = 5e-12, seen = 1e-9;
   for (const std::string& method : ours) {
@@ -178,7 +178,7 @@ Six two_form(const Vector3<long double>& l) {
   return w;
 }
 
-/// How far a step of h on the heavy top without friction is from keeping it: DΦᵀ ω' DΦ − ω, by central differences.
+/// The defect of a step of h on the heavy top without friction: DΦᵀ ω' DΦ − ω, by central differences.
 double symplecticity_defect(const std::string& method, double h, int steps = 1) {
   using Real = long double;
   const Formulation f{Orientation::quaternion, AngularState::momentum_world};

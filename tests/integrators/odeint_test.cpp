@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is particular to the methods of Boost.Odeint: starts and restarts of the multi-step method against its formulas,
+// Particulars of the methods of Boost.Odeint: starts and restarts of the multi-step method against its formulas,
 // trials that are no number, stiffness, and a problem whose end is known to 15 digits.
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ TEST(OdeintControlled, DetestB5) {
   const V3 scale(1 / std::sqrt(1.53), 1 / std::sqrt(0.51), 1 / std::sqrt(3.0));
   const V3 exact(-0.939657079872920, -0.342117775400075, 0.741412659619995);
   for (const std::string& name : controlled) {
-    if (name == "odeint_rosenbrock4") continue;  // of order 4 it takes too many steps for ten digits
+    if (name == "odeint_rosenbrock4") continue;  // a method of order 4 takes too many steps for ten digits
     State<double> state = system->start();
     const auto integrator = method(name).make(*system, {.tolerance = 1e-13, .t_end = 20});
     run(*integrator, state, 20);
@@ -82,7 +82,7 @@ TEST(OdeintControlled, IsTheLibraryItself) {
   EXPECT_GT(rejected, 2);
 }
 
-// Where the right-hand side ceases to be a number no trial passes: the steps shrink towards that time, then one fails.
+// No trial passes where the right-hand side ceases to be a number: the steps shrink towards that time, then one fails.
 TEST(OdeintControlled, NoTrialThatIsNoNumberPasses) {
   for (const std::string& name : controlled) {
     SCOPED_TRACE(name);
@@ -97,7 +97,7 @@ TEST(OdeintControlled, NoTrialThatIsNoNumberPasses) {
       EXPECT_TRUE(state.y.allFinite());
     }
     EXPECT_EQ(result.failure, "Odeint's step size fell to nothing");
-    // Rosenbrock's ∂f/∂t looks 6e-6 s ahead.
+    // Rosenbrock's ∂f/∂t is a difference with a time 6e-6 s ahead.
     EXPECT_NEAR(state.t, 0.3, 1e-5);
   }
 }

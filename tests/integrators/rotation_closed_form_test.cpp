@@ -191,7 +191,7 @@ TEST(Rk4, SecularEnergyDrift) {
 }
 
 // Peters & Hsu: with the gyroscopic term left out ω is constant, so that the rotational energy is too, while the
-// momentum goes round ω: max |H − H0|/|H0| = 0.0325276 at every step size. Energy alone cannot see the missing term.
+// momentum goes round ω: max |H − H0|/|H0| = 0.0325276 at every step size. Energy alone does not show the missing term.
 TEST(GyroscopicTermLeftOut, KeepsTheEnergyAndLosesTheMomentum) {
   Problem p = peters_hsu();
   p.forces.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is particular to the methods of SUNDIALS: their own root finding, their own projection, the choice of an order,
+// Particulars of the methods of SUNDIALS: their own root finding, their own projection, the choice of an order,
 // and how they say that they cannot go on.
 #include <gtest/gtest.h>
 
@@ -200,7 +200,7 @@ TEST(Sundials, DetestB5) {
   }
 }
 
-// A higher order takes fewer right-hand sides to a tight tolerance; one that there is not is told.
+// A higher order takes fewer right-hand sides to a tight tolerance; an order that does not exist is reported.
 TEST(Arkode, TakesTheOrderThatIsAskedFor) {
   const auto system = make_system<double>(laws::free_top(), {});
   const auto evaluations = [&](const std::string& name, std::optional<int> order, double tolerance) {

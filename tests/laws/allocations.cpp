@@ -19,8 +19,8 @@ std::size_t allocations() { return count; }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 
-// A sanitizer has an allocator of its own, and tells of its use; as in sanitizer/allocator_interface.h, which GCC
-// lacks.
+// A sanitizer has an allocator of its own, and hooks that report its use; as in sanitizer/allocator_interface.h, which
+// GCC lacks.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*, std::size_t),
                                                          void (*on_free)(const volatile void*));
 [[maybe_unused]] static const int hooks = __sanitizer_install_malloc_and_free_hooks(

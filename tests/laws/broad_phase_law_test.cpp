@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every broad phase of the catalogue must do: report the pairs that brute force finds, sorted, none twice,
+// The duties of every broad phase of the catalogue: report the pairs that brute force finds, sorted, none twice,
 // whatever the boxes are and however they move; refuse what is no box; and allocate nothing once a scene goes on as it
 // began.
 #include <gtest/gtest.h>
@@ -202,7 +202,7 @@ bool held(const Bounds& box, const std::vector<Bounds>& cells) {
   return shared >= (1 - 1e-9) * box.volume();
 }
 
-// For drawing only. Whatever is finite is in them, through the motion and beside what has no end.
+// The cells are for drawing only. All finite boxes are in them, through the motion and beside boxes without an end.
 TEST_P(BroadPhaseLaw, ItsCellsHoldWhatIsFinite) {
   PortableRandom random(11);
   std::vector<Bounds> none;
@@ -234,7 +234,7 @@ TEST_P(BroadPhaseLaw, ItsCellsHoldWhatIsFinite) {
   EXPECT_EQ(some, name != "all_pairs" && name != "sweep_and_prune");
 }
 
-// Of the grid two cells are apart, or one is in the other, on a coarser level; the parts of space are apart.
+// Two cells of the grid are apart, or one is in the other, on a coarser level; the parts of space are apart.
 TEST_P(BroadPhaseLaw, CellsThatDivideSpaceAreApart) {
   const std::string& name = GetParam().name;
   if (name != "uniform_grid" && name != "bsp_tree") GTEST_SKIP() << "its cells are the nodes of a tree";
@@ -407,7 +407,7 @@ TEST_P(BroadPhaseLaw, PairsMayBeAskedAgain) {
   phase->update(boxes);
   for (Bounds& b : boxes) b.translate(Vector(0.5, 0, 0));
   phase->update(boxes);
-  boxes.pop_back();  // steps of which nothing was asked
+  boxes.pop_back();  // steps after which no pairs were read
   phase->update(boxes);
   expect_right(boxes, "after steps without a question");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the response that is a force must do to any two bodies that overlap, at random.
+// The laws of the response that is a force, for any two bodies that overlap, at random.
 #include <gtest/gtest.h>
 
 #include <cmath>

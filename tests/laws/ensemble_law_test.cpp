@@ -62,7 +62,7 @@ std::vector<Trial> trials() {
       {"spring", box_on_spring()},  {"turned", box_on_spring(turned_inertia({0.5, 0.8, 1.1}, {0.7, -0.4, 0.2, 0.5}))}};
 }
 
-/// Everything that a run shows; it looks at some states and calls a run off at `bound` energy.
+/// Keeps everything that a run shows, and some states; it stops a run at `bound` energy.
 struct Seen final : Observer {
   double bound = 1e300, look_every = 0.05;
   std::vector<Sample> samples{};

@@ -242,7 +242,7 @@ TEST_P(ForceLaw, PowerVanishesAtRest) {
   });
 }
 
-// internal() is said of exactly those forces that give no total force and no total torque about the world's origin.
+// internal() holds for exactly those forces that give no total force and no total torque about the world's origin.
 TEST_P(ForceLaw, InternalForcesBalance) {
   for_every_sample([](const Sample&, const ForceModel<Real>& force) {
     bool balanced = true, exerts = false;
@@ -262,11 +262,11 @@ TEST_P(ForceLaw, InternalForcesBalance) {
   });
 }
 
-// What effect_on promises of each body holds in every state: no torque, the same force.
+// The effects that effect_on() promises for each body hold in every state: no torque, the same force.
 TEST_P(ForceLaw, EffectTellsTheTruth) {
   for_every_sample([](const Sample& sample, const ForceModel<Real>& force) {
     for (std::size_t i = 0; i < bodies().size(); ++i) {
-      if (bodies()[i].fixed) continue;  // nobody asks
+      if (bodies()[i].fixed) continue;  // effects on fixed bodies are never read
       const Effect effect = force.effect_on(i);
       const bool named = std::count(sample.force.bodies.begin(), sample.force.bodies.end(), i) > 0;
       if (!named) {
@@ -402,7 +402,7 @@ TEST_P(ForceLaw, TurnsAndShiftsWithTheWorld) {
   });
 }
 
-// Galileo: where nothing rests, an observer in uniform motion sees the same wrench.
+// Galileo: where nothing rests, the wrench is the same in uniform motion.
 TEST_P(ForceLaw, IsTheSameInUniformMotionWhereNothingRests) {
   for_every_sample([](const Sample& sample, const ForceModel<Real>& force) {
     if (!sample.galilean) return;
@@ -450,7 +450,7 @@ TEST_P(ForceLaw, ScalarsAgreeToTheirPrecision) {
   });
 }
 
-// What the catalogue tells about a kind is true of the samples, so that the reader of scenarios checks what is there.
+// The entry of a kind in the catalogue is true of the samples, so that the reader of scenarios checks what is there.
 TEST_P(ForceLaw, KindDescribesItsParameters) {
   const ForceKind& kind = entry().kind;
   EXPECT_FALSE(kind.summary.empty());

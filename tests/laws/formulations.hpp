@@ -37,7 +37,7 @@ inline std::vector<Formulation> gyroscopic_formulations() {
   return all;
 }
 
-/// "quaternion_velocity_world_stored_no_gyroscopic": letters and underscores, as GoogleTest wants its names.
+/// "quaternion_velocity_world_stored_no_gyroscopic": letters and underscores, as GoogleTest requires of names.
 inline std::string label(const Formulation& f) {
   std::string text = std::string(name(f.orientation)) + '_' + std::string(name(f.angular_state));
   if (f.rotation_from == RotationFrom::stored) text += "_stored";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every timing of impacts must do, whatever the scene.
+// The laws of every timing of impacts, whatever the scene.
 #include <gtest/gtest.h>
 
 #include <ostream>

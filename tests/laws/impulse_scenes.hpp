@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies that meet, as a response sees them, and what is conserved.
+// Bodies that meet, as a response gets them, and the conserved quantities.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct ImpulseScene {
   Vector3<double> relative(const ImpulseContact& c) const {
     return bodies[c.a].velocity_at(c.point) - bodies[c.b].velocity_at(c.point);
   }
-  /// Notes how fast the bodies meet, and what restitution wants of it.
+  /// Sets the normal velocities at which the bodies meet, and those that restitution requires.
   void meet() {
     for (ImpulseContact& c : contacts) {
       c.approach = c.normal.dot(relative(c));
@@ -84,7 +84,7 @@ inline ImpulseScene random_scene(PortableRandom& random, const SceneKind& kind) 
     if (!random.chance(kind.statics)) {
       b.inverse_mass = random.power_of_ten(-kind.spread, kind.spread);
       const Matrix3<double> r = random.rotation();
-      // Of a box of sides from 1 to 2.
+      // The squared sides of a box, each side from 1 to 2.
       const Vector3<double> h = random.uniform_vector(1, 2).array().square();
       b.inverse_inertia =
           r *

@@ -62,7 +62,7 @@ TEST_P(IntegratorLaw, HasTheDeclaredOrder) {
       for (const std::int64_t n : {1, 15, 240}) EXPECT_LT(difference(run(*system, 0, n).y, end), 2e-13) << n;
       return;
     }
-    // Where few steps already come near the round-off of double, long double has room for the order to show.
+    // Long double has room for the order to show where few steps already come near the round-off of double.
     std::int64_t first = 15;
     double coarse = difference(run(*system, 0, first).y, end);
     const bool extended = entry().make_long_double && (expected > 4 || coarse < 1000 * floor);
@@ -76,7 +76,7 @@ TEST_P(IntegratorLaw, HasTheDeclaredOrder) {
       order = std::log2(error / next);
       error = next;
     }
-    const bool impulses = declared().joints == JointEquations::impulses;  // of order 1, and no step is very small
+    const bool impulses = declared().joints == JointEquations::impulses;  // their order is 1, and no step is very small
     EXPECT_LT(error, impulses ? 0.1 : 0.01) << "it does not come near the exact motion";
     EXPECT_NEAR(order, expected, 0.25) << "error " << error;
   });
@@ -107,7 +107,7 @@ TEST_P(IntegratorLaw, ScalarsWorkToTheirPrecision) {
   expect_precision<float>(2e-5);
   expect_precision<double>(4e-14);
   if (!entry().make_long_double || declared().order < 4 || adaptive()) return;
-  // In long double the order is seen where double has long drowned in its round-off.
+  // Long double shows the order where double has long drowned in its round-off.
   const Trial trial = trials()[3];
   const auto system = build<Real>(trial, {});
   const Flat end = reference_flow(*system, system->start().y, 0, 1);

@@ -26,7 +26,7 @@ void IntegratorLaw::expect_advance_is_single_steps() const {
       ASSERT_TRUE(a->advance(at_once, h, 25).ok());
       for (int k = 1; k <= 25; ++k) {
         ASSERT_TRUE(b->step(one_by_one, h).ok());
-        one_by_one.t = t0 + k * h;  // as the driver counts time
+        one_by_one.t = t0 + k * h;  // the time of the driver
       }
       EXPECT_TRUE(same_bytes(at_once, one_by_one));
       EXPECT_EQ(a->evaluations(), b->evaluations());

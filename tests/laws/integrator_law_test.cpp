@@ -93,7 +93,7 @@ TEST_P(IntegratorLaw, CountsItsEvaluations) {
   });
 }
 
-// Where the right-hand side ceases to be a number, a step fails and leaves the state as it was, or the driver sees that
+// A step fails and leaves the state as it was where the right-hand side ceases to be a number, or the driver finds that
 // the state is no number; no row of the run is garbage.
 TEST_P(IntegratorLaw, StopsWhereTheForceBreaks) {
   const double after = 0.3;
@@ -138,7 +138,7 @@ TEST_P(IntegratorLaw, StopsWhereTheForceBreaks) {
   });
 }
 
-// After a change from outside and discard_history, a run goes on as one that begins there.
+// A run goes on as one that begins there after a change from outside and discard_history.
 TEST_P(IntegratorLaw, DiscardedHistoryIsForgotten) {
   const double tolerance = 1e-9;
   everywhere([&](const Trial& trial, const Formulation& f) {
@@ -246,7 +246,7 @@ TEST_P(IntegratorLaw, CountsItsIterations) {
   });
 }
 
-// A step goes exactly as far as it was asked to, an adaptive one at most; the end of a run is hit to the bit.
+// A step goes exactly as far as required, an adaptive one at most; the end of a run is hit to the bit.
 TEST_P(IntegratorLaw, TimeGoesAsAsked) {
   everywhere([&](const Trial& trial, const Formulation& f) {
     const auto system = build<double>(trial, f);
@@ -283,7 +283,7 @@ TEST_P(IntegratorLaw, BeginMakesItNew) {
   });
 }
 
-// Two runs that take turns give the digits of each alone: a method keeps nothing where another could see it.
+// Two runs that take turns give the digits of each alone: a method keeps nothing where another could read it.
 TEST_P(IntegratorLaw, RunsDoNotDisturbEachOther) {
   for (const Formulation& f : gyroscopic_formulations()) {
     SCOPED_TRACE(label(f));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every method says about its scheme: an equation in LaTeX, and sources that stand in papers/references.bib.
+// The scheme of every method: an equation in LaTeX, and sources that stand in papers/references.bib.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a method declares of itself beyond its order, from both sides: what is declared holds in every formulation that
-// the method accepts, what is not is seen to fail in one of them.
+// The traits that a method declares beyond its order, from both sides: what is declared holds in every formulation that
+// the method accepts, what is not fails visibly in one of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 class IntegratorTrait : public OverTheCatalogue {
  protected:
   /// The worst of a deviation over a run of a free body that is not symmetric: `steps` steps of h, or an adaptive
-  /// method's way over 10 s. It stops at a deviation of more than 1. deviation(system, state) is asked after every
+  /// method's way over 10 s. It stops at a deviation of more than 1. deviation(system, state) is evaluated after every
   /// `stride` steps.
   template <class Deviation>
   double worst(const Formulation& f, int steps, const Deviation& deviation, double h = 0.05) const {
@@ -211,8 +211,8 @@ TEST_P(IntegratorTrait, CasimirIsKept) {
               });
 }
 
-// Which equations of the joints the states of a method satisfy: of a fixed step those that it declares, to round-off,
-// and no others; of an adaptive one those that it declares, to a hundred times its tolerance.
+// The equations of the joints that the states of a method satisfy: a fixed step keeps those that it declares, to
+// round-off, and no others; an adaptive one keeps those that it declares, to a hundred times its tolerance.
 TEST_P(IntegratorTrait, EquationsOfJointsAreKept) {
   const JointEquations kept = declared().joints;
   if (!declared().solves_joints()) GTEST_SKIP() << "it leaves them to the formulation";

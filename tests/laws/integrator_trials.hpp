@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the laws of integrators share: the problems on which a method is tried, in every formulation that it accepts,
-// and how it is run there.
+// The common parts of the laws of integrators: the problems on which a method is tried, in every formulation that it
+// accepts, and how it is run there.
 #pragma once
 
 #include <gtest/gtest.h>

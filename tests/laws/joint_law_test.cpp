@@ -208,7 +208,7 @@ TEST_P(JointLaw, ReactionsDoNoWorkAndAddNoMomentum) {
     torque += w.torque + motions[i].position.cross(w.force);
     size += w.force.norm() + w.torque.norm();
   }
-  // What a static or pinned body passes on to the world is not among the wrenches of a body.
+  // Forces that a static or pinned body passes on to the world are not among the wrenches of a body.
   const auto second = constraints().joint(0).second();
   EXPECT_NEAR(double(power), 0, 1e-15 * double(size));
   EXPECT_NEAR(double(constraints().power()), 0, 1e-15 * double(size));
@@ -249,7 +249,7 @@ TEST_P(JointLaw, ProjectionClosesTheJoint) {
   }
 }
 
-/// Of all corrections of the velocity, the one by a projection needs the least kinetic energy: its impulses are a
+/// The correction of the velocity by a projection needs the least kinetic energy of all corrections: its impulses are a
 /// combination of the rows, so that the correction is orthogonal in the metric of the masses to what the joint leaves
 /// free.
 TEST_P(JointLaw, ProjectionIsOrthogonalInTheMetricOfTheMasses) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every manifold must be, of every two kinds of shapes that a narrow phase answers: near enough points on both
+// The laws of every manifold, of every two kinds of shapes that a narrow phase answers: near enough points on both
 // surfaces, as deep as the pair, each with a name of its own, and a touch once the pair is moved out.
 #include <gtest/gtest.h>
 
@@ -81,7 +81,7 @@ class ManifoldLaw : public testing::TestWithParam<NarrowPhaseEntry> {
           try {
             check(*narrow, p, seed % 2 == 0 ? 0.05 * p.smaller : 0);
           } catch (const std::invalid_argument&) {
-            break;  // a pair that it does not know, and says so
+            break;  // a pair that the narrow phase refuses
           }
           ASSERT_FALSE(HasFatalFailure()) << "shape_pair(\"" << a << "\", \"" << b << "\", " << seed << ")";
         }

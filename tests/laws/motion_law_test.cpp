@@ -19,7 +19,7 @@ namespace {
 
 using Vector = VectorX<double>;
 
-constexpr double law_instant = 0.75;  // s; the shaking force is not zero then
+constexpr double law_instant = 0.75;  // a time at which the shaking force is not zero, s
 
 /// The largest difference of two vectors, relative to 1 + the largest number of the second.
 double gap(const Vector& a, const Vector& b) { return (a - b).cwiseAbs().maxCoeff() / (1 + b.cwiseAbs().maxCoeff()); }

@@ -95,7 +95,7 @@ std::vector<PlainBody<S>> plain_bodies(const System<S>& system, const VectorX<S>
   return all;
 }
 
-/// All bodies as forces see them: the moving ones, then the static ones.
+/// All bodies as forces read them: the moving ones, then the static ones.
 template <class S>
 std::vector<BodyMotion<S>> plain_motions(const System<S>& system, const VectorX<S>& y) {
   std::vector<BodyMotion<S>> motions;

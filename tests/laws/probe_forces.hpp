@@ -45,7 +45,7 @@ class Shaking final : public ForceModel<S> {
   std::size_t moving_;
 };
 
-/// Does nothing but count how often a wrench is asked for, which is once for every right-hand side.
+/// Does nothing but count how often a wrench is requested, which is once for every right-hand side.
 template <class S>
 class Counting final : public ForceModel<S> {
  public:

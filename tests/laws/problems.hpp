@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The problems on which laws are tried: small, of every kind that the mechanics knows, with no symmetry by which a
+// The problems on which laws are tried: small, of every kind that the mechanics has, with no symmetry by which a
 // wrong term could hide.
 #pragma once
 

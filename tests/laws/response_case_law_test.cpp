@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every response must do where the answer is known.
+// The laws of every response where the answer is known.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -86,7 +86,7 @@ TEST_P(ResponseCase, TwoCubesFaceParallelGetTheClosedForm) {
         EXPECT_NEAR(kinetic_energy(t.bodies) / kinetic_energy(s.bodies), 1, 1e-12);
       }
     }
-    // At one point, with different arms.
+    // The impulses act at one point, with different arms.
     const double m = 0.7, side = 0.4, v = 3, arm_a = 0.15, arm_b = 0.05;
     ImpulseScene s;
     s.bodies = {cube(m, side, {-arm_a, 0, 0.5 * side}, Matrix::Identity()),
@@ -288,7 +288,7 @@ TEST_P(ResponseCase, AWedgeWithOneElasticWallGivesNoEnergy) {
       const double before = kinetic_energy(s.bodies);
       const ImpulseScene t = after(s);
       EXPECT_LE(kinetic_energy(t.bodies), before * (1 + 1e-12)) << angle;
-      // From wall to wall it takes about 1/angle² pushes.
+      // The way from wall to wall takes about 1/angle² pushes.
       if (angle > 0.4 || GetParam().name == "simultaneous") {
         EXPECT_GE(t.bodies[2].velocity[2], -1e-9) << angle;
       }

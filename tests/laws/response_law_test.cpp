@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every response must do to bodies that meet, at random.
+// The laws of every response to bodies that meet, at random.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -122,7 +122,7 @@ TEST_P(ResponseLaw, FrictionOpposesTheSlip) {
       const ImpulseScene t = after(s);
       for (const ImpulseContact& c : t.contacts) {
         const Seen seen(t, c);
-        // Of length μ j_n, and against: or no slip at all.
+        // The friction has the length μ j_n and acts against the slip, or there is no slip.
         ASSERT_LE((c.friction * seen.normal_impulse * seen.slip + seen.slip.norm() * seen.friction).norm(), tolerance);
         if (seen.normal_impulse > 1e-3) ++(seen.slip.norm() > 1e-3 ? slipping : sticking);
       }
@@ -157,7 +157,7 @@ TEST_P(ResponseLaw, NewtonsRestitutionIsComplementary) {
   for_scenes(100, {.bodies = 3}, [&](ImpulseScene s) {
     for (ImpulseContact& c : s.contacts) c.restitution = 0.5;
     s.meet();
-    // Of an approach that others cause nothing is wanted; where all approach, energy cannot rise.
+    // An approach that other contacts cause is not reflected; where all approach, energy cannot rise.
     if (std::any_of(s.contacts.begin(), s.contacts.end(), [](const auto& c) { return c.approach >= 0; })) return;
     const ImpulseScene t = after(s);
     for (const ImpulseContact& c : t.contacts) {
@@ -182,7 +182,7 @@ TEST_P(ResponseLaw, ExchangedBodiesGetTheSame) {
 
 TEST_P(ResponseLaw, AMovedSceneGetsTheSame) {
   for_scenes(60, {.bodies = 3, .friction = 1, .restitution = 0.5}, [&](ImpulseScene s) {
-    // With more points than three a patch has more than one answer.
+    // A patch with more points than three has more than one answer.
     std::erase_if(s.contacts, [](const ImpulseContact& c) { return c.feature.of_a > 2; });
     PortableRandom random(8);
     const Matrix r = random.rotation();
@@ -266,7 +266,7 @@ TEST_P(ResponseLaw, TheSameInputGivesTheSameBytes) {
       ASSERT_EQ(difference(t, u), 0);
     }
   });
-  // What it remembers, it forgets.
+  // forget() clears what resolve() keeps from step to step.
   const auto fresh = GetParam().make();
   response->forget();
   PortableRandom random(77);

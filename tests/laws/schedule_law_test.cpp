@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The laws of a schedule, for every method that takes steps of a given size: sizes given one by one make the motion
-// that the fixed loop makes; a run starts at the time of its state; and an observer that asks to stop is obeyed at
-// once.
+// that the fixed loop makes; a run starts at the time of its state; and a run stops at once if an observer requests it.
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -70,7 +69,7 @@ TEST_P(ScheduleLaw, ARunStartsAtTheTimeOfItsState) {
   });
 }
 
-// Steps end where none is given, are cut at t_end, and are as long as they were asked to be.
+// Steps end where none is given, are cut at t_end, and are as long as requested.
 TEST_P(ScheduleLaw, GivenStepsAreTakenAsTheyCome) {
   const Trial trial = own_trials().front();
   const auto system = build<double>(trial, {});
@@ -101,7 +100,7 @@ TEST_P(ScheduleLaw, GivenStepsAreTakenAsTheyCome) {
   EXPECT_THROW(simulate(*system, *system, *make(*system), state, schedule, rows), std::invalid_argument);
 }
 
-/// Asks to stop when it has seen so many states.
+/// Requests a stop after so many states.
 struct Stopper final : Observer {
   explicit Stopper(int most_states) : most(most_states) {}
   int most, seen = 0;

@@ -116,7 +116,7 @@ ShapePair shape_pair(const std::string& kind_a, const std::string& kind_b, std::
   if (random.chance(0.6)) pair.at_b.rotation = random.rotation();
   const int placing = random.below(6);
   if (placing > 0 && pair.finite) {
-    // Where the shadows on a line touch, then a gap of any size from there.
+    // The place where the shadows on a line touch, and a gap of any size from there.
     const Vector along = random.chance(0.5) ? random.direction() : Vector(pair.at_a.rotation.col(random.below(3)));
     const auto reach = [&](const Shape& s, const Pose& at, const Vector& d) {
       return d.dot(at.rotation * s.support(at.rotation.transpose() * d));

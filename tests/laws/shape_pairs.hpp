@@ -22,7 +22,7 @@ struct ShapePair {
   bool finite = true;  ///< none is a half-space
 };
 
-/// Those of the catalogue, and a cone that narrow phases know by its support function alone.
+/// Kinds of the catalogue, and a cone for which narrow phases have its support function alone.
 const std::vector<std::string>& shape_kinds();
 
 ShapePair shape_pair(const std::string& kind_a, const std::string& kind_b, std::uint64_t seed);

@@ -26,7 +26,7 @@ constexpr Real instant = 0.75L;
 
 template <class S>
 VectorX<S> rate(const System<S>& system, const VectorX<S>& y) {
-  VectorX<S> dy = VectorX<S>::Constant(y.size(), S(7));  // whatever is not written is seen
+  VectorX<S> dy = VectorX<S>::Constant(y.size(), S(7));  // a number that is not written stays 7
   system.rate(S(instant), y.data(), dy.data());
   return dy;
 }
@@ -325,7 +325,7 @@ TEST_P(SystemLaw, OneAndManyAgreeToTheBit) {
   }
 }
 
-// Methods that are compiled for many bodies alone see a single body with all its forces, and give its digits.
+// Methods that are compiled for many bodies alone treat a single body with all its forces, and give its digits.
 TEST_P(SystemLaw, TheFormOfManyBodiesIsTheSameSystem) {
   for (const Problem& start : {free_top(), projectile(true), box_on_spring()}) {
     const Problem problem = moved(start, 9);

@@ -25,7 +25,7 @@ namespace polhode::study::inline curves {
 
 namespace {
 
-/// Names in the catalogue's order, then names that it does not know in the order of the runs.
+/// Names in the catalogue's order, then names that it does not have, in the order of the runs.
 std::vector<std::string> methods_of(const std::vector<RunRecord>& runs) {
   std::vector<std::string> found;
   for (const auto& run : runs) {
@@ -102,14 +102,14 @@ Case case_of(const RunConfig& config, const Durations& durations) {
 
 std::string joined(const std::vector<std::string>& texts) { return fmt::format("{}", fmt::join(texts, ", ")); }
 
-/// Tells cases apart with all digits of their values.
+/// A text that differs between cases, with all digits of their values.
 std::string identity(const Case& motion, const RunConfig& config) {
   std::string text = motion.label();
   for (const auto& varied : config.varied) text += '\n' + varied.key + '=' + varied.value;
   return text;
 }
 
-/// The index of a key in order of first sight.
+/// The index of a key in the order of first appearance.
 template <class Key>
 std::pair<std::size_t, bool> index_of(std::map<Key, std::size_t>& seen, const Key& key) {
   const auto [at, added] = seen.emplace(key, seen.size());

@@ -23,8 +23,8 @@ std::vector<LadderPoint> error_ladder(const Curve& curve, const Quantity& quanti
 /// The order of the error_ladder() of the curve (statistics/order_estimate.hpp).
 OrderEstimate observed_order(const Curve& curve, const Quantity& quantity);
 
-/// The fitted line if it is conclusive: straight, with an interval of the order of at most ±0.5. Only such an order is
-/// told in reports.
+/// The fitted line if it is conclusive: straight, with an interval of the order of at most ±0.5. Only such an order
+/// appears in reports.
 std::optional<OrderEstimate::Line> told_line(const OrderEstimate& estimate);
 
 /// Reason why a curve has no order: "errors at round-off", "steps too large: the attitude is off by more than half a

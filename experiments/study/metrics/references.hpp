@@ -40,7 +40,7 @@ class References {
   TrueMotion of(const RunConfig& config, const Scenario& scenario, const std::atomic<bool>* stop);
 
   /// Takes these scales as the ones of the motion of an announced scenario from t = 0 to t_end (s): for runs whose time
-  /// is taken and whose digits nobody reads.
+  /// is taken and whose digits are not read.
   void assume(const Scenario& scenario, double t_end, MotionScales scales);
 
  private:

@@ -33,7 +33,7 @@ class BoundConditions {
   /// The value that an option has in a run of a cell that does not give it.
   using Default = std::function<OptionValue(const RunOption&, const Cell&)>;
 
-  /// True if all conditions hold in a cell of the scenario. The cell is not made: conditions look at the values of its
+  /// True if all conditions hold in a cell of the scenario. The cell is not made: conditions read the values of its
   /// keys. All calls must be with the same cells, and with the same defaults for cells of one block.
   bool hold(const Cells& cells, const Cells::Place& place, const Default& otherwise);
 

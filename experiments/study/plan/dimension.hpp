@@ -19,9 +19,9 @@ struct DimensionKey {
   std::string label;  ///< name in error messages; empty: a key of --vary
 };
 
-/// A value as conditions look at it.
+/// A value as conditions read it.
 struct Glance {
-  enum class Kind { none, number, text, unknown };  ///< none: the point does not give the key; unknown: ask value()
+  enum class Kind { none, number, text, unknown };  ///< none: the point does not give the key; unknown: see value()
   Kind kind = Kind::unknown;
   double number = 0;
   std::string_view text{};

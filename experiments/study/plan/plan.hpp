@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Plan of a study: all runs of its cells, with their identities, made before anything is run or written. Of each run
-// one row of some 40 bytes is held; the run is made from its cell when it is asked for.
+// one row of some 40 bytes is held; the run is made from its cell when it is requested.
 #pragma once
 
 #include <cstdint>

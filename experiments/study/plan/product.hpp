@@ -55,7 +55,7 @@ class Product {
     RunConfig config;
     std::shared_ptr<const Scenario> scenario;
     bool own_presets =
-        false;  ///< for_each() says: the varied keys change the default of an option, t_end that of --t-end
+        false;  ///< set by for_each(): the varied keys change the default of an option, t_end that of --t-end
   };
   /// Makes the cells, each of which can then be made from its number. Throws InputError for invalid values.
   void open();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a study varies, as written: the axes of its grid, its tables of points, and its conditions. The study file and
-// the command line are read into the same words.
+// The variations of a study, as written: the axes of its grid, its tables of points, and its conditions. The study file
+// and the command line are read into the same words.
 #pragma once
 
 #include <cstdint>

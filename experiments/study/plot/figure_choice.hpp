@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which figures are drawn, and how they look.
+// The choice of figures that are drawn, and their look.
 #pragma once
 
 #include <string>

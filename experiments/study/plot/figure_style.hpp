@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What figures are made of: colours, markers, dashes, sizes; method_style.hpp has which of them a method has. To change
+// The style of figures: colours, markers, dashes, sizes; method_style.hpp has which of them a method has. To change
 // it for one study, edit figures/style.gnuplot in its folder, which is written from these values.
 #pragma once
 

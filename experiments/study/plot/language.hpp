@@ -51,7 +51,7 @@ class Language {
 std::shared_ptr<const Language> read_language(const std::string& text, const std::string& label);
 
 /// The figure in its language. Names of methods stay, those of scenarios and keys unless the file has them; words that
-/// are seen and have no translation are added to `missing`.
+/// are met and have no translation are added to `missing`.
 Figure translated(Figure figure, std::set<std::string>& missing);
 SpaceFigure translated(SpaceFigure figure, std::set<std::string>& missing);
 

@@ -55,7 +55,7 @@ struct Metric {
   std::string (*cell)(const RunResult&) = nullptr;  ///< text of the table's cell; null: the number
   int table_rank = 5;                               ///< rank as list_rank, for the tables of runs and the LaTeX values
 
-  // In the summary on the terminal, in the order of the tables of runs.
+  // The column of the summary on the terminal, in the order of the tables of runs.
   std::string terminal_label{};                              ///< heading of its column; empty: no column
   std::string (*terminal_cell)(const RunResult&) = nullptr;  ///< text of its cell; null: the value, "-" if absent
 

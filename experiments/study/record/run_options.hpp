@@ -29,7 +29,7 @@ struct RunOption {
     duration,  ///< duration of the run, or number of measurements
   };
 
-  // On the command line, in study files and in session files.
+  // Names on the command line, in study files and in session files.
   std::string name;    ///< name on the command line, without leading dashes; in files with '_' for '-'
   std::string values;  ///< values as shown after the name in --help: "quaternion|matrix"
   std::string help;    ///< meaning and default, in --help
@@ -42,7 +42,7 @@ struct RunOption {
   /// Reason for which a positive number is invalid: "is not an order"; empty: it is valid.
   std::function<std::string(double)> fault{};
 
-  // In runs.csv, tables and figures.
+  // Names in runs.csv, tables and figures.
   std::string column{};      ///< column of runs.csv, with the unit; empty: none
   bool on_demand = false;    ///< only studies that give the option have its column
   std::string header{};      ///< heading of its column in the table of runs
@@ -53,12 +53,12 @@ struct RunOption {
   bool in_tex_names = true;  ///< values other than the usual one are part of the names of LaTeX values
   OptionValue usual{};       ///< value that is equivalent to no value in the RunConfig
 
-  // In the configuration of a run.
+  // Values in the configuration of a run.
   std::function<OptionValue(const RunConfig&)> value{};
   std::function<void(RunConfig&, const OptionValue&)> set{};
   /// True if the option affects the run, decided by the options before it in the table; empty: affects every run.
   std::function<bool(const RunConfig&)> applies{};
-  bool decides = false;  ///< options after it apply or not by its value (`applies` of no option looks at others)
+  bool decides = false;  ///< options after it apply or not by its value (`applies` of no option reads others)
   std::string no_effect{}, remedy{};  ///< reason for which no run of a study is affected; remedy other than omitting it
   bool needed = false;                ///< mandatory for a run to which it applies
   /// Default in a run of the scenario, if the option applies; empty: the default of RunConfig.

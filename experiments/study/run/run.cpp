@@ -43,7 +43,7 @@ std::string_view status_text(RunStatus status) {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Tells which part of its duration a run has done.
+/// Measures the part of its duration that a run has done.
 class ShareMeter final : public Observer {
  public:
   ShareMeter(std::atomic<double>& share, double t_end) : share_(share), t_end_(t_end) {}

@@ -129,7 +129,7 @@ void take_point_masses(const TomlCursor& table, Body& body) {
   body.center_of_mass.setZero();
 }
 
-/// Some published problems have moments that no body has, and the equations do not mind; the scenario must say so.
+/// Some published problems have moments that no body has. The equations allow them; the scenario must declare them.
 void check_inertia(const TomlCursor& table, std::string_view source, const Body& body) {
   const TomlCursor cursor = table.at(source, "");
   const std::string unusable = equations_inertia_fault(body.inertia);

@@ -21,10 +21,10 @@ const std::vector<ScenarioKey>& root_keys() {
       {"gravity", zero()},
       {"t_end", std::nullopt},
       {"invariants", empty_list()},
-      {"energy_scale", std::nullopt},                     // the motion's own
-      {"contact", TomlValue::of(false), Decides::never},  // which nothing is that has always been
+      {"energy_scale", std::nullopt},                     // the scale of the motion itself
+      {"contact", TomlValue::of(false), Decides::never},  // false, as scenarios without the key have always been
       {"end_at_contact", TomlValue::of(false), Decides::with_contact},
-      {"contact_stiffness", std::nullopt, Decides::with_contact},  // from the masses
+      {"contact_stiffness", std::nullopt, Decides::with_contact},  // the stiffness follows from the masses
       {"contact_slip_speed", TomlValue::of(Compliance{}.slip_speed), Decides::with_contact},
       {"body", std::nullopt},
       {"force", empty_list()},

@@ -39,7 +39,7 @@ std::vector<std::string> parts_of(const std::string& key) {
   return parts;
 }
 
-/// The number that a part says, if it is one below `count`.
+/// The number in a part, if it is one below `count`.
 std::optional<std::size_t> index_in(const std::string& part, std::size_t count) {
   std::size_t i = 0;
   const char* end = part.data() + part.size();
@@ -48,7 +48,7 @@ std::optional<std::size_t> index_in(const std::string& part, std::size_t count) 
   return i;
 }
 
-/// The number that a text of the form -1.5e-3 says; of others TOML decides. Studies set numbers in most runs, and a
+/// The number in a text of the form -1.5e-3; other texts are read as TOML. Studies set numbers in most runs, and a
 /// document of its own for each takes a third of the time of making the run.
 std::optional<double> plain_number(std::string_view text) {
   const auto digits = [&](std::size_t from) {

@@ -43,7 +43,7 @@ std::vector<ReadBody> read_all_bodies(const TomlCursor& list, bool contact) {
   return bodies;
 }
 
-/// With contact, what can touch goes into the scenario too, and its lines into `canonical`.
+/// Reads the bodies. With contact, shapes that can touch go into the scenario too, and their lines into `canonical`.
 BodyIndex read_bodies(const TomlCursor& root, Scenario& scenario, std::string& canonical) {
   Problem& problem = scenario.problem;
   const TomlCursor contact = key(root, "contact");

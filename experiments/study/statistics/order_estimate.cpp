@@ -31,7 +31,7 @@ void drop_round_off(std::vector<LadderPoint>& points, const OrderSettings& setti
   const auto before = points.size();
   std::erase_if(points, [](const LadderPoint& p) { return p.error <= above_rounding * p.round_off; });
   double floor = 0;
-  // Rounding goes up and down from step to step: two of them see it where one does not.
+  // Rounding goes up and down from step to step: two steps show it where one does not.
   const auto falls_from = [&](std::size_t back) {
     return points.size() <= back || local_slope(points[points.size() - 1 - back], points.back()) >= settings.least_fall;
   };

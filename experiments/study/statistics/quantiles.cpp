@@ -9,7 +9,7 @@
 namespace polhode::study::inline statistics {
 
 double students_t_95(double degrees) {
-  // Studies ask for the same few degrees over and over.
+  // Studies use the same few degrees over and over.
   thread_local std::map<double, double> known;
   auto at = known.find(degrees);
   if (at == known.end())

@@ -9,7 +9,7 @@
 namespace polhode::study::inline statistics::spectral {
 
 constexpr Index fewest_cosines = 9;
-/// Fewer half periods than this in the run: no line is looked for, since it would not be told from a trend.
+/// Least number of half periods of a line in the run; a line with fewer would not differ from a trend.
 constexpr Index lowest_line = 8;
 
 /// A line among the first cosines, that is, an oscillation that the blocks resolve: a square 25 times the mean of those

@@ -41,7 +41,7 @@ bool is_frozen(const std::filesystem::path& path) {
   return header[18] == 2;  // version of the file format that a writer needs: 2 is WAL (sqlite.org/fileformat2.html)
 }
 
-/// The path as a URI, so that it can be opened as a file that nobody changes.
+/// The path as a URI, so that it can be opened as a file that does not change.
 std::string immutable_uri(const std::filesystem::path& path) {
   std::string uri = "file:";
   for (const char c : std::filesystem::absolute(path).string()) {

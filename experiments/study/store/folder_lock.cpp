@@ -95,7 +95,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) : folder_(folder) {
     held_ = true;
     const std::string words = own_words();
     if (ftruncate(file_handle_, 0) != 0 || pwrite(file_handle_, words.data(), words.size(), 0) < 0) {
-      // On a full disk the lock has no words.
+      // The lock has no words on a full disk.
     }
   } catch (...) {
     release();

@@ -2,10 +2,10 @@
 // Lock on a folder of results: of all programs that take it, one at a time has it. The system releases it when the
 // program ends, however it ends.
 //
-// The lock is taken twice: with flock on the folder, and with fcntl on the file results.lock in it, which says in words
-// who has it. On a local file system either is enough. flock on a folder does not work over NFS, and where a cluster
-// mounts Lustre without `flock` or with `localflock` neither is seen by another machine: nothing protects the folder
-// from a second writer on another machine there, and the words in results.lock are all that remains.
+// The lock is taken twice: with flock on the folder, and with fcntl on the file results.lock in it, whose text names
+// the owner. On a local file system either is enough. flock on a folder does not work over NFS, and where a cluster
+// mounts Lustre without `flock` or with `localflock` neither acts on another machine: nothing protects the folder from
+// a second writer on another machine there, and the words in results.lock are all that remains.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows of runs as plain values, for those who look at some columns of very many runs. Store::find and Store::for_each
+// Rows of runs as plain values, for programs that read some columns of very many runs. Store::find and Store::for_each
 // make results of them.
 #pragma once
 

@@ -31,7 +31,7 @@ void check_version(const Database& db) {
     throw std::runtime_error(db.path().string() + ": is empty, because its study was stopped before the first run");
   }
   const std::int64_t application = db.number("PRAGMA application_id"), version = db.number("PRAGMA user_version");
-  const bool unmarked = application == 0 && version == 0 &&  // as stores were before they had a version
+  const bool unmarked = application == 0 && version == 0 &&  // stores had no version at first
                         db.number("SELECT count(*) FROM sqlite_master WHERE name = 'runs'") == 1;
   if (application != application_id && !unmarked) {
     throw std::runtime_error(fmt::format("{}: is a database, but no store of polhode (application_id {}, not {})",

@@ -69,7 +69,7 @@ class CommandLine {
   /// Removes an option that was added.
   void remove(const std::string& name);
 
-  /// Parses the words. Returns the exit status if help was asked for and printed; throws InputError (one line) for
+  /// Parses the words. Returns the exit status if help was requested and printed; throws InputError (one line) for
   /// anything that is no option.
   std::optional<int> parse(int argc, const char* const* argv);
 

@@ -122,7 +122,7 @@ std::string markdown(std::string_view text) {
 
 namespace {
 
-/// LaTeX of the characters beyond ASCII that sentences and captions use; pdfTeX knows the others, such as ½ and ²,
+/// LaTeX of the characters beyond ASCII that sentences and captions use; pdfTeX has the others, such as ½ and ²,
 /// by inputenc and textcomp.
 std::string_view tex_of_character(std::string_view character) {
   constexpr std::pair<std::string_view, std::string_view> known[] = {

@@ -50,7 +50,7 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
   const bool lines = text.substr(at, 3) == std::string(3, quote);  // """ and ''': over several lines
   for (std::size_t i = at + (lines ? 3 : 1); i < text.size(); ++i) {
     if (text[i] == '\\' && quote == '"') ++i;
-    else if (text[i] == '\n' && !lines) return i;  // never closed, which the library tells
+    else if (text[i] == '\n' && !lines) return i;  // never closed, which the library reports
     else if (text[i] == quote && (!lines || text.substr(i, 3) == std::string(3, quote))) return i + (lines ? 3 : 1);
   }
   return text.size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What there is of a trajectory in a folder: all of it, or what a kill, a full disk or damage has left.
+// The state of a trajectory in a folder: all of it, or the rest that a kill, a full disk or damage has left.
 #pragma once
 
 #include <cstdint>

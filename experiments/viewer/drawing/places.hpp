@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where points of the bodies of a scene are in a frame, world axes.
+// The places of points of a scene's bodies in a frame, world axes.
 #pragma once
 
 #include "experiments/viewer/drawing/cast.hpp"

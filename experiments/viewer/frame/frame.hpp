@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is seen of a run at one instant, world axes, SI units: all that the simulation's thread hands to the window's.
+// The visible data of a run at one instant, world axes, SI units: all that the simulation's thread gives to the
+// window's.
 #pragma once
 
 #include <string>

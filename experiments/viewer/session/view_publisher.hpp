@@ -14,7 +14,7 @@ namespace polhode::viewer::inline session {
 
 class ViewPublisher {
  public:
-  /// For the window's thread: returns the latest view and requests the next one, which is made after the next step.
+  /// Returns the latest view to the window's thread and requests the next one, which is made after the next step.
   std::shared_ptr<const View> latest() {
     wanted_ = true;
     const std::lock_guard lock(mutex_);

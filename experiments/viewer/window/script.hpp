@@ -8,7 +8,7 @@
 //   type dt 0.01               into a field, with Enter
 //   wait 10                    frames
 //   until t 1.5                frames, until it is at least so; also `until paused`
-//   expect integrator heun     else the script fails; see Script::value() for what can be asked
+//   expect integrator heun     else the script fails; Script::value() lists the values that can be tested
 //   expect t < 0.5
 //   pull 100 -30               with the left button, so many pixels right and down, in the middle of the runs
 //   key space                  space, right, home, j, r

@@ -25,7 +25,7 @@ Arrival run(const Mechanism& m, double h) {
   std::vector<std::shared_ptr<dart::constraint::BallJointConstraint>> loops;
   for (const Hinge& hinge : m.hinges) {
     const PlaneBody& b = m.bodies[std::size_t(hinge.body)];
-    if (hinge.closes) {  // with the ground
+    if (hinge.closes) {  // a loop with the ground
       loops.push_back(std::make_shared<dart::constraint::BallJointConstraint>(nodes[std::size_t(hinge.body)],
                                                                               Eigen::Vector3d(hinge.x, hinge.y, 0)));
       continue;

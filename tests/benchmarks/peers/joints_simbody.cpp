@@ -19,7 +19,7 @@ Arrival run(const Mechanism& m, double accuracy) {
   for (const Hinge& h : m.hinges) {
     const PlaneBody& b = m.bodies[std::size_t(h.body)];
     const Vec3 in_body(h.x - b.x, h.y - b.y, 0);
-    if (h.closes) {  // with the ground
+    if (h.closes) {  // a loop with the ground
       Constraint::PointInPlane(matter.Ground(), UnitVec3(XAxis), h.x, pins[std::size_t(h.body)], in_body);
       Constraint::PointInPlane(matter.Ground(), UnitVec3(YAxis), h.y, pins[std::size_t(h.body)], in_body);
       continue;

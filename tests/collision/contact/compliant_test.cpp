@@ -213,7 +213,7 @@ TEST(Compliant, ABlockOnAnInclineCreepsAsItMust) {
   const double creep = slip_speed * share / std::sqrt(1 - share * share);
   EXPECT_NEAR(run.path.back().velocity.dot(down), creep, 1e-6 * creep);
   EXPECT_NEAR((run.path.back().position - start.position).dot(down), 2 * creep, 0.01 * creep);
-  const double depth = 2 * g * std::cos(angle) / (4 * 2 * std::pow(pi / 5e-3, 2));  // on four springs
+  const double depth = 2 * g * std::cos(angle) / (4 * 2 * std::pow(pi / 5e-3, 2));  // depth on four springs
   EXPECT_NEAR((run.path.back().position - start.position).dot(normal), -depth, 1e-3 * depth);
 }
 

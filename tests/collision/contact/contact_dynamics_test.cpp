@@ -237,7 +237,7 @@ TEST(Located, TimesHaveTheOrderOfTheMethod) {
   }
 }
 
-// One centre, one attitude, centres below the floor: nobody is thrown, and at the step they part.
+// One centre, one attitude, centres below the floor: no body is thrown, and at the step they part.
 TEST(DegenerateStarts, GiveNoVelocity) {
   const auto box = std::make_shared<Box>(Vector(0.5, 0.5, 0.5));
   const auto ball = std::make_shared<Sphere>(0.5);

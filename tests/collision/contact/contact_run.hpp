@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies above a floor, run with contact by any method, response and timing; what tests look at afterwards.
+// Bodies above a floor, run with contact by any method, response and timing, and the results that tests read.
 #pragma once
 
 #include <gtest/gtest.h>

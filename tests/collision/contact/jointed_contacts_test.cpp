@@ -198,7 +198,7 @@ TEST(JointedContacts, AChainFallsOnAFloorAndRests) {
     }
     for (std::size_t k = 0; k < system->constraints()->count(); ++k)
       EXPECT_LT(system->constraints()->violation(k, motions).position, 1e-13);
-    // What the fall had is lost in contact, and the ledger tells it.
+    // The energy of the fall is lost in contact, and the ledger shows it.
     EXPECT_NEAR(run.losses.total(), weight * (0.4 - width / 2), 0.02 * weight * 0.4) << method;
     const double first = run.samples.front().ledger(0), last = run.samples.back().ledger(run.losses.total());
     EXPECT_NEAR(first, last, 0.02 * weight * 0.4) << method;

@@ -108,7 +108,7 @@ TEST(HeldContacts, KeepMomentumOfFreeBodies) {
   EXPECT_LT((last.angular_momentum - first.angular_momentum).norm(), 1e-9);
 }
 
-// However fast, a body that skims past a surface costs few looks: right-hand sides of its run over those without
+// A body that skims past a surface, however fast, costs few evaluations: right-hand sides of its run over those without
 // contact.
 TEST(Skimming, CostsNextToNothing) {
   for (const double gap : {1e-4, 1e-7, 2e-9}) {
@@ -124,7 +124,7 @@ TEST(Skimming, CostsNextToNothing) {
       EXPECT_EQ(run.impacts.size(), 0u);
       EXPECT_LE(run.outcome.evaluations, 20 * 100) << gap << " " << box;
     }
-    ContactRun run;  // over a box that lies there, both turning
+    ContactRun run;  // a run over a box that lies there, both turning
     const BodyStart ball{.position = {-0.4, 0, 0.5 + gap}, .velocity = {20, 0, 0}, .angular_velocity = {0, 40, 0}};
     run.add(1, std::make_shared<Sphere>(0.5), ball);
     run.add(1, std::make_shared<Box>(Vector(0.5, 0.5, 0.5)), {.position = {0, 0, -0.5}, .angular_velocity = {0, 0, 5}});

@@ -80,7 +80,7 @@ TEST(ContactPatch, WhatStandsOnAFloorTouchesWithAllItsCorners) {
   ASSERT_EQ(of_hull.count, 4u);
   EXPECT_EQ(of_hull.normal, Vector(0, 0, -1));
   EXPECT_NEAR(deepest(of_hull), 0.1, 1e-15);
-  // On an edge, and on a corner.
+  // A box on an edge, and on a corner.
   const Manifold on_edge = gjk().manifold(box, at({0, 0, 1}, {std::numbers::pi / 4, 0, 0}), floor, {});
   ASSERT_EQ(on_edge.count, 2u);
   const Manifold on_corner = gjk().manifold(box, at({0, 0, 3.5}, {0.5, 0.4, 0}), floor, {});

@@ -68,7 +68,7 @@ long double edge_distance(const WholeBox& a, std::size_t i, unsigned p, const Wh
   if (distance >= least) return least;
   // between + s edge_b = t edge_a + a multiple of the normal, with the normal that of the axes: edge = f axis.
   const Whole s = -dot(cross(between, a.axis[i]), normal), t = -dot(cross(between, b.axis[j]), normal);
-  // In units of the axes; half an edge is reach / squared² of its axis.
+  // Parameters are in units of the axes; half an edge is reach / squared² of its axis.
   const auto within = [&](const Whole& parameter, const WholeBox& box, std::size_t k) {
     return magnitude(parameter) * box.squared * box.squared <= box.reach[k] * normal_squared;
   };

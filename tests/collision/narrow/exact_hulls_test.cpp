@@ -55,7 +55,7 @@ TEST(ExactHulls, FlatOnesAreRefused) {
   EXPECT_THROW((void)exact_distance(flat, flat), std::invalid_argument);
 }
 
-// The rotation of a quaternion is rounded before this judge sees it.
+// The rotation of a quaternion is rounded before it reaches this judge.
 TEST(ExactHulls, SayOfBoxesWhatTheJudgeOfBoxesSays) {
   BoxPairs make(6);
   for (std::uint64_t k = 0; k < 800; ++k) {

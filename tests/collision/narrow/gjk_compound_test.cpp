@@ -38,7 +38,7 @@ const Compound& ell() {
 }
 
 TEST(GjkCompound, KnowsItsNotch) {
-  // In the notch, which the convex hull of the L would fill.
+  // The ball lies in the notch, which the convex hull of the L would fill.
   const Sphere ball(0.25);
   const Distance d = gjk_phase().distance(ball, {{1.5, 2.5, 0.5}}, ell(), {});
   EXPECT_NEAR(d.distance, 0.25, 1e-15);

@@ -123,7 +123,7 @@ TEST_F(Curved, EllipsoidAndSphere) {
   }
 }
 
-// An ellipsoid with equal axes is a sphere, which gjk knows by its centre: against all the others.
+// An ellipsoid with equal axes is a sphere, whose core in gjk is its centre: against all the others.
 TEST_F(Curved, RoundEllipsoidIsASphere) {
   for (int k = 0; k < 60; ++k) {
     const double ball = uniform(0.1, 1);

@@ -66,7 +66,7 @@ std::string faults(const NarrowPhase& narrow, double tolerance, const HullPairCa
   const Distance d = narrow.distance(*pair.a, pair.at_a, *pair.b, pair.at_b);
   const bool overlap = narrow.overlap(*pair.a, pair.at_a, *pair.b, pair.at_b);
   const double rounding =
-      4e-16 * (pair.at_a.position.norm() + pair.at_b.position.norm() + sizes.larger);  // of the poses
+      4e-16 * (pair.at_a.position.norm() + pair.at_b.position.norm() + sizes.larger);  // rounding of the poses
   const double slack = tolerance * sizes.smaller + rounding;
   Faults faults(pair);
   faults.expect_at_most(double(std::abs(d.distance - exact.distance)), slack, "error of the signed distance");
@@ -107,7 +107,7 @@ class HullJudge : public testing::TestWithParam<NarrowPhaseEntry> {
   }
 };
 
-// Where a pair fails, hull_pair_case gives it again.
+// hull_pair_case makes a pair that fails once more.
 TEST_P(HullJudge, FindsNothingWrong) { judge(1, 500); }
 TEST_P(HullJudge, FindsNothingWrongInManyPairsSlow) { judge(2, 20000); }
 

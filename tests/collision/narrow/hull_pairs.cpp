@@ -62,7 +62,7 @@ Points of_any_kind(PortableRandom& random) {
     case 2: points = of_a_box(random); break;
     case 3: points = of_an_octahedron(); break;
     case 4:
-      points = on_a_sphere(random, n);  // with some inside
+      points = on_a_sphere(random, n);  // some are moved inside
       for (Vector& p : points) p *= random.chance(0.5) ? 1 : random.uniform(0.5, 1);
       break;
     default: points = on_a_sphere(random, n); break;

@@ -10,7 +10,7 @@
 
 namespace polhode {
 
-/// Numbers of up to 1024 bits lie in the object itself; longer ones ask for memory.
+/// Numbers of up to 1024 bits lie in the object itself; longer ones are allocated.
 using Whole =
     boost::multiprecision::number<boost::multiprecision::cpp_int_backend<1024>, boost::multiprecision::et_off>;
 

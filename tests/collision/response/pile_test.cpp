@@ -29,8 +29,8 @@ struct Watch final : Observer {
 
 class Piles : public testing::TestWithParam<int> {};
 
-/// Lines of issue and paper alike: the energy does not rise, nobody leaves or passes through another, nobody is deep in
-/// another.
+/// Lines of issue and paper alike: the energy does not rise, no body leaves or passes through another, and none is deep
+/// in another.
 void drop(int cubes, double t_end) {
   const Pile pile(cubes);
   const auto system = make_system<double>(pile.problem, {});

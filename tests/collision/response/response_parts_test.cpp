@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the responses are made of: the complementarity problem, the cone, the parabola of energy, the batches, the
+// The parts of the responses: the complementarity problem, the cone, the parabola of energy, the batches, the
 // forces of the step before.
 #include <gtest/gtest.h>
 
@@ -197,7 +197,7 @@ TEST(WarmStart, FindsForcesByFeatureThenByPlace) {
 }
 
 TEST(SequentialImpulses, OneIterationIsEnoughAtRest) {
-  // Of a box that has stood for a while, a step with one iteration keeps the forces that many iterations found.
+  // A step with one iteration keeps the forces that many iterations found for a box that has stood for a while.
   SequentialSettings settings;
   settings.in_step = 1;
   const auto response = make_sequential_impulses(settings);

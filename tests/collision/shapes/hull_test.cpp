@@ -63,7 +63,7 @@ void expect_sound(const Polytope& p) {
 TEST(ConvexHull, OfACubeHasSixSquares) {
   Points points = cube(0.5, rotation_matrix(Quaternion<double>(0.3, -0.5, 0.7, 0.2)), {10, -20, 30});
   points.insert(points.begin() + 3, Vector(10, -20, 30));  // inside
-  points.push_back(0.5 * (points[0] + points[1]));         // on an edge
+  points.push_back(0.5 * (points[0] + points[1]));         // a point on an edge
   const ConvexHull hull(points);
   EXPECT_EQ(hull.polytope().vertices.size(), 8u);
   EXPECT_EQ(hull.polytope().faces.size(), 6u);
@@ -86,7 +86,7 @@ TEST(ConvexHull, IsSoundForAnyPoints) {
   }
 }
 
-// A large hull climbs to its support; a small one looks at all vertices. Both find the furthest.
+// A large hull climbs to its support; a small one visits all vertices. Both find the furthest.
 TEST(ConvexHull, SupportIsFurthestHoweverMany) {
   for (const int n : {4, 9, 64, 255, 257, 3000}) {
     const Points points = on_sphere(n, 5);

@@ -98,7 +98,7 @@ TEST(LagrangeTop, ConservesItsMomentaAndItsEnergy) {
   }
 }
 
-// Where the motion is not delicate: to start again in its midst is to go on.
+// A motion that is not delicate goes on in the same way if it starts again in its midst.
 TEST(LagrangeTop, GoesOnFromWhereItIs) {
   for (const Row& row : reference_rows()) {
     if (row.name.starts_with("sleeping 2") || row.name.starts_with("pendulum near")) continue;

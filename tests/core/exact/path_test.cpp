@@ -88,7 +88,7 @@ TEST(KeplerMotion, FallsOnALineAndBounces) {
   EXPECT_NEAR(motion.eccentricity(), 1, 1e-15);
 }
 
-// So close to the parabola, and so far out, that the angle of a hyperbola would overflow.
+// Orbits so close to the parabola, and so far out, that the angle of a hyperbola would overflow.
 TEST(KeplerMotion, FliesAnyDistance) {
   const Vector v(3, 0, 0);
   EXPECT_LE((KeplerMotion(1e-6, {0, 1, 0}, v).at(1e12).velocity - v).norm(), 1e-5);

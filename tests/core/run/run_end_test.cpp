@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a run ends that does not come to its end: by what is thrown in a step, by too many steps, by a request to stop.
+// Ends of runs that do not come to their end: by an exception in a step, by too many steps, by a request to stop.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -12,7 +12,7 @@
 namespace polhode::run_end_test {
 namespace {
 
-/// Moves nothing, and does in each step what it is told; chooses its steps as 1 ms.
+/// Moves nothing. It calls `in_step`, which the test sets, in each step; its steps are 1 ms at most.
 class Scripted final : public Integrator<double> {
  public:
   std::function<void(State<double>&, int)> in_step = [](State<double>&, int) {};

@@ -35,7 +35,7 @@ TEST(SoftJoints, PenaltyLeavesAShareOfTheAcceleration) {
   EXPECT_NEAR(upward_acceleration(one, treated(Stabilization::baumgarte, 5, 7), 0), wanted, 1e-12);
 }
 
-// What is left falls as 1/a.
+// The gaps that are left fall as 1/a.
 TEST(SoftJoints, PenaltyIsOfFirstOrderInItsInverse) {
   const Problem rods = laws::hanging_rods({1, 4, 2}, {0, 0, 0}, {0, 0, 0});
   const double at_1e4 = upward_acceleration(rods, treated(Stabilization::penalty, 0, 0, 1e4), 2);
@@ -44,7 +44,7 @@ TEST(SoftJoints, PenaltyIsOfFirstOrderInItsInverse) {
   EXPECT_LT(at_1e4, -1e-5);
 }
 
-// Two equal joints in one place have one redundant row each: no rank is asked for, and each carries a half.
+// Two equal joints in one place have one redundant row each: no rank is computed, and each carries a half.
 TEST(SoftJoints, DependentJointsShareTheLoad) {
   Problem twice = laws::hanging_rods({2}, {0}, {0});
   twice.joints.push_back(twice.joints.front());

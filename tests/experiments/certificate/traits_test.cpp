@@ -164,7 +164,7 @@ TEST(Certificate, AWrongDeclarationDoesNotHold) {
     d.conserves_energy = d.conserves_momentum = d.conserves_casimir = true;
   });
   for (const auto& [trait, finding] : wrong) {
-    if (trait == "energy_forced") continue;  // of which nothing is declared
+    if (trait == "energy_forced") continue;  // nothing is declared of it
     EXPECT_EQ(finding.verdict, TraitVerdict::does_not_hold) << trait << ": " << finding.note;
   }
 }

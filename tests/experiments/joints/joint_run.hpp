@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run of a jointed problem, with what its tests look at: the end, the ledger and the gaps of the joints.
+// A run of a jointed problem, with the results that its tests read: the end, the ledger and the gaps of the joints.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -102,7 +102,7 @@ TEST(RollingWheel, SteadyTurnStaysOne) {
       SCOPED_TRACE(testing::Message() << theta << " rad, " << turn << " rad/s");
       const double s = std::sin(theta), c = std::cos(theta);
       const double spin = (0.25 * turn * turn * s * c - pull * c) / (1.5 * turn * s);
-      const Vector axis(s, 0, c), up(-c, 0, s);  // from the contact point to the centre
+      const Vector axis(s, 0, c), up(-c, 0, s);  // `up` is from the contact point to the centre
       const Problem problem = wheel_with(Wheel::disk, {0, 0, s}, {std::cos(theta / 2), 0, std::sin(theta / 2), 0}, up,
                                          spin * axis + turn * s * up);
       const double t = 3, radius = -spin / turn;

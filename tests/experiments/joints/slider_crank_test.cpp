@@ -31,8 +31,8 @@ struct CrankAngle {
     const long double azimuth = (uy * duz - uz * duy) / (uy * uy + uz * uz), spin = azimuth * ux;
     inertia = 1e-4L + 0.12L * centre * centre * crank * crank  // the crank
               + 0.5L * (dx * dx + dy * dy + dz * dz) / 4       // the rod, its centre
-              + 4e-3L * (dux * dux + duy * duy + duz * duz)    // across its line
-              + 4e-4L * spin * spin                            // about its line
+              + 4e-3L * (dux * dux + duy * duy + duz * duz)    // the rod's turn across its line
+              + 4e-4L * spin * spin                            // the rod's turn about its line
               + 2.0L * dx * dx;                                // the slider
     height = 0.12L * centre * crank * c + 0.5L * z / 2;
   }

@@ -52,7 +52,7 @@ TEST(Followed, WithoutAKnownMotionTheEnergyIsAskedToo) {
   EXPECT_EQ(what_is_lost(run, 1), Lost::nothing);
   run.result.energy_drift_max_rel = 0.11;
   EXPECT_EQ(what_is_lost(run, 1), Lost::energy);
-  run.result.attitude_reference = 1e-12;  // rad; an error of less than a hundred times that is left out
+  run.result.attitude_reference = 1e-12;  // uncertainty, rad; an error of less than a hundred times that is left out
   EXPECT_TRUE(has_known_motion(run));
   EXPECT_EQ(what_is_lost(run, 1), Lost::nothing);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What becomes of a lone verdict on made-up scans.
+// The treatment of a lone verdict on made-up scans.
 #include "experiments/stability/step_ladder.hpp"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ MadeUpScan scan_of(const std::vector<double>& steps, const std::function<double(
 }
 
 TEST(StepLadder, ALoneGainIsRunAgainForLongerBeforeItDecides) {
-  // Of the step 0.04 a swing of the energy that lasts longer than 40 s looks like a gain.
+  // A swing of the energy that lasts longer than 40 s looks like a gain at the step 0.04.
   auto scan =
       scan_of({0.01, 0.02, 0.04, 0.08}, [](double dt, double t_end) { return dt == 0.04 && t_end < 100 ? 0.5 : 0.0; });
   EXPECT_EQ(scan.ladder().growth().kind, CriticalStep::Kind::found);

@@ -111,7 +111,7 @@ TEST(RunTimes, WhatIsLeftGoesOnAsTheSecondHalfDid) {
 
 TEST(RunTimes, OfFallingBodiesAreBetweenThoseSeenAndThoseAtRest) {
   EXPECT_DOUBLE_EQ(time_of_falling(1, 4), 2);
-  EXPECT_DOUBLE_EQ(time_of_falling(4, 1), 4);  // it has seen worse than rest
+  EXPECT_DOUBLE_EQ(time_of_falling(4, 1), 4);  // the fall took longer than rest would
 }
 
 TEST(RunTimes, OfWorkersThatTakeOneRunAfterTheOther) {

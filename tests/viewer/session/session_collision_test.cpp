@@ -63,7 +63,7 @@ TEST(SessionCollision, PausesAtTheStep) {
   }
 }
 
-// Pausing looks with a scene of its own: the motion is the one that nobody looked at.
+// A scene of its own searches for the pause: the motion is the same without it.
 TEST(SessionCollision, PausingChangesNoMotion) {
   for (const char* scenario : {"pile_10", "two_cubes"}) {
     const Configuration c = with(scenario, "semi_implicit_euler", 1e-2, 1.5);

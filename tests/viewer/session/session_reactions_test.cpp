@@ -90,7 +90,7 @@ TEST_P(ReactionsOf, AreThoseThatStudiesRecord) {
   expect_forces(seen(*live), &run.forces[14]);
 }
 
-// With this method they are not those of the state: which are shown can be told.
+// The reactions of this method are not those of the state: the test can tell which are shown.
 TEST(SessionReactions, OfATrajectoryAloneFollowFromItsStates) {
   const PendulumRun run("rattle");
   std::filesystem::remove(run.folder.path() / "reactions.csv");

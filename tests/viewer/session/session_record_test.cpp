@@ -103,7 +103,7 @@ TEST_P(Recorded, RunsAgainToTheSameBytes) {
   }
 }
 
-// What stands in the file after each command is enough to come to the state after it.
+// The content of the file after each command is enough to come to the state after it.
 TEST(SessionRecord, NothingIsLostWhereItIsKilled) {
   const TemporaryFolder folder;
   const auto session = open("peters_hsu", with("peters_hsu", "rk4", 0.01, 10), folder.path());

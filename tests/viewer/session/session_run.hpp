@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of sessions share: configurations by name, and time that passes as a test has it.
+// The common parts of the tests of sessions: configurations by name, and time that passes as a test has it.
 #pragma once
 
 #include <gtest/gtest.h>

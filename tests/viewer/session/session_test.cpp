@@ -208,7 +208,7 @@ TEST(Session, KeepsABoundedNumberOfPoints) {
   for (std::size_t k = 1; k < view->plot.size(); ++k) EXPECT_NEAR(view->plot[k].t - view->plot[k - 1].t, spacing, 1e-9);
 }
 
-// What it is does not depend on the formulation in which it is kept.
+// The motion does not depend on the formulation in which it is kept.
 TEST(Session, ChangesItsFormulationWhileItRuns) {
   for (const char* scenario : {"peters_hsu", "five_cubes", "lagrange_top"}) {
     const auto session = open(scenario, with(scenario, "rk4", 1e-3, 10));

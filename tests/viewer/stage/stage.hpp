@@ -20,7 +20,7 @@ namespace polhode::viewer {
 
 inline study::Surface cube_surface(double edge) { return study::surface_of(Box(Vector3<double>::Constant(edge / 2))); }
 
-/// Moving cubes of edge 0.4 m, as many as asked for.
+/// Moving cubes of edge 0.4 m, as many as requested.
 inline study::Scene cubes(std::size_t count) {
   study::Scene scene;
   scene.surfaces.push_back(cube_surface(0.4));

@@ -19,8 +19,8 @@
 namespace polhode::study::inline report::inline answer {
 namespace {
 
-constexpr std::size_t most_rows = 5;  // so that text, table and figure fit on a screen
-constexpr double tie = 1.2;           // largest ratio of two costs that are told to be equal
+constexpr std::size_t most_rows = 5;  // number of rows with which text, table and figure fit on a screen
+constexpr double tie = 1.2;           // largest ratio of two costs that count as equal
 constexpr double far_off = 10;        // an error so many times the target is far from it
 /// Decades of the error for which an answer is given, the most usual first.
 constexpr std::array decades = {-3, -2, -4, -1, -5, -6, -7, -8, -9, -10};

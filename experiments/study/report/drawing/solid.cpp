@@ -103,7 +103,7 @@ Piece piece_of(const Surface& surface, std::size_t first, std::size_t end) {
   return piece;
 }
 
-/// The segments in which a plane x_k = height cuts the curved triangles that look at the viewer, joined to lines.
+/// The segments in which a plane x_k = height cuts the curved triangles that face the viewer, joined to lines.
 std::vector<SeenPiece::Line> rings_of(const Piece& piece, const std::vector<bool>& front, int k, double height) {
   std::map<Edge, Vector3<double>> cuts;  // cuts of the edges, from < to
   std::map<Edge, std::vector<Edge>> joined;

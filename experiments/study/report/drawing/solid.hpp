@@ -41,7 +41,7 @@ struct SeenPiece {
     Vector3<double> normal = Vector3<double>::Zero();
   };
   std::vector<Line> outlines;  ///< closed
-  std::vector<Face> faces;     ///< flat faces that look at the viewer
+  std::vector<Face> faces;     ///< flat faces towards the viewer
   std::vector<Line> rings;     ///< curves on the rest of the surface, in planes through the middle along the body axes
   std::vector<Vector3<double>> points;
   std::vector<std::pair<Vector3<double>, double>> planes;  ///< outward normal and offset (m) of each flat face

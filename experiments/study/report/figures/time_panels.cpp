@@ -107,7 +107,7 @@ std::vector<std::vector<Panel>> panels_against_time(const Selection& selection, 
   const auto blocks = selection.blocks([](const Curve&) { return true; });
   std::vector<std::vector<Panel>> rows;
   for (const auto& block : blocks) {
-    const std::size_t columns = columns_of(block);  // of fewer steps than the other blocks none stands twice
+    const std::size_t columns = columns_of(block);  // a block of fewer steps than the others shows none twice
     std::vector<Panel> row;
     for (std::size_t c = 0; c < columns; ++c) {
       const double fraction = columns == 1 ? 0 : static_cast<double>(c) / static_cast<double>(columns - 1);

@@ -67,7 +67,7 @@ TEST(ReportCurves, LeaveOutOfASlopeTheFloorThatRoundingMakes) {
     study.runs.push_back(fake_run({.method = "rk4"}, "top", steps[i]));
     study.runs.back().result.energy_drift_max_rel = drifts[i];
   }
-  // What is less than ten times the floor has rounding in it.
+  // Errors of less than ten times the floor have rounding in them.
   const auto order = observed_order(group(study).curves.front(), quantity::energy_drift());
   ASSERT_TRUE(told_line(order));
   EXPECT_EQ(order.points, 3U);

@@ -135,7 +135,7 @@ Drift drift(const std::string& kind, Chance& chance) {
     d.clear = above > 100 && d.samples >= 64;
     return d;
   }
-  // What grows, with an oscillation of up to ten times its size.
+  // Growth with an oscillation of up to ten times its size.
   const bool alone = chance.one_in(3);
   const double periods = chance.logarithmic(2, most_periods), share = alone ? 0 : chance.logarithmic(0.01, 10);
   const auto beside = oscillation(chance, periods);
@@ -257,7 +257,7 @@ TEST(DriftClass, OfAFewPeriodsHasTheDurationOfSix) {
 TEST(DriftClass, OfOneJumpAtAnImpactIsThatAndNoRandomWalk) {
   const auto jump = [](double s) { return s > 0.31 ? 1e-3 : 0; };
   EXPECT_EQ(classify(record_of(jump, 1e-12, {0.31})).name, "jumps");
-  // Between its impacts it changes too: neither is told.
+  // The drift changes between its impacts too: neither class is decided.
   const auto both = [&](double s) { return jump(s) + 1e-3 * s; };
   EXPECT_EQ(classify(record_of(both, 1e-12, {0.31})).name, "undecided");
   // The same without an impact has come to rest; several are no walk.

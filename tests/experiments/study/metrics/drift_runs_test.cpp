@@ -68,7 +68,7 @@ TEST(DriftOfRuns, OfAFallIsRoundOffForWhatIsExactThere) {
   }
   for (const double dt : {5e-4, 1e-3, 2e-3})
     EXPECT_EQ(result_on("peters_hsu", "rk4", dt).drift_class, "round-off") << dt;
-  // Three turns of the box do not tell RK4's loss from its oscillation.
+  // RK4's loss does not show beside its oscillation in three turns of the box.
   const RunResult r = result_on("peters_hsu", "rk4", 2e-2);
   EXPECT_EQ(r.drift_class, "undecided");
   ASSERT_TRUE(r.drift_decided_after);

@@ -28,7 +28,7 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// The same motion told in other axes: x' = R x + shift for every body, anchor and force.
+/// The same motion in other axes: x' = R x + shift for every body, anchor and force.
 Scenario retold(Scenario scenario, const Vector& shift, const Quaternion<double>& turn) {
   const Matrix3<double> r = rotation_matrix(turn);
   for (BodyStart& start : scenario.problem.starts) {
@@ -239,7 +239,7 @@ TEST(Origin, ARodLetGoHorizontallyIsNotDiverged) {
   }
 }
 
-/// Where nothing moves there is nothing that a drift could be relative to.
+/// A drift has no scale where nothing moves.
 TEST(Origin, ABodyAtRestHasNoRelativeDrift) {
   const Scenario scenario =
       ScenarioSource::parse("t_end = 1\n[[body]]\nmass = 1\ninertia = [1, 2, 3]\nposition = [1, 2, 3]\n", "rest.toml")

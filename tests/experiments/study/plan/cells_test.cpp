@@ -122,8 +122,8 @@ TEST(Cells, FurtherPointsAndKeysChangeNone) {
 }
 
 TEST(Cells, OnlyOptionsThatSayItDecideWhetherOthersApply) {
-  // From each of many configurations, each other value of an option that does not decide leaves all the others as they
-  // apply.
+  // Each other value of an option that does not decide leaves all the others as they apply, from each of many
+  // configurations.
   const Scenario contact = ScenarioSource::open("two_cubes").resolve();
   for (const char* method : {"rk4", "cvode_adams", "arkode_erk"}) {
     for (const char* orientation : {"quaternion", "matrix"}) {

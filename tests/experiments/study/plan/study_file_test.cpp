@@ -94,7 +94,7 @@ TEST_F(StudyFiles, AGlanceReadsFewerScenariosOfManyBodies) {
   EXPECT_LT(of_hundred, 1'100u);
 }
 
-// Where a varied key changes the default of an option, the configuration of a run is made with its scenario.
+// The configuration of a run is made with its scenario where a varied key changes the default of an option.
 TEST_F(StudyFiles, ConfigurationsAreThoseOfTheRuns) {
   const auto expect_those_of_the_runs = [](const Plan& plan, std::size_t with_own_presets) {
     std::size_t own = 0;
@@ -192,7 +192,7 @@ TEST_F(StudyFiles, WhereLeavesOutCells) {
   // Cells that could not be made are left out before they are.
   EXPECT_THAT(error_of({"--vary", "body.0.inertia.1=0.7,9"}), HasSubstr("triangle"));
   EXPECT_EQ(planned({"--vary", "body.0.inertia.1=0.7,9", "--where", "body.0.inertia.1 < 1"}).size(), 1U);
-  // What the study does not vary is as in the scenario, and t_end may be a key of it.
+  // Keys that the study does not vary are as in the scenario, and t_end may be a key of it.
   EXPECT_EQ(planned({"--where", "t_end == 10 and body.0.inertia.1 > 0 and integrator == 'rk4'"}).size(), 1U);
   EXPECT_EQ(planned({"--vary", "t_end=1,2,3", "--where", "t_end < 2.5"}).size(), 2U);
   EXPECT_EQ(planned({"--vary", "body.0.velocity=[0,0,1];[1,0,0]", "--where", "body.0.velocity.2 == 1"}).size(), 1U);

@@ -57,7 +57,7 @@ inline std::string unbalanced(const std::string& page) {
       tag += static_cast<char>(std::tolower(static_cast<unsigned char>(page[i])));
     }
     if (tag.empty()) return "a stray < at " + page.substr(at, 40);
-    if (no_end.contains(tag) || page[page.find('>', at) - 1] == '/') continue;  // of a drawing: <path/>
+    if (no_end.contains(tag) || page[page.find('>', at) - 1] == '/') continue;  // elements of a drawing: <path/>
     if (!closes) {
       open.push_back(tag);
       if (tag == "style") at = page.find("</style>", at) - 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run makes of faults: of exceptions its own failure, of numbers that are none empty places.
+// The effects of faults on a run: an exception is its own failure, a number that is none an empty place.
 #include <gtest/gtest.h>
 
 #include <array>

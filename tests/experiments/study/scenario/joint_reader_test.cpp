@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is read from the joints of a scenario, what is refused, and what `assemble` moves.
+// The reader of joints in a scenario: what it reads, what it refuses, and what `assemble` moves.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

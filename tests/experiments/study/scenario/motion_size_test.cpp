@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far a motion goes, against closed forms.
+// The extent of a motion, against closed forms.
 #include "experiments/study/scenario/motion_size.hpp"
 
 #include <gtest/gtest.h>

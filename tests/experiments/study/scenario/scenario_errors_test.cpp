@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is refused in a scenario: line, column, key and words of the message.
+// Errors in a scenario that are refused: line, column, key and words of the message.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

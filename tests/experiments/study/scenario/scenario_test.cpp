@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is read from a scenario.
+// The contents of a scenario as they are read.
 #include "experiments/study/scenario/scenario.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is drawn of a scenario: surfaces of every shape of the catalogue, boxes that stand for an inertia, floors,
+// The drawing of a scenario: surfaces of every shape of the catalogue, boxes that stand for an inertia, floors,
 // springs.
 #include "experiments/study/scene/scene.hpp"
 

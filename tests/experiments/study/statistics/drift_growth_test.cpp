@@ -79,7 +79,7 @@ void run(const Law& law, int seed, Counts& counts) {
                                  .impacts = {}});
   counts.decided += c.name != "undecided";
   counts.right += c.name == law.expected;
-  // Of what stays bounded the exponent is that of its noise, below 0.
+  // The exponent of a bounded drift is that of its noise, below 0.
   counts.exponent_covered += std::max(growth->low, 0.0) <= law.exponent && law.exponent <= growth->high;
   counts.slope_covered += std::abs(slope - law.slope / t_end) <= growth->slope_half_width_95;
   counts.width += (growth->high - growth->low) / 2 / seeds;
@@ -167,7 +167,7 @@ void expect_the_same(const DriftGrowth& a, const DriftGrowth& b) {
   EXPECT_EQ(a.misfit, b.misfit);
 }
 
-/// What is kept of the times of the blocks from one series to the next changes no digit.
+/// The times of the blocks that are kept from one series to the next change no digit.
 TEST(Drift, IsTheSameAfterOtherSeries) {
   constexpr int times = 24;  // more than are kept
   std::vector<DriftGrowth> alone;

@@ -194,7 +194,7 @@ TEST(OrderEstimate, ThatScattersDecidesNothing) {
   EXPECT_EQ(order_verdict(e, 2), OrderVerdict::scattered);
   EXPECT_EQ(order_verdict(e, 6), OrderVerdict::scattered);
 
-  // An interval that reaches beyond what tells declared from not declared.
+  // An interval that reaches beyond the limit between declared and not declared.
   OrderEstimate near;
   near.line = OrderEstimate::Line{2.3, 0.1, 0.4};
   EXPECT_EQ(order_verdict(near, 2), OrderVerdict::scattered);

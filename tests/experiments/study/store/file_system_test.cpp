@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which file systems are network file systems, by the numbers that statfs gives.
+// Network file systems are recognised by the numbers that statfs gives.
 #include "experiments/study/store/file_system.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lock on a folder of results: one program has it, and the others are told which.
+// The lock on a folder of results: one program has it, and the others report which.
 #include "experiments/study/store/folder_lock.hpp"
 
 #include <fcntl.h>

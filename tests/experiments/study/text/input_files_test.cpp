@@ -97,7 +97,7 @@ TEST_F(InputFiles, ATextIsReadToItsLimit) {
 }
 
 TEST_F(InputFiles, APipeIsReadToItsEndOrItsLimit) {
-  const auto before = std::signal(SIGPIPE, SIG_IGN);  // which the writer gets when nobody reads on
+  const auto before = std::signal(SIGPIPE, SIG_IGN);  // the writer gets it when no reader is left
   const std::string pipe = path("pipe");
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   for (const bool endless : {false, true}) {

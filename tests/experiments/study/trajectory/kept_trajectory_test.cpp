@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is left of a trajectory: cut, damaged and incomplete files, and that the bytes do not depend on when blocks end.
+// The rest of a trajectory: cut, damaged and incomplete files, and that the bytes do not depend on when blocks end.
 #include "experiments/study/trajectory/kept_trajectory.hpp"
 
 #include <gmock/gmock.h>
@@ -171,7 +171,7 @@ TEST_F(KeptTrajectories, InHdf5ThatAreCutAreNotWholeAndOtherDamageIsSurvived) {
   fs::remove(path);
   for (int trial = 0; trial < 300; ++trial) {
     std::string bytes = whole;
-    const std::size_t most = trial % 2 == 0 ? bytes.size() : 6000;  // what is not numbers is at the start
+    const std::size_t most = trial % 2 == 0 ? bytes.size() : 6000;  // the parts that are no numbers are at the start
     for (int k = 0; k < 1 + trial % 16; ++k) bytes[random() % most] = static_cast<char>(random() % 256);
     put(unfinished(path), bytes);
     ASSERT_LE(kept(TrajectoryFormat::hdf5).instants, 1001u);

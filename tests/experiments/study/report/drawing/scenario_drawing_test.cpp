@@ -97,7 +97,7 @@ TEST(ScenarioDrawing, AnArrowAlongTheLineOfSightIsACircle) {
 TEST(View, IsAParallelProjectionWithItsUpUpwards) {
   for (const Vector& up : {Vector(0, 0, 1), Vector(0, 1, 0), Vector(-3, 0.1, 0), Vector(1, 1, 1)}) {
     const View view(up);
-    double squares = 0;  // of a parallel projection along a unit vector those of the axes add up to two
+    double squares = 0;  // sum over the axes, which is 2 for a parallel projection along a unit vector
     for (int k = 0; k < 3; ++k) squares += view.direction(Vector::Unit(k)).squaredNorm();
     EXPECT_NEAR(squares, 2, 1e-12);
     EXPECT_LT(view.direction(up).y(), 0);
@@ -133,7 +133,7 @@ TEST(Pieces, TheOutlineOfASphereIsACircle) {
 
 TEST(PaintingOrder, WhatStandsOnASlabIsPaintedAfterIt) {
   const auto slab = pieces_of(surface_of(Box({10, 10, 0.1}))), cube = pieces_of(surface_of(Box({1, 1, 1})));
-  // At the far end of the slab: its middle is further from the viewer than that of the slab.
+  // A place at the far end of the slab: its middle is further from the viewer than that of the slab.
   const Vector away(-9 * from_above.toward()[0], -9 * from_above.toward()[1], 1.1);
   const std::vector<SeenPiece> pieces = {seen(cube[0], {away, Matrix3<double>::Identity()}, from_above, false),
                                          seen(slab[0], {}, from_above, false)};

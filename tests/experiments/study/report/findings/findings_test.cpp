@@ -49,7 +49,7 @@ TEST(ReportFindings, SayWhyTheDataDoNotTellAnOrder) {
     EXPECT_EQ(about(method, errors).find("the attitude error falls more slowly"), std::string::npos)
         << about(method, errors);
   }
-  // Of what does fall more slowly it is still said.
+  // A slower fall is still reported.
   EXPECT_NE(about("rk4", {1e-6, 4e-6, 1.6e-5, 6.4e-5, 2.56e-4})
                 .find("falls more slowly than the declared order for rk4 (2.00 over 5 points"),
             std::string::npos);

@@ -78,7 +78,7 @@ TEST(CompactSvg, MakesTheMarkersOfACurveOnePath) {
                      "transform='scale(3.87)' fill='none' color='#009e73'/></marker>"),
             std::string::npos)
       << all;
-  EXPECT_NE(all.find("id='gpPt5'"), std::string::npos);  // which gpPt6 is made of
+  EXPECT_NE(all.find("id='gpPt5'"), std::string::npos);  // gpPt6 is made of it
   EXPECT_EQ(all.find("gpDot"), std::string::npos);
 }
 
