@@ -32,6 +32,8 @@ class Readmes:
     def __init__(self, root):
         self.root = root
         self.pages = dict(PAGES)
+        self.written = {page.relative_to(root).as_posix(): page.relative_to(root / "guide").with_suffix("").as_posix()
+                        for page in (root / "guide").rglob("*.md") if page.name != "README.md"}
         for folder, room in (("experiments", "experiments"), ("papers", "papers")):
             for readme in sorted((root / folder).glob("*/README.md")):
                 self.pages.setdefault(readme.relative_to(root).as_posix(), f"{room}/{readme.parent.name}")
@@ -52,7 +54,7 @@ class Readmes:
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(self.root / there, copy)
             return f"{bang}[{label}]({os.path.relpath('pictures/' + there, here)})"
-        to = MOVED.get((there, anchor)) or self.pages.get(there)
+        to = MOVED.get((there, anchor)) or self.pages.get(there) or self.written.get(there)
         if to is None or to == page and not anchor:
             return label if label.strip("`") == there or there in label else f"{label} (`{there}`)"
         to_file = os.path.relpath(to + ".md", here)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Carries out the recipes that the README gives for a force and a shape, on copies of the files that they name, and lists
-the method of tests/recipes/two_stage.cpp.
+"""Carries out the recipes that the README gives for a force and a shape, and the guide for a joint, on copies of the files that
+they name, and lists the method of tests/recipes/two_stage.cpp.
 
 carry_out.py CHECKOUT FOLDER: FOLDER then has the new files and the changed copies, by their paths in the checkout.
 """
@@ -20,7 +20,7 @@ def section(readme, heading):
 def one(what, pattern, text, flags=0):
     found = re.findall(pattern, text, flags)
     if len(found) != 1:
-        raise SystemExit(f"README.md: {what} stands there {len(found)} times, not once")
+        raise SystemExit(f"README.md or guide/own/joint.md: {what} stands there {len(found)} times, not once")
     return found[0]
 
 
@@ -47,6 +47,8 @@ class Copies:
         copied = self.folder / name
         text = (copied if copied in self.begun else self.checkout / name).read_text(encoding="utf-8")
         self.begun.add(copied)
+        if lines.strip() in text:  # in the checkout of a reader who follows the recipe
+            return self.write(name, text)
         found = re.search(behind, text)
         if not found:
             raise SystemExit(f"{name}: nowhere to add {lines.strip()}")
@@ -73,6 +75,13 @@ def main():
     line = one("the shape's line", r"`(SHAPE\(.*?\))`", shape)
     copies.add("collision/shapes/shape_catalogue.cpp", r"#define POLHODE_SHAPES\(SHAPE\) \\\n", f"  {line} \\\n")
     copies.add("tests/laws/shape_law_test.cpp", samples, sample)
+
+    joint = (checkout / "guide/own/joint.md").read_text(encoding="utf-8")
+    copies.write(one("the joint's file", r"Save it as `(\S+)`", joint),
+                 one("the joint's block of C++", r"^```cpp\n(.*?)^```$", joint, re.DOTALL | re.MULTILINE))
+    catalogue = "core/joints/catalogue.cpp"
+    copies.add(catalogue, r'#include "core/joints/catalogue.hpp"\n', one("the include", r"`(#include .*?)`", joint) + "\n")
+    copies.add(catalogue, r"entries = {\n", one("the entry", r"`(joint_entry<.*?>\(\),)`", joint) + "\n")
 
     copies.add("integrators/catalogue.cpp", r"#define POLHODE_INTEGRATORS\(METHOD\) \\\n", "  METHOD(two_stage) \\\n")
 

@@ -10,6 +10,7 @@
 
 #include "collision/shapes/shape_catalogue.hpp"
 #include "core/forces/catalogue.hpp"
+#include "core/joints/catalogue.hpp"
 #include "core/system/invariants.hpp"
 #include "experiments/study/scenario/builtin_scenarios.hpp"
 #include "experiments/study/scenario/scenario.hpp"
@@ -33,6 +34,10 @@ TEST(ScenarioReadme, NamesEveryKey) {
   for (const ScenarioKey& key : root_keys()) expect_named(key.name);
   for (const ScenarioKey& key : body_keys()) expect_named(key.name);
   for (const ForceEntry& entry : force_catalogue()) {
+    expect_named(entry.kind.name);
+    for (const Parameter& p : entry.kind.parameters) expect_named(p.key);
+  }
+  for (const JointEntry& entry : joint_catalogue()) {
     expect_named(entry.kind.name);
     for (const Parameter& p : entry.kind.parameters) expect_named(p.key);
   }
