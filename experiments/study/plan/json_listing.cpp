@@ -188,10 +188,14 @@ Json metric_in_json(const Metric& m) {
 }
 
 Json option_in_json(const RunOption& o) {
-  return {{"option", "--" + o.name},  {"file_key", file_key(o)},
-          {"values", o.values},       {"help", o.help},
-          {"unit", o.unit},           {"column", o.column},
-          {"on_demand", o.on_demand}, {"known", o.known ? Json(o.known()) : Json(nullptr)}};
+  return {{"option", "--" + o.name},
+          {"file_key", file_key(o)},
+          {"values", values_in_studies(o)},
+          {"help", o.help},
+          {"unit", o.unit},
+          {"column", o.column},
+          {"on_demand", o.on_demand},
+          {"known", o.known ? Json(o.known()) : Json(nullptr)}};
 }
 
 }  // namespace

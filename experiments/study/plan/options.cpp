@@ -173,7 +173,7 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
           jointed == experiment.with_joints.defaults.end() ? "" : "; with methods of joints alone: " + jointed->second);
     line.add_function(
             "--" + axis.name, [&given, name = axis.name](const std::string& text) { given[name] = text; }, meaning)
-        .type_name(axis.values)
+        .type_name(values_in_studies(axis))
         .group("Axes");
   }
   std::vector<std::string> vary;

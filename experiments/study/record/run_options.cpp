@@ -128,7 +128,7 @@ std::vector<RunOption> options_of_motion() {
   scenario.set = [](RunConfig& c, const OptionValue& said) { c.scenario = std::get<std::string>(said); };
   RunOption integrator{.name = "integrator",
                        .values = "NAME",
-                       .help = "method, or all (see --list integrators)",
+                       .help = "method (see --list integrators)",
                        .role = Role::method,
                        .takes_all = true,
                        .column = "integrator",
@@ -450,8 +450,7 @@ std::vector<RunOption> options_of_joints() {
 std::vector<RunOption> options_of_contact() {
   return {contact<BroadPhaseEntry>({.name = "broad-phase",
                                     .values = "NAME",
-                                    .help = "broad phase of scenarios with contact, a list or all (default: "
-                                            "sweep_and_prune)",
+                                    .help = "broad phase of scenarios with contact (default: sweep_and_prune)",
                                     .column = "broad_phase",
                                     .header = "broad phase",
                                     .preset = always("sweep_and_prune")},
@@ -582,6 +581,8 @@ std::string file_key(const RunOption& option) {
   std::replace(key.begin(), key.end(), '-', '_');
   return key;
 }
+
+std::string values_in_studies(const RunOption& option) { return option.values + (option.takes_all ? "|all" : ""); }
 
 std::string summary_of(const Declaration& method) {
   std::string text = method.summary;

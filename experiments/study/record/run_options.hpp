@@ -94,6 +94,9 @@ class AddedRunOption {
 /// Name of an option in files: "angular_state".
 std::string file_key(const RunOption& option);
 
+/// The values as shown after the name in the help of a study, where "all" may stand for all names: "NAME|all".
+std::string values_in_studies(const RunOption& option);
+
 /// The summary of a method with the options of its settings: "…, or --order 2 to 8".
 std::string summary_of(const Declaration& method);
 
