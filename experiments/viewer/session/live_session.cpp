@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "experiments/study/setup/run_setup.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/viewer/session/segment_run.hpp"
 #include "experiments/viewer/session/state_conversion.hpp"
@@ -234,7 +235,7 @@ void LiveSession::leave_the_past() {
 void LiveSession::fork_from(Kept origin, const Configuration& configuration) {
   write_steps();
   const SegmentStart from = origin.place;
-  const Formulation& formulation = configuration.run.formulation;
+  const Formulation formulation = study::formulation_of(configuration.run);
   origin.state = converted(memory_.system(origin.formulation), origin.state, memory_.system(formulation));
   origin.formulation = formulation;
   origin.place = {++segment_number_, 0};
@@ -245,7 +246,7 @@ void LiveSession::fork_from(Kept origin, const Configuration& configuration) {
 
 void LiveSession::begin_again() {
   write_steps();
-  const Formulation& formulation = configuration_.run.formulation;
+  const Formulation formulation = study::formulation_of(configuration_.run);
   const System<double>& system = memory_.system(formulation);
   const State<double> start = system.start();
   const Sample sample{start.t, system.measure(start.y), 0, 0};

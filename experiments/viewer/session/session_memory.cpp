@@ -27,7 +27,9 @@ SessionMemory::SessionMemory(const study::Scenario& scenario, std::size_t bytes)
     : scenario_(scenario), capacity_(states_in(bytes, scenario.problem)), history_(capacity_), plot_(most_plotted) {}
 
 const System<double>& SessionMemory::system(const Formulation& f) {
-  auto& made = systems_[{f.orientation, f.angular_state, f.gyroscopic, f.rotation_from}];
+  const JointTreatment& j = f.joints;
+  auto& made = systems_[{f.orientation, f.angular_state, f.gyroscopic, f.rotation_from, j.stabilization, j.alpha,
+                         j.beta, j.penalty, j.metric}];
   if (!made) made = make_system<double>(scenario_.problem, f);
   return *made;
 }

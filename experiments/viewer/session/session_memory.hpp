@@ -64,7 +64,11 @@ class SessionMemory {
   TracePoint trace_point(const Kept& kept, std::size_t body);
 
   const study::Scenario& scenario_;
-  std::map<std::tuple<Orientation, AngularState, bool, RotationFrom>, std::unique_ptr<System<double>>> systems_;
+  /// By formulation: its members, and those of its treatment of joints.
+  std::map<std::tuple<Orientation, AngularState, bool, RotationFrom, Stabilization, double, double, double,
+                      ProjectionMetric>,
+           std::unique_ptr<System<double>>>
+      systems_;
   std::size_t capacity_;
   Thinned<Kept> history_;
   Thinned<PlotPoint> plot_;

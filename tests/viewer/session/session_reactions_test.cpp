@@ -54,7 +54,9 @@ struct PendulumRun {
   Configuration configuration;
   std::vector<Vector3<double>> forces;
 
-  explicit PendulumRun(const std::string& method) : configuration(with("double_pendulum", method, dt, steps * dt)) {
+  explicit PendulumRun(const std::string& method, Stabilization stabilization = Stabilization::none)
+      : configuration(with("double_pendulum", method, dt, steps * dt)) {
+    configuration.run.joints->stabilization = stabilization;
     const study::Scenario scenario = scenario_of("double_pendulum");
     study::carry_out(configuration.run, scenario, {study::TrajectoryFormat::csv, folder.path()}, nullptr);
     study::finish_trajectories(study::TrajectoryFormat::csv, {folder.path()});
@@ -72,12 +74,17 @@ void expect_forces(const std::vector<FrameReaction>& seen, const Vector3<double>
   for (std::size_t i = 0; i < 2; ++i) EXPECT_LT((seen[i].force - forces[i]).norm(), 1e-12) << i;
 }
 
-class ReactionsOf : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Sessions, ReactionsOf, testing::Values("rk4", "rattle"),
-                         [](const auto& param_info) { return param_info.param; });
+using Case = std::pair<std::string, Stabilization>;
+class ReactionsOf : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(Sessions, ReactionsOf,
+                         testing::Values(Case{"rk4", Stabilization::none}, Case{"rk4", Stabilization::baumgarte},
+                                         Case{"rk4", Stabilization::penalty}, Case{"rattle", Stabilization::none}),
+                         [](const auto& param_info) {
+                           return param_info.param.first + "_" + std::string(name(param_info.param.second));
+                         });
 
 TEST_P(ReactionsOf, AreThoseThatStudiesRecord) {
-  const PendulumRun run(GetParam());
+  const PendulumRun run(GetParam().first, GetParam().second);
   ASSERT_EQ(run.forces.size(), 2u * (PendulumRun::steps + 1));
   const auto live = open("double_pendulum", run.configuration), recorded = run.session();
   for (const int step : {0, 7, 20}) {
