@@ -16,33 +16,14 @@
 namespace polhode::viewer {
 namespace {
 
-/// A run option on the command line, whose values, default and meaning in a run are those of the table of run options.
-struct RunArgument {
-  const char* option;  ///< name of the run option
-  const char* help;
-  const char* type;
-};
-
-/// The run options that the window takes, without the scenario, the method, its step and the duration.
-constexpr RunArgument run_arguments[] = {
-    {"orientation", "chart of the orientation: quaternion, matrix (default: quaternion)", "CHART"},
-    {"angular-state", "velocity_world, velocity_body, momentum_world (default: velocity_world)", "STATE"},
-    {"gyroscopic", "the gyroscopic term: on, off (default: on)", "ON|OFF"},
-    {"normalize", "orientations: never, step (default: never)", "WHEN"},
-    {"broad-phase", "see --list broad-phases (default: sweep_and_prune)", "NAME"},
-    {"narrow-phase", "see --list narrow-phases (default: what fits the shapes)", "NAME"},
-    {"response", "see --list responses (default: sequential_impulses)", "NAME"},
-    {"impact-timing", "see --list impact-timings (default: time_stepping)", "NAME"},
-};
-
 /// Values of the options as written on the command line.
 struct Said {
   std::string scenario = "dzhanibekov", integrator = "rk4", dt = "1e-3", tolerance = "1e-8";
   std::string drive = "accumulator";
-  std::map<std::string, std::string> options;  ///< values of run_arguments, by name; empty: not given
+  std::map<const study::RunOption*, std::string> options;  ///< values of chosen_options(); empty: not given
   std::vector<std::string> vary;
   std::string size = "1280x720", show = "trails,contacts,joints,reactions";
-  std::optional<double> t_end, azimuth, elevation;
+  std::optional<double> azimuth, elevation;
 };
 
 [[noreturn]] void refuse(const std::string& option, const std::string& word,
@@ -89,38 +70,36 @@ Shown read_shown(const std::string& list) {
   return shown;
 }
 
-/// Sets the run option to the value on the command line. Names in catalogues are checked by refusal().
-void take(const study::RunOption& option, const std::string& value, const study::Scenario& scenario,
-          Configuration& configuration) {
-  const bool without_contact = option.value(configuration.run) == study::OptionValue{};
-  if (value.empty() || without_contact) return;
-  if (!option.takes_all) {
-    std::vector<std::string> known = option.known();
-    std::sort(known.begin(), known.end());
-    if (!std::binary_search(known.begin(), known.end(), value))
-      refuse("--" + option.name, value, {known.begin(), known.end()});
+/// Throws InputError if an option on the command line affects none of the runs.
+void refuse_without_effect(const Said& said, const std::vector<Configuration>& runs) {
+  for (const study::RunOption* option : chosen_options()) {
+    const auto has_effect = [&](const Configuration& c) { return option->applies_to(c.run); };
+    if (said.options.at(option).empty() || std::any_of(runs.begin(), runs.end(), has_effect)) continue;
+    throw study::InputError(fmt::format("--{}: it has no effect, because {}; leave it out, {}", option->name,
+                                        option->no_effect, option->remedy));
   }
-  choose_option(configuration, option, value, scenario);
 }
 
 std::vector<Configuration> configurations(const Said& said, const study::Scenario& scenario) {
   Configuration base = usual_configuration(scenario);
-  study::RunConfig& run = base.run;
-  if (said.t_end) run.t_end = *said.t_end;
   base.drive =
       one_of<Drive>("--drive", said.drive, {{"accumulator", Drive::accumulator}, {"frame_clock", Drive::frame_clock}});
-  for (const RunArgument& argument : run_arguments)
-    take(study::run_option(argument.option), said.options.at(argument.option), scenario, base);
   std::vector<Configuration> all;
   for (const std::string& method : study::split_list(said.integrator, ',', "--integrator")) {
     choose_integrator(base, method);
-    const bool fixed = run.dt.has_value();
+    const bool fixed = base.run.dt.has_value();
     for (const double x : study::numbers(fixed ? said.dt : said.tolerance, fixed ? "--dt" : "--tolerance")) {
-      choose_integrator(base, method, x, x);
-      if (const std::string why = refusal(base, scenario); !why.empty()) throw study::InputError(why);
-      all.push_back(base);
+      Configuration c = base;
+      choose_integrator(c, method, x, x);
+      for (const study::RunOption* option : chosen_options()) {
+        const std::string& value = said.options.at(option);
+        if (!value.empty() && option->applies_to(c.run)) choose_option(c, *option, value, scenario);
+      }
+      if (const std::string why = refusal(c, scenario); !why.empty()) throw study::InputError(why);
+      all.push_back(c);
     }
   }
+  refuse_without_effect(said, all);
   constexpr std::size_t most = 6;
   if (all.size() > most)
     throw study::InputError(fmt::format("{} runs side by side; at most {} are legible", all.size(), most));
@@ -145,9 +124,8 @@ Options parse(const std::string& question, int argc, const char* const* argv) {
   std::vector<std::string> trajectories;
   std::string list, out, film, record = "on", captions = "on";
   study::CommandLine line{question, "viewer"};
-  const auto add = [&line](const std::string& name, auto& to, const char* help, const char* type, const char* group) {
-    return line.add(name, to, help).type_name(type).group(group);
-  };
+  const auto add = [&line](const std::string& name, auto& to, const std::string& help, const std::string& type,
+                           const std::string& group) { return line.add(name, to, help).type_name(type).group(group); };
   const char* const scene = "What moves";
   add("--scenario", said.scenario, "scenario, built in or a TOML file, see --list scenarios (default: dzhanibekov)",
       "NAME|FILE", scene);
@@ -156,9 +134,10 @@ Options parse(const std::string& question, int argc, const char* const* argv) {
   add("--dt", said.dt, "step in s of fixed-step methods, or several (default: 1e-3)", "S", scene);
   add("--tolerance", said.tolerance, "relative and absolute, of adaptive methods, or several (default: 1e-8)", "X",
       scene);
-  for (const RunArgument& argument : run_arguments)
-    add("--" + std::string(argument.option), said.options[argument.option], argument.help, argument.type, scene);
-  add("--t-end", said.t_end, "duration in s (default: the scenario's)", "S", scene);
+  for (const study::RunOption* option : chosen_options()) {
+    const std::string names = option->takes_all ? fmt::format(", see --list {}s", option->name) : "";
+    add("--" + option->name, said.options[option], option->help + names, option->values, scene);
+  }
   add("--vary", said.vary, "a key of the scenario: body.0.mass=2", "KEY=VALUE", scene);
   add("--drive", said.drive,
       "accumulator: steps of dt as time passes; frame_clock: one step a frame, of the time between two (default: "

@@ -5,14 +5,18 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/scenario/builtin_scenarios.hpp"
+#include "experiments/study/text/input_error.hpp"
 
 namespace polhode::viewer::inline overlay {
 namespace {
+
+constexpr float second_column = 150;  // of check boxes, pixels
 
 bool button(Controls& controls, const char* label, const char* name) {
   const bool pressed = ImGui::Button(label);
@@ -20,17 +24,34 @@ bool button(Controls& controls, const char* label, const char* name) {
   return pressed;
 }
 
-bool check(Controls& controls, const char* label, const char* name, bool& value) {
+bool check(Controls& controls, const char* label, const std::string& name, bool& value) {
   const bool changed = ImGui::Checkbox(label, &value);
   controls.named(name);
   return changed;
 }
 
+/// The width of the fields drawn during its lifetime: the usual one, but never so much that the label beside the field
+/// is cut off, and more for a long text in the field if the label leaves room for it.
+class FieldWidth {
+ public:
+  explicit FieldWidth(const char* label, const std::string& text = {}) {
+    constexpr float least = 40;  // pixels
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float most = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(label).x - style.ItemInnerSpacing.x,
+                needed = ImGui::CalcTextSize(text.c_str()).x + 2 * style.FramePadding.x + ImGui::GetFrameHeight();
+    ImGui::PushItemWidth(std::max(std::min(std::max(ImGui::CalcItemWidth(), needed), most), least));
+  }
+  FieldWidth(const FieldWidth&) = delete;
+  FieldWidth& operator=(const FieldWidth&) = delete;
+  ~FieldWidth() { ImGui::PopItemWidth(); }
+};
+
 /// Draws a list of names. True if it has changed the value.
 bool choose(Controls& controls, const char* label, const std::string& name, const std::vector<std::string>& items,
             std::string& value) {
   bool changed = false;
-  const bool open = ImGui::BeginCombo(label, value.c_str(), ImGuiComboFlags_HeightLarge);
+  const FieldWidth width(label, value);
+  const bool open = ImGui::BeginCombo(label, value.empty() ? "default" : value.c_str(), ImGuiComboFlags_HeightLarge);
   if (!open) {
     controls.field_named(name);
     return false;
@@ -64,44 +85,63 @@ std::vector<std::string> scenario_names() {
   return names;
 }
 
-/// The control of a run option: a check box, or a list of the option's values.
-struct OptionControl {
-  const char* option;  ///< name of the run option
-  const char* label;
-  const char* name;          ///< name of the control
-  const char* checked = "";  ///< value for a checked box; empty: a list
-};
-
-/// The run options with a control, without the method and its step.
-constexpr OptionControl option_controls[] = {
-    {"orientation", "chart", "chart"},
-    {"angular-state", "angular state", "angular_state"},
-    {"gyroscopic", "gyroscopic term", "gyroscopic", "on"},
-    {"normalize", "normalize each step", "normalize", "step"},
-    {"broad-phase", "broad phase", "broad_phase"},
-    {"narrow-phase", "narrow phase", "narrow_phase"},
-    {"response", "response", "response"},
-    {"impact-timing", "timing", "impact_timing"},
-};
-
-/// Draws the control. True if it has changed the value.
-bool choose(Controls& controls, const OptionControl& control, const study::RunOption& option, std::string& value) {
-  const std::vector<std::string> known = option.known();
-  const std::string checked = control.checked;
-  if (checked.empty()) return choose(controls, control.label, control.name, known, value);
-  bool on = value == checked;
-  if (!check(controls, control.label, control.name, on)) return false;
-  value = *std::find_if(known.begin(), known.end(), [&](const std::string& name) { return (name == checked) == on; });
+/// Draws a field for a text, which is set by Enter. True if it has changed the value.
+bool type(Controls& controls, const char* label, const std::string& name, std::string& value) {
+  std::array<char, 256> typed{};
+  value.copy(typed.data(), typed.size() - 1);
+  const FieldWidth width(label);
+  const bool entered =
+      ImGui::InputTextWithHint(label, "default", typed.data(), typed.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+  controls.field_named(name);
+  if (!entered || value == typed.data()) return false;
+  value = typed.data();
   return true;
+}
+
+/// Name of the control of a run option.
+std::string control_of(const study::RunOption& option) {
+  return option.name == "orientation" ? "chart" : study::file_key(option);  // scripts say chart
+}
+
+/// What is written beside the control of a run option.
+std::string label_of(const study::RunOption& option) {
+  if (!yes_of(option).empty() && !option.term.empty()) return option.term;
+  const std::string text = option.header.empty() ? option.name : option.header;
+  if (option.unit.empty()) return text;
+  return text + (option.unit.find('/') == std::string::npos ? " / " + option.unit : " / (" + option.unit + ")");
+}
+
+/// Draws the control of a run option: a check box, a list, or a field. True if it has changed the value.
+bool choose(Controls& controls, const study::RunOption& option, std::string& value) {
+  const std::string label = label_of(option), name = control_of(option), yes = yes_of(option);
+  if (!option.known) return type(controls, label.c_str(), name, value);
+  const std::vector<std::string> known = option.known();
+  if (yes.empty()) return choose(controls, label.c_str(), name, known, value);
+  bool on = value == yes;
+  if (!check(controls, label.c_str(), name, on)) return false;
+  value = *std::find_if(known.begin(), known.end(), [&](const std::string& n) { return (n == yes) == on; });
+  return true;
+}
+
+/// Shows what the option means, right of the panel, while the mouse is over its control, which was drawn last.
+void explain(const study::RunOption& option) {
+  constexpr float width = 400;  // pixels
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::SetNextWindowPos({ImGui::GetWindowPos().x + ImGui::GetWindowWidth(), ImGui::GetItemRectMin().y});
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(width);
+  ImGui::TextUnformatted(option.help.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
 }
 
 }  // namespace
 
 std::optional<std::string> option_text(const study::RunConfig& run, const std::string& name) {
-  for (const OptionControl& control : option_controls) {
-    if (control.name != name) continue;
-    const std::string text = study::text_of(study::run_option(control.option).value(run));
-    if (*control.checked) return text == control.checked ? "true" : "false";
+  for (const study::RunOption* option : chosen_options()) {
+    if (control_of(*option) != name) continue;
+    const std::string text = option->applies_to(run) ? value_text(*option, run) : "", yes = yes_of(*option);
+    if (!yes.empty()) return text == yes ? "true" : "false";
     return text.empty() ? "none" : text;
   }
   return std::nullopt;
@@ -112,6 +152,10 @@ PanelWishes Panel::draw(Stage& stage, Controls& controls, float width, float hei
   ImGui::SetNextWindowPos({0, 0});
   ImGui::SetNextWindowSize({width, height});
   ImGui::Begin("polhode", nullptr, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
+  // So close that the numbers below the controls of most scenarios are in sight.
+  const ImGuiStyle& style = ImGui::GetStyle();
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {style.FramePadding.x, 2});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {style.ItemSpacing.x, 2});
   ImGui::PushItemWidth(-110);
   if (stage.live()) {
     std::string scenario = stage.setup().scenario;
@@ -129,6 +173,7 @@ PanelWishes Panel::draw(Stage& stage, Controls& controls, float width, float hei
   wishes.picture = button(controls, "save picture", "picture");
   numbers(stage);
   ImGui::PopItemWidth();
+  ImGui::PopStyleVar(2);
   ImGui::End();
   return wishes;
 }
@@ -218,14 +263,30 @@ void Panel::method(Stage& stage, Controls& controls) {
     c.drive = drive == "accumulator" ? Drive::accumulator : Drive::frame_clock;
     change(stage, c);
   }
-  for (const OptionControl& control : option_controls) {
-    const study::RunOption& option = study::run_option(control.option);
-    std::string value = study::text_of(option.value(run));
-    if (value.empty() || !choose(controls, control, option, value)) continue;
-    choose_option(c, option, value, stage.session(run_).scenario());
-    change(stage, c);
-  }
+  options(stage, controls, c);
   if (!refused_.empty()) ImGui::TextWrapped("not changed: %s", refused_.c_str());
+}
+
+void Panel::options(Stage& stage, Controls& controls, Configuration& configuration) {
+  bool box_at_left = false;  // check boxes stand two in a line
+  for (const study::RunOption* option : chosen_options()) {
+    if (!option->applies_to(configuration.run)) continue;
+    const bool box = !yes_of(*option).empty();
+    if (box && box_at_left) ImGui::SameLine(second_column);
+    box_at_left = box && !box_at_left;
+    std::string value = value_text(*option, configuration.run);
+    ImGui::PushID(option->name.c_str());
+    const bool chosen = choose(controls, *option, value);
+    explain(*option);
+    ImGui::PopID();
+    if (!chosen) continue;
+    try {
+      choose_option(configuration, *option, value, stage.session(run_).scenario());
+      change(stage, configuration);
+    } catch (const study::InputError& error) {
+      refused_ = error.what();
+    }
+  }
 }
 
 void Panel::shown(Stage& stage, Controls& controls) {
@@ -238,7 +299,7 @@ void Panel::shown(Stage& stage, Controls& controls) {
     }
   }
   Look& look = stage.look;
-  const auto beside = [] { ImGui::SameLine(150); };
+  const auto beside = [] { ImGui::SameLine(second_column); };
   check(controls, "body axes", "axes", look.axes);
   beside();
   check(controls, "angular velocity", "angular_velocity", look.angular_velocity);

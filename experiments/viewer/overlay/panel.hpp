@@ -17,8 +17,8 @@ struct PanelWishes {
   bool camera = false;                  ///< reset the camera
 };
 
-/// The value of a run option by the name of its control; "true" or "false" for a check box, "none" if the run has no
-/// value. Absent if no run option has such a control.
+/// The value of a run option by the name of its control; "true" or "false" for a check box, "none" for an empty field
+/// and for an option that does not apply. Absent if no run option has such a control.
 std::optional<std::string> option_text(const study::RunConfig& run, const std::string& name);
 
 class Panel {
@@ -30,6 +30,7 @@ class Panel {
   void time(Stage& stage, Controls& controls);
   void runs(Stage& stage, Controls& controls);
   void method(Stage& stage, Controls& controls);
+  void options(Stage& stage, Controls& controls, Configuration& configuration);
   void shown(Stage& stage, Controls& controls);
   void numbers(Stage& stage);
   void change(Stage& stage, const Configuration& configuration);

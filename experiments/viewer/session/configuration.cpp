@@ -4,13 +4,17 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
+#include <variant>
 
 #include "collision/broad_phase.hpp"
 #include "collision/contact/impact_timing.hpp"
 #include "collision/narrow_phase.hpp"
 #include "collision/response.hpp"
+#include "experiments/study/plan/axis_values.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/run/run.hpp"
+#include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/suggestion.hpp"
 #include "experiments/viewer/session/session.hpp"
 #include "integrators/catalogue.hpp"
@@ -60,14 +64,20 @@ std::string integrator_fault(const study::RunConfig& run) {
   return {};
 }
 
+/// A run of the scenario without any option.
+study::RunConfig start_of(const study::Scenario& scenario) {
+  study::RunConfig run;
+  run.scenario = scenario.name;
+  if (!scenario.colliders.empty()) run.contact.emplace();
+  if (!scenario.problem.joints.empty()) run.joints.emplace();
+  return run;
+}
+
 }  // namespace
 
 Configuration usual_configuration(const study::Scenario& scenario) {
-  Configuration usual;
-  usual.run.scenario = scenario.name;
+  Configuration usual{.run = start_of(scenario)};
   choose_integrator(usual, "rk4");
-  if (!scenario.colliders.empty()) usual.run.contact.emplace();
-  if (!scenario.problem.joints.empty()) usual.run.joints.emplace();
   for (const study::RunOption& option : study::run_options()) {
     if (option.preset && option.applies_to(usual.run)) option.set(usual.run, option.preset(scenario));
   }
@@ -83,15 +93,36 @@ void choose_integrator(Configuration& configuration, const std::string& name, do
   configuration.run.tolerance = adaptive ? std::optional(tolerance) : std::nullopt;
 }
 
-void choose_option(Configuration& configuration, const study::RunOption& option, const std::string& value,
+void choose_option(Configuration& configuration, const study::RunOption& option, const std::string& text,
                    const study::Scenario& scenario) {
-  study::RunConfig& run = configuration.run;
-  option.set(run, value);
-  if (!run.contact || option.name != "response") return;
-  const ResponseEntry* response = find_response(run.contact->response);
-  const study::RunOption& timing = study::run_option("impact-timing");
-  if (response && !response->make) run.contact->impact_timing.clear();
-  else if (run.contact->impact_timing.empty()) timing.set(run, timing.preset(scenario));
+  study::OptionValue chosen;
+  if (!text.empty()) {
+    const std::string label = "--" + option.name;
+    const std::vector<study::OptionValue> values = study::option_values(option, text, label);
+    if (values.size() != 1) throw study::InputError(label + ": a run has one value, not '" + text + "'");
+    chosen = values.front();
+  }
+  // Whether an option applies follows from those before it, so the run is put together anew, as in a study.
+  const study::RunConfig& before = configuration.run;
+  study::RunConfig run = start_of(scenario);
+  run.varied = before.varied;
+  for (const study::RunOption& each : study::run_options()) {
+    if (!each.applies_to(run)) continue;
+    study::OptionValue value = &each == &option ? chosen : each.value(before);
+    const auto absent = [&] { return study::text_of(value).empty(); };  // an impact timing is then an empty name
+    if (absent() && each.preset) value = each.preset(scenario);
+    if (!absent()) each.set(run, value);
+  }
+  configuration.run = std::move(run);
+}
+
+std::string value_text(const study::RunOption& option, const study::RunConfig& run) {
+  if (const std::string text = study::text_of(option.value(run)); !text.empty()) return text;
+  if (!option.of_methods) return study::text_of(option.usual);
+  const IntegratorEntry* entry = find_integrator(run.integrator);
+  const Setting* setting = entry ? find_setting(entry->declaration.settings, study::file_key(option)) : nullptr;
+  if (!setting) return {};
+  return study::text_of(std::visit([](const auto& usual) -> study::OptionValue { return usual; }, setting->usual));
 }
 
 std::string refusal(const Configuration& configuration, const study::Scenario& scenario) {

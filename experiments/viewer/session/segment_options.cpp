@@ -1,44 +1,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Run options of sessions: all that the table of run options has, with the few exceptions that stand here.
 #include "experiments/viewer/session/segment_options.hpp"
 
 #include <algorithm>
 #include <array>
 #include <string_view>
 
+#include "experiments/viewer/session/session.hpp"
+
 namespace polhode::viewer::inline session {
 namespace {
 
-/// The first options in a file. The settings of methods follow, then the second options, then all others in the order
-/// of the columns of runs.csv.
-constexpr std::array<std::string_view, 3> first_options = {"integrator", "dt", "tolerance"};
-constexpr std::array<std::string_view, 7> second_options = {
-    "summation", "t-end", "orientation", "angular-state", "gyroscopic", "rotation-from", "normalize"};
-/// Options without a key: a session has one scenario, computes in double and observes every step.
+/// Options with one value in every session: it has one scenario, computes in double and observes every step.
 constexpr std::array<std::string_view, 3> fixed_options = {"scenario", "precision", "samples"};
-
-SegmentOption as_in_file(const study::RunOption& option) {
-  if (option.name == "gyroscopic") return {&option, "gyroscopic", "on"};
-  if (option.name == "normalize") return {&option, study::file_key(option), "step"};
-  return {&option, study::file_key(option), ""};
-}
 
 }  // namespace
 
+std::vector<const study::RunOption*> session_options() {
+  std::vector<const study::RunOption*> all;
+  for (const study::RunOption& option : study::run_options()) {
+    if (std::find(fixed_options.begin(), fixed_options.end(), option.name) == fixed_options.end())
+      all.push_back(&option);
+  }
+  return all;
+}
+
+std::vector<const study::RunOption*> chosen_options() {
+  using Role = study::RunOption::Role;
+  std::vector<const study::RunOption*> all = session_options();
+  std::erase_if(all, [](const study::RunOption* o) { return o->role == Role::method || o->role == Role::size; });
+  return all;
+}
+
+/// These two have always been booleans in session files.
+std::string yes_of(const study::RunOption& option) {
+  if (option.name == "gyroscopic") return "on";
+  if (option.name == "normalize") return "step";
+  return {};
+}
+
 std::vector<SegmentOption> segment_options() {
   std::vector<SegmentOption> all;
-  const auto add = [&](const study::RunOption& option) {
-    const auto same = [&](const SegmentOption& known) { return known.option == &option; };
-    if (std::none_of(all.begin(), all.end(), same)) all.push_back(as_in_file(option));
-  };
-  const auto by_column = study::options_by_column();
-  for (const std::string_view name : first_options) add(study::run_option(std::string(name)));
-  for (const study::RunOption* option : by_column) {
-    if (option->of_methods) add(*option);
-  }
-  for (const std::string_view name : second_options) add(study::run_option(std::string(name)));
-  for (const study::RunOption* option : by_column) {
-    if (std::find(fixed_options.begin(), fixed_options.end(), option->name) == fixed_options.end()) add(*option);
-  }
+  for (const study::RunOption* option : session_options())
+    all.push_back({option, study::file_key(*option), yes_of(*option)});
   return all;
 }
 

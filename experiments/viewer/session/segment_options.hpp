@@ -15,7 +15,7 @@ struct SegmentOption {
   std::string if_true;  ///< value that is written as true, the other one as false; empty: not written as a boolean
 };
 
-/// The options in the order of the file.
+/// The options of a session, in the order of the file.
 std::vector<SegmentOption> segment_options();
 
 }  // namespace polhode::viewer::session

@@ -48,10 +48,20 @@ Configuration usual_configuration(const study::Scenario& scenario);
 /// Sets the method, with the step dt (s) of a fixed-step method or the tolerance of an adaptive one.
 void choose_integrator(Configuration& configuration, const std::string& name, double dt = 1e-3,
                        double tolerance = 1e-8);
-/// Sets an option other than the method and its step. The impact timing is removed if it no longer applies, and set to
-/// its default if it applies again.
-void choose_option(Configuration& configuration, const study::RunOption& option, const std::string& value,
+/// The run options that a session has, in the order of the table: all but those with one value in every session.
+std::vector<const study::RunOption*> session_options();
+/// The options of a session that choose_option() sets: all but the method and its step or tolerance.
+std::vector<const study::RunOption*> chosen_options();
+/// Sets one of these options to the value in the text, or to its default if the text is empty. Options that no longer
+/// apply are left out; options that now apply get their defaults. Throws InputError, with the name of the option, if
+/// the text is no value of it; the configuration is then unchanged.
+void choose_option(Configuration& configuration, const study::RunOption& option, const std::string& text,
                    const study::Scenario& scenario);
+/// The value of an option in a run as text; without a value, the equivalent one that the table or the method declares,
+/// if any.
+std::string value_text(const study::RunOption& option, const study::RunConfig& run);
+/// The value of a yes-or-no option that means yes; empty for all other options.
+std::string yes_of(const study::RunOption& option);
 /// Reason, in one line, for which the configuration cannot be run; empty if it can.
 std::string refusal(const Configuration& configuration, const study::Scenario& scenario);
 

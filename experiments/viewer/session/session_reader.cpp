@@ -48,7 +48,7 @@ study::OptionValue value_of(const TomlCursor& cursor, const SegmentOption& said)
       cursor.refuse("a whole number, not too large");
     return static_cast<std::int64_t>(x);
   }
-  if (option.takes_all) return cursor.text("a name");
+  if (option.takes_all || !option.known) return cursor.text("a name");
   const std::vector<std::string> known = option.known();
   if (!said.if_true.empty()) {
     const bool on = cursor.boolean();

@@ -12,10 +12,10 @@
 namespace polhode::viewer::look_test {
 namespace {
 
-class LookStage : public Stage {
+class LookStage : public PictureTest {
  protected:
   void SetUp() override {
-    Stage::SetUp();
+    PictureTest::SetUp();
     scene_ = cubes(2);
     scene_.bodies[0].inertia = Vector3<double>(1, 2, 3).asDiagonal();
     scene_.bodies[1].center_of_mass = {0, 0, 0.8};

@@ -11,7 +11,7 @@
 namespace polhode::viewer::renderer_test {
 namespace {
 
-class RendererStage : public Stage {};
+class RendererStage : public PictureTest {};
 
 const std::vector<Vector3<double>> apart = {{0, 0, 0}, {1.5, -1, 0.5}, {-1, 1.5, -0.7}, {0.5, 1, 1.2}};
 

@@ -269,6 +269,34 @@ TEST(SessionRecord, FaultsAreSaidWithTheirPlace) {
   EXPECT_THROW(read_session("/"), study::InputError);
 }
 
+// Their options have another order, and there are options that they do not have.
+TEST(SessionRecord, FilesOfOlderVersionsAreReadAsBefore) {
+  const std::string text = a_record();
+  const auto begin = text.find("drive = \"accumulator\""), end = text.find("\n[[segment.part]]", begin);
+  ASSERT_NE(end, std::string::npos);
+  const std::string old = text.substr(0, begin) + R"(drive = "accumulator"
+integrator = "rk4"
+dt = 0.001
+t_end = 10
+orientation = "quaternion"
+angular_state = "velocity_world"
+gyroscopic = true
+rotation_from = "normalized"
+normalize = false
+broad_phase = "sweep_and_prune"
+narrow_phase = "sat"
+response = "sequential_impulses"
+impact_timing = "time_stepping"
+)" + text.substr(end);
+  const study::RunConfig run = parse_session(old, "s.toml").segments.at(0).configuration.run;
+  EXPECT_TRUE(run.formulation.gyroscopic);
+  EXPECT_FALSE(run.normalize);
+  EXPECT_EQ(run.contact->narrow_phase, "sat");
+  const TemporaryFolder folder;
+  write(folder.path() / "s.toml", old);
+  EXPECT_EQ(rerun((folder.path() / "s.toml").string()).mismatch, "");
+}
+
 TEST(SessionRecord, ASettingOfTheMethodIsKeptAndChecked) {
   const TemporaryFolder folder;
   Configuration c = with("peters_hsu", "arkode_erk", 0, 10);
@@ -279,7 +307,7 @@ TEST(SessionRecord, ASettingOfTheMethodIsKeptAndChecked) {
     session->settle();
   }
   const std::string text = text_of(folder.path() / "session.toml");
-  EXPECT_THAT(text, testing::HasSubstr("tolerance = 1e-08\norder = 3\nt_end = 10\n"));
+  EXPECT_THAT(text, testing::HasSubstr("\norder = 3\ntolerance = 1e-08\nt_end = 10\n"));
   EXPECT_EQ(rerun((folder.path() / "session.toml").string()).mismatch, "");
   EXPECT_EQ(parse_session(text, "s.toml").segments.at(0).configuration.run.settings, c.run.settings);
   const auto with_order = [&](std::string other, const std::string& order) {

@@ -84,7 +84,7 @@ inline Found find_colour(const Picture& picture, Colour colour, int left, int ri
 }
 
 /// A picture to draw into by Mesa's software renderer; the test is skipped where there is none.
-class Stage : public testing::Test {
+class PictureTest : public testing::Test {
  protected:
   static constexpr int width = 640, height = 480;
   static constexpr Rectangle whole = {0, 0, width, height};
