@@ -140,15 +140,17 @@ std::pair<double, double> emptiest_corner(const Panel& panel, double width, doub
   const auto area = drawing_area(panel);
   const auto places = places_along(panel);
   std::pair<double, double> best{};
-  auto least = std::numeric_limits<std::ptrdiff_t>::max();
+  auto least = std::numeric_limits<std::size_t>::max();
   for (int i = trials; i >= 0; --i) {
     for (int j = 0; j <= trials; ++j) {
       const double x = area.x0 + area.width * 0.03 + i * (0.94 * area.width - width) / trials;
       const double y = area.y0 + area.height * 0.03 + j * (0.94 * area.height - height) / trials;
-      const auto inside = std::count_if(places.begin(), places.end(), [&](const auto& p) {
+      const auto is_inside = [&](const auto& p) {
         return p.first > x - 0.02 * area.width && p.first < x + width && p.second > y - 0.02 * area.height &&
                p.second < y + height + 0.02 * area.height;
-      });
+      };
+      std::size_t inside = 0;
+      for (auto p = places.begin(); p != places.end() && inside < least; ++p) inside += is_inside(*p);
       if (inside < least) least = inside, best = {x, y};
     }
   }
