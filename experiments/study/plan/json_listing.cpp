@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/plan/json_listing.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <variant>
@@ -201,6 +203,8 @@ Json option_in_json(const RunOption& o) {
 }  // namespace
 
 std::string json_listing(std::span<const Metric> metrics) {
+  std::vector<RunOption> axes;
+  std::copy_if(run_options().begin(), run_options().end(), std::back_inserter(axes), is_axis);
   const Json all = {{"integrators", list_of(integrator_catalogue(), integrator_in_json)},
                     {"scenarios", list_of(builtin_scenarios(), scenario_in_json)},
                     {"scenario-keys", list_of(root_keys(), key_in_json)},
@@ -210,7 +214,7 @@ std::string json_listing(std::span<const Metric> metrics) {
                     {"shapes", list_of(shape_catalogue(), shape_in_json)},
                     {"invariants", list_of(invariant_catalogue(), invariant_in_json)},
                     {"metrics", list_of(metrics, metric_in_json)},
-                    {"options", list_of(run_options(), option_in_json)},
+                    {"options", list_of(axes, option_in_json)},
                     {"broad-phases", names_and_summaries(broad_phase_catalogue())},
                     {"narrow-phases", names_and_summaries(narrow_phase_catalogue())},
                     {"responses", names_and_summaries(response_catalogue())},

@@ -143,13 +143,16 @@ void override_by(const StudyAxes& said, StudyAxes& study) {
   study.places.insert(said.places.begin(), said.places.end());
   study.tables.insert(study.tables.end(), said.tables.begin(), said.tables.end());
   study.where.insert(study.where.end(), said.where.begin(), said.where.end());
+  for (const auto& [name, value] : said.settings) study.settings[name] = value;
 }
 
 }  // namespace
 
 std::vector<std::string> axis_names() {
   std::vector<std::string> all;
-  for (const RunOption& option : run_options()) all.push_back(option.name);
+  for (const RunOption& option : run_options()) {
+    if (is_axis(option)) all.push_back(option.name);
+  }
   return all;
 }
 
@@ -164,6 +167,7 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
                    experiment.name};
   std::map<std::string, std::string> given;
   for (const RunOption& axis : run_options()) {
+    if (!is_axis(axis)) continue;
     std::string meaning = axis.help;
     const auto preset = experiment.defaults.find(axis.name);
     const auto jointed = experiment.with_joints.defaults.find(axis.name);
@@ -218,12 +222,9 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
       .type_name("none|csv|hdf5")
       .one_of({"none", "csv", "hdf5"})
       .group("Results");
-  bool reference = false;
-  line.add_flag(
-          "--reference", reference,
-          "where no exact solution is known, measure errors against a motion in extended precision that proves its "
-          "digits by halving its step")
-      .group("Results");
+  std::map<std::string, bool> flags;
+  for (const RunOption* option : options_of_role(RunOption::Role::study))
+    line.add_flag("--" + option->name, flags[option->name], option->help).group("Results");
   std::string curves;
   line.add("--curves", curves,
            "curves of drift against time are kept for at most so many runs, of evenly chosen motions (default: " +
@@ -237,11 +238,13 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
       .type_name("N")
       .range(1, 4096)
       .group("Running");
-  line.add("--max-steps", options.max_steps,
-           "a run of an adaptive method that is not at its end after so many steps has failed (default: 100000000)")
-      .type_name("N")
-      .range(std::int64_t(1), std::int64_t(1) << 52)
-      .group("Running");
+  std::map<std::string, std::optional<std::int64_t>> numbers;
+  for (const RunOption* option : options_of_role(RunOption::Role::call)) {
+    line.add("--" + option->name, numbers[option->name], option->help)
+        .type_name(option->values)
+        .range(std::int64_t(1), std::int64_t(1) << 52)
+        .group("Running");
+  }
   line.add("--seed", options.seed, "seed of random points (default: 1)").type_name("N").group("Running");
   std::optional<std::string> shard;
   line.add("--shard", shard,
@@ -278,7 +281,13 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   if (shard) options.shard = read_shard(*shard, "--shard");
   if (shard && options.merge) throw InputError("--shard and --merge: a shard carries out runs, --merge does not");
   options.command = command_of(experiment, argc, argv);
-  const StudyAxes said = said_by(words, given, vary, options.seed);
+  StudyAxes said = said_by(words, given, vary, options.seed);
+  for (const auto& [name, is_given] : flags) {
+    if (is_given) said.settings[name] = std::int64_t{1};
+  }
+  for (const auto& [name, number] : numbers) {
+    if (number) said.settings[name] = *number;
+  }
   options.plain = !study_file && said.said.empty() && said.vary.empty() && said.tables.empty();
   StudyFile file;
   if (study_file) file = read_study_file(*study_file, options.seed);
@@ -291,12 +300,11 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   options.shared.insert(said.said.begin(), said.said.end());
   for (StudyAxes& study : file.studies) {
     override_by(said, study);
-    study.reference = study.reference || reference;
     if (are_methods_of_joints(study)) {
       for (const auto& [name, text] : experiment.with_joints.defaults) {
         if (!study.table_with(name)) study.axes.try_emplace(name, text);
       }
-      study.reference = study.reference || experiment.with_joints.reference;
+      if (experiment.with_joints.reference) study.settings["reference"] = std::int64_t{1};
     }
     for (const auto& [name, text] : experiment.defaults) {
       if (!study.table_with(name)) study.axes.try_emplace(name, text);

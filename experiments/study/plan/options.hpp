@@ -28,8 +28,7 @@ struct Options {
   std::uint64_t seed = 1;          ///< seed of random points that have none of their own
   std::string out;                 ///< results folder; empty: results/<experiment>-<scenarios>-<hash>
   bool force = false;
-  int jobs = 0;                           ///< number of concurrent runs; 0: one for each core
-  std::optional<std::int64_t> max_steps;  ///< largest number of steps of adaptive methods; absent: that of Schedule
+  int jobs = 0;  ///< number of concurrent runs; 0: one for each core
   TrajectoryFormat trajectory = TrajectoryFormat::none;
   std::optional<std::size_t> curves;  ///< largest number of runs whose curves against time are kept; absent: all
   bool figures = true;

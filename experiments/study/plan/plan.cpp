@@ -200,16 +200,13 @@ void refuse_without_effect(const StudyAxes& study, const std::set<std::string>& 
 /// All products of axes of a study.
 std::vector<std::shared_ptr<Product>> products_of(const Experiment& experiment, const Options& options,
                                                   const StudyAxes& study, Plan& plan) {
-  const auto reference = [&](bool by_default) {
-    return study.reference ? WithReference::all : by_default ? WithReference::without_contact : WithReference::none;
-  };
   std::vector<std::shared_ptr<Product>> products;
-  products.push_back(std::make_shared<Product>(experiment, study, options, reference(experiment.reference)));
+  products.push_back(std::make_shared<Product>(experiment, study, experiment.reference));
   for (const FurtherAxes& more : experiment.more) {
     if (more.by_default_only && !options.plain) continue;
     const StudyAxes other = further(experiment, study, more);
     plan.further_axes.push_back(other.axes);
-    products.push_back(std::make_shared<Product>(experiment, other, options, reference(more.reference)));
+    products.push_back(std::make_shared<Product>(experiment, other, more.reference));
   }
   return products;
 }

@@ -52,8 +52,8 @@ void check_durations(const Experiment& experiment, const StudyAxes& study) {
 
 }  // namespace
 
-Product::Product(const Experiment& experiment, const StudyAxes& study, const Options& options, WithReference reference)
-    : experiment_(experiment), study_(study), max_steps_(options.max_steps), reference_(reference) {
+Product::Product(const Experiment& experiment, const StudyAxes& study, bool reference)
+    : experiment_(experiment), study_(study), reference_(reference) {
   check_durations(experiment, study_);
   for (const RunOption& option : run_options()) {
     if (option.needed) needed_.push_back(&option);
@@ -121,7 +121,7 @@ RunConfig Product::start_of(const Opened& opened, const Scenario& scenario) cons
   RunConfig config;
   config.scenario = opened.source.name();
   const bool contact = !scenario.colliders.empty();
-  config.reference = contact ? reference_ == WithReference::all : reference_ != WithReference::none;
+  config.reference = reference_ && !contact;
   if (contact) config.contact.emplace();
   if (!scenario.problem.joints.empty()) config.joints.emplace();
   return config;
@@ -135,16 +135,17 @@ RunConfig Product::configured(const Cell& cell, const Opened& opened, const Scen
     if (option.role == RunOption::Role::scenario || !option.applies_to(config)) continue;
     const auto given =
         std::find_if(cell.options.begin(), cell.options.end(), [&](const auto& o) { return o.first == &option; });
+    const auto setting = study_.settings.find(option.name);
     if (given != cell.options.end()) option.set(config, given->second);
+    else if (setting != study_.settings.end()) option.set(config, setting->second);
     else if (option.preset) option.set(config, option.preset(scenario));
   }
   return config;
 }
 
-/// configured(), with what the study and the experiment decide for all their runs.
+/// configured(), with the duration that the experiment derives from the step.
 RunConfig Product::completed(const Cell& cell, const Opened& opened, const Scenario& scenario) const {
   RunConfig config = configured(cell, opened, scenario);
-  if (config.tolerance) config.max_steps = max_steps_;
   // check() refuses a run without a step.
   if (experiment_.duration && (config.tolerance || config.dt))
     config.t_end = experiment_.duration(config.t_end, config.tolerance ? *config.tolerance : *config.dt);

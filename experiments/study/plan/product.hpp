@@ -15,24 +15,18 @@
 #include "experiments/study/plan/bound_conditions.hpp"
 #include "experiments/study/plan/cells.hpp"
 #include "experiments/study/plan/experiment.hpp"
-#include "experiments/study/plan/options.hpp"
+#include "experiments/study/plan/study_axes.hpp"
 #include "experiments/study/plan/where.hpp"
 #include "experiments/study/record/run_record.hpp"
 #include "experiments/study/scenario/scenario.hpp"
 
 namespace polhode::study::inline plan {
 
-/// The motions without a known exact solution that are compared with a reference.
-enum class WithReference {
-  none,
-  without_contact,  ///< all motions for which a reference can be made
-  all               ///< motions with contact too: such a run is refused
-};
-
 class Product {
  public:
-  /// Throws InputError for invalid axes.
-  Product(const Experiment& experiment, const StudyAxes& study, const Options& options, WithReference reference);
+  /// `reference`: as --reference, for motions without contact alone. With contact no reference can be made, and a run
+  /// for which it is asked is refused. Throws InputError for invalid axes.
+  Product(const Experiment& experiment, const StudyAxes& study, bool reference);
   Product(const Product&) = delete;
   Product& operator=(const Product&) = delete;
 
@@ -96,8 +90,7 @@ class Product {
 
   Experiment experiment_;
   StudyAxes study_;
-  std::optional<std::int64_t> max_steps_;
-  WithReference reference_;
+  bool reference_;
   std::vector<const RunOption*> needed_;
   std::vector<Where> conditions_;
   std::vector<std::unique_ptr<Opened>> opened_;

@@ -99,7 +99,8 @@ void StudyAxes::remove(const std::string& key) {
 
 bool is_option(const std::string& key) {
   const auto& all = run_options();
-  return std::any_of(all.begin(), all.end(), [&](const RunOption& option) { return option.name == key; });
+  return std::any_of(all.begin(), all.end(),
+                     [&](const RunOption& option) { return option.name == key && is_axis(option); });
 }
 
 std::size_t number_of_points(double n, const std::string& label) {
@@ -125,7 +126,9 @@ std::string axis_key(const std::string& written, const std::string& label) {
   if (is_option(name)) return name;
   if (written.find('.') != std::string::npos || find_key(root_keys(), written)) return written;
   std::vector<std::string_view> known;
-  for (const RunOption& option : run_options()) known.push_back(option.name);
+  for (const RunOption& option : run_options()) {
+    if (is_axis(option)) known.push_back(option.name);
+  }
   throw InputError(label + ": no such axis" + suggestion(name, "There are", known) +
                    ", and the keys of the scenario, such as body.0.mass");
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "experiments/study/plan/cells_file.hpp"
+#include "experiments/study/record/run_record.hpp"
 
 namespace polhode::study::inline plan {
 
@@ -50,8 +51,8 @@ struct StudyAxes {
   std::vector<std::pair<std::string, std::string>> vary;  ///< keys of the scenario and their values, as written
   std::vector<PointTable> tables;                         ///< a key of a table overrides the same key of the grid
   std::vector<Condition> where;                           ///< cells must satisfy all of them
-  std::set<std::string> said;  ///< options that this study itself gives, in its grid or a table
-  bool reference = false;
+  std::set<std::string> said;                   ///< options that this study itself gives, in its grid or a table
+  std::map<std::string, OptionValue> settings;  ///< options that are no axes, by name
   /// Places of settings in the study file, by axis, or by "vary." and a key: "study.toml:3:8: dt".
   std::map<std::string, std::string> places;
 
@@ -80,7 +81,7 @@ std::uint64_t seed_from(double seed, const std::string& label);
 /// A table of all columns of a CSV file.
 PointTable table_of_cells(const std::string& path, const std::string& label);
 
-/// True if the key is an option of runs, and not a key of the scenario.
+/// True if the key is an option of runs that may be an axis, and not a key of the scenario.
 bool is_option(const std::string& key);
 
 }  // namespace polhode::study::plan

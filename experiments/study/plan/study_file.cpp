@@ -7,6 +7,7 @@
 
 #include "experiments/study/plan/distribution.hpp"
 #include "experiments/study/plan/options.hpp"
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/suggestion.hpp"
 #include "experiments/study/text/text_file.hpp"
@@ -41,6 +42,14 @@ std::string as_list(const TomlValue& value, const std::string& where) {
   for (const TomlValue& item : value.items)
     text += (text.empty() ? "" : std::string(1, separator)) + as_text(item, where);
   return text;
+}
+
+/// The flag of studies with this key; null if there is none.
+const RunOption* flag_named(const std::string& key) {
+  for (const RunOption* option : options_of_role(RunOption::Role::study)) {
+    if (file_key(*option) == key) return option;
+  }
+  return nullptr;
 }
 
 class StudyFileReader {
@@ -141,7 +150,7 @@ class StudyFileReader {
       if (!shared.columns.empty()) study.tables.push_back(std::move(shared));
     }
     study.where.insert(study.where.end(), defaults.where.begin(), defaults.where.end());
-    study.reference = study.reference || defaults.reference;
+    study.settings.insert(defaults.settings.begin(), defaults.settings.end());
   }
 
   /// Reads the table of a study. `above`: "study.tops.", for messages.
@@ -156,9 +165,9 @@ class StudyFileReader {
         read_grid(table(value, name, "a table of axes"), name + ".", study);
       } else if (entry.key == "curves") {
         read_curves(value, name, above);
-      } else if (entry.key == "reference") {
+      } else if (const RunOption* flag = flag_named(entry.key)) {
         if (value.type != Type::boolean) throw InputError(label(value, name) + ": must be true or false");
-        study.reference = value.boolean;
+        if (value.boolean) study.settings[flag->name] = std::int64_t{1};
       } else if (entry.key == "zip" || entry.key == "random") {
         for (const TomlValue* one : one_or_more(value)) {
           table(*one, name, "a table of keys, or several");

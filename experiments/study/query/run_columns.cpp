@@ -141,8 +141,7 @@ RunColumn RunColumns::find(const std::string& name, const std::string& label) co
   if (full == "folder") return {.of = Of::folder, .name = full};
   const bool option = std::any_of(run_options().begin(), run_options().end(),
                                   [&](const RunOption& o) { return stored_name(o) == full; });
-  if (option || options_.contains(full) || full == "max_steps" || full == "reference")
-    return {.of = Of::option, .name = full, .key = full};
+  if (option || options_.contains(full)) return {.of = Of::option, .name = full, .key = full};
   const bool own = full == configuration_column || full == varied_column || full == has_curves;
   if (!own && std::find(stored_.begin(), stored_.end(), full) != stored_.end())
     return {.of = Of::metric, .name = full, .index = index(full)};
@@ -158,7 +157,7 @@ RunColumn RunColumns::find(const std::string& name, const std::string& label) co
 }
 
 std::vector<std::string> RunColumns::names() const {
-  std::set<std::string> all = {"run", "folder", "wall_s", "t_reached_s", "max_steps", "reference"};
+  std::set<std::string> all = {"run", "folder", "wall_s", "t_reached_s"};
   for (const RunOption& option : run_options()) {
     all.insert(stored_name(option));
     all.insert(file_key(option));

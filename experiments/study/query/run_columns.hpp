@@ -20,7 +20,7 @@ struct RunColumn {
   enum class Of {
     run,        ///< the id
     folder,     ///< the folder of the study
-    option,     ///< an option of the run, max_steps or reference
+    option,     ///< an option of the run
     scenario,   ///< a key of the scenario: its varied value, else that of the scenario
     metric,     ///< a column of the store, wall_s among them
     invariant,  ///< one of the numbers in invariant_drifts_max_rel

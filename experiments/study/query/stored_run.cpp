@@ -17,7 +17,8 @@ namespace {
 /// True if the value has the type of the option's values.
 bool fits(const RunOption& option, const OptionValue& value) {
   switch (option.kind) {
-    case RunOption::Kind::whole: return std::holds_alternative<std::int64_t>(value);
+    case RunOption::Kind::whole:
+    case RunOption::Kind::flag: return std::holds_alternative<std::int64_t>(value);
     case RunOption::Kind::number: return std::holds_alternative<double>(value);
     default: return std::holds_alternative<std::string>(value);
   }
@@ -55,12 +56,6 @@ RunConfig config_of(const Configuration& configuration, const std::string& varie
     if (option.value(config) != found->second)
       throw NotReproduced(fmt::format("its {} is {}, which this program does not know", name, text_of(found->second)));
   }
-  if (const auto found = configuration.find("max_steps"); found != configuration.end()) {
-    if (const auto* steps = std::get_if<std::int64_t>(&found->second)) config.max_steps = *steps;
-  }
-  config.reference = configuration.contains("reference");
-  unknown.erase("max_steps");
-  unknown.erase("reference");
   if (!unknown.empty()) throw NotReproduced("it has the option " + *unknown.begin() + ", which this program has not");
   config.varied = varied_of(varied);
   return config;

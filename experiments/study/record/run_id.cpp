@@ -28,8 +28,6 @@ std::vector<std::pair<std::string, std::string>> identity_parts(const RunConfig&
     if (value.empty() || (option->on_demand && is_usual(*option, config))) continue;
     parts.emplace_back(option->column.empty() ? file_key(*option) : option->column, value);
   }
-  if (config.max_steps) parts.emplace_back("max_steps", std::to_string(*config.max_steps));
-  if (config.reference) parts.emplace_back("reference", "on");
   for (const Override& o : config.varied) {
     if (!o.value.empty()) parts.emplace_back(o.key, o.value);
   }

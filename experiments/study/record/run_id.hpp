@@ -20,8 +20,8 @@ std::uint64_t run_number(const RunConfig& config, std::string_view canonical, in
 std::string run_id(const RunConfig& config, std::string_view canonical, int version = results_version);
 
 /// The parts of the id besides the version and the text of the scenario: options by the names of their columns (or as
-/// files name them), max_steps, reference, and the varied keys. The parts of two configurations that vary the same keys
-/// are the same if and only if identity_of() is.
+/// files name them), and the varied keys. The parts of two configurations that vary the same keys are the same if and
+/// only if identity_of() is.
 std::vector<std::pair<std::string, std::string>> identity_parts(const RunConfig& config);
 
 /// The id as an integer, and back: 16 hexadecimal digits. Throws std::logic_error for a text that is no id.

@@ -351,6 +351,33 @@ std::vector<RunOption> options_of_time() {
   return {dt, tolerance, t_end, samples};
 }
 
+/// Options that are no axes, in the order in which they end the identity of a run.
+std::vector<RunOption> options_of_studies() {
+  const RunOption max_steps = optional(
+      {.name = "max-steps",
+       .values = "N",
+       .help = "a run of an adaptive method that is not at its end after so many steps has failed (default: 100000000)",
+       .kind = Kind::whole,
+       .role = Role::call,
+       .word = "max_steps",
+       .applies = [](const RunConfig& c) { return c.max_steps || is_adaptive(c); }},
+      [](auto& c) -> auto& { return c.max_steps; });
+  RunOption reference{.name = "reference",
+                      .values = "",
+                      .help =
+                          "where no exact solution is known, measure errors against a motion in extended precision "
+                          "that proves its digits by halving its step",
+                      .kind = Kind::flag,
+                      .role = Role::study,
+                      .word = "reference"};
+  reference.value = [](const RunConfig& c) -> OptionValue {
+    if (c.reference) return std::int64_t{1};
+    return {};
+  };
+  reference.set = [](RunConfig& c, const OptionValue&) { c.reference = true; };
+  return {max_steps, reference};
+}
+
 /// An option of joints: a run without joints has no value of it.
 RunOption of_joints(RunOption option) {
   option.value = [value = option.value](const RunConfig& config) -> OptionValue {
@@ -490,8 +517,9 @@ struct OptionTable {
   std::vector<const RunOption*> by_column;
 
   OptionTable() {
-    for (const auto& part : {options_of_motion(), options_of_formulation(), options_of_summation(),
-                             options_of_settings(), options_of_time(), options_of_joints(), options_of_contact()})
+    for (const auto& part :
+         {options_of_motion(), options_of_formulation(), options_of_summation(), options_of_settings(),
+          options_of_time(), options_of_joints(), options_of_contact(), options_of_studies()})
       options.insert(options.end(), part.begin(), part.end());
     sort();
   }
@@ -500,6 +528,7 @@ struct OptionTable {
     by_column.clear();
     for (const RunOption& option : options) by_column.push_back(&option);
     std::stable_sort(by_column.begin(), by_column.end(), [](const RunOption* a, const RunOption* b) {
+      if (is_axis(*a) != is_axis(*b)) return is_axis(*a);
       return a->on_demand != b->on_demand ? b->on_demand : a->on_demand && a->column < b->column;
     });
   }
@@ -534,6 +563,8 @@ bool has_column(const RunOption& option, const NamedOptions& named, Roles withou
 }  // namespace
 
 const std::deque<RunOption>& run_options() { return table().options; }
+
+bool is_axis(const RunOption& option) { return option.role != Role::study && option.role != Role::call; }
 
 const std::vector<const RunOption*>& options_by_column() { return table().by_column; }
 
@@ -599,7 +630,8 @@ std::string text_of(const OptionValue& value) {
 
 std::string label_of(const RunOption& option, const RunConfig& config) {
   const std::string text = text_of(option.value(config));
-  return text.empty() || option.word.empty() ? text : option.word + " " + text;
+  if (text.empty() || option.word.empty()) return text;
+  return option.kind == Kind::flag ? option.word : option.word + " " + text;
 }
 
 bool is_usual(const RunOption& option, const RunConfig& config, const RunConfig& usual) {
@@ -617,7 +649,10 @@ std::vector<std::string> config_columns(const std::vector<std::string>& varied_k
   return columns;
 }
 
-std::string config_cell(const RunOption& option, const RunConfig& config) { return text_of(applied(option, config)); }
+std::string config_cell(const RunOption& option, const RunConfig& config) {
+  const OptionValue value = applied(option, config);
+  return option.kind == Kind::flag && value != OptionValue{} ? "on" : text_of(value);
+}
 
 const RunOption* option_of_column(const std::string& column) {
   for (const RunOption& option : run_options()) {
@@ -639,13 +674,12 @@ std::string identity_of(const RunConfig& config) {
   std::string text;
   for (const std::string& cell : config_cells(config, {})) text += cell + "\n";
   for (const RunOption& option : run_options()) {
-    if (option.column.empty()) text += text_of(applied(option, config));
+    if (option.column.empty() && is_axis(option)) text += text_of(applied(option, config));
   }
   for (const RunOption* option : options_by_column()) {
-    if (option->on_demand && !is_usual(*option, config)) text += "\n" + label_of(*option, config);
+    const bool may_be_absent = option->on_demand || !is_axis(*option);
+    if (may_be_absent && !is_usual(*option, config)) text += "\n" + label_of(*option, config);
   }
-  if (config.max_steps) text += fmt::format("\nmax_steps {}", *config.max_steps);
-  if (config.reference) text += "\nreference";
   return text;
 }
 

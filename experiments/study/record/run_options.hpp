@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The table of run options: one entry holds everything about an option of a run.
 //
-// The command line, study files, the planner, the identity and the order of runs, runs.csv, the tables, figures and
-// report, session files and replays loop over this table. To add an option: add an entry, and the code that implements
-// it. Make an option that stored studies do not contain `on_demand`: it then changes neither their columns nor their
-// ids. The settings that methods declare (core/run/setting.hpp) are in the table by themselves.
+// The command line, study files, the planner, the identity and the order of runs, the store, runs.csv, the tables,
+// figures and report, session files and replays loop over this table. To add an option: add an entry, and the code that
+// implements it. Make an option that stored studies do not contain `on_demand`: it then changes neither their columns
+// nor their ids. The settings that methods declare (core/run/setting.hpp) are in the table by themselves.
 #pragma once
 
 #include <deque>
@@ -19,7 +19,8 @@
 namespace polhode::study::inline record {
 
 struct RunOption {
-  enum class Kind { name, whole, number };
+  /// The value of a flag is 1, shown as its word; a run for which it is not given has no value.
+  enum class Kind { name, whole, number, flag };
   /// Property of a run that the option determines. Figures have one curve for each scenario, variant and method.
   enum class Role {
     scenario,
@@ -27,6 +28,9 @@ struct RunOption {
     variant,   ///< formulation, arithmetic or contact algorithm
     size,      ///< step or tolerance: the points of a curve
     duration,  ///< duration of the run, or number of measurements
+    // No axes: all runs of a study to which the option applies have one value. No table or figure shows it.
+    study,  ///< a flag of a study, of which a study file may have several
+    call,   ///< a whole number for all studies of a call, which the command line alone gives
   };
 
   // Names on the command line, in study files and in session files.
@@ -70,7 +74,11 @@ struct RunOption {
 /// All options, in the order in which the planner varies them (slowest first) and --help lists them.
 const std::deque<RunOption>& run_options();
 
-/// All options in the order of the columns of runs.csv: options on demand come last, sorted by column name.
+/// False: the option has one value for all runs of a study (Role::study, Role::call).
+bool is_axis(const RunOption& option);
+
+/// All options in the order of the columns of runs.csv: options on demand come last, sorted by column name; options
+/// that are no axes follow.
 const std::vector<const RunOption*>& options_by_column();
 std::vector<const RunOption*> options_of_role(RunOption::Role role);  ///< options in the order of options_by_column()
 
@@ -115,13 +123,12 @@ std::vector<std::string> config_columns(const std::vector<std::string>& varied_k
                                         Roles without = {});
 /// The cells below config_columns().
 std::vector<std::string> config_cells(const RunConfig& config, const NamedOptions& named, Roles without = {});
-/// The cell of an option in those columns; empty if the option does not apply.
+/// The cell of an option in those columns, "on" for a flag; empty if the option does not apply.
 std::string config_cell(const RunOption& option, const RunConfig& config);
 /// The option with this column; null if there is none, as for a varied key.
 const RunOption* option_of_column(const std::string& column);
 
-/// The configuration as text, with --max-steps and --reference, which are settings of a whole study and no axes. It
-/// does not depend on the study that contains the run.
+/// The configuration as text. It does not depend on the study that contains the run.
 std::string identity_of(const RunConfig& config);
 
 /// The values of a configuration by which runs are sorted. Keys are comparable if both runs vary the same keys.

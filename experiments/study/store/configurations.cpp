@@ -41,8 +41,6 @@ Configuration configuration_of(const RunConfig& config) {
     if (value != OptionValue{})
       values.emplace(option.column.empty() ? file_key(option) : option.column, std::move(value));
   }
-  if (config.max_steps) values.emplace("max_steps", *config.max_steps);
-  if (config.reference) values.emplace("reference", std::int64_t{1});
   return values;
 }
 

@@ -15,7 +15,7 @@
 namespace polhode::study::inline store {
 
 /// The options that have a value in a run and apply to it, by RunOption::column, or by file_key() of an option without
-/// a column; and the settings of a study that are no options: max_steps, reference (1).
+/// a column.
 using Configuration = std::map<std::string, OptionValue>;
 Configuration configuration_of(const RunConfig& config);
 

@@ -11,7 +11,7 @@
 namespace polhode::viewer::inline session {
 namespace {
 
-/// Options with one value in every session: it has one scenario, computes in double and observes every step.
+/// Axes with one value in every session: it has one scenario, computes in double and observes every step.
 constexpr std::array<std::string_view, 3> fixed_options = {"scenario", "precision", "samples"};
 
 }  // namespace
@@ -19,8 +19,8 @@ constexpr std::array<std::string_view, 3> fixed_options = {"scenario", "precisio
 std::vector<const study::RunOption*> session_options() {
   std::vector<const study::RunOption*> all;
   for (const study::RunOption& option : study::run_options()) {
-    if (std::find(fixed_options.begin(), fixed_options.end(), option.name) == fixed_options.end())
-      all.push_back(&option);
+    const bool fixed = std::find(fixed_options.begin(), fixed_options.end(), option.name) != fixed_options.end();
+    if (!fixed && study::is_axis(option)) all.push_back(&option);
   }
   return all;
 }

@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <variant>
 #include <vector>
 
 #include "experiments/study/record/metric_table.hpp"
@@ -118,14 +119,23 @@ std::string_view name_of(TrajectoryFormat format) {
   }
 }
 
+/// The value of an option that is no axis; null, or false for a flag, if no study has it.
+nlohmann::ordered_json value_in(const std::vector<StudyAxes>& studies, const RunOption& option) {
+  const auto with = std::find_if(studies.begin(), studies.end(),
+                                 [&](const StudyAxes& study) { return study.settings.contains(option.name); });
+  if (option.kind == RunOption::Kind::flag) return with != studies.end();
+  if (with == studies.end()) return nullptr;
+  return std::get<std::int64_t>(with->settings.at(option.name));
+}
+
 /// The options of the study besides its axes that are part of its results.
 nlohmann::ordered_json options_of(const Options& options) {
-  using Json = nlohmann::ordered_json;
-  return {{"seed", options.seed},
-          {"max_steps", options.max_steps ? Json(*options.max_steps) : Json()},
-          {"reference", std::any_of(options.studies.begin(), options.studies.end(),
-                                    [](const StudyAxes& study) { return study.reference; })},
-          {"trajectory", name_of(options.trajectory)}};
+  nlohmann::ordered_json all = {{"seed", options.seed}};
+  for (const auto role : {RunOption::Role::call, RunOption::Role::study}) {
+    for (const RunOption* option : options_of_role(role)) all[file_key(*option)] = value_in(options.studies, *option);
+  }
+  all["trajectory"] = name_of(options.trajectory);
+  return all;
 }
 
 void add_to(std::vector<std::string>& row, const std::vector<std::string>& cells) {
@@ -184,7 +194,9 @@ nlohmann::ordered_json in_words(const StudyAxes& study) {
   }
   said["vary"] = Json::object();
   for (const auto& [key, values] : study.vary) said["vary"][key] = values;
-  if (study.reference) said["reference"] = true;
+  for (const RunOption* option : options_of_role(RunOption::Role::study)) {
+    if (study.settings.contains(option->name)) said[file_key(*option)] = true;
+  }
   for (const PointTable& table : study.tables) said[word(table.kind)].push_back(words(table));
   for (const Condition& condition : study.where) said["where"].push_back(condition.text);
   return said;

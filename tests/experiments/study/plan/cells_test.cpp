@@ -146,6 +146,7 @@ TEST(Cells, OnlyOptionsThatSayItDecideWhetherOthersApply) {
           std::vector<OptionValue> values;
           if (option.kind == RunOption::Kind::whole) values = {std::int64_t{3}};
           else if (option.kind == RunOption::Kind::number) values = {0.5};
+          else if (option.kind == RunOption::Kind::flag) values = {std::int64_t{1}};
           else
             for (const std::string& name : option.known()) values.emplace_back(name);
           for (const OptionValue& value : values) {
