@@ -173,7 +173,7 @@ class Calibration {
     for (double& seconds : times.seconds) {
       if (timing_.best_times && seconds < BestTime::repeated_below) seconds *= BestTime::repetitions;
     }
-    add_true_motions(times.seconds);
+    times.true_motions = times_of_true_motions(times.seconds);
     times.known = all > 0 ? known / all : 0;
     return times;
   }
@@ -197,7 +197,8 @@ class Calibration {
       for (std::size_t i = next++; i < work.size(); i = next++) {
         const double left = seconds_left();
         if (left <= 0) return;
-        const double slice = left * static_cast<double>(workers) / static_cast<double>(work.size() - i);
+        const double share = static_cast<double>(workers) / static_cast<double>(work.size() - i);
+        const double slice = left * std::min(share, 1.0);
         time(*work[i].first, work[i].second, std::max(slice, shortest_slice), number);
       }
     };
@@ -358,8 +359,9 @@ class Calibration {
     return std::min(overhead_, a.seconds) + std::exp(at) * run.config.t_end;
   }
 
-  /// Adds the time of each true motion to its first run.
-  void add_true_motions(std::vector<double>& seconds) const {
+  /// RunTimes::true_motions. `seconds`: the times of the runs.
+  std::vector<double> times_of_true_motions(const std::vector<double>& seconds) const {
+    std::vector<double> all(runs_.size());
     const std::map<ResponseKey, double> prices = prices_of_contact_scales(seconds);
     std::unordered_map<TrueMotionKey, bool, TrueMotionHash> met;
     for (std::size_t i = 0; i < runs_.size(); ++i) {
@@ -370,11 +372,12 @@ class Calibration {
       const MotionTimes& times = found->second;
       if (times.cut && in_contact(run) && run.config.dt) {
         const auto price = prices.find(response_key_of(run));
-        seconds[i] += seconds[i] * share_of_contact_scales(run) * (price == prices.end() ? 1 : price->second);
+        all[i] = seconds[i] * share_of_contact_scales(run) * (price == prices.end() ? 1 : price->second);
       } else {
-        seconds[i] += times.sum / times.count;
+        all[i] = times.sum / times.count;
       }
     }
+    return all;
   }
 
   /// Steps of the motion that gives the scales of a contact run, in those of the run.

@@ -14,7 +14,9 @@ namespace polhode::study {
 
 struct RunTimes {
   std::vector<double> seconds;  ///< time that one worker takes for each run, s, in the order of the runs
-  double known = 0;             ///< share of the sum of these that runs of the same kind were timed for, 0 to 1
+  /// Time that the first of the runs which share scales or a reference takes to make them, s; 0 for the other runs.
+  std::vector<double> true_motions;
+  double known = 0;  ///< share of the sum of these that runs of the same kind were timed for, 0 to 1
 };
 
 /// The settings by which runs are timed.
@@ -34,8 +36,7 @@ struct KnownTime {
 /// Runs are of one kind if they agree in method, scenario, arithmetic, contact algorithms and number of bodies. Of each
 /// kind the run of largest and the run of least cost are carried out for a while, the most expensive kinds first, until
 /// the budget has passed; a kind that was not reached gets the mean rate of those with its method and response, or of
-/// all. Of a kind with several known times no run is carried out. The reference and the scales that runs share are
-/// counted with the first of these. Writes no file.
+/// all. Of a kind with several known times no run is carried out. Writes no file.
 RunTimes run_times(std::span<const PlannedRun* const> runs, std::span<const KnownTime> known, const Timing& timing);
 
 /// Time of a whole run of which a part was carried out in so many seconds, s. `share`: that part, 0 to 1;

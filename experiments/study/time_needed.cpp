@@ -28,8 +28,9 @@ namespace polhode::study {
 namespace {
 
 constexpr std::size_t most_looked_up = 500;  // stored wall times that are read
-constexpr std::size_t most_drawn = 5000;     // runs that are taken for the figures
+constexpr std::size_t most_drawn = 5000;     // runs of one body that are taken for the figures
 constexpr std::size_t most_timed = 10'000;   // runs whose times are summed up; others take as long in the mean
+constexpr double budget_of_a_glance = 0.25;  // s; with the plan itself and twice this the answer takes less than 1 s
 
 // Times measured where a number is written in `usual_number`, s.
 constexpr double usual_number = 4.4e-8;
@@ -83,6 +84,16 @@ RunResult full_result(const PlannedRun& run, bool known_motion, bool keeps_curve
   return result;
 }
 
+/// `most` runs of one body, fewer of several: to read the scenario of a run takes longer the more bodies it has.
+std::size_t number_to_read(const Plan& plan, std::size_t most) {
+  constexpr std::size_t fewest = 100;
+  const auto accepted =
+      std::find_if(plan.rows.begin(), plan.rows.end(), [](const PlanRow& row) { return !row.refused; });
+  if (accepted == plan.rows.end()) return 0;
+  const auto first = static_cast<std::size_t>(accepted - plan.rows.begin());
+  return std::max(fewest, most / std::max<std::size_t>(plan.run(first).scenario->problem.bodies.size(), 1));
+}
+
 /// The figures that the study would have if all runs came to their end.
 FigureSet usual_figures(const Plan& plan) {
   StudyView view;
@@ -92,7 +103,7 @@ FigureSet usual_figures(const Plan& plan) {
   view.invariants = plan.invariants;
   std::map<std::string, bool> known;
   Variants variants;
-  for (const std::size_t i : evenly_spread(plan.size(), most_drawn)) {
+  for (const std::size_t i : evenly_spread(plan.size(), number_to_read(plan, most_drawn))) {
     if (plan.rows[i].refused) continue;
     const PlannedRun run = plan.run(i, &variants);
     const auto [found, added] = known.try_emplace(run.config.scenario, run.config.reference);
@@ -127,14 +138,6 @@ double work_after_runs(const Experiment& experiment, const Options& options, con
   return fixed_work + of_a_run * runs + (options.figures ? work_of_figures(experiment, plan) : 0);
 }
 
-/// Number of runs whose times are summed up. To read the scenario of a run takes longer the more bodies it has.
-std::size_t number_to_time(const Plan& plan, const std::vector<std::size_t>& missing) {
-  constexpr std::size_t fewest = 100;
-  if (missing.empty()) return 0;
-  const std::size_t bodies = plan.run(missing.front()).scenario->problem.bodies.size();
-  return std::max(fewest, most_timed / std::max<std::size_t>(bodies, 1));
-}
-
 /// Finished runs with their wall times, of an even choice of these.
 struct StoredTimes {
   std::vector<PlannedRun> runs;
@@ -162,6 +165,25 @@ StoredTimes stored_times(const Plan& plan, const std::filesystem::path& folder,
   return times;
 }
 
+/// Time that the workers take for the missing runs, s; `times`: those of all or of a choice of these.
+double time_of_missing(const Plan& plan, std::size_t missing, const RunTimes& times, std::size_t workers) {
+  const std::size_t timed = times.seconds.size();
+  if (timed == 0) return 0;
+  std::vector<double> seconds = times.seconds;
+  const double runs = static_cast<double>(missing) * plan.runs_of_a_row, of_all = runs / static_cast<double>(timed);
+  if (of_all == 1) {
+    for (std::size_t i = 0; i < timed; ++i) seconds[i] += times.true_motions[i];
+    return time_of_workers(seconds, workers);
+  }
+  // A true motion is made once for all runs that share it: most often more of these than of the runs are in the choice.
+  const auto met = static_cast<double>(
+      std::count_if(times.true_motions.begin(), times.true_motions.end(), [](double made) { return made > 0; }));
+  const double motions = std::clamp(plan.most_true_motions(), met, std::max(runs, met));
+  const double made = std::accumulate(times.true_motions.begin(), times.true_motions.end(), 0.0);
+  return time_of_workers(seconds, workers) * of_all +
+         (met > 0 ? made * motions / met / static_cast<double>(workers) : 0);
+}
+
 }  // namespace
 
 std::string time_needed_text(const Experiment& experiment, const Options& options, const Plan& plan,
@@ -172,7 +194,7 @@ std::string time_needed_text(const Experiment& experiment, const Options& option
   }
   std::vector<PlannedRun> runs;
   Variants variants(most_timed);
-  for (const std::size_t k : evenly_spread(missing.size(), number_to_time(plan, missing)))
+  for (const std::size_t k : evenly_spread(missing.size(), number_to_read(plan, most_timed)))
     runs.push_back(plan.run(missing[k], &variants));
   std::vector<const PlannedRun*> timed;
   for (const PlannedRun& run : runs) timed.push_back(&run);
@@ -185,10 +207,9 @@ std::string time_needed_text(const Experiment& experiment, const Options& option
   timing.best_times = experiment.best_times;
   timing.in_lanes = options.trajectory == TrajectoryFormat::none;
   timing.workers = number_of_threads(options.jobs);
+  if (plan.runs_of_a_row > 1) timing.budget = budget_of_a_glance;
   const RunTimes times = run_times(timed, known, timing);
-  const double of_all =
-      runs.empty() ? 1 : static_cast<double>(missing.size()) / static_cast<double>(runs.size()) * plan.runs_of_a_row;
-  const double planned = time_of_workers(times.seconds, timing.workers) * of_all;
+  const double planned = time_of_missing(plan, missing.size(), times, timing.workers);
   const double stored_times = mean(stored.seconds) * static_cast<double>(plan.size() - missing.size());
   const Experiment::Needs& needs = experiment.needs;
   const double running = planned * (1 + needs.refined);

@@ -374,8 +374,14 @@ Plan make_plan(const Experiment& experiment, const Options& options) {
   return plan;
 }
 
+double Plan::most_true_motions() const {
+  double all = 0;
+  for (const auto& product : products_) all += product->most_true_motions();
+  return all;
+}
+
 std::optional<Plan> glance_at_plan(const Experiment& experiment, const Options& options) {
-  constexpr double few = 100'000, most_wanted = 10'000, many_bodies = 10;
+  constexpr double few = 100'000, most_wanted = 10'000, many_bodies = 4;
   Plan plan;
   const Products products = open_products(experiment, options, plan);
   const double counted = most_cells(products);

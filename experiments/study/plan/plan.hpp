@@ -91,6 +91,8 @@ class Plan {
   std::string identity;  ///< hash of the ids of all runs
 
   std::size_t size() const { return rows.size(); }
+  /// Number of different motions of the scenarios (Product::most_true_motions) without those of widen().
+  double most_true_motions() const;
   /// Run i, below size(). Takes its scenario from `known`, and puts it there, unless `known` is null. Thread-safe for
   /// different `known`.
   PlannedRun run(std::size_t i, Variants* known = nullptr) const;
@@ -119,7 +121,7 @@ class Plan {
 Plan make_plan(const Experiment& experiment, const Options& options);
 
 /// A plan with some 10 000 runs of a study of more than 100 000 cells, evenly chosen, for what --dry-run says before it
-/// has planned all of them; with fewer runs, in proportion, if scenarios have more than ten bodies in the mean. Absent
+/// has planned all of them; with fewer runs, in proportion, if scenarios have more than four bodies in the mean. Absent
 /// if the study has no more cells, or its conditions leave out all that were chosen.
 std::optional<Plan> glance_at_plan(const Experiment& experiment, const Options& options);
 

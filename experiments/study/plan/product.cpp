@@ -70,6 +70,13 @@ Product::Product(const Experiment& experiment, const StudyAxes& study, bool refe
            (always_joints && method.refuses_joints);
   });
   counted_ = make_cells(true).count();
+  const auto changes_motion = [](const DimensionKey& key) {
+    return !key.option || key.option->role == RunOption::Role::scenario || key.option->name == "t-end";
+  };
+  for (const Dimension& dimension : dimensions(study_, true)) {
+    if (std::any_of(dimension.keys.begin(), dimension.keys.end(), changes_motion))
+      true_motions_ *= static_cast<double>(dimension.size);
+  }
 }
 
 std::set<std::string> Product::varied_keys() const {

@@ -32,6 +32,9 @@ class Product {
 
   /// The number of cells, not less than the true one: values that are given twice count twice.
   double most_cells() const { return counted_; }
+  /// The number of different motions of the scenarios, not less than the true one: cells that differ in a scenario, a
+  /// key of it or the duration.
+  double most_true_motions() const { return true_motions_; }
 
   /// A scenario of the product, without overrides.
   struct Opened {
@@ -95,7 +98,7 @@ class Product {
   std::vector<Where> conditions_;
   std::vector<std::unique_ptr<Opened>> opened_;
   std::map<std::string, Opened*> by_name_;  ///< scenarios by the name that is written in the study
-  double counted_ = 0;
+  double counted_ = 0, true_motions_ = 1;
   std::optional<Cells> cells_;
 };
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Times of runs: what follows from times that are known. No time is measured here.
+// Times of runs: what follows from times that are known. No measured time is compared.
 #include "experiments/study/run_times.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -99,6 +100,24 @@ TEST(RunTimes, OfAKindThatWasNotTimedFollowThoseWithItsResponse) {
     const double cost = missing[i]->cost / known.front().run->cost;
     EXPECT_NEAR(times.seconds[i] / (known_time(*missing[i]) * cost * bodies / 2), 1, 0.02) << i;
   }
+}
+
+TEST(RunTimes, ATrueMotionIsMadeOnceForTheRunsThatShareIt) {
+  const Plan plan = planned({"--dt", "0.01,0.02,0.04", "--vary", "body.0.mass=1;2"});
+  EXPECT_EQ(plan.most_true_motions(), 2);
+  Timing timing;
+  timing.budget = 1;
+  const std::vector<PlannedRun> runs = plan.runs();
+  const RunTimes times = run_times(pointers_to(runs), {}, timing);
+  ASSERT_EQ(times.true_motions.size(), 6U);
+  EXPECT_EQ(std::count_if(times.true_motions.begin(), times.true_motions.end(), [](double made) { return made > 0; }),
+            2);
+}
+
+TEST(RunTimes, MotionsDifferInKeysOfTheScenarioAndInTheDuration) {
+  EXPECT_EQ(planned({"--dt", "0.01,0.02"}).most_true_motions(), 1);
+  EXPECT_EQ(planned({"--dt", "0.01,0.02", "--t-end", "1,2,3", "--vary", "body.0.mass=1;2"}).most_true_motions(), 6);
+  EXPECT_EQ(planned({"--scenario", "dzhanibekov,lagrange_top", "--integrator", "heun,rk4"}).most_true_motions(), 2);
 }
 
 TEST(RunTimes, WhatIsLeftGoesOnAsTheSecondHalfDid) {
