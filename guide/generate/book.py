@@ -124,17 +124,19 @@ class Book:
                    + toctree(["notation", *(f"family/{f}" for f in families), *self.methods()]))
 
     def readme_pages(self):
-        rooms = {"experiments": [], "papers": [], "inside": []}
+        below = {"experiments": [], "papers": [], "inside": [], "inside/core": [], "inside/integrators": [], "inside/collision": []}
         for readme, page in self.readmes.pages.items():
             if page == "index":
                 continue
-            room = page.split("/")[0]
-            if room in rooms and page != f"{room}/index":
-                rooms[room].append(page.split("/")[1])
+            folder, name = page.rsplit("/", 1)
+            if folder in below and name != "index":
+                below[folder].append(name)
             self.write(page, self.readmes.text(readme, page, self.pages))
-        self.append("experiments/index", toctree(sorted(rooms["experiments"])))
-        self.append("papers/index", toctree(sorted(rooms["papers"])))
-        self.append("inside/index", toctree(rooms["inside"]))
+        self.append("experiments/index", toctree(sorted(below["experiments"])))
+        self.append("papers/index", toctree(sorted(below["papers"])))
+        self.append("inside/index", toctree(below["inside"]))
+        for room in ("core", "integrators", "collision"):
+            self.append(f"inside/{room}", toctree([f"{room}/{name}" for name in below[f"inside/{room}"]]))
 
     def append(self, page, text):
         path = self.pages / f"{page}.md"

@@ -8,7 +8,7 @@ import shutil
 from .markdown import outside_code
 
 IMAGES = (".svg", ".png")
-# README: page. Those of experiments and papers are found by their folders.
+# README: page. Those of experiments, papers and the rooms of sources are found by their folders.
 PAGES = {
     "README.md": "index",
     "experiments/README.md": "experiments/index",
@@ -23,6 +23,7 @@ PAGES = {
     "collision/README.md": "inside/collision",
     "tests/README.md": "inside/tests",
     "tests/fuzz/README.md": "inside/fuzzers",
+    "experiments/replay/page/README.md": "inside/replay_page",
 }
 # Headings of READMEs that are pages of their own in the book.
 MOVED = {("README.md", "adding-to-it"): "own/index"}
@@ -34,7 +35,8 @@ class Readmes:
         self.pages = dict(PAGES)
         self.written = {page.relative_to(root).as_posix(): page.relative_to(root / "guide").with_suffix("").as_posix()
                         for page in (root / "guide").rglob("*.md") if page.name != "README.md"}
-        for folder, room in (("experiments", "experiments"), ("papers", "papers")):
+        for folder, room in (("experiments", "experiments"), ("papers", "papers"), ("core", "inside/core"),
+                             ("integrators", "inside/integrators"), ("collision", "inside/collision")):
             for readme in sorted((root / folder).glob("*/README.md")):
                 self.pages.setdefault(readme.relative_to(root).as_posix(), f"{room}/{readme.parent.name}")
 
