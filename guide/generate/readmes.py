@@ -58,7 +58,8 @@ class Readmes:
             return f"{bang}[{label}]({os.path.relpath('pictures/' + there, here)})"
         to = MOVED.get((there, anchor)) or self.pages.get(there) or self.written.get(there)
         if to is None or to == page and not anchor:
-            return label if label.strip("`") == there or there in label else f"{label} (`{there}`)"
+            room = there.endswith("/" + label.strip("`") + "README.md")  # the README of a room, named by its folder: `text/`
+            return label if room or label.strip("`") == there or there in label else f"{label} (`{there}`)"
         to_file = os.path.relpath(to + ".md", here)
         kept = "" if (there, anchor) in MOVED or not anchor else "#" + anchor
         return f"[{label}]({to_file}{kept})"
