@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Statistics of a study with too many runs to be held: each run is counted once and forgotten. Of every metric: its
-// distribution for each method, its quantiles against each axis with numbers, and a map over two of them.
+// Statistics of a study with too many runs to be held: each run is counted once and then dropped. They are, for each
+// metric of the tables that is one number for a run, its distribution for each method, its quantiles against each axis
+// with numbers, and a map over two of these axes.
 #pragma once
 
 #include <array>
