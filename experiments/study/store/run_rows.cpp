@@ -22,6 +22,7 @@ std::optional<std::size_t> RunRows::find(std::string_view column) const {
 }
 
 std::int64_t RunRows::count() const { return db_->number("SELECT count(*) FROM runs"); }
+std::int64_t RunRows::last() const { return db_->number("SELECT coalesce(max(number), 0) FROM runs"); }
 
 void RunRows::scan(std::span<const std::size_t> chosen, const std::function<void(const Part&)>& use) const {
   std::string names = "runs.number, runs.id", tables = "runs";
@@ -60,6 +61,14 @@ RunRows::Row RunRows::read(const Statement& row, std::vector<Value>& values) con
 
 void RunRows::for_each(const std::function<void(const Row&)>& use) const {
   Statement rows(*db_, selection(" ORDER BY runs.number"));
+  std::vector<Value> values;
+  while (rows.step()) use(read(rows, values));
+}
+
+void RunRows::for_each(std::int64_t after, std::int64_t last, const std::function<void(const Row&)>& use) const {
+  Statement rows(*db_, selection(" WHERE runs.number > ? AND runs.number <= ? ORDER BY runs.number"));
+  rows.bind(1, after);
+  rows.bind(2, last);
   std::vector<Value> values;
   while (rows.step()) use(read(rows, values));
 }

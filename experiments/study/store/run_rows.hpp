@@ -29,6 +29,7 @@ class RunRows {
   const std::vector<std::string>& columns() const { return columns_; }
   std::optional<std::size_t> find(std::string_view column) const;  ///< its index in columns()
   std::int64_t count() const;                                      ///< number of all rows, damaged ones too
+  std::int64_t last() const;                                       ///< largest number of a row; 0 if there is none
 
   /// Columns of a row whose checksum is not checked; the values are valid until the next row.
   struct Part {
@@ -46,6 +47,8 @@ class RunRows {
     std::string_view damage;        ///< "runs.checksum", "timings.checksum"; empty: none
   };
   void for_each(const std::function<void(const Row&)>& use) const;  ///< calls use(row) in the order of numbers
+  /// The same for the rows whose numbers are above `after` and at most `last`.
+  void for_each(std::int64_t after, std::int64_t last, const std::function<void(const Row&)>& use) const;
   /// The row with this number, valid until the next call. Throws if there is none any more.
   Row at(std::int64_t number);
 

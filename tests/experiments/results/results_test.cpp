@@ -106,6 +106,12 @@ TEST(RunRows, HaveTheValuesThatWereKeptAndTheirChecksums) {
     ++k;
   });
   EXPECT_EQ(k, runs.size());
+  std::vector<std::int64_t> all, in_parts;
+  rows.for_each([&](const RunRows::Row& row) { all.push_back(row.id); });
+  EXPECT_EQ(rows.last(), 20);
+  for (std::int64_t after = 0; after < rows.last(); after += 7)
+    rows.for_each(after, after + 7, [&](const RunRows::Row& row) { in_parts.push_back(row.id); });
+  EXPECT_EQ(in_parts, all);
   EXPECT_EQ(rows.at(3).damage, "runs.checksum");
   EXPECT_EQ(rows.at(4).damage, "");
   EXPECT_THROW(rows.at(99), std::runtime_error);
