@@ -21,7 +21,11 @@ void add_columns(const Matrix& table, const Vector& series, Index first_row, dou
   Eight sums[eights] = {};
   const double* column = table.data() + first_row;
   for (Index i = 0; i < series.size(); ++i, column += table.rows()) {
-    for (int e = 0; e < eights; ++e) sums[e] += series[i] * eight_at(column + 8 * e);
+    for (int e = 0; e < eights; ++e) {
+      Eight numbers;
+      read(numbers, column + 8 * e);
+      sums[e] += series[i] * numbers;
+    }
   }
   std::memcpy(out, sums, sizeof sums);
 }
@@ -114,9 +118,13 @@ std::shared_ptr<const Cosines> cosines_of(Index n) {
 }
 
 double dot(const double* a, const double* b, Index n) {
-  Eight sums = {};
+  Eight sums = {}, left, right;
   Index i = 0;
-  for (; i + 8 <= n; i += 8) sums += eight_at(a + i) * eight_at(b + i);
+  for (; i + 8 <= n; i += 8) {
+    read(left, a + i);
+    read(right, b + i);
+    sums += left * right;
+  }
   double sum = total(sums);
   for (; i < n; ++i) sum += a[i] * b[i];
   return sum;

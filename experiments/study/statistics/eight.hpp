@@ -8,11 +8,8 @@ namespace polhode::study::inline statistics::spectral {
 
 using Eight [[gnu::vector_size(8 * sizeof(double))]] = double;
 
-inline Eight eight_at(const double* numbers) {
-  Eight eight;
-  std::memcpy(&eight, numbers, sizeof eight);
-  return eight;
-}
+/// Sets `eight` to the numbers from this one on. It is no result, since no register of every processor can return it.
+inline void read(Eight& eight, const double* numbers) { std::memcpy(&eight, numbers, sizeof eight); }
 
 inline double total(const Eight& s) { return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7])); }
 

@@ -85,11 +85,13 @@ class Oscillations {
       cos_cos += cosine * cosine;
       cos_sin += cosine * sine;
       sin_sin += sine * sine;
-      const Eight rest = eight_at(&rest_[i]);
+      Eight rest;
+      read(rest, &rest_[i]);
       cos_rest += cosine * rest;
       sin_rest += sine * rest;
       for (int j = 0; j < trends; ++j) {
-        const Eight trend = eight_at(&trend_(i, j));
+        Eight trend;
+        read(trend, &trend_(i, j));
         cos_trend[j] += cosine * trend;
         sin_trend[j] += sine * trend;
       }
