@@ -434,6 +434,22 @@ double time_of_whole(double seconds, double share, double share_at_half) {
 
 double time_of_falling(double seen, double settled) { return settled > seen ? std::sqrt(seen * settled) : seen; }
 
+double time_of_all(const RunTimes& times, double runs, double true_motions, std::size_t workers) {
+  if (times.seconds.empty()) return 0;
+  const double of_each = runs / static_cast<double>(times.seconds.size());
+  std::vector<double> seconds = times.seconds;
+  if (of_each == 1) {
+    for (std::size_t i = 0; i < seconds.size(); ++i) seconds[i] += times.true_motions[i];
+    return time_of_workers(seconds, workers);
+  }
+  double met = 0, made = 0;  // true motions of the choice, and their time, s
+  for (const double time : times.true_motions) met += time > 0, made += time;
+  const double motions = std::clamp(true_motions, met, std::max(runs, met));
+  const double of_motions = met > 0 ? made / met * motions : 0;
+  return time_of_workers(seconds, workers) * of_each +
+         of_motions / static_cast<double>(std::max<std::size_t>(workers, 1));
+}
+
 double time_of_workers(std::span<const double> seconds, std::size_t workers) {
   std::priority_queue<double, std::vector<double>, std::greater<>> free;  // times at which the workers become free
   for (std::size_t k = 0; k < std::max<std::size_t>(workers, 1); ++k) free.push(0);

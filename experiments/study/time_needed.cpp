@@ -165,25 +165,6 @@ StoredTimes stored_times(const Plan& plan, const std::filesystem::path& folder,
   return times;
 }
 
-/// Time that the workers take for the missing runs, s; `times`: those of all or of a choice of these.
-double time_of_missing(const Plan& plan, std::size_t missing, const RunTimes& times, std::size_t workers) {
-  const std::size_t timed = times.seconds.size();
-  if (timed == 0) return 0;
-  std::vector<double> seconds = times.seconds;
-  const double runs = static_cast<double>(missing) * plan.runs_of_a_row, of_all = runs / static_cast<double>(timed);
-  if (of_all == 1) {
-    for (std::size_t i = 0; i < timed; ++i) seconds[i] += times.true_motions[i];
-    return time_of_workers(seconds, workers);
-  }
-  // A true motion is made once for all runs that share it: most often more of these than of the runs are in the choice.
-  const auto met = static_cast<double>(
-      std::count_if(times.true_motions.begin(), times.true_motions.end(), [](double made) { return made > 0; }));
-  const double motions = std::clamp(plan.most_true_motions(), met, std::max(runs, met));
-  const double made = std::accumulate(times.true_motions.begin(), times.true_motions.end(), 0.0);
-  return time_of_workers(seconds, workers) * of_all +
-         (met > 0 ? made * motions / met / static_cast<double>(workers) : 0);
-}
-
 }  // namespace
 
 std::string time_needed_text(const Experiment& experiment, const Options& options, const Plan& plan,
@@ -209,7 +190,8 @@ std::string time_needed_text(const Experiment& experiment, const Options& option
   timing.workers = number_of_threads(options.jobs);
   if (plan.runs_of_a_row > 1) timing.budget = budget_of_a_glance;
   const RunTimes times = run_times(timed, known, timing);
-  const double planned = time_of_missing(plan, missing.size(), times, timing.workers);
+  const double planned = time_of_all(times, static_cast<double>(missing.size()) * plan.runs_of_a_row,
+                                     plan.most_true_motions(), timing.workers);
   const double stored_times = mean(stored.seconds) * static_cast<double>(plan.size() - missing.size());
   const Experiment::Needs& needs = experiment.needs;
   const double running = planned * (1 + needs.refined);

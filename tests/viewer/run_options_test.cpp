@@ -20,6 +20,7 @@
 #include "experiments/viewer/session/session_record.hpp"
 #include "experiments/viewer/window/script.hpp"
 #include "integrators/catalogue.hpp"
+#include "tests/experiments/study/record/tidiness.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/viewer/session/session_run.hpp"
 
@@ -27,22 +28,10 @@ namespace polhode::viewer::run_options_test {
 namespace {
 
 using study::RunOption;
+using study::tidiness;
 using testing::HasSubstr;
 
-/// How tidy a run is. No code obeys it.
-RunOption tidiness() {
-  RunOption option{.name = "tidy-up",
-                   .values = "never|daily",
-                   .help = "when the run tidies up (default: never)",
-                   .column = "tidy_up",
-                   .on_demand = true,
-                   .header = "tidies up",
-                   .usual = std::string("never")};
-  option.known = [] { return std::vector<std::string>{"never", "daily"}; };
-  return study::without_member(option);
-}
-
-/// How long it then takes, with an entry of few words.
+/// The time that a run spends on that, by an entry with few members. No code uses it.
 RunOption effort() {
   RunOption option{.name = "effort", .values = "S", .help = "of tidying up", .kind = RunOption::Kind::number};
   option.unit = "s";

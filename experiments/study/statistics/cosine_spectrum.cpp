@@ -30,8 +30,6 @@ void add_columns(const Matrix& table, const Vector& series, Index first_row, dou
   std::memcpy(out, sums, sizeof sums);
 }
 
-Index in_eights(Index count) { return (count + 7) / 8 * 8; }
-
 /// table · series for the first `rows` rows of a table, up to a multiple of eight.
 Spectrum first_rows(const Matrix& table, const Vector& series, Index rows) {
   Spectrum out(in_eights(rows));

@@ -50,7 +50,7 @@ class Oscillations {
  public:
   Oscillations(const Matrix& trend, const Vector& rest)
       : n_(rest.size()),
-        padded_((n_ + 7) / 8 * 8),
+        padded_(in_eights(n_)),
         trend_(Matrix::Zero(padded_, trends)),
         rest_(Vector::Zero(padded_)),
         x_(padded_, 2) {
@@ -70,7 +70,7 @@ class Oscillations {
       cosine[i] = c * cosine[i - 1] - s * sine[i - 1];
       sine[i] = s * cosine[i - 1] + c * sine[i - 1];
     }
-    double c8 = c, s8 = s;  // of 8 ω, by three times twice the angle
+    double c8 = c, s8 = s;  // cosine and sine of 8ω, by doubling the angle three times
     for (int i = 0; i < 3; ++i) {
       const double twice = 2 * s8 * c8;
       c8 = c8 * c8 - s8 * s8;

@@ -16,7 +16,7 @@
 namespace polhode::viewer::inline overlay {
 namespace {
 
-constexpr float second_column = 150;  // of check boxes, pixels
+constexpr float second_column = 150;  // place of the second check box in a line, pixels
 
 bool button(Controls& controls, const char* label, const char* name) {
   const bool pressed = ImGui::Button(label);

@@ -114,6 +114,19 @@ TEST(RunTimes, ATrueMotionIsMadeOnceForTheRunsThatShareIt) {
             2);
 }
 
+TEST(RunTimes, AChoiceStandsForAllRunsAndTheirMotionsAreMadeOnce) {
+  RunTimes times;
+  times.seconds = {3, 1};
+  times.true_motions = {4, 4};
+  EXPECT_EQ(time_of_all(times, 2, 2, 1), 12);          // all runs: as they are
+  EXPECT_EQ(time_of_all(times, 2, 2, 2), 7);           // side by side
+  EXPECT_EQ(time_of_all(times, 1000, 5, 1), 2020);     // 500 times four seconds, and five motions
+  EXPECT_EQ(time_of_all(times, 1000, 5, 2), 1510);     // the longer run bounds each pair
+  EXPECT_EQ(time_of_all(times, 1000, 1, 1), 2008);     // the choice needs two already
+  EXPECT_EQ(time_of_all(times, 10, 1e6, 1), 20 + 40);  // no more motions than runs
+  EXPECT_EQ(time_of_all({}, 10, 1, 1), 0);
+}
+
 TEST(RunTimes, MotionsDifferInKeysOfTheScenarioAndInTheDuration) {
   EXPECT_EQ(planned({"--dt", "0.01,0.02"}).most_true_motions(), 1);
   EXPECT_EQ(planned({"--dt", "0.01,0.02", "--t-end", "1,2,3", "--vary", "body.0.mass=1;2"}).most_true_motions(), 6);

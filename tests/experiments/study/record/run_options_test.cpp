@@ -30,6 +30,7 @@
 #include "experiments/study/study.hpp"
 #include "experiments/study/text/csv_reader.hpp"
 #include "experiments/study/text/input_error.hpp"
+#include "tests/experiments/study/record/tidiness.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace polhode::study::run_options_test {
@@ -39,20 +40,6 @@ using ::testing::Contains;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Pair;
-
-/// The tidiness of a run. No code uses it.
-RunOption tidiness() {
-  RunOption option{.name = "tidy-up",
-                   .values = "never|daily",
-                   .help = "when the run tidies up (default: never)",
-                   .column = "tidy_up",
-                   .on_demand = true,
-                   .header = "tidies up",
-                   .word = "tidy",
-                   .usual = std::string("never")};
-  option.known = [] { return std::vector<std::string>{"never", "daily"}; };
-  return without_member(option);
-}
 
 /// The width of the brush of a run. No code uses it.
 RunOption brush_width() {
