@@ -41,8 +41,10 @@ struct BroadPhaseEntry {
   std::unique_ptr<BroadPhase> (*make)();
 };
 
+inline namespace broad {
 /// All broad phases.
 const std::vector<BroadPhaseEntry>& broad_phase_catalogue();
 const BroadPhaseEntry* find_broad_phase(std::string_view name);
+}  // namespace broad
 
 }  // namespace polhode::collision

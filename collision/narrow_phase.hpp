@@ -59,8 +59,10 @@ struct NarrowPhaseEntry {
   std::unique_ptr<NarrowPhase> (*make)();
 };
 
+inline namespace narrow {
 /// All narrow phases.
 const std::vector<NarrowPhaseEntry>& narrow_phase_catalogue();
 const NarrowPhaseEntry* find_narrow_phase(std::string_view name);
+}  // namespace narrow
 
 }  // namespace polhode::collision

@@ -11,16 +11,22 @@
 
 #include "collision/contact.hpp"
 
-namespace polhode {
+namespace polhode::inline core {
+inline namespace system {
 template <class S>
 class System;
+}
+inline namespace problem {
 template <class S>
 class ForceModel;
-}  // namespace polhode
+}
+}  // namespace polhode::core
 
 namespace polhode::inline collision {
 
+inline namespace contact {
 class ContactScene;
+}
 
 /// Position, motion and inverse mass of a body, as responses use them, world axes. A static body has zero inverse mass
 /// and zero inverse inertia.
@@ -90,10 +96,12 @@ struct ResponseEntry {
   std::unique_ptr<ForceModel<double>> (*make_force)(const System<double>&, ContactScene&, const Compliance&) = nullptr;
 };
 
+inline namespace response {
 /// All responses.
 const std::vector<ResponseEntry>& response_catalogue();
 const ResponseEntry* find_response(std::string_view name);
 /// The responses by impulses.
 std::vector<ResponseEntry> impulse_responses();
+}  // namespace response
 
 }  // namespace polhode::collision

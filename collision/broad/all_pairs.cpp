@@ -8,7 +8,7 @@
 #include "collision/broad/pair_list.hpp"
 #include "collision/broad_phase.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline broad {
 namespace {
 
 class AllPairs final : public BroadPhase {
@@ -47,4 +47,4 @@ BroadPhaseEntry all_pairs() {
   return {"all_pairs", "every box against every other", [] { return std::unique_ptr<BroadPhase>(new AllPairs); }};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::broad

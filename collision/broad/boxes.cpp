@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace polhode::inline collision::broad {
+namespace polhode::inline collision::inline broad {
 namespace {
 
 bool good(const Bounds& b) {

@@ -12,7 +12,7 @@
 
 #include "collision/shape.hpp"
 
-namespace polhode::inline collision::broad {
+namespace polhode::inline collision::inline broad {
 
 struct PlainBox {
   std::array<double, 3> low, high;

@@ -12,10 +12,10 @@
   PHASE(bsp_tree) \
   PHASE(bvh)
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline broad {
 
 POLHODE_CATALOGUE(BroadPhaseEntry, broad_phase_catalogue, POLHODE_BROAD_PHASES)
 
 const BroadPhaseEntry* find_broad_phase(std::string_view name) { return find_entry(broad_phase_catalogue(), name); }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::broad

@@ -21,7 +21,7 @@
 #include "collision/broad/kept_pairs.hpp"
 #include "collision/broad_phase.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline broad {
 namespace {
 
 using broad::PlainBox;
@@ -490,4 +490,4 @@ BroadPhaseEntry bsp_tree() {
           [] { return std::unique_ptr<BroadPhase>(new BspTree); }};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::broad

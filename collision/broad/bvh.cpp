@@ -16,7 +16,7 @@
 #include "collision/broad/kept_pairs.hpp"
 #include "collision/broad_phase.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline broad {
 namespace {
 
 using broad::FatBoxes;
@@ -326,4 +326,4 @@ BroadPhaseEntry bvh() {
           [] { return std::unique_ptr<BroadPhase>(new Bvh); }};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::broad

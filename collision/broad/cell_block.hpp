@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace polhode::inline collision::broad::cells {
+namespace polhode::inline collision::inline broad::cells {
 
 using Index = std::uint32_t;
 inline constexpr Index no_block = 0;  ///< stands for a missing block; stays empty

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace polhode::inline collision::broad {
+namespace polhode::inline collision::inline broad {
 namespace {
 
 constexpr double common = 2;                // times the median size: still a common box

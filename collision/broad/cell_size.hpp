@@ -6,7 +6,7 @@
 
 #include "collision/broad/fat_boxes.hpp"
 
-namespace polhode::inline collision::broad {
+namespace polhode::inline collision::inline broad {
 
 /// Half the edge of a cell: a little more than the largest common box. A box is common up to twice the median size.
 class CellSize {

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-namespace polhode::inline collision::broad {
+namespace polhode::inline collision::inline broad {
 namespace {
 
 constexpr double fewest_ahead = 20, most_ahead = 32;  // steps that the room is for

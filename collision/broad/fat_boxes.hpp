@@ -11,7 +11,7 @@
 
 #include "collision/broad/boxes.hpp"
 
-namespace polhode::inline collision::broad {
+namespace polhode::inline collision::inline broad {
 
 class FatBoxes {
  public:

@@ -9,7 +9,7 @@
 #include "collision/broad/cell_block.hpp"
 #include "collision/shape.hpp"
 
-namespace polhode::inline collision::broad {
+namespace polhode::inline collision::inline broad {
 
 class GridCells {
  public:

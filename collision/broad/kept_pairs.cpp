@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace polhode::inline collision::broad {
+namespace polhode::inline collision::inline broad {
 namespace {
 
 // Pairs by which the bounds of kept pairs and of fresh pairs are fetched ahead.

@@ -12,7 +12,7 @@
 #include "collision/broad/fat_boxes.hpp"
 #include "collision/broad/pair_list.hpp"
 
-namespace polhode::inline collision::broad {
+namespace polhode::inline collision::inline broad {
 
 class KeptPairs {
  public:

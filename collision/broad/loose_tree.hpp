@@ -23,7 +23,7 @@
 #include "collision/broad/pair_list.hpp"
 #include "collision/broad_phase.hpp"
 
-namespace polhode::inline collision::broad {
+namespace polhode::inline collision::inline broad {
 
 template <std::size_t Dim>
 class LooseTree final : public BroadPhase {

@@ -7,7 +7,7 @@
 
 #include "collision/broad/boxes.hpp"
 
-namespace polhode::inline collision::broad {
+namespace polhode::inline collision::inline broad {
 
 void too_many_pairs() {
   std::string why = "the boxes of more than ";

@@ -11,7 +11,7 @@
 
 #include "collision/broad_phase.hpp"
 
-namespace polhode::inline collision::broad {
+namespace polhode::inline collision::inline broad {
 
 /// Limit of the number of pairs, which grows with the square of the bodies in one place and would exhaust memory.
 inline constexpr std::size_t most_pairs = 50'000'000;

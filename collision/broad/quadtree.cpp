@@ -3,7 +3,7 @@
 // "Quad Trees" (1974), made loose after Ulrich (2000).
 #include "collision/broad/loose_tree.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline broad {
 
 BroadPhaseEntry quadtree() {
   return {
@@ -12,4 +12,4 @@ BroadPhaseEntry quadtree() {
       [] { return std::unique_ptr<BroadPhase>(new broad::LooseTree<2>); }};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::broad

@@ -9,7 +9,7 @@
 
 #include "collision/broad/boxes.hpp"
 
-namespace polhode::inline collision::broad {
+namespace polhode::inline collision::inline broad {
 
 /// Rounds to nearest; values beyond single precision become its largest number.
 inline float rounded(double x) {

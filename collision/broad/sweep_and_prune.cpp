@@ -20,7 +20,7 @@
 #include "collision/broad/rounded_box.hpp"
 #include "collision/broad_phase.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline broad {
 namespace {
 
 using broad::PlainBox;
@@ -170,4 +170,4 @@ BroadPhaseEntry sweep_and_prune() {
           [] { return std::unique_ptr<BroadPhase>(new SweepAndPrune); }};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::broad

@@ -24,7 +24,7 @@
 #include "collision/broad/kept_pairs.hpp"
 #include "collision/broad_phase.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline broad {
 namespace {
 
 using namespace broad::cells;
@@ -457,4 +457,4 @@ BroadPhaseEntry uniform_grid() {
           [] { return std::unique_ptr<BroadPhase>(new UniformGrid); }};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::broad

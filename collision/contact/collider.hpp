@@ -4,7 +4,7 @@
 
 #include "collision/shape.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 
 /// Shape and surface properties of a body; a body without a shape touches nothing.
 struct Collider {
@@ -13,4 +13,4 @@ struct Collider {
   double friction = 0;     ///< Coulomb's; a pair has the geometric mean of its two
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

@@ -7,7 +7,7 @@
 #include <memory>
 #include <numbers>
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 namespace {
 
 constexpr double duration = 5e-3;  // duration of an elastic impact, if no stiffness is given, s
@@ -123,6 +123,10 @@ double Compliant::power(double, std::span<const BodyMotion<double>> bodies) cons
   return sum;
 }
 
+}  // namespace polhode::collision::contact
+
+namespace polhode::inline collision::inline response {
+
 ResponseEntry compliant() {
   return {"compliant",
           "f = max(0, k d + c ḋ) and smooth friction at each point: a force, so that --impact-timing means nothing",
@@ -131,4 +135,4 @@ ResponseEntry compliant() {
           }};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

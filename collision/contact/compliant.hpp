@@ -33,7 +33,7 @@
 #include "collision/contact/contact_scene.hpp"
 #include "core/problem/force.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 
 class Compliant final : public ForceModel<double> {
  public:
@@ -79,4 +79,4 @@ class Compliant final : public ForceModel<double> {
 /// ζ, from 0 to 1, of the damper with which a head-on rebound has the restitution e.
 double damping_ratio(double restitution);
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

@@ -12,7 +12,7 @@
 #include "collision/response.hpp"
 #include "core/problem/force.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 
 class ConstantContactForces final : public ForceModel<double> {
  public:
@@ -61,4 +61,4 @@ class ConstantContactForces final : public ForceModel<double> {
   std::vector<Pair> pairs_;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 
 Vector3<double> relative_velocity(std::span<const ImpulseBody> bodies, const ImpulseContact& c) {
   return bodies[c.a].velocity_at(c.point) - bodies[c.b].velocity_at(c.point);
@@ -45,4 +45,4 @@ double ContactKinematics::resting_speed(const ImpulseContact& c) const {
   return speed_round_off + std::sqrt(2 * lengths_.minimum_bounce_height * std::max(-normal_acceleration(c), 0.0));
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

@@ -7,7 +7,7 @@
 
 #include "collision/contact/guards.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 
 constexpr double speed_round_off = 1e-11;  ///< round-off of the velocity of a resting contact, m/s
 
@@ -47,4 +47,4 @@ class ContactKinematics {
   VectorX<double> rate_, later_;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

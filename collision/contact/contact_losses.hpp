@@ -8,7 +8,7 @@
 #include "collision/response.hpp"
 #include "core/run/contact_model.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 
 /// Weight of A in the point that moves with the line of action of a constant contact force: the common mass centre of
 /// the two bodies, or the body that can move.
@@ -37,4 +37,4 @@ inline double book(const ImpulseContact& c, std::span<const ImpulseBody> before,
   return -whole;
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

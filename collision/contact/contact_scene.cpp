@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 namespace {
 
 template <class Entry>
@@ -175,4 +175,4 @@ void impulse_motions(const System<double>& system, const VectorX<double>& y, std
   }
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

@@ -14,7 +14,7 @@
 #include "collision/response.hpp"
 #include "core/system/system.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 
 class ContactScene {
  public:
@@ -78,4 +78,4 @@ void impulse_bodies(const System<double>& system, const VectorX<double>& y, std:
 /// Updates positions and velocities of bodies made by impulse_bodies().
 void impulse_motions(const System<double>& system, const VectorX<double>& y, std::vector<ImpulseBody>& bodies);
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

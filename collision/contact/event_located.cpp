@@ -7,7 +7,7 @@
 
 #include "collision/contact/contact_losses.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 namespace {
 
 constexpr double resting_step = 1e-3;  // longest hold of resting contacts with an adaptive method, s
@@ -206,4 +206,4 @@ StepResult EventLocated::step(Integrator<double>& method, State<double>& state, 
   return {};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

@@ -27,7 +27,7 @@
 #include "collision/contact/resting_contacts.hpp"
 #include "core/run/contact_model.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 
 /// The contact model with located events.
 class EventLocated final : public ContactModel {
@@ -70,4 +70,4 @@ class EventLocated final : public ContactModel {
   State<double> ahead_, start_, at_impact_, step_start_, before_impacts_;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "collision/contact/flight_path.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 namespace {
 
 constexpr int most_inner_steps = 1'000'000;  // limit of steps of an adaptive method in one call
@@ -28,4 +28,4 @@ bool FlightPath::state_at(double s, State<double>& there) {
   return advance(method_, there, s).ok();
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

@@ -4,7 +4,7 @@
 
 #include "core/run/integrator.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 
 /// Advances the state by h (s) in as many steps as the method needs. Fails after a million steps.
 StepResult advance(Integrator<double>& method, State<double>& state, double h);
@@ -31,4 +31,4 @@ class FlightPath {
   bool stepped_method_ = false;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

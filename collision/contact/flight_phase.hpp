@@ -3,7 +3,7 @@
 // contacts at the start of the next flight.
 #pragma once
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 
 /// A step alternates between impacts at an instant and a flight to the next impact. Phases and their effect:
 ///
@@ -42,4 +42,4 @@ class FlightPhase {
   Phase phase_ = Phase::undisturbed;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 namespace {
 
 double largest_radius(const ContactScene& scene) {
@@ -138,4 +138,4 @@ bool Guards::may_dip(const Look& from, const Look& to, double length) const {
   return false;
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

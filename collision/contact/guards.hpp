@@ -15,7 +15,7 @@
 
 #include "collision/contact/contact_scene.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 
 /// Tolerances (m), from coarse to fine.
 struct ContactLengths {
@@ -84,4 +84,4 @@ class Guards {
   std::vector<Pull> pulls_;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

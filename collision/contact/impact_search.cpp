@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 
 std::optional<double> ImpactSearch::first_impact(FlightPath& path, const State<double>& start, const State<double>& end,
                                                  double length) {
@@ -58,4 +58,4 @@ double ImpactSearch::first_below(FlightPath& path, double from, const Guards::Lo
   return std::isfinite(first) ? first : first_below(path, middle, seen, to, at_to, depth - 1);
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

@@ -9,7 +9,7 @@
 #include "collision/contact/flight_path.hpp"
 #include "collision/contact/guards.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 
 /// The search for the first impact.
 class ImpactSearch {
@@ -35,4 +35,4 @@ class ImpactSearch {
   State<double> there_;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

@@ -7,7 +7,7 @@
 #include "collision/contact/time_stepping.hpp"
 #include "core/problem/catalogue.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 namespace {
 
 template <Reflected reflected>
@@ -36,4 +36,4 @@ const ImpactTimingEntry* find_impact_timing(std::string_view name) {
   return find_entry(impact_timing_catalogue(), name);
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

@@ -10,7 +10,7 @@
 #include "collision/contact/contact_scene.hpp"
 #include "core/run/contact_model.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 
 struct ImpactTimingEntry {
   std::string name;
@@ -23,4 +23,4 @@ struct ImpactTimingEntry {
 const std::vector<ImpactTimingEntry>& impact_timing_catalogue();
 const ImpactTimingEntry* find_impact_timing(std::string_view name);
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

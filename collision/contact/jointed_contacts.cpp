@@ -7,7 +7,7 @@
 #include "core/system/constraints.hpp"
 #include "core/system/joint_projection.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 namespace {
 
 constexpr int most_turns = 500;
@@ -157,4 +157,4 @@ void JointedContacts::limit_energy(Response& response, std::span<ImpulseBody> bo
   }
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

@@ -13,7 +13,7 @@
 #include "collision/response.hpp"
 #include "core/system/system.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 
 class JointedContacts {
  public:
@@ -47,4 +47,4 @@ class JointedContacts {
   VectorX<double> right_, multipliers_, before_;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

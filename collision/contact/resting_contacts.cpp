@@ -9,7 +9,7 @@
 #include "collision/contact/contact_losses.hpp"
 #include "collision/contact/flight_path.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 
 bool RestingContacts::hold(Integrator<double>& method, const State<double>& state, double h,
                            std::span<ImpulseContact> touching, ContactKinematics& kinematics, bool all) {
@@ -89,4 +89,4 @@ void RestingContacts::account(const State<double>& start, const State<double>& e
   }
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

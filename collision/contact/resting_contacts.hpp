@@ -10,7 +10,7 @@
 #include "collision/contact/contact_kinematics.hpp"
 #include "collision/contact/sliding_pairs.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 
 /// Resting and sliding contacts of a run.
 class RestingContacts {
@@ -60,4 +60,4 @@ class RestingContacts {
   std::vector<ImpulseBody> bodies_, later_;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

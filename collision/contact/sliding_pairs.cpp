@@ -8,7 +8,7 @@
 #include "collision/contact/contact_kinematics.hpp"
 #include "collision/response/contact_frame.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 namespace {
 
 Vector3<double> slip_of(std::span<const ImpulseBody> bodies, const ImpulseContact& c) {
@@ -110,4 +110,4 @@ void SlidingPairs::note_stuck(const ContactHold& hold) {
   }
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

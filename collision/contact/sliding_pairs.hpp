@@ -10,7 +10,7 @@
 #include "collision/response.hpp"
 #include "core/run/contact_model.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 
 /// Contacts that are held for some time, with the impulses over that time.
 struct ContactHold {
@@ -65,4 +65,4 @@ class SlidingPairs {
   std::vector<BodyPair> stuck_;  ///< pairs that stuck at the end of the last hold, sorted
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

@@ -6,7 +6,7 @@
 
 #include "collision/contact/contact_losses.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 
 TimeStepping::TimeStepping(System<double>& system, ContactScene& scene, std::unique_ptr<Response> response,
                            Reflected reflected)
@@ -117,4 +117,4 @@ void TimeStepping::undo_penetration(State<double>& state) {
   if (moved) losses_.penetration += system_.measure(state.y).energy() - before;
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

@@ -11,7 +11,7 @@
 #include "collision/contact/jointed_contacts.hpp"
 #include "core/run/contact_model.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline contact {
 
 /// The velocity that restitution reflects: the velocity at the start of the step, or the velocity that the step would
 /// end with without contact. With the first, a bouncing ball conserves the modified energy of semi-implicit Euler; the
@@ -48,4 +48,4 @@ class TimeStepping final : public ContactModel {
   State<double> free_, before_;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::contact

@@ -8,7 +8,7 @@
 #include "collision/narrow/four.hpp"
 #include "collision/narrow/patch.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 namespace {
 
 // The corners of a face lie at (−, −), (+, −), (−, +), (+, +) along its two axes, and its sides go from corner 0 to 1,
@@ -181,4 +181,4 @@ bool faces_patch(const ReferenceFace& reference, const IncidentBox& incident, do
   return true;
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

@@ -11,7 +11,7 @@
 #include "collision/contact.hpp"
 #include "collision/pose.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 /// Number of the edge of a box that starts at a vertex and runs along +axis; edges are sorted by their two vertices.
 inline constexpr std::uint32_t edge_from[8][3] = {{0, 1, 2}, {0, 3, 4},  {5, 1, 6},  {5, 3, 7},
@@ -46,4 +46,4 @@ struct IncidentBox {
 /// Sets the patch in the manifold; returns false if no part of it is within `margin` (m) of the face.
 bool faces_patch(const ReferenceFace& reference, const IncidentBox& incident, double margin, Manifold& manifold);
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

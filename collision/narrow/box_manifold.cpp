@@ -7,7 +7,7 @@
 #include "collision/narrow/box_faces.hpp"
 #include "collision/narrow/patch.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 namespace {
 
 Vector3<double> corner(const Vector3<double>& half, std::uint32_t k) {
@@ -138,4 +138,4 @@ Manifold boxes_manifold(const BoxAt& a, const BoxAt& b, double margin) {
   return manifold;
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

@@ -20,7 +20,7 @@
 #include <immintrin.h>
 #endif
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 namespace {
 
 // Bound of the round-off, in units of half extents and offset. It is over a sum of all entries of the poses, so that a
@@ -381,4 +381,4 @@ void boxes_overlap(std::span<const PosedBox> boxes, std::span<const BodyPair> pa
     answer[left] = overlap_alone(all[pair[left].a], all[pair[left].b]);
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

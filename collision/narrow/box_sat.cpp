@@ -8,7 +8,7 @@
 
 #include "collision/narrow/four.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 namespace {
 
 constexpr double round_off = 5e-16;    // rounding error of a separation, in units of RelativeBoxes::scale
@@ -266,4 +266,4 @@ Distance boxes_distance(const BoxAt& a, const BoxAt& b) {
   return mirrored;
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

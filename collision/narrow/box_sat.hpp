@@ -17,7 +17,7 @@
 #include "collision/contact.hpp"
 #include "collision/pose.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 /// A box at a pose, by reference.
 struct BoxAt {
@@ -66,4 +66,4 @@ struct PosedBox {
 /// overlap[k] = boxes_overlap of pair k, several pairs side by side in SIMD lanes.
 void boxes_overlap(std::span<const PosedBox> boxes, std::span<const BodyPair> pairs, std::span<std::uint8_t> overlap);
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

@@ -14,7 +14,7 @@
 #include "collision/shapes/compound.hpp"
 #include "collision/shapes/half_space.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 namespace {
 
 using Kind = SupportFeature::Kind;
@@ -380,4 +380,4 @@ Manifold compound_patch(const NarrowPhase& phase, const Shape& a, const Pose& at
   return manifold;
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

@@ -10,7 +10,7 @@
 
 #include "collision/narrow_phase.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 /// The patch of two shapes that are convex or half-spaces; empty if they are more than `margin` (m) apart. If A and B
 /// are exchanged and the distance is mirrored, the manifold is mirrored to the last digit. Features are numbered as in
@@ -26,4 +26,4 @@ Manifold contact_patch(const Shape& a, const Pose& at_a, const Shape& b, const P
 Manifold compound_patch(const NarrowPhase& phase, const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b,
                         double margin);
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

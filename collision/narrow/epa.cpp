@@ -9,7 +9,7 @@
 #include "collision/narrow/epa_polytope.hpp"
 #include "collision/narrow/face_normals.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 namespace {
 
@@ -240,4 +240,4 @@ std::optional<Penetration> epa_again(const MinkowskiPair& pair, PairMemory::Shel
   return expansion.run(shell);
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

@@ -9,7 +9,7 @@
 #include "collision/narrow/gjk_loop.hpp"
 #include "collision/narrow_phase.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 /// Separation along n (unit, from B to A, in A's axes): min over A of n·a − max over B of n·b. Every n gives a lower
 /// bound of the signed distance; the maximum over n is the signed distance. Moving A by −separation along n separates
@@ -35,4 +35,4 @@ Penetration epa(const MinkowskiPair& pair, const GjkResult& start, PairMemory::S
 /// touching features are the same, one new corner proves the answer. Otherwise the result is empty.
 std::optional<Penetration> epa_again(const MinkowskiPair& pair, PairMemory::Shell& shell);
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

@@ -5,7 +5,7 @@
 
 #include "collision/narrow/gjk_loop.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 EpaPolytope::Index EpaPolytope::add_corner(const MinkowskiCorner& c) {
   met(c.w.norm());
@@ -177,4 +177,4 @@ bool EpaPolytope::load(const MinkowskiPair& pair, const PairMemory::Shell& shell
   return true;
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

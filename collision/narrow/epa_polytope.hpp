@@ -15,7 +15,7 @@
 #include "collision/narrow/simplex.hpp"
 #include "collision/narrow_phase.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 class EpaPolytope {
  public:
@@ -74,4 +74,4 @@ class EpaPolytope {
   std::array<Index, 3 * face_room> open_;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

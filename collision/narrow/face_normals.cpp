@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 namespace {
 
@@ -61,4 +61,4 @@ Vector3<double> nearest_edge_product(const MinkowskiCorner& c0, const MinkowskiC
   return best;
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

@@ -4,7 +4,7 @@
 
 #include "collision/narrow/minkowski_pair.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 /// a × b with each component exact to the last bits, however nearly parallel a and b are (Kahan's difference of
 /// products; Jeannerod, Louvet & Muller, Mathematics of Computation 82, 2013).
@@ -19,4 +19,4 @@ Vector3<double> nearest_face_normal(const ConvexCore& core, const Vector3<double
 Vector3<double> nearest_edge_product(const MinkowskiCorner& c0, const MinkowskiCorner& c1, const MinkowskiCorner& c2,
                                      const Vector3<double>& n);
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

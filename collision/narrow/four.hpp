@@ -16,7 +16,7 @@
 // one file only.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 using Four [[gnu::vector_size(32)]] = double;
 using FourBits [[gnu::vector_size(32)]] = std::int64_t;
@@ -52,4 +52,4 @@ inline std::uint32_t bits(FourBits truth) {
 inline void put(Four x, double* numbers) { std::memcpy(numbers, &x, sizeof x); }
 inline double largest(Four x) { return std::max(std::max(x[0], x[1]), x[2]); }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

@@ -20,7 +20,7 @@
 #include "collision/shapes/compound.hpp"
 #include "collision/shapes/half_space.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 namespace {
 
@@ -260,4 +260,4 @@ NarrowPhaseEntry gjk() {
           []() -> std::unique_ptr<NarrowPhase> { return std::make_unique<Gjk>(); }};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

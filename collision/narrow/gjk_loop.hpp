@@ -10,7 +10,7 @@
 
 #include "collision/narrow/simplex.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 struct GjkResult {
   enum class State {
@@ -119,4 +119,4 @@ void gjk_loop(const MinkowskiPair& pair, GjkResult& r) {
   else r.state = GjkResult::State::apart;
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

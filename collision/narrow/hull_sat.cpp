@@ -16,7 +16,7 @@
 #include "collision/shapes/half_space.hpp"
 #include "collision/shapes/sphere.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 namespace {
 
 using Vector = Vector3<double>;
@@ -379,4 +379,4 @@ Distance above_half_space(const Shape& a, const Pose& at_a, const Shape& half_sp
   return {distance, n, on_a, on_a - distance * n};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

@@ -13,7 +13,7 @@
 #include "collision/contact.hpp"
 #include "collision/shape.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 /// True for spheres, capsules, boxes and hulls.
 bool has_separating_axes(const Shape& shape);
@@ -25,4 +25,4 @@ Distance hulls_distance(const Shape& a, const Pose& at_a, const Shape& b, const 
 /// Signed distance of a half-space and a finite convex shape; the normal points out of the half-space.
 Distance above_half_space(const Shape& a, const Pose& at_a, const Shape& half_space, const Pose& at_half_space);
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

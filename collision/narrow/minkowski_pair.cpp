@@ -5,7 +5,7 @@
 #include "collision/shapes/capsule.hpp"
 #include "collision/shapes/sphere.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 ConvexCore::ConvexCore(const Shape& s) : shape(&s) {
   switch (s.tag()) {
@@ -57,4 +57,4 @@ void ConvexCore::vertex_of_others(std::uint32_t i, Vector3<double>& x) const {
   }
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

@@ -9,7 +9,7 @@
 #include "collision/shape.hpp"
 #include "collision/shapes/convex_hull.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 struct ConvexCore {
   enum class Kind : std::uint8_t { point, segment, box, hull, smooth };
@@ -113,4 +113,4 @@ struct MinkowskiPair {
   Vector3<double> in_b(const Vector3<double>& turned) const { return rotation.transpose() * turned; }
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

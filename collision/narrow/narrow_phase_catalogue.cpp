@@ -8,10 +8,10 @@
   METHOD(gjk) \
   METHOD(sat_course_report)
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 POLHODE_CATALOGUE(NarrowPhaseEntry, narrow_phase_catalogue, POLHODE_NARROW_PHASES)
 
 const NarrowPhaseEntry* find_narrow_phase(std::string_view name) { return find_entry(narrow_phase_catalogue(), name); }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

@@ -5,7 +5,7 @@
 
 #include "collision/shapes/half_space.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 namespace {
 
@@ -45,4 +45,4 @@ bool exchanged_at_equal_x(const Shape& a, const Pose& at_a, const Shape& b, cons
   return c > 0;
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

@@ -5,7 +5,7 @@
 
 #include "collision/shape.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 bool exchanged_at_equal_x(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b);
 
@@ -15,4 +15,4 @@ inline bool exchanged(const Shape& a, const Pose& at_a, const Shape& b, const Po
   return here == there ? exchanged_at_equal_x(a, at_a, b, at_b) : here > there;
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

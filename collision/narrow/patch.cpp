@@ -10,7 +10,7 @@
 
 #include "collision/narrow/four.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 namespace {
 
 constexpr double least_gain = 1.0 / 32;  // least gain, over the patch's area, by a point beside four others
@@ -188,4 +188,4 @@ void mirror(Manifold& manifold) {
   }
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

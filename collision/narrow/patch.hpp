@@ -11,7 +11,7 @@
 
 #include "collision/contact.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 /// Faces at most this far from parallel (0.1 rad) meet as faces. The whole patch then counts, also where the faces are
 /// apart, so that a rocking body keeps its contact points.
@@ -66,4 +66,4 @@ void take_patch(const PatchFrame& frame, std::span<PatchCorner> corners, Manifol
 /// The manifold with A and B exchanged.
 void mirror(Manifold& manifold);
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

@@ -14,7 +14,7 @@
 #include "collision/shapes/box.hpp"
 #include "collision/shapes/compound.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 namespace {
 
 bool both_boxes(const Shape& a, const Shape& b) { return a.tag() == ShapeTag::box && b.tag() == ShapeTag::box; }
@@ -79,4 +79,4 @@ NarrowPhaseEntry sat() {
           [] { return std::unique_ptr<NarrowPhase>(new Sat); }};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

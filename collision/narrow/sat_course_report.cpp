@@ -12,7 +12,7 @@
 #include "collision/narrow_phase.hpp"
 #include "collision/shapes/box.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 namespace {
 
 const Box& box(const Shape& shape) {
@@ -76,4 +76,4 @@ NarrowPhaseEntry sat_course_report() {
           [] { return std::unique_ptr<NarrowPhase>(new SatCourseReport); }};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

@@ -14,7 +14,7 @@
 
 #include "collision/narrow/minkowski_pair.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 /// Up to four corners in fixed slots. `used` has a bit for each slot; `weight` is the barycentric coordinate λ of the
 /// nearest point Σ λ w.
@@ -190,4 +190,4 @@ inline void solve(Simplex& s, unsigned newest, NearestPoint& nearest) {
   }
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

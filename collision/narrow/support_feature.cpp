@@ -12,7 +12,7 @@
 #include "collision/shapes/convex_hull.hpp"
 #include "collision/shapes/cylinder.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 namespace {
 
 using Kind = SupportFeature::Kind;
@@ -136,4 +136,4 @@ void support_feature(const Shape& shape, const Vector3<double>& d, SupportFeatur
   }
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

@@ -9,7 +9,7 @@
 
 #include "collision/shape.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline narrow {
 
 /// Features of boxes and hulls are numbered as in their polytope. The ends of a capsule are vertices 0 (below) and 1,
 /// its side is edge 0. The ends of a cylinder are faces 0 (below) and 1; their corners and edges are numbered from 32
@@ -32,4 +32,4 @@ struct SupportFeature {
 /// once `feature` has had as many corners.
 void support_feature(const Shape& shape, const Vector3<double>& d, SupportFeature& feature);
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::narrow

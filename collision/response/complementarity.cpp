@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline response {
 namespace {
 
 /// Relative to a diagonal element: the pivot below which a column counts as linearly dependent.
@@ -174,4 +174,4 @@ bool Complementarity::solve(const Matrix& a, const Eigen::Ref<const Eigen::Vecto
   return false;
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

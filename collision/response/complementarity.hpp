@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline response {
 
 /// Solves it by principal pivoting (Dantzig & Cottle, 1968; Cottle, Pang & Stone, 1992, section 4.3), in the order of
 /// Lawson & Hanson (1974). Each pivot lowers ½ j·A j + b·j, so no set of positive impulses recurs, and the method
@@ -35,4 +35,4 @@ class Complementarity {
   Eigen::VectorXd x_;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

@@ -13,7 +13,7 @@
 
 #include "collision/response/contact_batches.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline response {
 
 /// The search direction of the motions, and β. The solver keeps that of the impulses.
 class ConjugateCourse {
@@ -64,4 +64,4 @@ class ConjugateCourse {
   double size_ = 0;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

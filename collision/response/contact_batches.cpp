@@ -6,7 +6,7 @@
 
 #include "collision/response/contact_frame.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline response {
 namespace {
 
 /// Points of a patch that share a batch; longer patches are cut.
@@ -124,4 +124,4 @@ void ContactBatches::add_batch(std::span<const ImpulseBody> bodies, std::span<co
   }
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

@@ -15,7 +15,7 @@
 #include "collision/response.hpp"
 #include "core/math/lanes.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline response {
 
 /// The quantity of a body that a sweep changes: its velocity (m/s, rad/s), or the displacement that undoes penetration
 /// (m, rad), of the mass centre or pivot, world axes. One cache line.
@@ -148,4 +148,4 @@ struct PairMotion {
   }
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

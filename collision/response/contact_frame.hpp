@@ -4,7 +4,7 @@
 
 #include "collision/response.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline response {
 
 struct ContactFrame {
   Vector3<double> normal, tangent, bitangent;
@@ -26,4 +26,4 @@ inline Vector3<double> mobility_along(const ImpulseBody& a, const ImpulseBody& b
          (b.inverse_inertia * rb.cross(impulse)).cross(rb);
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline response {
 namespace {
 
 Vector3<double> relative(std::span<const ImpulseBody> bodies, const ImpulseContact& c) {
@@ -68,4 +68,4 @@ void EnergyGuard::limit(std::span<const ImpulseBody> bodies, std::span<ImpulseCo
   }
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

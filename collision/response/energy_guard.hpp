@@ -10,7 +10,7 @@
 
 #include "collision/response/islands.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline response {
 
 /// The largest s in [0, 1] with start + s slope + s² (end − start − slope) <= 0, a parabola that is `end` at s = 1;
 /// start must not be positive.
@@ -37,4 +37,4 @@ class EnergyGuard {
   std::vector<std::uint32_t> gaining_;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

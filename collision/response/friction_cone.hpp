@@ -7,7 +7,7 @@
 
 #include "core/math/lanes.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline response {
 
 /// The two components of the tangential impulse at one point.
 template <class S>
@@ -52,4 +52,4 @@ class FrictionCone {
   S least_;         ///< 1 over the largest eigenvalue of K
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

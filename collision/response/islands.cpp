@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline response {
 
 constexpr std::uint32_t no_island = 0xffffffff;
 
@@ -41,4 +41,4 @@ void Islands::build(std::span<const ImpulseBody> bodies, std::span<const Impulse
   }
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

@@ -8,7 +8,7 @@
 
 #include "collision/response.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline response {
 
 class Islands {
  public:
@@ -26,4 +26,4 @@ class Islands {
   std::vector<std::uint32_t> parents_, numbers_, starts_, members_, island_of_;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline response {
 
 void PositionCorrection::undo(std::span<ImpulseBody> bodies, std::span<const ImpulseContact> contacts) {
   if (!too_deep(bodies, contacts)) return;
@@ -88,4 +88,4 @@ void PositionCorrection::visit(const ContactBatches& batches, std::size_t number
   motion.store(patch, motions_.data());
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

@@ -10,7 +10,7 @@
 #include "collision/response/conjugate_course.hpp"
 #include "collision/response/contact_batches.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline response {
 
 struct PositionCorrectionSettings {
   double slop = 1e-3;       ///< depth that is left, so that resting contacts persist, m
@@ -48,4 +48,4 @@ class PositionCorrection {
   ConjugateCourse course_;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

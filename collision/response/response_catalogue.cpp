@@ -9,7 +9,7 @@
   METHOD(simultaneous) \
   METHOD(compliant)
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline response {
 
 POLHODE_CATALOGUE(ResponseEntry, response_catalogue, POLHODE_RESPONSES)
 
@@ -21,4 +21,4 @@ std::vector<ResponseEntry> impulse_responses() {
   return some;
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

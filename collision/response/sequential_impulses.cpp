@@ -18,7 +18,7 @@
 #include "collision/response/friction_cone.hpp"
 #include "collision/response/warm_start.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline response {
 namespace {
 
 Lanes larger(const Lanes& a, const Lanes& b) { return select(a > b, a, b); }
@@ -321,4 +321,4 @@ ResponseEntry sequential_impulses() {
           [] { return make_sequential_impulses({}); }};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

@@ -6,7 +6,7 @@
 #include "collision/response.hpp"
 #include "collision/response/position_correction.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline response {
 
 struct SequentialSettings {
   int at_instant = 1000;             ///< limit of iterations, for an impact at an instant
@@ -19,4 +19,4 @@ struct SequentialSettings {
 
 std::unique_ptr<Response> make_sequential_impulses(const SequentialSettings& settings);
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

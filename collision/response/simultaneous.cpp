@@ -25,7 +25,7 @@
 #include "collision/response/islands.hpp"
 #include "collision/response/position_correction.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline response {
 namespace {
 
 using Eigen::Index;
@@ -248,4 +248,4 @@ ResponseEntry simultaneous() {
       [] { return std::unique_ptr<Response>(new Simultaneous); }};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

@@ -17,7 +17,7 @@
 #include "collision/response/contact_frame.hpp"
 #include "collision/response/position_correction.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline response {
 namespace {
 
 class SingleImpulse final : public Response {
@@ -102,4 +102,4 @@ ResponseEntry single_impulse() {
           [] { return std::unique_ptr<Response>(new SingleImpulse); }};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

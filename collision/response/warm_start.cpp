@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline response {
 
 void WarmStart::recall(std::span<const ImpulseBody> bodies, std::span<ImpulseContact> contacts, double step) {
   const auto same = [](const auto& c, const auto& d) { return c.a == d.a && c.b == d.b; };
@@ -51,4 +51,4 @@ void WarmStart::remember(std::span<const ImpulseBody> bodies, std::span<const Im
   }
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

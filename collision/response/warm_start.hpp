@@ -8,7 +8,7 @@
 
 #include "collision/response.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline response {
 
 class WarmStart {
  public:
@@ -31,4 +31,4 @@ class WarmStart {
   std::vector<std::uint32_t> new_;  ///< contacts of a pair whose features are new
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::response

@@ -5,7 +5,7 @@
 #include "collision/shapes/shape_inertia.hpp"
 #include "collision/shapes/size_checks.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 namespace {
 
@@ -43,4 +43,4 @@ ShapeEntry box() {
           "I1 = m (b^2 + c^2)/12, ..."};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

@@ -7,7 +7,7 @@
 #include "collision/shape.hpp"
 #include "collision/shapes/polytope.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 class Box final : public Shape {
  public:
@@ -31,4 +31,4 @@ class Box final : public Shape {
   Polytope polytope_;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

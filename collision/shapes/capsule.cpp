@@ -7,7 +7,7 @@
 #include "collision/shapes/shape_inertia.hpp"
 #include "collision/shapes/size_checks.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 Capsule::Capsule(double radius, double length)
     : Shape(ShapeTag::capsule),
@@ -38,4 +38,4 @@ ShapeEntry capsule() {
           "a cylinder between two half balls, as their sum; its axis is body axis 3"};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

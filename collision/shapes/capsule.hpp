@@ -6,7 +6,7 @@
 
 #include "collision/shape.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 class Capsule final : public Shape {
  public:
@@ -26,4 +26,4 @@ class Capsule final : public Shape {
   double radius_, half_;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

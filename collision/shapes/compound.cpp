@@ -11,7 +11,7 @@
 #include "collision/shapes/size_checks.hpp"
 #include "core/problem/inertia.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 namespace {
 
@@ -120,4 +120,4 @@ ShapeEntry compound() {
           }};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

@@ -7,7 +7,7 @@
 
 #include "collision/shapes/convex_hull.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 class Compound final : public Shape {
  public:
@@ -31,4 +31,4 @@ class Compound final : public Shape {
   MassProperties mass_;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

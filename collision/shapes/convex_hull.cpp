@@ -11,7 +11,7 @@
 #include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/size_checks.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 namespace {
 
@@ -177,4 +177,4 @@ ShapeEntry convex_hull() {
           }};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

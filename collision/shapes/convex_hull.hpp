@@ -9,7 +9,7 @@
 #include "collision/shapes/polytope.hpp"
 #include "core/math/lanes.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 class ConvexHull final : public Shape {
  public:
@@ -35,4 +35,4 @@ class ConvexHull final : public Shape {
   std::array<std::uint32_t, 6> extreme_{};  ///< vertices furthest along ± each axis; hill climbing starts there
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

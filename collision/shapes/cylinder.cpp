@@ -8,7 +8,7 @@
 #include "collision/shapes/shape_inertia.hpp"
 #include "collision/shapes/size_checks.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 Cylinder::Cylinder(double radius, double length)
     : Shape(ShapeTag::cylinder),
@@ -47,4 +47,4 @@ ShapeEntry cylinder() {
           "I1 = I2 = m (3 r^2 + l^2)/12, I3 = m r^2/2; its axis is body axis 3"};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

@@ -4,7 +4,7 @@
 
 #include "collision/shape.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 class Cylinder final : public Shape {
  public:
@@ -22,4 +22,4 @@ class Cylinder final : public Shape {
   double radius_, half_;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

@@ -7,7 +7,7 @@
 #include "collision/shapes/shape_inertia.hpp"
 #include "collision/shapes/size_checks.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 Ellipsoid::Ellipsoid(const Vector3<double>& semi_axes)
     : Shape(ShapeTag::ellipsoid), semi_axes_(positive_sizes("ellipsoid", "semi_axes", semi_axes)) {}
@@ -36,4 +36,4 @@ ShapeEntry ellipsoid() {
           "I1 = m (b^2 + c^2)/5, ..."};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

@@ -4,7 +4,7 @@
 
 #include "collision/shape.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 class Ellipsoid final : public Shape {
  public:
@@ -21,4 +21,4 @@ class Ellipsoid final : public Shape {
   Vector3<double> semi_axes_;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

@@ -8,7 +8,7 @@
 #include "collision/shapes/shape_catalogue.hpp"
 #include "collision/shapes/size_checks.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 HalfSpace::HalfSpace(const Vector3<double>& normal, double offset) : Shape(ShapeTag::half_space) {
   const double length = normal.stableNorm();
@@ -62,4 +62,4 @@ ShapeEntry half_space() {
           }};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

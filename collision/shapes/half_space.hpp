@@ -4,7 +4,7 @@
 
 #include "collision/shape.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 class HalfSpace final : public Shape {
  public:
@@ -26,4 +26,4 @@ class HalfSpace final : public Shape {
   double offset_ = 0;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

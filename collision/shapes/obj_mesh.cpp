@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 namespace {
 
@@ -110,4 +110,4 @@ class Reader {
 
 ObjMesh read_obj_mesh(const std::string& path) { return Reader(path).read(); }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

@@ -9,7 +9,7 @@
 
 #include "core/math/linear_algebra.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 struct ObjMesh {
   struct Face {
@@ -28,4 +28,4 @@ struct ObjMesh {
 /// Reads a mesh. Throws std::invalid_argument: "table.obj:12: …".
 ObjMesh read_obj_mesh(const std::string& path);
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 namespace {
 
@@ -116,4 +116,4 @@ MassProperties polyhedron_mass(const Polytope& polytope) {
   return {T0 * volume_unit, middle + unit * r, inertia * (volume_unit * unit * unit)};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

@@ -6,8 +6,8 @@
 #include "collision/shape.hpp"
 #include "collision/shapes/polytope.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 MassProperties polyhedron_mass(const Polytope& polytope);
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

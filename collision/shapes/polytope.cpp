@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 namespace {
 
@@ -78,4 +78,4 @@ Polytope make_polytope(std::vector<Vector3<double>> vertices, const std::vector<
   return p;
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

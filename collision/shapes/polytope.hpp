@@ -8,7 +8,7 @@
 
 #include "core/math/linear_algebra.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 struct Polytope {
   struct Face {
@@ -53,4 +53,4 @@ struct Polytope {
 /// std::invalid_argument unless every edge has exactly two faces that pass it in opposite directions.
 Polytope make_polytope(std::vector<Vector3<double>> vertices, const std::vector<std::vector<std::uint32_t>>& loops);
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

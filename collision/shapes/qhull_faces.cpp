@@ -11,7 +11,7 @@ extern "C" {
 #include <libqhull_r/qhull_ra.h>
 }
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 namespace {
 
@@ -69,4 +69,4 @@ std::vector<std::vector<std::uint32_t>> qhull_faces(std::span<const Vector3<doub
   return loops;
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

@@ -14,7 +14,7 @@
   SHAPE(compound) \
   SHAPE(half_space)
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 POLHODE_CATALOGUE(ShapeEntry, shape_catalogue, POLHODE_SHAPES)
 
@@ -28,4 +28,4 @@ Parameter lengths_parameter(const char* key, const char* meaning) {
   return {key, Vector3<double>(0, 0, 0), "m", meaning, Parameter::Need::required, Parameter::Range::positive};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

@@ -10,7 +10,7 @@
 #include "collision/shape.hpp"
 #include "core/problem/force_kind.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 /// The sizes of a shape; every key of its entry is present.
 struct ShapeParameters {
@@ -43,4 +43,4 @@ Parameter length_parameter(const char* key, const char* meaning, Parameter::Rang
 /// Three positive lengths (m) that a scenario must give.
 Parameter lengths_parameter(const char* key, const char* meaning);
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

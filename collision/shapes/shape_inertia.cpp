@@ -2,7 +2,7 @@
 // Each formula is the integral of the slides' sums over a body of even density.
 #include "collision/shapes/shape_inertia.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 namespace {
 
@@ -38,4 +38,4 @@ Vector3<double> ellipsoid_moments(double mass, const Vector3<double>& semi_axes)
   return mass / 5 * perpendicular(semi_axes);
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

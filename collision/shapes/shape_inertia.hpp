@@ -4,7 +4,7 @@
 
 #include "core/math/linear_algebra.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 // Principal moments about the mass centre; the axis of a cylinder or capsule is body axis 3, and the length of a
 // capsule that of its cylindrical part.
@@ -14,4 +14,4 @@ Vector3<double> cylinder_moments(double mass, double radius, double length);
 Vector3<double> capsule_moments(double mass, double radius, double length);
 Vector3<double> ellipsoid_moments(double mass, const Vector3<double>& semi_axes);
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

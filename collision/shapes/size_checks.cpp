@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 std::string in_words(double value) {
   std::ostringstream text;
@@ -51,4 +51,4 @@ MassProperties centered_mass(double volume, const Vector3<double>& moments) {
   return {volume, Vector3<double>::Zero(), moments.asDiagonal()};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

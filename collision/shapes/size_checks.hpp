@@ -6,7 +6,7 @@
 
 #include "collision/shape.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 /// The accepted range of sizes (m). Products of five and more of them stay far from overflow and underflow.
 inline constexpr double smallest_size = 1e-50, largest_size = 1e50;
@@ -23,4 +23,4 @@ MassProperties centered_mass(double volume, const Vector3<double>& moments);
 /// A number as text, with all its digits.
 std::string in_words(double value);
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

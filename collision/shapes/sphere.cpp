@@ -7,7 +7,7 @@
 #include "collision/shapes/shape_inertia.hpp"
 #include "collision/shapes/size_checks.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 Sphere::Sphere(double radius) : Shape(ShapeTag::sphere), radius_(positive_size("sphere", "radius", radius)) {}
 
@@ -30,4 +30,4 @@ ShapeEntry sphere() {
           "I = 2 m r^2/5"};
 }
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

@@ -4,7 +4,7 @@
 
 #include "collision/shape.hpp"
 
-namespace polhode::inline collision {
+namespace polhode::inline collision::inline shapes {
 
 class Sphere final : public Shape {
  public:
@@ -21,4 +21,4 @@ class Sphere final : public Shape {
   double radius_;
 };
 
-}  // namespace polhode::collision
+}  // namespace polhode::collision::shapes

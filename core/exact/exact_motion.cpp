@@ -5,7 +5,7 @@
 
 #include "core/exact/joined_motion.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 namespace {
 
 bool has_joint(const Problem& problem, std::size_t body) {
@@ -119,4 +119,4 @@ ConservedMomenta conserved_momenta(const System<double>& system) {
   return conserved;
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

@@ -10,7 +10,7 @@
 #include "core/exact/exact_rotation.hpp"
 #include "core/system/system.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 
 class ExactMotion {
  public:
@@ -60,4 +60,4 @@ struct ConservedMomenta {
 };
 ConservedMomenta conserved_momenta(const System<double>& system);
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

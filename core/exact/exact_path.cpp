@@ -8,7 +8,7 @@
 #include "core/exact/kepler_motion.hpp"
 #include "core/exact/linear_motion.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 namespace {
 
 using Vector = Vector3<double>;
@@ -107,4 +107,4 @@ ExactPath exact_path(const System<double>& system, std::size_t body) {
   return oscillator(system.problem(), forces, body);
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

@@ -8,7 +8,7 @@
 #include "core/exact/motion_at.hpp"
 #include "core/system/system.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 
 /// A path in world axes as a function of time (s).
 using ExactPath = std::function<PathAt(double)>;
@@ -20,4 +20,4 @@ using ExactPath = std::function<PathAt(double)>;
 ///   forces that accelerate both free bodies alike.
 ExactPath exact_path(const System<double>& system, std::size_t body);
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

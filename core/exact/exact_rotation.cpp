@@ -11,7 +11,7 @@
 #include "core/exact/linear_motion.hpp"
 #include "core/math/directions.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 namespace {
 
 /// A body in its initial state and the forces of the problem that exert a torque on it.
@@ -125,4 +125,4 @@ ExactRotation exact_rotation(const System<double>& system, std::size_t body) {
   return heavy_top(at);
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

@@ -8,7 +8,7 @@
 
 #include "core/system/system.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 
 struct RotationAt {
   std::optional<Quaternion<double>> orientation;  ///< body to world; absent if only the angular velocity is known
@@ -26,4 +26,4 @@ using ExactRotation = std::function<RotationAt(double)>;
 ///   ω alone, unless its direction is constant: isotropic body, torques constant in the world, angular drag.
 ExactRotation exact_rotation(const System<double>& system, std::size_t body);
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 
 namespace {
 
@@ -257,4 +257,4 @@ Quaternion<double> FreeTop::attitude_in_frame(double t, double u, const Vector3<
   return product(precession, least_rotation) / std::sqrt((re * re + im * im) * 2 * (1 + l[0]));
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

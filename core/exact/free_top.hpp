@@ -13,7 +13,7 @@
 #include "core/math/linear_algebra.hpp"
 #include "core/math/quaternion.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 
 /// With principal moments A, B, C (B the intermediate one; A the one about whose axis the momentum y = I ω goes round
 /// in the body), senses of the axes such that y_A > 0 and y_C ≥ 0 at t = 0, Δ_j = |y|² − 2T I_j and G = |y|:
@@ -74,4 +74,4 @@ class FreeTop {
   ThetaDirection theta_{0, 1, 0};
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

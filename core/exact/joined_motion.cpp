@@ -7,7 +7,7 @@
 
 #include "core/math/directions.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 namespace {
 
 using Vector = Vector3<double>;
@@ -125,4 +125,4 @@ JoinedMotion joined_motion(const System<double>& system, std::size_t body) {
   return motion;
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

@@ -6,7 +6,7 @@
 #include "core/exact/exact_path.hpp"
 #include "core/exact/exact_rotation.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 
 struct JoinedMotion {
   ExactRotation rotation;  ///< rotation of the joined bodies; empty if none is known
@@ -22,4 +22,4 @@ struct JoinedMotion {
 /// Empty for other joints.
 JoinedMotion joined_motion(const System<double>& system, std::size_t body);
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <tuple>
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 namespace {
 
 using Precise = boost::multiprecision::cpp_bin_float_100;
@@ -136,4 +136,4 @@ KeplerMotion::Motion KeplerMotion::at(double t) const {
   return {position.cast<double>(), velocity.cast<double>()};
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

@@ -7,7 +7,7 @@
 #include "core/exact/motion_at.hpp"
 #include "core/math/linear_algebra.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 
 /// With s the fictitious time, ds = dt/r, from the pericentre, at distance q, and U_n = sⁿ c_n(βs²) by Stumpff's
 /// functions, β = 2μ/r − v² = μ(1 − e)/q:
@@ -38,4 +38,4 @@ class KeplerMotion {
   Vector3<Real> towards_pericentre_, across_;     // unit vectors
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

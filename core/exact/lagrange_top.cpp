@@ -9,7 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 namespace {
 
 using Precise = boost::multiprecision::cpp_bin_float_100;
@@ -198,4 +198,4 @@ LagrangeTop::Motion LagrangeTop::at(double t) const {
   return {polhode::product(up_to_world_, polhode::product(q, body_to_axis_)), axis_to_body_ * omega};
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

@@ -11,7 +11,7 @@
 #include "core/math/linear_algebra.hpp"
 #include "core/math/quaternion.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 
 /// With the third body axis from the pivot through the mass centre, the vertical up, I1 across and I3 along the axis,
 /// Ω body axes, q = (w, x, y, z), u = cos θ:
@@ -66,4 +66,4 @@ class LagrangeTop {
   Amplitude wz_, xy_, turning_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 
 LinearMotion::LinearMotion(double stiffness, double damping)
     : stiffness_(stiffness),
@@ -45,4 +45,4 @@ LinearMotion::Response LinearMotion::at(double t) const {
           decay * (cosine - half_damping_ * sine)};
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

@@ -4,7 +4,7 @@
 // Source: Landau & Lifshitz, Mechanics, 3rd ed., section 25; written so that no case is a limit of another.
 #pragma once
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 
 class LinearMotion {
  public:
@@ -27,4 +27,4 @@ class LinearMotion {
   double gap_;  ///< ω² − γ²
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

@@ -4,7 +4,7 @@
 
 #include "core/math/quaternion.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 
 /// Position and velocity of a point.
 struct PathAt {
@@ -18,4 +18,4 @@ struct TopAt {
   Vector3<double> angular_velocity_body;  ///< angular velocity, body axes, rad/s
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

@@ -10,7 +10,7 @@
 #include "core/system/constraints.hpp"
 #include "core/system/joint_projection.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 namespace {
 
 using Real = long double;
@@ -196,4 +196,4 @@ ExactMotion::Error ReferenceMotion::Follower::error(const System<double>& system
   return error;
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

@@ -13,7 +13,7 @@
 #include "core/exact/exact_motion.hpp"
 #include "core/system/system.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 
 class ReferenceMotion {
  public:
@@ -71,4 +71,4 @@ class ReferenceMotion {
   Uncertainty uncertainty_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

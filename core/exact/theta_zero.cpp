@@ -6,7 +6,7 @@
 
 #include "core/math/elliptic.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 
 using std::numbers::pi;
 
@@ -89,4 +89,4 @@ ThetaZeroDirection::Values ThetaZeroDirection::operator()(double u) const {
   return {turn, re / length, im / length};
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

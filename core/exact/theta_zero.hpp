@@ -7,7 +7,7 @@
 
 #include <array>
 
-namespace polhode {
+namespace polhode::inline core::inline exact {
 
 /// arg ϑ1(π(u − iβ)/2K, nome exp(−πK'/K)) for real u and a fixed β in [0, K']. The zero is at u = iβ. Both parts keep
 /// their own digits near it, so that |z| times this direction is smooth where z goes through or near zero.
@@ -43,4 +43,4 @@ class ThetaZeroDirection {
   std::array<double, terms> re_{}, im_{};
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::exact

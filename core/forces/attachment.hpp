@@ -6,7 +6,7 @@
 
 #include "core/problem/force_kind.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline forces {
 
 template <class S>
 class Attachment {
@@ -89,4 +89,4 @@ class Attachment {
   bool two_ = false, off_center_ = false, off_center_2_ = false, internal_ = false;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::forces

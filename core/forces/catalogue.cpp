@@ -14,7 +14,7 @@
 #include "core/forces/uniform_gravity.hpp"
 #include "core/problem/catalogue.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline forces {
 
 const std::vector<ForceEntry>& force_catalogue() {
   // One line for each force.
@@ -70,4 +70,4 @@ ForcePointer<Lanes> make_force_in_lanes(std::span<const Problem> problems, std::
   return std::make_unique<LaneForce>(problems, k);
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::forces

@@ -8,7 +8,7 @@
 #include "core/problem/force_kind.hpp"
 #include "core/problem/problem.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline forces {
 
 const std::vector<ForceEntry>& force_catalogue();
 
@@ -28,4 +28,4 @@ ForcePointer<long double> make_force(const ForceParameters& parameters, std::spa
 /// The k-th force of each problem in the lanes of an ensemble; each problem has one free body.
 ForcePointer<Lanes> make_force_in_lanes(std::span<const Problem> problems, std::size_t k);
 
-}  // namespace polhode
+}  // namespace polhode::core::forces

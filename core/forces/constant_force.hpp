@@ -5,7 +5,7 @@
 
 #include "core/problem/force_kind.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline forces {
 
 template <class S>
 class ConstantForce final : public ForceModel<S> {
@@ -83,4 +83,4 @@ class ConstantForce final : public ForceModel<S> {
   Vector3<double> force_double_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::forces

@@ -4,7 +4,7 @@
 
 #include "core/problem/force_kind.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline forces {
 
 template <class S>
 class ConstantTorque final : public ForceModel<S> {
@@ -59,4 +59,4 @@ class ConstantTorque final : public ForceModel<S> {
   bool world_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::forces

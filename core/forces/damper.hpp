@@ -5,7 +5,7 @@
 
 #include "core/forces/attachment.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline forces {
 
 template <class S>
 class Damper final : public ForceModel<S> {
@@ -40,4 +40,4 @@ class Damper final : public ForceModel<S> {
   bool damped_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::forces

@@ -6,7 +6,7 @@
 
 #include "core/problem/force_kind.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline forces {
 
 template <class S>
 class Drag final : public ForceModel<S> {
@@ -67,4 +67,4 @@ class Drag final : public ForceModel<S> {
   bool has_quadratic_, has_angular_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::forces

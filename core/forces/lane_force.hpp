@@ -9,7 +9,7 @@
 #include "core/math/lanes.hpp"
 #include "core/problem/problem.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline forces {
 
 class LaneForce final : public ForceModel<Lanes> {
  public:
@@ -70,4 +70,4 @@ class LaneForce final : public ForceModel<Lanes> {
   bool rotation_ = true;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::forces

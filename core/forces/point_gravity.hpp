@@ -6,7 +6,7 @@
 
 #include "core/problem/force_kind.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline forces {
 
 template <class S>
 class PointGravity final : public ForceModel<S> {
@@ -70,4 +70,4 @@ class PointGravity final : public ForceModel<S> {
   bool offset_, both_free_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::forces

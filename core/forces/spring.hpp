@@ -8,7 +8,7 @@
 #include "core/forces/attachment.hpp"
 #include "core/math/flatten.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline forces {
 
 template <class S>
 class Spring final : public ForceModel<S> {
@@ -80,4 +80,4 @@ class Spring final : public ForceModel<S> {
   bool damped_, rests_at_zero_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::forces

@@ -6,7 +6,7 @@
 
 #include "core/problem/force_kind.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline forces {
 
 template <class S>
 class UniformGravity final : public ForceModel<S> {
@@ -74,4 +74,4 @@ class UniformGravity final : public ForceModel<S> {
   std::vector<Load> loads_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::forces

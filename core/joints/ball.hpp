@@ -4,7 +4,7 @@
 
 #include "core/joints/joint_ends.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline joints {
 
 template <class S>
 class Ball final : public TwoEndedJoint<S, Ball<S>> {
@@ -19,4 +19,4 @@ class Ball final : public TwoEndedJoint<S, Ball<S>> {
   void fill(const JointNow<S>& now, std::span<ConstraintRow<S>> rows) const { now.coincide(rows); }
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::joints

@@ -15,7 +15,7 @@
 #include "core/joints/universal.hpp"
 #include "core/problem/catalogue.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline joints {
 
 const std::vector<JointEntry>& joint_catalogue() {
   // One line for each joint.
@@ -52,4 +52,4 @@ template JointPointer<float> make_joint(const JointParameters&, std::span<const 
 template JointPointer<double> make_joint(const JointParameters&, std::span<const BodyStart>);
 template JointPointer<long double> make_joint(const JointParameters&, std::span<const BodyStart>);
 
-}  // namespace polhode
+}  // namespace polhode::core::joints

@@ -7,7 +7,7 @@
 
 #include "core/problem/joint_kind.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline joints {
 
 const std::vector<JointEntry>& joint_catalogue();
 
@@ -18,4 +18,4 @@ const JointEntry* find_joint(std::string_view name);
 template <class S>
 JointPointer<S> make_joint(const JointParameters& parameters, std::span<const BodyStart> starts);
 
-}  // namespace polhode
+}  // namespace polhode::core::joints

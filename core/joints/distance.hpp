@@ -6,7 +6,7 @@
 
 #include "core/joints/joint_ends.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline joints {
 
 template <class S>
 class Distance final : public TwoEndedJoint<S, Distance<S>> {
@@ -48,4 +48,4 @@ class Distance final : public TwoEndedJoint<S, Distance<S>> {
   S length_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::joints

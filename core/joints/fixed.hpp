@@ -5,7 +5,7 @@
 
 #include "core/joints/joint_ends.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline joints {
 
 template <class S>
 class Fixed final : public TwoEndedJoint<S, Fixed<S>> {
@@ -23,4 +23,4 @@ class Fixed final : public TwoEndedJoint<S, Fixed<S>> {
   }
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::joints

@@ -4,7 +4,7 @@
 
 #include "core/joints/joint_ends.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline joints {
 
 template <class S>
 class Hinge final : public TwoEndedJoint<S, Hinge<S>> {
@@ -22,4 +22,4 @@ class Hinge final : public TwoEndedJoint<S, Hinge<S>> {
   }
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::joints

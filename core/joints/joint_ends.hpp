@@ -14,7 +14,7 @@
 #include "core/math/flatten.hpp"
 #include "core/problem/joint_kind.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline joints {
 
 /// Right-handed orthonormal frame (n, u, v) with n along the axis, as columns.
 inline Matrix3<double> frame_with(const Vector3<double>& axis) {
@@ -184,4 +184,4 @@ class TwoEndedJoint : public JointModel<S> {
   JointEnds<S> ends_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::joints

@@ -5,7 +5,7 @@
 
 #include "core/joints/joint_ends.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline joints {
 
 template <class S>
 class Pin final : public TwoEndedJoint<S, Pin<S>> {
@@ -23,4 +23,4 @@ class Pin final : public TwoEndedJoint<S, Pin<S>> {
   }
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::joints

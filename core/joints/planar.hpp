@@ -5,7 +5,7 @@
 
 #include "core/joints/joint_ends.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline joints {
 
 template <class S>
 class Planar final : public TwoEndedJoint<S, Planar<S>> {
@@ -23,4 +23,4 @@ class Planar final : public TwoEndedJoint<S, Planar<S>> {
   }
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::joints

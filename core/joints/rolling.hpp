@@ -9,7 +9,7 @@
 
 #include "core/joints/joint_ends.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline joints {
 
 template <class S>
 class Rolling final : public JointModel<S> {
@@ -113,4 +113,4 @@ class Rolling final : public JointModel<S> {
   Matrix3<S> frame_;  ///< columns: normal and two tangents, axes of the second body or of the world
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::joints

@@ -4,7 +4,7 @@
 
 #include "core/joints/joint_ends.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline joints {
 
 template <class S>
 class Slider final : public TwoEndedJoint<S, Slider<S>> {
@@ -24,4 +24,4 @@ class Slider final : public TwoEndedJoint<S, Slider<S>> {
   }
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::joints

@@ -5,7 +5,7 @@
 
 #include "core/joints/joint_ends.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline joints {
 
 template <class S>
 class Universal final : public TwoEndedJoint<S, Universal<S>> {
@@ -30,4 +30,4 @@ class Universal final : public TwoEndedJoint<S, Universal<S>> {
   Vector3<S> axis2_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::joints

@@ -7,7 +7,7 @@
 
 #include "core/math/linear_algebra.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline math {
 
 /// True if a is parallel to a unit vector: |a × unit| <= roundings ε |a|. True for a = 0.
 inline bool is_parallel(const Vector3<double>& a, const Vector3<double>& unit, double roundings) {
@@ -19,4 +19,4 @@ inline bool is_perpendicular(const Vector3<double>& a, const Vector3<double>& b,
   return std::abs(a.dot(b)) <= roundings * std::numeric_limits<double>::epsilon() * a.norm() * b.norm();
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::math

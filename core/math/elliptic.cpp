@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace polhode {
+namespace polhode::inline core::inline math {
 
 using std::numbers::pi;
 
@@ -178,4 +178,4 @@ ThetaDirection::Values ThetaDirection::operator()(double u) const {
   return {turn_ * u, re, std::copysign(1.0, u) * im};
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::math

@@ -7,7 +7,7 @@
 
 #include <array>
 
-namespace polhode {
+namespace polhode::inline core::inline math {
 
 /// The complete integral K(m) = ∫ dθ/√(1 − m sin²θ) over [0, π/2], for 0 ≤ m_c ≤ 1; infinite at m_c = 0.
 double elliptic_k(double m_c);
@@ -73,4 +73,4 @@ class ThetaDirection {
   std::array<double, terms + 1> re_{}, im_{}, nome_power_{};  // nome_power_: p^n
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::math

@@ -15,7 +15,7 @@
 #include <immintrin.h>
 #endif
 
-namespace polhode {
+namespace polhode::inline core::inline math {
 
 /// Number of lanes: the width of the SIMD registers that the program is compiled for.
 #if defined(__AVX512F__)
@@ -141,7 +141,7 @@ S gather(const F& f) {
   }
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::math
 
 template <>
 struct Eigen::NumTraits<polhode::Lanes> : Eigen::GenericNumTraits<double> {

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>  // cross
 
-namespace polhode {
+namespace polhode::inline core::inline math {
 
 template <class S>
 using Vector3 = Eigen::Matrix<S, 3, 1>;
@@ -22,4 +22,4 @@ Matrix3<S> skew(const Vector3<S>& a) {
   return m;
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::math

@@ -11,7 +11,7 @@
 
 #include "core/math/quaternion.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline math {
 
 /// A generator of the numbers of its seed.
 class PortableRandom {
@@ -51,4 +51,4 @@ class PortableRandom {
   std::mt19937_64 engine_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::math

@@ -8,7 +8,7 @@
 #include "core/math/lanes.hpp"
 #include "core/math/linear_algebra.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline math {
 
 /// (w, x, y, z). A plain 4-vector, so that it can also hold a quaternion whose length is not 1.
 template <class S>
@@ -133,4 +133,4 @@ S angle_between(const Quaternion<S>& a, const Quaternion<S>& b) {
   return S(2) * atan2(sqrt(d.template tail<3>().squaredNorm()), abs(d[0]));
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::math

@@ -7,7 +7,7 @@
 
 #include "core/math/quaternion.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline math {
 
 template <class S>
 using Matrix4 = Eigen::Matrix<S, 4, 4>;
@@ -33,4 +33,4 @@ Vector3<S> transform_point(const Matrix4<S>& body_to_world, const Vector3<S>& po
   return body_to_world.template topLeftCorner<3, 3>() * point + body_to_world.template topRightCorner<3, 1>();
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::math

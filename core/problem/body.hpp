@@ -7,7 +7,7 @@
 #include "core/math/linear_algebra.hpp"
 #include "core/math/quaternion.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline problem {
 
 /// The reference point of a body is its mass centre, or its pivot when it is pinned: positions, torques and inertia
 /// are about that point.
@@ -29,4 +29,4 @@ struct BodyStart {
   bool angular_velocity_in_body = false;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::problem

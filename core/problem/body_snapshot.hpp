@@ -6,7 +6,7 @@
 
 #include "core/math/quaternion.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline problem {
 
 /// World axes, SI units. R may have left its manifold where the matrix is stored; the quaternion is then near it.
 template <class S>
@@ -19,4 +19,4 @@ struct BodySnapshot {
   Vector3<S> angular_momentum = Vector3<S>::Zero();      ///< angular momentum about the reference point, kg m²/s
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::problem

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace polhode {
+namespace polhode::inline core::inline problem {
 
 /// The entry of that name, or null. `name_of` gives the name of an entry; by default its member `name`.
 template <class Entry, class NameOf>
@@ -21,7 +21,7 @@ const Entry* find_entry(const std::vector<Entry>& catalogue, std::string_view na
   return find_entry(catalogue, name, &Entry::name);
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::problem
 
 /// Defines `const std::vector<Entry>& catalogue()` for the entries of LIST, a macro with one line ITEM(name) for each
 /// entry. The function `Entry name()`, in the same namespace, makes the entry.

@@ -8,7 +8,7 @@
 
 #include "core/math/linear_algebra.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline problem {
 
 /// Position and motion of a body as forces read them, world axes. The reference point is the mass centre, or the pivot
 /// of a pinned body.
@@ -81,4 +81,4 @@ class ForceModel {
   virtual Effect effect_on(std::size_t body) const = 0;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::problem

@@ -13,7 +13,7 @@
 #include "core/problem/body.hpp"
 #include "core/problem/force.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline problem {
 
 using ParameterValue = std::variant<double, Vector3<double>, std::string>;
 
@@ -88,4 +88,4 @@ ForceEntry force_entry() {
   return entry;
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::problem

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <limits>
 
-namespace polhode {
+namespace polhode::inline core::inline problem {
 
 namespace {
 
@@ -119,4 +119,4 @@ std::string inertia_fault(const Matrix3<double>& inertia) {
   return "";
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::problem

@@ -9,7 +9,7 @@
 
 #include "core/math/linear_algebra.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline problem {
 
 struct PointMass {
   double mass = 0;                                     ///< kg
@@ -58,4 +58,4 @@ std::string equations_inertia_fault(const Matrix3<double>& inertia);
 /// the sum of the other two, to 1e-9 of the largest (equality: a flat body).
 std::string inertia_fault(const Matrix3<double>& inertia);
 
-}  // namespace polhode
+}  // namespace polhode::core::problem

@@ -12,7 +12,7 @@
 
 #include "core/problem/force.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline problem {
 
 /// One equation of a joint at one instant.
 template <class S>
@@ -45,4 +45,4 @@ class JointModel {
   virtual Vector3<S> anchor(std::span<const BodyMotion<S>> bodies) const = 0;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::problem

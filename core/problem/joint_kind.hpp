@@ -10,7 +10,7 @@
 #include "core/problem/force_kind.hpp"
 #include "core/problem/joint.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline problem {
 
 /// The values of one joint, every key of its kind present. Its bodies are one or two indices: moving ones first, in the
 /// scenario's order, then static ones. A single body is joined to the world.
@@ -56,4 +56,4 @@ JointEntry joint_entry() {
           }};
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::problem

@@ -8,7 +8,7 @@
 #include "core/problem/force_kind.hpp"
 #include "core/problem/joint_kind.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline problem {
 
 /// Moving bodies stand first, static ones last; forces and joints name bodies by their index here.
 struct Problem {
@@ -24,4 +24,4 @@ struct Problem {
   }
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::problem

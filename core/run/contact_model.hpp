@@ -8,7 +8,7 @@
 
 #include "core/run/integrator.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline run {
 
 /// Energy balance of the contacts since the start of the run, J.
 struct ContactLosses {
@@ -70,4 +70,4 @@ class ContactModel {
   virtual bool ended() const { return false; }
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::run

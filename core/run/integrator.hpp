@@ -16,7 +16,7 @@
 #include "core/run/setting.hpp"
 #include "core/system/system.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline run {
 
 /// Outcome of a step. A failed step leaves the state unchanged and gives the reason.
 struct StepResult {
@@ -233,4 +233,4 @@ class Integrator {
   virtual const NativeProjection* native_projection() const { return nullptr; }
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::run

@@ -10,7 +10,7 @@
 #include "core/run/contact_model.hpp"
 #include "core/run/integrator.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline run {
 
 class Observer {
  public:
@@ -95,4 +95,4 @@ class Observers final : public Observer {
   std::vector<Observer*> all_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::run

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <limits>
 
-namespace polhode {
+namespace polhode::inline core::inline run {
 
 const char* reason_of_end(bool sample_is_finite) {
   return sample_is_finite ? "the energy grew beyond all bounds" : "the state ceased to be finite";
@@ -32,4 +32,4 @@ std::string at_time(std::string what, double t) {
   return what += text;
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::run

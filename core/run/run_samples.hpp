@@ -9,7 +9,7 @@
 
 #include "core/run/simulate.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline run {
 
 /// Largest number of steps in one batch that is sampled.
 inline constexpr std::int64_t longest_batch = 64;
@@ -42,4 +42,4 @@ std::int64_t step_of_next_state(const Observer& observer, double t0, double dt, 
 /// Appends the time t (s) to the text: "… at t = 1.25 s".
 std::string at_time(std::string what, double t);
 
-}  // namespace polhode
+}  // namespace polhode::core::run

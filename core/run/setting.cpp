@@ -8,7 +8,7 @@
 
 #include "core/problem/catalogue.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline run {
 namespace {
 
 std::string text_of(double x) {
@@ -68,4 +68,4 @@ std::string settings_fault(const std::vector<Setting>& settings, const SettingVa
   return {};
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::run

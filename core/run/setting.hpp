@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-namespace polhode {
+namespace polhode::inline core::inline run {
 
 /// A whole number, a number, or one of several names.
 using SettingValue = std::variant<std::int64_t, double, std::string>;
@@ -41,4 +41,4 @@ SettingValue value_of(const SettingValues& chosen, const Setting& setting);
 /// does.
 std::string settings_fault(const std::vector<Setting>& settings, const SettingValues& values);
 
-}  // namespace polhode
+}  // namespace polhode::core::run

@@ -15,7 +15,7 @@
 #include "core/system/constraints.hpp"
 #include "core/system/joint_projection.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline run {
 namespace {
 
 // Relative tolerance within which t_end/dt counts as a whole number. Without it the round-off of 10/0.1 would add a
@@ -408,4 +408,4 @@ template RunOutcome simulate(const System<double>&, const System<double>&, Integ
 template RunOutcome simulate(const System<long double>&, const System<double>&, Integrator<long double>&,
                              State<long double>&, const Schedule&, Observer&, const std::atomic<bool>*, ContactModel*);
 
-}  // namespace polhode
+}  // namespace polhode::core::run

@@ -16,7 +16,7 @@
 #include "core/run/observer.hpp"
 #include "core/system/system.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline run {
 
 /// Step sizes, sample times and end of a run.
 struct Schedule {
@@ -80,4 +80,4 @@ RunOutcome simulate(const System<S>& system, const System<double>& truth, Integr
                     const Schedule& schedule, Observer& observer, const std::atomic<bool>* stop = nullptr,
                     ContactModel* contact = nullptr);
 
-}  // namespace polhode
+}  // namespace polhode::core::run

@@ -7,7 +7,7 @@
 
 #include "core/run/run_samples.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline run {
 namespace {
 
 constexpr auto lanes_of_all = std::size_t(lane_count);
@@ -294,4 +294,4 @@ void simulate_ensemble(const EnsembleParts& parts, EnsembleObserver& observer, c
   EnsembleLoop(parts, observer, stop).run();
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::run

@@ -12,7 +12,7 @@
 
 #include "core/run/simulate.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline run {
 
 /// A run for a lane of an ensemble.
 struct LaneRun {
@@ -67,4 +67,4 @@ struct EnsembleParts {
 /// ends as under simulate(). `stop`: if given, requests the end of all runs; it is read after every call of the method.
 void simulate_ensemble(const EnsembleParts& parts, EnsembleObserver& observer, const std::atomic<bool>* stop = nullptr);
 
-}  // namespace polhode
+}  // namespace polhode::core::run

@@ -4,7 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 template <class S>
 BodyConstants<S>::BodyConstants(const Body& b)
@@ -65,4 +65,4 @@ template BodyConstants<float> constants_of<float>(const std::vector<Problem>&, s
 template BodyConstants<double> constants_of<double>(const std::vector<Problem>&, std::size_t);
 template BodyConstants<long double> constants_of<long double>(const std::vector<Problem>&, std::size_t);
 
-}  // namespace polhode
+}  // namespace polhode::core::system

@@ -7,7 +7,7 @@
 #include "core/math/lanes.hpp"
 #include "core/problem/problem.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 /// The constants of one body in the scalar S.
 template <class S>
@@ -42,4 +42,4 @@ struct BodyConstants {
 template <class S>
 BodyConstants<S> constants_of(const std::vector<Problem>& problems, std::size_t body);
 
-}  // namespace polhode
+}  // namespace polhode::core::system

@@ -4,7 +4,7 @@
 
 #include "core/system/lie_group.hpp"
 
-namespace polhode::body_frame {
+namespace polhode::inline core::inline system::body_frame {
 
 template <class Bodies>
 void twist(const Bodies& bodies, const typename Bodies::Flat& y, typename Bodies::Tangent& xi) {
@@ -106,4 +106,4 @@ void bracket(const Bodies& bodies, const typename Bodies::Tangent& a, const type
   }
 }
 
-}  // namespace polhode::body_frame
+}  // namespace polhode::core::system::body_frame

@@ -12,7 +12,7 @@
 #include "core/system/many_bodies.hpp"
 #include "core/system/orientation_chart.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 enum class BodyCount { one, many };
 
@@ -173,4 +173,4 @@ class BodyVariables : public std::conditional_t<N == BodyCount::one, System<S>, 
   Constants first_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::system

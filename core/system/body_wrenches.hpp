@@ -9,7 +9,7 @@
 #include "core/system/body_variables.hpp"
 #include "core/system/constraints.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 /// The bodies of a system with the forces on them. The motions and wrenches are scratch storage; a system serves one
 /// run on one thread.
@@ -72,4 +72,4 @@ class BodyWrenches : public BodyVariables<S, O, A, N> {
   mutable std::vector<Wrench<S>> wrenches_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::system

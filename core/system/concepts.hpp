@@ -13,7 +13,7 @@
 #include "core/math/linear_algebra.hpp"
 #include "core/math/quaternion.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 template <class S>
 struct BodyConstants;
@@ -128,4 +128,4 @@ concept Measurable = requires(const System& system, const typename System::Scala
 template <class System>
 concept MechanicalSystem = LieGroup<System> && BodyFrame<System> && Splitting<System> && Measurable<System>;
 
-}  // namespace polhode
+}  // namespace polhode::core::system

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 namespace {
 
 constexpr std::size_t most_small_rows = 6;   // limit up to which the size of the matrix is fixed at compile time
@@ -318,4 +318,4 @@ template class ConstraintSolver<float>;
 template class ConstraintSolver<double>;
 template class ConstraintSolver<long double>;
 
-}  // namespace polhode
+}  // namespace polhode::core::system

@@ -16,7 +16,7 @@
 #include "core/problem/problem.hpp"
 #include "core/system/body_constants.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 template <class S>
 class ConstraintSolver {
@@ -163,4 +163,4 @@ class ConstraintSolver {
   VectorX<S> diagonal_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::system

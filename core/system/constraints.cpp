@@ -10,7 +10,7 @@
 #include "core/joints/catalogue.hpp"
 #include "core/system/constraint_solver.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 /// The rows of all joints, and the bodies of each row.
 template <class S>
@@ -389,4 +389,4 @@ POLHODE_INSTANTIATE(double);
 POLHODE_INSTANTIATE(long double);
 #undef POLHODE_INSTANTIATE
 
-}  // namespace polhode
+}  // namespace polhode::core::system

@@ -25,7 +25,7 @@
 #include "core/problem/problem.hpp"
 #include "core/system/formulation.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 template <class S>
 class ConstraintSolver;
@@ -132,4 +132,4 @@ class PrescribedMultipliers {
   const Constraints<S>& constraints_;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::system

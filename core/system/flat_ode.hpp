@@ -11,7 +11,7 @@
 
 #include "core/system/body_wrenches.hpp"
 
-namespace polhode::flat_ode {
+namespace polhode::inline core::inline system::flat_ode {
 
 /// Gyroscopic torque IΩ × Ω in body axes, N m; zero if the formulation omits it.
 template <class Bodies, class S>
@@ -112,4 +112,4 @@ inline void configuration_rate(const Bodies& bodies, S t, const S* y, S* dy) {
   rates<true, false>(bodies, t, y, dy);
 }
 
-}  // namespace polhode::flat_ode
+}  // namespace polhode::core::system::flat_ode

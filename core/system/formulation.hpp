@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 /// Representation of the orientation (body to world): unit quaternion or rotation matrix.
 enum class Orientation { quaternion, matrix };
@@ -94,4 +94,4 @@ struct Formulation {
   JointTreatment joints{};                                ///< treatment of joints, if the problem has any
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::system

@@ -5,7 +5,7 @@
 
 #include "core/system/body_wrenches.hpp"
 
-namespace polhode::inertia_map {
+namespace polhode::inline core::inline system::inertia_map {
 
 template <class Bodies>
 void wrench(const Bodies& bodies, typename Bodies::Scalar t, const typename Bodies::Flat& y,
@@ -42,4 +42,4 @@ void set_momentum(const Bodies& bodies, const typename Bodies::Tangent& p, typen
   }
 }
 
-}  // namespace polhode::inertia_map
+}  // namespace polhode::core::system::inertia_map

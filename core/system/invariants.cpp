@@ -9,7 +9,7 @@
 #include "core/forces/catalogue.hpp"
 #include "core/problem/catalogue.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 namespace {
 
@@ -193,4 +193,4 @@ const std::vector<InvariantKind>& invariant_catalogue() {
 
 const InvariantKind* find_invariant(std::string_view name) { return find_entry(invariant_catalogue(), name); }
 
-}  // namespace polhode
+}  // namespace polhode::core::system

@@ -12,7 +12,7 @@
 #include "core/math/lanes.hpp"
 #include "core/system/system.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 /// The value of an invariant in the lanes of an ensemble.
 using LaneInvariant = std::function<Lanes(const BodySnapshot<Lanes>& first_body)>;
@@ -37,4 +37,4 @@ const std::vector<InvariantKind>& invariant_catalogue();
 /// The entry with this name, or null.
 const InvariantKind* find_invariant(std::string_view name);
 
-}  // namespace polhode
+}  // namespace polhode::core::system

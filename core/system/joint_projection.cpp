@@ -7,7 +7,7 @@
 
 #include "core/system/constraints.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 namespace {
 
 constexpr int most_iterations = 12;
@@ -79,4 +79,4 @@ POLHODE_INSTANTIATE(double);
 POLHODE_INSTANTIATE(long double);
 #undef POLHODE_INSTANTIATE
 
-}  // namespace polhode
+}  // namespace polhode::core::system

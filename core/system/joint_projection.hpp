@@ -5,7 +5,7 @@
 
 #include "core/system/system.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 /// Projects the configuration onto g(q) = 0 (Newton's method, to round-off) and then the velocity onto G v = 0, as the
 /// formulation of the system requires. Does nothing without joints.
@@ -22,4 +22,4 @@ void project_joint_velocities(const System<S>& system, VectorX<S>& y);
 template <class S>
 std::vector<BodyMotion<S>> motions_of(const System<S>& system, const VectorX<S>& y);
 
-}  // namespace polhode
+}  // namespace polhode::core::system

@@ -6,7 +6,7 @@
 #include "core/system/constraints.hpp"
 #include "core/system/joint_projection.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 template <class S>
 std::vector<Wrench<S>> joint_reactions(const System<S>& system, S t, const VectorX<S>& y,
@@ -27,4 +27,4 @@ template std::vector<Wrench<double>> joint_reactions(const System<double>&, doub
 template std::vector<Wrench<long double>> joint_reactions(const System<long double>&, long double,
                                                           const VectorX<long double>&, const VectorX<long double>&);
 
-}  // namespace polhode
+}  // namespace polhode::core::system

@@ -6,7 +6,7 @@
 
 #include "core/system/system.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 /// The reaction of each joint on its first body: force (N), and torque (N m) about its anchor, world axes.
 /// `multipliers` (N or N m, in the order of the rows) are those of a method; if it is empty, they follow from the state
@@ -15,4 +15,4 @@ template <class S>
 std::vector<Wrench<S>> joint_reactions(const System<S>& system, S t, const VectorX<S>& y,
                                        const VectorX<S>& multipliers = {});
 
-}  // namespace polhode
+}  // namespace polhode::core::system

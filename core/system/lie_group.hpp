@@ -7,7 +7,7 @@
 
 #include "core/system/body_variables.hpp"
 
-namespace polhode::lie_group {
+namespace polhode::inline core::inline system::lie_group {
 
 template <class Bodies>
 void twist(const Bodies& bodies, const typename Bodies::Flat& y, typename Bodies::Tangent& xi) {
@@ -77,4 +77,4 @@ void dexp_inverse(const Bodies& bodies, const typename Bodies::Tangent& theta, c
   }
 }
 
-}  // namespace polhode::lie_group
+}  // namespace polhode::core::system::lie_group

@@ -8,7 +8,7 @@
 #include "core/system/body_constants.hpp"
 #include "core/system/system.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 /// Rotation of a free body over a step, used by free_flow(): dq = rotor(constants, h, m). h is in s. m is the angular
 /// momentum in principal axes, updated by the call. dq is the unit quaternion of the rotation.
@@ -71,4 +71,4 @@ class ManyBodies : public System<S> {
 template <class S>
 std::shared_ptr<const ManyBodies<S>> many_bodies_form(const System<S>& system);
 
-}  // namespace polhode
+}  // namespace polhode::core::system

@@ -4,7 +4,7 @@
 
 #include "core/system/body_wrenches.hpp"
 
-namespace polhode::measurement {
+namespace polhode::inline core::inline system::measurement {
 
 template <class Bodies, class S>
 inline Measurement<S> measure(const Bodies& bodies, const S* y) {
@@ -50,4 +50,4 @@ inline void project(const Bodies& bodies, S* y) {
   }
 }
 
-}  // namespace polhode::measurement
+}  // namespace polhode::core::system::measurement

@@ -3,7 +3,7 @@
 // system.
 #pragma once
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 /// A flat ODE in the scalar S.
 template <class S>
@@ -20,4 +20,4 @@ class Ode {
   virtual void rate(S t, const S* y, S* dy) const = 0;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::system

@@ -10,7 +10,7 @@
 #include "core/math/quaternion.hpp"
 #include "core/system/formulation.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 /// Representation O of an orientation in the scalar S.
 template <class S, Orientation O>
@@ -136,4 +136,4 @@ struct Chart<S, Orientation::matrix> {
   static Quaternion<S> to_quaternion(const Value& r) { return quaternion_from_rotation_matrix<S>(r); }
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::system

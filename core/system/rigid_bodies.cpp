@@ -6,7 +6,7 @@
 
 #include "core/system/visit_system.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 /// A vector or quaternion of the initial state of a body, gathered over the lanes.
 template <class S, class Value, class Member>
@@ -220,4 +220,4 @@ template std::shared_ptr<const ManyBodies<float>> many_bodies_form(const System<
 template std::shared_ptr<const ManyBodies<double>> many_bodies_form(const System<double>&);
 template std::shared_ptr<const ManyBodies<long double>> many_bodies_form(const System<long double>&);
 
-}  // namespace polhode
+}  // namespace polhode::core::system

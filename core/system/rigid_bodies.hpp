@@ -23,7 +23,7 @@
 #include "core/system/measurement.hpp"
 #include "core/system/splitting.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 /// Rigid bodies in one formulation. For many bodies the members override those of ManyBodies. For one body they are
 /// called through the concrete type only.
@@ -119,4 +119,4 @@ class RigidBodies final : public BodyWrenches<S, O, A, N> {
   void kinematic_rate(S t, const S* y, S* dy) const;
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::system

@@ -4,7 +4,7 @@
 
 #include "core/system/body_wrenches.hpp"
 
-namespace polhode::splitting {
+namespace polhode::inline core::inline system::splitting {
 
 /// v ← v + h M⁻¹ (f, τ) with the wrenches of the last fill_wrenches(), without the gyroscopic term.
 template <class Bodies>
@@ -121,4 +121,4 @@ void free_flow(const Bodies& bodies, typename Bodies::Scalar h, typename Bodies:
   }
 }
 
-}  // namespace polhode::splitting
+}  // namespace polhode::core::system::splitting

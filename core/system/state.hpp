@@ -6,7 +6,7 @@
 
 #include "core/math/linear_algebra.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 /// State of a system. The flat vector y holds the configurations of all bodies, then their velocities, then the work of
 /// the joints (J) if there are joints, and last the work of the non-conservative forces (J). The method integrates the
@@ -38,4 +38,4 @@ struct Layout {
   int joint_work() const { return size() - 2; }
 };
 
-}  // namespace polhode
+}  // namespace polhode::core::system

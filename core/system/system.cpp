@@ -4,7 +4,7 @@
 #include "core/forces/catalogue.hpp"
 #include "core/system/constraints.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 Layout layout_of(const Problem& problem, const Formulation& formulation) {
   const int chart = formulation.orientation == Orientation::quaternion ? 4 : 9;
@@ -56,4 +56,4 @@ template class System<double>;
 template class System<long double>;
 template class System<Lanes>;
 
-}  // namespace polhode
+}  // namespace polhode::core::system

@@ -16,7 +16,7 @@
 #include "core/system/ode.hpp"
 #include "core/system/state.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 /// Quantities that are functions of a single state.
 template <class S>
@@ -130,4 +130,4 @@ std::string lane_key(const System<double>& system);
 /// Builds an ensemble of lane_count problems, one per lane. Their systems must have equal non-empty keys.
 std::unique_ptr<System<Lanes>> make_ensemble(std::span<const Problem> problems, const Formulation& formulation);
 
-}  // namespace polhode
+}  // namespace polhode::core::system

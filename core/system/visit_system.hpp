@@ -6,7 +6,7 @@
 
 #include "core/system/rigid_bodies.hpp"
 
-namespace polhode {
+namespace polhode::inline core::inline system {
 
 /// True for double, alone or in lanes: a single body then has instantiations of its own. Float and long double serve
 /// rounding studies, where speed matters less.
@@ -43,4 +43,4 @@ auto visit_system(const System<S>& system, F&& f) {
   else return in_formulation(system.formulation(), one);
 }
 
-}  // namespace polhode
+}  // namespace polhode::core::system

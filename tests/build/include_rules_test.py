@@ -3,7 +3,7 @@
 
 A folder is a room. It may include itself and the rooms of its entry; no cycle of rooms is allowed. An include of ours is
 written from the top of the checkout ("core/system/state.hpp"). Libraries that are slow to compile stay out of headers.
-Every C++ file begins with its licence.
+The names of a room stand in the namespace of its folder. Every C++ file begins with its licence.
 """
 
 import collections
@@ -127,8 +127,37 @@ SOURCE_SUFFIXES = {".cpp", ".cc", ".cxx"}
 # Every source that includes it compiles all of it, seconds each.
 ONLY_IN = {"CLI/": "experiments/study/text/command_line.cpp"}
 NOT_IN_A_HEADER = ("toml++/", "toml.hpp", "boost/numeric/odeint", "nlohmann/")
+# Rooms with a namespace of another name. The rooms of methods share one; two programs have the names of rooms of the study.
+NAMESPACES = {"experiments/figures": "polhode::study::figures_program", "experiments/plot": "polhode::study::plot_program"}
 LICENCE = "// SPDX-License-Identifier: BSD-3-Clause"
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+NAMESPACE = re.compile(r"^namespace (polhode[\w: ]*) \{$(.*?)^\}  // namespace", re.MULTILINE | re.DOTALL)
+FORWARD = re.compile(r"|template <.*>|(class|struct) \w+;|inline namespace \w+ \{|\}|")  # a line that only declares types
+ENTRY = re.compile(r"\s*\w+Entry \w+\(\) \{")  # an entry stands in the namespace of its catalogue
+
+
+def namespace_of(room):
+    """The namespace of the names in a room."""
+    if room in NAMESPACES:
+        return NAMESPACES[room]
+    parts = room.split("/")
+    if parts[0] == "integrators":
+        return "polhode::integrators"
+    if parts[0] == "experiments" and parts[1] not in ("study", "viewer"):
+        return "polhode::study::" + parts[1]
+    return "::".join(["polhode", *[part for part in parts if part != "experiments"]])
+
+
+def foreign_namespaces(room, text):
+    """The namespaces of other rooms that a file opens for more than forward declarations or the entry of a catalogue."""
+    own = namespace_of(room) + "::"
+    for block in NAMESPACE.finditer(text):
+        name = block[1].replace("inline ", "")
+        if (name + "::").startswith(own) or ENTRY.match(block[2]):
+            continue
+        if not all(map(FORWARD.fullmatch, block[2].splitlines())):
+            yield text.count("\n", 0, block.start()) + 1, name
 
 
 def may_include(room, other, table):
@@ -181,9 +210,12 @@ def violations(checkout, table):
             room = name.parent.as_posix()
             if folder != "tests" and room not in table:
                 found.append(f"{name}: the room {room} has no entry in MAY_INCLUDE")
-            lines = file.read_text(encoding="utf-8").splitlines()
+            text = file.read_text(encoding="utf-8")
+            lines = text.splitlines()
             if not lines or lines[0] != LICENCE:
                 found.append(f"{name}:1: the first line must be {LICENCE}")
+            for number, name_space in foreign_namespaces(room, text) if folder != "tests" else ():
+                found.append(f"{name}:{number}: {name_space} is not the namespace of {room}/: {namespace_of(room)}")
             for number, line in enumerate(lines, start=1):
                 include = INCLUDE.match(line)
                 if not include:
@@ -284,6 +316,42 @@ class IncludeRules(unittest.TestCase):
         self.assertEqual(len(self.found_in({"core/run/a.hpp": f"\n{LICENCE}\n"})), 1)
         self.assertEqual(len(self.found_in({"core/a.cpp": f"{LICENCE}\n"})), 1)
         self.assertEqual(len(self.found_in({"papers/study/a.cpp": f"{LICENCE}\n"})), 1)
+
+    def test_names_in_the_namespace_of_another_room_are_found(self):
+        for path, name_space in [
+            ("core/math/a.hpp", "polhode"),
+            ("core/math/a.cpp", "polhode::inline core"),
+            ("core/math/a.hpp", "polhode::inline core::inline mathematics"),
+            ("core/math/a.hpp", "polhode::inline core::inline system"),
+            ("collision/broad/a.hpp", "polhode::inline collision"),
+            ("integrators/textbook/a.cpp", "polhode::inline core::inline run"),
+            ("experiments/judge/a.cpp", "polhode::study"),
+            ("experiments/plot/a.cpp", "polhode::study::inline plot"),
+            ("experiments/viewer/stage/a.cpp", "polhode::viewer::inline window"),
+        ]:
+            plain = name_space.replace("inline ", "")
+            with self.subTest(path=path, name_space=name_space):
+                text = f"{LICENCE}\n\nnamespace {name_space} {{\n\nclass A;\nint a();\n\n}}  // namespace {plain}\n"
+                found = self.found_in({path: text})
+                self.assertEqual(len(found), 1, found)
+                self.assertTrue(found[0].startswith(f"{path}:3: "), found)
+
+    def test_a_room_names_what_is_its_own_and_declares_types_of_others(self):
+        forward = ("namespace polhode::inline core {\ninline namespace system {\ntemplate <class S>\nclass System;\n}\n"
+                   "}  // namespace polhode::core\n")
+        entry = ("namespace polhode::inline collision::inline response {\n\nResponseEntry compliant() {\n  return {};\n}\n"
+                 "}  // namespace polhode::collision::response\n")
+        for path, name_space in [
+            ("core/math/a.hpp", "polhode::inline core::inline math"),
+            ("core/system/a.hpp", "polhode::inline core::inline system::splitting"),
+            ("collision/a.hpp", "polhode::inline collision"),
+            ("integrators/sundials/a.cpp", "polhode::inline integrators"),
+            ("experiments/study/report/page/a.hpp", "polhode::study::inline report::inline page"),
+            ("experiments/plot/a.cpp", "polhode::study::plot_program"),
+        ]:
+            with self.subTest(path=path, name_space=name_space):
+                own = f"namespace {name_space} {{\nint a();\n}}  // namespace {name_space.replace('inline ', '')}\n"
+                self.assertEqual(self.found_in({path: f"{LICENCE}\n{forward}{own}{entry}"}), [])
 
     def test_what_is_allowed_passes(self):
         for path, include in [
