@@ -11,8 +11,8 @@
 
 #include "experiments/rerun/options.hpp"
 #include "experiments/rerun/rerun.hpp"
-#include "experiments/study/interruption.hpp"
-#include "experiments/study/progress.hpp"
+#include "experiments/study/process/interruption.hpp"
+#include "experiments/study/process/progress.hpp"
 #include "experiments/study/query/result_stores.hpp"
 #include "experiments/study/text/aligned.hpp"
 #include "experiments/study/text/notation.hpp"

@@ -12,11 +12,11 @@
 #include <stdexcept>
 #include <vector>
 
-#include "experiments/study/interruption.hpp"
 #include "experiments/study/plan/listing.hpp"
 #include "experiments/study/plan/options.hpp"
 #include "experiments/study/plan/plan.hpp"
 #include "experiments/study/plan_text.hpp"
+#include "experiments/study/process/interruption.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/record/shown_runs.hpp"
 #include "experiments/study/report/article/article.hpp"
@@ -30,13 +30,13 @@
 #include "experiments/study/store/result_folder.hpp"
 #include "experiments/study/store/shard_folders.hpp"
 #include "experiments/study/store/store.hpp"
-#include "experiments/study/study_runs.hpp"
 #include "experiments/study/text/in_order.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/program.hpp"
 #include "experiments/study/text/read_file.hpp"
 #include "experiments/study/text/value_lists.hpp"
 #include "experiments/study/time_needed.hpp"
+#include "experiments/study/work/study_runs.hpp"
 
 namespace polhode::study {
 namespace {

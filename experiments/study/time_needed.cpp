@@ -16,13 +16,13 @@
 
 #include "core/exact/exact_motion.hpp"
 #include "experiments/study/curves/curves.hpp"
-#include "experiments/study/progress.hpp"
+#include "experiments/study/process/progress.hpp"
 #include "experiments/study/record/shown_runs.hpp"
 #include "experiments/study/report/figures/study_figures.hpp"
-#include "experiments/study/run_times.hpp"
 #include "experiments/study/store/store.hpp"
 #include "experiments/study/text/in_order.hpp"
 #include "experiments/study/text/value_lists.hpp"
+#include "experiments/study/work/run_times.hpp"
 
 namespace polhode::study {
 namespace {

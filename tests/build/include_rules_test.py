@@ -59,6 +59,10 @@ MAY_INCLUDE = {
     "experiments/study/plan": "core/* integrators collision collision/contact collision/shapes experiments/study/text"
                               " experiments/study/scenario experiments/study/plot experiments/study/trajectory"
                               " experiments/study/record experiments/study/run",
+    "experiments/study/process": "",
+    "experiments/study/work": "core/math experiments/study/text experiments/study/trajectory experiments/study/record"
+                              " experiments/study/store experiments/study/metrics experiments/study/run"
+                              " experiments/study/plan experiments/study/process",
     "experiments/study/query": "experiments/study/text experiments/study/scenario experiments/study/record"
                                " experiments/study/store experiments/study/plan",
     "experiments/study/report/findings": "integrators experiments/study/text experiments/study/statistics"

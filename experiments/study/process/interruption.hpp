@@ -5,7 +5,7 @@
 
 #include <atomic>
 
-namespace polhode::study {
+namespace polhode::study::inline process {
 
 /// Exit status of an interrupted study: EX_TEMPFAIL of sysexits.h. The same command continues the study.
 inline constexpr int interrupted = 75;
@@ -33,4 +33,4 @@ class Interruption {
   void study_is_stored();
 };
 
-}  // namespace polhode::study
+}  // namespace polhode::study::process

@@ -11,15 +11,15 @@
 #include <unordered_set>
 #include <vector>
 
-#include "experiments/study/interruption.hpp"
 #include "experiments/study/plan/experiment.hpp"
 #include "experiments/study/plan/plan.hpp"
+#include "experiments/study/process/interruption.hpp"
 #include "experiments/study/record/study_view.hpp"
 #include "experiments/study/store/result_folder.hpp"
 #include "experiments/study/store/store.hpp"
 #include "experiments/study/text/in_order.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline work {
 
 /// Results of runs by their id, as number_of_id() gives it.
 using ResultsById = std::unordered_map<std::uint64_t, RunResult>;
@@ -89,4 +89,4 @@ void choose_curves(const Options& options, Plan& plan);
 BelongsToStudy runs_of_study(const Experiment& experiment, const Options& options, const Plan& plan,
                              const std::filesystem::path& folder);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::work

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace polhode::study {
+namespace polhode::study::inline process {
 
 class Alarm {
  public:
@@ -71,4 +71,4 @@ class Alarm {
   std::thread thread_;
 };
 
-}  // namespace polhode::study
+}  // namespace polhode::study::process

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/study/interruption.hpp"
+#include "experiments/study/process/interruption.hpp"
 
 #include <unistd.h>
 
@@ -7,7 +7,7 @@
 #include <csignal>
 #include <cstring>
 
-namespace polhode::study {
+namespace polhode::study::inline process {
 namespace {
 
 static_assert(std::atomic<bool>::is_always_lock_free);  // so that a signal handler may access it
@@ -57,4 +57,4 @@ std::atomic<bool>& Interruption::no_more() { return no_more_runs; }
 std::atomic<bool>& Interruption::stop() { return stop_runs; }
 void Interruption::study_is_stored() { all_is_stored = true; }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::process

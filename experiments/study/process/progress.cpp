@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/study/progress.hpp"
+#include "experiments/study/process/progress.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace polhode::study {
+namespace polhode::study::inline process {
 
 Progress::Progress(std::string name, std::size_t runs)
     : name_(std::move(name)), runs_(runs), terminal_(isatty(STDERR_FILENO) != 0) {}
@@ -40,4 +40,4 @@ std::string duration_text(double seconds) {
   return fmt::format("{} h {} min", s / 3600, s % 3600 / 60);
 }
 
-}  // namespace polhode::study
+}  // namespace polhode::study::process

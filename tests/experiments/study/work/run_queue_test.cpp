@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/study/run_queue.hpp"
+#include "experiments/study/work/run_queue.hpp"
 
 #include <gtest/gtest.h>
 

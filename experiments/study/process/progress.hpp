@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-namespace polhode::study {
+namespace polhode::study::inline process {
 
 /// Prints the progress to standard error. Not thread-safe.
 class Progress {
@@ -34,4 +34,4 @@ class Progress {
 /// A duration in s as text, rounded up: "8 s", "3 min 20 s", "2 h 5 min".
 std::string duration_text(double seconds);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::process

@@ -10,7 +10,7 @@
 
 #include "experiments/study/plan/plan.hpp"
 
-namespace polhode::study {
+namespace polhode::study::inline work {
 
 struct RunTimes {
   std::vector<double> seconds;  ///< time that one worker takes for each run, s, in the order of the runs
@@ -57,4 +57,4 @@ double time_of_all(const RunTimes& times, double runs, double true_motions, std:
 /// Time until so many workers have carried out runs that take these times (s), begun in this order, s.
 double time_of_workers(std::span<const double> seconds, std::size_t workers);
 
-}  // namespace polhode::study
+}  // namespace polhode::study::work
