@@ -97,7 +97,7 @@ double Guards::least(const State<double>& state) {
   return std::isfinite(least) ? least : 1;
 }
 
-void Guards::look(const State<double>& state, Look& seen) {
+void Guards::evaluate(const State<double>& state, Values& seen) {
   shape_poses(system_, state.y, seen.poses);
   seen.values.resize(guards_.size());
   seen.normals.resize(guards_.size());
@@ -117,7 +117,7 @@ double Guards::separation(const Guard& g, const Vector3<double>& n, std::span<co
   return -reach(a, poses[g.pair.a], -n) - reach(b, poses[g.pair.b], n);
 }
 
-bool Guards::may_dip(const Look& from, const Look& to, double length) const {
+bool Guards::may_dip(const Values& from, const Values& to, double length) const {
   for (std::size_t k = 0; k < guards_.size(); ++k) {
     const Guard& g = guards_[k];
     const double first = from.values[k], last = to.values[k];

@@ -29,7 +29,7 @@ struct ContactLengths {
 class Guards {
  public:
   /// Values of the guards at an instant.
-  struct Look {
+  struct Values {
     double least = 0;  ///< smallest value, m
     std::vector<Pose> poses;
     std::vector<double> values;  ///< distance plus allowance of each pair, positive if it has not met, m
@@ -52,11 +52,11 @@ class Guards {
 
   /// The smallest value (m); 1 without guards.
   double least(const State<double>& state);
-  void look(const State<double>& state, Look& seen);
+  void evaluate(const State<double>& state, Values& seen);
 
   /// True if some guard may become negative between two evaluations, `length` (s) apart, at both of which all guards
   /// are positive.
-  bool may_dip(const Look& from, const Look& to, double length) const;
+  bool may_dip(const Values& from, const Values& to, double length) const;
 
  private:
   struct Guard {

@@ -25,13 +25,13 @@ class ImpactSearch {
  private:
   static constexpr int deepest = 20;  ///< halvings; negative guards for less than 1e-6 of the flight may be missed
 
-  double first_below(FlightPath& path, double from, const Guards::Look& at_from, double to, const Guards::Look& at_to,
-                     int depth);
+  double first_below(FlightPath& path, double from, const Guards::Values& at_from, double to,
+                     const Guards::Values& at_to, int depth);
 
   Guards& guards_;
   const ContactLengths& lengths_;
-  std::array<Guards::Look, deepest + 1> looks_;  ///< guards at the midpoint of each level of halving
-  Guards::Look at_start_, at_end_;
+  std::array<Guards::Values, deepest + 1> midpoints_;  ///< guards at the midpoint of each level of halving
+  Guards::Values at_start_, at_end_;
   State<double> there_;
 };
 

@@ -26,7 +26,7 @@ struct BroadPhaseOptions {
   double patience = 0.5;  ///< longest wall time of a step to measure, s
   std::uint64_t seed = 1;
   bool figures = true;
-  Look look{};  ///< look of the figures
+  FigureLook look{};  ///< look of the figures
   bool article = false;
   std::string command;
   std::optional<std::string> list;

@@ -42,7 +42,7 @@ void drop_what_needs_the_full_equations(std::vector<Finding>& findings) {
 }  // namespace
 
 Measures measures_of(const StudyView& study) {
-  Measures measures{.stages = stages_of(study.scenarios), .course = {}, .steps = {}, .tolerances = {}};
+  Measures measures{.test_cases = test_cases_of(study.scenarios), .course = {}, .steps = {}, .tolerances = {}};
   double longest = 0;
   std::map<double, std::set<double>> steps, tolerances;  // steps and tolerances by duration
   for (const RunRecord& run : study.runs) {
@@ -78,18 +78,18 @@ std::vector<Certificate> certify(const StudyView& study, const Measures& measure
     certificates.push_back({entry, config, grouping.variants[key.second], {}});
     runs.push_back(&of_subject);
   }
-  const ShakenMotions shaken(measures.stages);
+  const ShakenMotions shaken(measures.test_cases);
   const auto certify_one = [&](std::size_t i) {
     Certificate& c = certificates[i];
     const Subject subject{*c.entry, c.config.formulation};
-    const auto& [stages, course, steps, tolerances] = measures;
-    auto findings = run_traits(subject, *runs[i], stages, study.scenarios);
+    const auto& [test_cases, course, steps, tolerances] = measures;
+    auto findings = run_traits(subject, *runs[i], test_cases, study.scenarios);
     findings.push_back(shaken.order(subject, steps, tolerances));
-    findings.push_back(time_reversibility(subject, stages, measures.map_step()));
-    findings.push_back(time_reversibility(subject, stages, measures.map_step(), many_steps));
-    findings.push_back(symplecticity(subject, stages, measures.map_step()));
-    findings.push_back(casimir(subject, stages, course));
-    findings.push_back(evaluations_per_step(subject, stages, course));
+    findings.push_back(time_reversibility(subject, test_cases, measures.map_step()));
+    findings.push_back(time_reversibility(subject, test_cases, measures.map_step(), many_steps));
+    findings.push_back(symplecticity(subject, test_cases, measures.map_step()));
+    findings.push_back(casimir(subject, test_cases, course));
+    findings.push_back(evaluations_per_step(subject, test_cases, course));
     if (!c.config.formulation.gyroscopic) drop_what_needs_the_full_equations(findings);
     c.findings = in_order(std::move(findings));
   };

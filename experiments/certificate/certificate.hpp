@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "experiments/certificate/finding.hpp"
-#include "experiments/certificate/stage.hpp"
 #include "experiments/certificate/step_traits.hpp"
+#include "experiments/certificate/test_case.hpp"
 #include "experiments/study/record/study_view.hpp"
 
 namespace polhode::study::certificate {
@@ -22,7 +22,7 @@ struct Certificate {
 
 /// Settings, taken from the study, of the measurements that are made in addition to the runs.
 struct Measures {
-  std::vector<Stage> stages;
+  std::vector<TestCase> test_cases;
   Course course;                          ///< settings of the longest runs
   std::vector<double> steps, tolerances;  ///< steps (s) and tolerances of the runs of shortest duration
   /// Step of measured maps, s: half the step for drifts. It is large enough that a method without a trait does not

@@ -289,7 +289,7 @@ class Report {
     std::string text = csv_row(header);
     std::map<double, std::string> by_time;
     for (const Certificate& c : certificates_) {
-      const double ns = nanoseconds_per_step({*c.entry, c.config.formulation}, measures_.stages, measures_.course);
+      const double ns = nanoseconds_per_step({*c.entry, c.config.formulation}, measures_.test_cases, measures_.course);
       auto row = subject_cells(c.config);
       const auto& asked = c.findings.back().measured;
       row.push_back(std::isfinite(ns) ? fmt::format("{:.1f}", ns) : "");

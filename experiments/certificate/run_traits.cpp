@@ -18,7 +18,7 @@ namespace {
 
 /// The runs on which the traits of one motion are measured.
 struct Motion {
-  const Stage* stage = nullptr;
+  const TestCase* test_case = nullptr;
   const Scenario* scenario = nullptr;
   const Curve* ladder = nullptr;       ///< shortest curve of at least three steps; null: none
   const RunRecord* longest = nullptr;  ///< run of the largest step of the longest curve
@@ -27,20 +27,20 @@ struct Motion {
 double duration(const Curve& curve) { return curve.runs.front()->config.t_end; }
 
 /// The motions of the curves: one for each scenario and values of varied keys.
-std::vector<Motion> motions_of(const std::vector<const Curve*>& curves, const std::vector<Stage>& stages,
+std::vector<Motion> motions_of(const std::vector<const Curve*>& curves, const std::vector<TestCase>& test_cases,
                                const std::vector<Scenario>& scenarios) {
   std::map<std::string, Motion> motions;
   for (const Curve* curve : curves) {
     const RunConfig& config = curve->runs.front()->config;
-    const auto stage =
-        std::find_if(stages.begin(), stages.end(), [&](const Stage& s) { return s.name == config.scenario; });
+    const auto test_case = std::find_if(test_cases.begin(), test_cases.end(),
+                                        [&](const TestCase& s) { return s.name == config.scenario; });
     const auto scenario =
         std::find_if(scenarios.begin(), scenarios.end(), [&](const Scenario& s) { return s.name == config.scenario; });
-    if (stage == stages.end() || scenario == scenarios.end()) continue;
+    if (test_case == test_cases.end() || scenario == scenarios.end()) continue;
     std::string key = config.scenario;
     for (const Override& varied : config.varied) key += '\n' + varied.key + '=' + varied.value;
     Motion& motion = motions[key];
-    motion.stage = &*stage;
+    motion.test_case = &*test_case;
     motion.scenario = &*scenario;
     constexpr std::size_t least_steps = 3;
     if (curve->runs.size() >= least_steps && (!motion.ladder || duration(*curve) < duration(*motion.ladder))) {
@@ -62,7 +62,7 @@ class RunTraits {
   Finding order(const std::string& trait, bool free) const {
     std::vector<Finding> findings;
     for (const Motion& motion : motions_) {
-      if (motion.stage->free != free || !motion.ladder) continue;
+      if (motion.test_case->free != free || !motion.ladder) continue;
       const auto attitude = quantity::attitude_error(), position = quantity::position_error();
       if (declared(motion, true) == declared(motion, false)) {
         findings.push_back(order_on(trait, motion, {attitude, position}));
@@ -79,11 +79,11 @@ class RunTraits {
   using Drift = std::function<std::optional<double>(const RunResult&)>;
 
   Finding drift(const std::string& trait, std::optional<bool> declared, const std::string& none,
-                const std::function<bool(const Stage&)>& select, const Drift& of) const {
+                const std::function<bool(const TestCase&)>& select, const Drift& of) const {
     std::vector<Finding> findings;
     for (const Motion& motion : motions_) {
       if (motion.longest->config.t_end < longest_) continue;  // this motion was run only for its order
-      if (select(*motion.stage)) findings.push_back(drift_on(trait, declared, *motion.longest, of));
+      if (select(*motion.test_case)) findings.push_back(drift_on(trait, declared, *motion.longest, of));
     }
     return findings.empty() ? not_applicable(trait, none) : worst(findings);
   }
@@ -132,7 +132,7 @@ class RunTraits {
       auto settings = order_settings(d.adaptive);
       settings.epsilon = epsilon(run.config.precision);
       auto ladder = largest_errors(*motion.ladder, quantities);
-      if (!motion.stage->free) {  // sums of forces and torques have larger rounding errors
+      if (!motion.test_case->free) {  // sums of forces and torques have larger rounding errors
         for (LadderPoint& point : ladder) point.round_off *= 4;
       }
       // Every method computes the position of a body at rest, or on a straight line, exactly.
@@ -167,13 +167,13 @@ class RunTraits {
 }  // namespace
 
 std::vector<Finding> run_traits(const Subject& subject, const std::vector<const Curve*>& curves,
-                                const std::vector<Stage>& stages, const std::vector<Scenario>& scenarios) {
+                                const std::vector<TestCase>& test_cases, const std::vector<Scenario>& scenarios) {
   const Declaration& d = subject.declaration();
-  const auto motions = motions_of(curves, stages, scenarios);
+  const auto motions = motions_of(curves, test_cases, scenarios);
   const RunTraits traits(subject, motions);
-  const auto free = [](const Stage& s) { return s.free; };
-  const auto conservative = [](const Stage& s) { return s.conservative; };
-  const auto any = [](const Stage&) { return true; };
+  const auto free = [](const TestCase& s) { return s.free; };
+  const auto conservative = [](const TestCase& s) { return s.conservative; };
+  const auto any = [](const TestCase&) { return true; };
   const auto energy = [](const RunResult& r) { return r.energy_drift_max_rel; };
 
   // ½ Ω·IΩ is quadratic in the body's angular velocity.
@@ -182,7 +182,7 @@ std::vector<Finding> run_traits(const Subject& subject, const std::vector<const 
   Finding forced =
       traits.drift("energy_forced", std::nullopt, "no forces that all have a potential", conservative, energy);
   for (const Motion& motion : motions) {
-    if (motion.stage->name != forced.on || motion.longest->result.status != "ok") continue;
+    if (motion.test_case->name != forced.on || motion.longest->result.status != "ok") continue;
     forced.note = motion.longest->result.drift_class;
   }
   return {traits.order("order_free", true),

@@ -18,21 +18,21 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The worst of the findings measure(stage) over the stages for which select(stage) is true.
+/// The worst of the findings measure(test_case) over the test cases for which select(test_case) is true.
 template <class Select, class Measure>
-Finding over_stages(const std::string& trait, const Subject& subject, std::span<const Stage> stages,
+Finding over_stages(const std::string& trait, const Subject& subject, std::span<const TestCase> test_cases,
                     const std::string& none, const Select& select, const Measure& measure) {
   std::vector<Finding> findings;
   std::string refused;
-  for (const Stage& stage : stages) {
-    if (!select(stage)) continue;
-    if (const std::string reason = stage.refusal(subject); !reason.empty()) {
-      refused = stage.name + ": " + reason;
+  for (const TestCase& test_case : test_cases) {
+    if (!select(test_case)) continue;
+    if (const std::string reason = test_case.refusal(subject); !reason.empty()) {
+      refused = test_case.name + ": " + reason;
       findings.push_back(not_applicable(trait, refused));
       continue;
     }
-    findings.push_back(measure(stage));
-    findings.back().on = stage.name;
+    findings.push_back(measure(test_case));
+    findings.back().on = test_case.name;
   }
   return findings.empty() ? not_applicable(trait, none) : worst(findings);
 }
@@ -66,9 +66,9 @@ std::string power_of(std::span<const LadderPoint> defects, double floor) {
 }
 
 template <class S>
-Finding symplecticity_on(const Subject& subject, const Stage& stage, double largest) {
+Finding symplecticity_on(const Subject& subject, const TestCase& test_case, double largest) {
   const std::string trait = "symplecticity";
-  const auto system = stage.system<S>(subject.formulation);
+  const auto system = test_case.system<S>(subject.formulation);
   const PhaseSpace<S> space(*system);
   std::vector<LadderPoint> defects;
   double most = 0;
@@ -95,7 +95,7 @@ Finding symplecticity_on(const Subject& subject, const Stage& stage, double larg
     defects.push_back({.step = h, .error = least, .round_off = 0});
   }
   const double floor = differentiation_floor<S>;
-  Finding finding = kept(trait, subject.declaration().symplectic, most, floor, stage.name);
+  Finding finding = kept(trait, subject.declaration().symplectic, most, floor, test_case.name);
   finding.measured = defects.front().error;
   finding.note = power_of(defects, floor);
   return finding;
@@ -106,11 +106,11 @@ double casimir_of(const System<double>& system, const VectorX<double>& y, std::s
   return (system.problem().bodies[body].inertia * (now.rotation.transpose() * now.angular_velocity)).norm();
 }
 
-/// Advances the state to t_end and calls look(state) after every ten steps, until it returns false. Returns the reason
-/// for which a step failed; empty: none did.
-template <class Look>
+/// Advances the state to t_end and calls on_state(state) after every ten steps, until it returns false. Returns the
+/// reason for which a step failed; empty: none did.
+template <class OnState>
 std::string follow(const Subject& subject, Integrator<double>& integrator, State<double>& state, const Course& course,
-                   const Look& look) {
+                   const OnState& on_state) {
   constexpr std::int64_t stride = 10;
   const bool adaptive = subject.declaration().adaptive;
   const auto strides = static_cast<std::int64_t>(std::ceil(course.t_end / course.step / stride * (1 - 1e-12)));
@@ -119,7 +119,7 @@ std::string follow(const Subject& subject, Integrator<double>& integrator, State
         adaptive ? integrator.step(state, course.t_end - state.t)
                  : integrator.advance(state, StepBatch{.h = course.step, .count = stride, .first = k * stride});
     if (!result.ok()) return result.failure;
-    if (!look(state)) return "";
+    if (!on_state(state)) return "";
   }
   return "";
 }
@@ -137,16 +137,16 @@ class Asked final : public ForceModel<double> {
 
 }  // namespace
 
-Finding time_reversibility(const Subject& subject, std::span<const Stage> stages, double h, int steps) {
+Finding time_reversibility(const Subject& subject, std::span<const TestCase> test_cases, double h, int steps) {
   const std::string trait = steps == 1 ? "time_reversibility" : "time_reversibility_many";
   if (subject.declaration().adaptive) {
     return not_applicable(trait, "it chooses its steps: the way back has other ones than the way there");
   }
   const double limit = steps == 1 ? return_limit : many_return_limit;
   return over_stages(
-      trait, subject, stages, "no motion to measure it on", [](const Stage&) { return true; },
-      [&](const Stage& stage) {
-        const auto system = stage.system<double>(subject.formulation);
+      trait, subject, test_cases, "no motion to measure it on", [](const TestCase&) { return true; },
+      [&](const TestCase& test_case) {
+        const auto system = test_case.system<double>(subject.formulation);
         const PhaseSpace<double> space(*system);
         State<double> state{start_time, space.state(space.generic())};
         const VectorX<double> before = state.y;
@@ -161,11 +161,11 @@ Finding time_reversibility(const Subject& subject, std::span<const Stage> stages
             }
           }
         }
-        return kept(trait, subject.declaration().symmetric, change(state.y, before), limit, stage.name);
+        return kept(trait, subject.declaration().symmetric, change(state.y, before), limit, test_case.name);
       });
 }
 
-Finding symplecticity(const Subject& subject, std::span<const Stage> stages, double h) {
+Finding symplecticity(const Subject& subject, std::span<const TestCase> test_cases, double h) {
   const std::string trait = "symplecticity";
   if (subject.declaration().adaptive) {
     return not_applicable(trait, "it chooses its steps, which is no smooth map of the state");
@@ -174,24 +174,24 @@ Finding symplecticity(const Subject& subject, std::span<const Stage> stages, dou
     return not_applicable(trait, "its step depends on those before it, which is no map of the state");
   }
   return over_stages(
-      trait, subject, stages, "no motion without forces, or with a potential of all of them",
-      [](const Stage& stage) { return stage.free || stage.conservative; },
-      [&](const Stage& stage) {
-        return subject.entry.make_long_double ? symplecticity_on<long double>(subject, stage, h)
-                                              : symplecticity_on<double>(subject, stage, h);
+      trait, subject, test_cases, "no motion without forces, or with a potential of all of them",
+      [](const TestCase& test_case) { return test_case.free || test_case.conservative; },
+      [&](const TestCase& test_case) {
+        return subject.entry.make_long_double ? symplecticity_on<long double>(subject, test_case, h)
+                                              : symplecticity_on<double>(subject, test_case, h);
       });
 }
 
-Finding casimir(const Subject& subject, std::span<const Stage> stages, const Course& course) {
+Finding casimir(const Subject& subject, std::span<const TestCase> test_cases, const Course& course) {
   const std::string trait = "casimir";
   const Declaration& d = subject.declaration();
   // |IΩ|² is a quadratic invariant of Euler's equations.
   const bool declared = d.conserves_casimir ||
                         (d.conserves_quadratics && subject.formulation.angular_state == AngularState::velocity_body);
   return over_stages(
-      trait, subject, stages, "no body without forces", [](const Stage& stage) { return stage.free; },
-      [&](const Stage& stage) {
-        const auto system = stage.system<double>(subject.formulation);
+      trait, subject, test_cases, "no body without forces", [](const TestCase& test_case) { return test_case.free; },
+      [&](const TestCase& test_case) {
+        const auto system = test_case.system<double>(subject.formulation);
         State<double> state = system->start();
         const auto integrator = subject.entry.make(*system, settings(course));
         integrator->begin(state);
@@ -206,15 +206,16 @@ Finding casimir(const Subject& subject, std::span<const Stage> stages, const Cou
           return std::isfinite(most);
         });
         if (!failure.empty() && !(most > kept_limit)) return failed(trait, failure);
-        return kept(trait, declared, most, kept_limit, stage.name);
+        return kept(trait, declared, most, kept_limit, test_case.name);
       });
 }
 
-ShakenMotions::ShakenMotions(std::span<const Stage> stages) {
-  for (const Stage& stage : stages) {
-    if (!stage.shaken) continue;
-    motions_.push_back({&stage, std::make_shared<ReferenceMotion>(stage.problem, true, 1.0, nullptr,
-                                                                  [](System<long double>& system) { shake(system); })});
+ShakenMotions::ShakenMotions(std::span<const TestCase> test_cases) {
+  for (const TestCase& test_case : test_cases) {
+    if (!test_case.shaken) continue;
+    motions_.push_back(
+        {&test_case, std::make_shared<ReferenceMotion>(test_case.problem, true, 1.0, nullptr,
+                                                       [](System<long double>& system) { shake(system); })});
   }
 }
 
@@ -267,35 +268,35 @@ Finding ShakenMotions::order(const Subject& subject, std::span<const double> ste
   const std::string trait = "order_time_dependent";
   const bool adaptive = subject.declaration().adaptive;
   std::vector<Finding> findings;
-  for (const auto& [stage, reference] : motions_) {
-    if (const std::string reason = stage->refusal(subject); !reason.empty()) {
-      findings.push_back(not_applicable(trait, stage->name + ": " + reason));
+  for (const auto& [test_case, reference] : motions_) {
+    if (const std::string reason = test_case->refusal(subject); !reason.empty()) {
+      findings.push_back(not_applicable(trait, test_case->name + ": " + reason));
       continue;
     }
-    const auto system = stage->system<double>(subject.formulation);
+    const auto system = test_case->system<double>(subject.formulation);
     std::vector<LadderPoint> ladder;
     for (const double size : adaptive ? tolerances : steps) {
       ladder.push_back(shaken_error(subject, *system, reference, size));
     }
     const int declared = subject.declaration().order;
     findings.push_back(order_finding(trait, adaptive, declared, std::move(ladder)));
-    findings.back().on = stage->name;
+    findings.back().on = test_case->name;
   }
   return findings.empty() ? not_applicable(trait, "no motion to shake") : worst(findings);
 }
 
-Finding evaluations_per_step(const Subject& subject, std::span<const Stage> stages, const Course& course) {
+Finding evaluations_per_step(const Subject& subject, std::span<const TestCase> test_cases, const Course& course) {
   const std::string trait = "evaluations_per_step";
   const int declared = subject.declaration().evaluations_per_step;
   constexpr int warm_up = 10, steps = 40;
   const bool any_forced =
-      std::any_of(stages.begin(), stages.end(), [](const Stage& s) { return !s.free && !s.shaken; });
+      std::any_of(test_cases.begin(), test_cases.end(), [](const TestCase& s) { return !s.free && !s.shaken; });
   return over_stages(
-      trait, subject, stages, "no motion to measure it on",
-      [&](const Stage& stage) { return !stage.shaken && stage.free != any_forced; },
-      [&](const Stage& stage) {
+      trait, subject, test_cases, "no motion to measure it on",
+      [&](const TestCase& test_case) { return !test_case.shaken && test_case.free != any_forced; },
+      [&](const TestCase& test_case) {
         std::int64_t asked = 0;
-        const auto system = stage.system<double>(subject.formulation);
+        const auto system = test_case.system<double>(subject.formulation);
         system->add_force(std::make_unique<Asked>(asked));
         State<double> state = system->start();
         const auto integrator = subject.entry.make(*system, settings(course));
@@ -317,14 +318,14 @@ Finding evaluations_per_step(const Subject& subject, std::span<const Stage> stag
       });
 }
 
-double nanoseconds_per_step(const Subject& subject, std::span<const Stage> stages, const Course& course) {
+double nanoseconds_per_step(const Subject& subject, std::span<const TestCase> test_cases, const Course& course) {
   using Clock = std::chrono::steady_clock;
   constexpr int repeats = 5;
   constexpr double long_enough = 1e-3;  // shortest time of a batch of steps, s
-  const auto stage =
-      std::find_if(stages.begin(), stages.end(), [&](const Stage& s) { return s.refusal(subject).empty(); });
-  if (stage == stages.end()) return std::numeric_limits<double>::quiet_NaN();
-  const auto system = stage->system<double>(subject.formulation);
+  const auto test_case =
+      std::find_if(test_cases.begin(), test_cases.end(), [&](const TestCase& s) { return s.refusal(subject).empty(); });
+  if (test_case == test_cases.end()) return std::numeric_limits<double>::quiet_NaN();
+  const auto system = test_case->system<double>(subject.formulation);
   double least = infinity;
   std::int64_t steps = 50;
   for (int k = 0; k < repeats;) {

@@ -18,7 +18,7 @@ struct JudgeOptions {
   RotationFrom rotation_from = RotationFrom::normalized;
   std::string out;  ///< results folder; empty: results/judge-<scenario>-<hash>
   bool force = false, figures = true;
-  Look look{};                     ///< look of the figures
+  FigureLook look{};               ///< look of the figures
   std::string command;             ///< the command line, quoted for a shell
   std::optional<int> exit_status;  ///< set if the program must end at once (--help)
 };

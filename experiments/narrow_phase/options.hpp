@@ -17,7 +17,7 @@ struct NarrowPhaseOptions {
   std::size_t count = 2000;  ///< number of pairs of each class in the comparison
   std::uint64_t seed = 1;
   bool figures = true;
-  Look look{};  ///< look of the figures
+  FigureLook look{};  ///< look of the figures
   bool article = false;
   std::optional<std::string> list;
   std::optional<int> exit_status{};  ///< set if the program must end at once (--help)

@@ -19,7 +19,7 @@ struct PlotOptions {
   std::vector<std::string> where;    ///< conditions
   std::vector<const PlotQuantity*> quantities;
   std::string body, out;
-  Look look{};
+  FigureLook look{};
   bool list = false;
   std::optional<int> exit_status;  ///< the program must end at once
 };

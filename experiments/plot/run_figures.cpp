@@ -37,7 +37,7 @@ Axis axis_about(const std::string& label, double low, double high) {
 class RunFigureMaker {
  public:
   RunFigureMaker(const std::vector<Recording>& runs, const std::vector<const PlotQuantity*>& quantities,
-                 const Look& look)
+                 const FigureLook& look)
       : runs_(runs), quantities_(quantities), look_(look) {
     std::set<std::string> scenarios;
     for (const Recording& run : runs) {
@@ -355,7 +355,7 @@ class RunFigureMaker {
 
   const std::vector<Recording>& runs_;
   const std::vector<const PlotQuantity*>& quantities_;
-  const Look look_;
+  const FigureLook look_;
   StudyView view_;
   Grouping grouping_;
   std::vector<std::pair<std::size_t, std::size_t>> places_;  // method and variant of each run
@@ -367,7 +367,7 @@ class RunFigureMaker {
 }  // namespace
 
 RunFigures figures_of_runs(const std::vector<Recording>& runs, const std::vector<const PlotQuantity*>& quantities,
-                           const Look& look) {
+                           const FigureLook& look) {
   return RunFigureMaker(runs, quantities, look).figures();
 }
 

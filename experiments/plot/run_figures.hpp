@@ -20,6 +20,6 @@ struct RunFigures {
 /// A figure for each quantity; the methods of the runs have their colours, and dashes tell the runs of one method
 /// apart.
 RunFigures figures_of_runs(const std::vector<Recording>& runs, const std::vector<const PlotQuantity*>& quantities,
-                           const Look& look);
+                           const FigureLook& look);
 
 }  // namespace polhode::study::plot_program

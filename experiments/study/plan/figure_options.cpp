@@ -45,7 +45,7 @@ void choose(const std::string& text, bool closed, FigureChoice& choice) {
 
 std::span<const FigureName> figure_names() { return figure_table; }
 
-void add_look_options(CommandLine& line, Look& look) {
+void add_look_options(CommandLine& line, FigureLook& look) {
   const auto add = [&](const char* name, std::function<void(const std::string&)> use, const std::string& meaning,
                        const char* type) {
     return line.add_function(name, std::move(use), meaning).type_name(type).group("Figures");

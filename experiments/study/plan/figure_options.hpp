@@ -18,7 +18,7 @@ struct FigureName {
 std::span<const FigureName> figure_names();
 
 /// Adds --figure-width, --figure-font, --figure-title and --figure-language.
-void add_look_options(CommandLine& line, Look& look);
+void add_look_options(CommandLine& line, FigureLook& look);
 
 /// Adds --figure and these. `closed`: there are no figures but figure_names();
 /// otherwise an experiment's analysis has further ones. `excludes`: an option that cannot be given with --figure.

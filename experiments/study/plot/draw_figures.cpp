@@ -94,7 +94,7 @@ void finish_gnuplot(ChildProcess& child, const std::string& name, const fs::path
   fix_date(file.string() + ".pdf");
 }
 
-std::string untranslated(const Look& look, const std::set<std::string>& missing) {
+std::string untranslated(const FigureLook& look, const std::set<std::string>& missing) {
   if (missing.empty()) return "";
   std::vector<std::string> quoted;
   for (const std::string& phrase : missing) quoted.push_back("'" + phrase + "'");

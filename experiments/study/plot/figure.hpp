@@ -111,7 +111,7 @@ struct Panel {
 };
 
 /// Size, letters and language of a figure.
-struct Look {
+struct FigureLook {
   std::optional<double> width_cm{};  ///< width; absent: 17 for pictures, the line of an article on A4 for PGFPlots
   std::string font = "sans-serif";   ///< family, of pictures; PGFPlots takes that of the document
   double font_size = 9;              ///< pt
@@ -139,7 +139,7 @@ struct Figure {
   std::vector<std::string> variants{};  ///< distinguished by dashes; one entry if there is only one
   std::vector<Shade> shades{};          ///< kinds of the cells
   LegendWords legend{};
-  Look look{};
+  FigureLook look{};
   double panel_height = 0;  ///< pixels; 0: by the number of panels in a row
   bool has_zero_marks = false, has_edge_marks = false, has_envelope = false, has_muted = false;
 };

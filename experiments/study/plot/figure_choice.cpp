@@ -29,7 +29,7 @@ double read_figure_width(const std::string& text, const std::string& label) {
                   label, text, style::one_column, style::two_columns));
 }
 
-void read_figure_font(const std::string& text, const std::string& label, Look& look) {
+void read_figure_font(const std::string& text, const std::string& label, FigureLook& look) {
   const auto comma = text.rfind(',');
   const std::string family = text.substr(0, comma);
   if (family.find_first_of("'\"\\\n,") != std::string::npos || text.empty())

@@ -11,14 +11,14 @@ namespace polhode::study::inline plot {
 
 struct FigureChoice {
   std::vector<std::string> names{};  ///< names of the chosen figures; empty: all
-  Look look{};
+  FigureLook look{};
 };
 
 /// "one_column", "two_columns" or a number of cm from 5 to 60. Throws InputError, which begins with the label.
 double read_figure_width(const std::string& text, const std::string& label);
 
 /// "FAMILY", "FAMILY,SIZE" or ",SIZE", the size in pt from 4 to 40. Throws InputError, which begins with the label.
-void read_figure_font(const std::string& text, const std::string& label, Look& look);
+void read_figure_font(const std::string& text, const std::string& label, FigureLook& look);
 
 /// Removes the figures that are not chosen, and gives the others their look.
 void choose_figures(const FigureChoice& choice, std::vector<Figure>& figures);

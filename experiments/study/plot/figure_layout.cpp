@@ -28,7 +28,7 @@ namespace {
 /// Letters that this part of the width of a panel has room for, beside a cross.
 std::size_t letters_in(double share, const Figure& figure) {
   constexpr double letter = 6.4, sides = 120;  // pixels, of small letters and of both margins
-  const double panel = (Look{}.width() - sides) / static_cast<double>(figure.columns);
+  const double panel = (FigureLook{}.width() - sides) / static_cast<double>(figure.columns);
   return static_cast<std::size_t>(std::max(0.0, share * panel / letter - 2));
 }
 

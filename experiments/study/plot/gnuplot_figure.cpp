@@ -331,7 +331,7 @@ std::string gnuplot_style(const FigureSet& set) {
        "# A method has one colour, marker and dash in all studies; where there are variants of the formulation, they "
        "have "
        "the dashes.");
-  const Look look = set.figures.empty() ? Look{} : set.figures.front().look;
+  const FigureLook look = set.figures.empty() ? FigureLook{} : set.figures.front().look;
   line(out, "font_face = '{}'", look.font);
   line(out, "font_size = {:.4g}  # pixels, 96 to the inch", look.font_size * 96 / 72);
   line(out, "small = sprintf('%s,%g', font_face, 0.85 * font_size)");

@@ -27,7 +27,7 @@ struct SpaceFigure {
   std::optional<double> plane{};                 ///< height of a plane across the third axis
   std::vector<SpaceCurve> curves{};
   std::vector<std::string> methods{}, variants{};  ///< names as those of Figure
-  Look look{};
+  FigureLook look{};
 };
 
 /// True if a point on the surface of the ellipsoid is on the side of the viewer.

@@ -62,7 +62,7 @@ class WorkFigure {
     return all;
   }
 
-  Panel panel(const MotionWork& motion, const std::set<std::size_t>& coloured, const Look& look) const {
+  Panel panel(const MotionWork& motion, const std::set<std::size_t>& coloured, const FigureLook& look) const {
     Panel panel{.title = {grouping_.cases[motion.case_index].label()},
                 .x_column = cost_.column,
                 .y_column = motion.quantity.column};
@@ -113,7 +113,7 @@ class WorkFigure {
 
   /// Adds the ends of a cost axis on which the names, left of the envelope and right of other curves, are inside the
   /// panel.
-  static void make_room_for_names(const Panel& panel, std::vector<double>& costs, const Look& look) {
+  static void make_room_for_names(const Panel& panel, std::vector<double>& costs, const FigureLook& look) {
     const double scale = look.font_size / style::font_size;
     const double panel_width = look.width() - (style::left_margin + style::right_margin) * scale;
     const auto share = [&](const std::string& name) {

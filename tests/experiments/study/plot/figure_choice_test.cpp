@@ -30,7 +30,7 @@ TEST(FigureWidth, IsAWordOrANumber) {
 }
 
 TEST(FigureFont, IsAFamilyASizeOrBoth) {
-  Look look;
+  FigureLook look;
   read_figure_font("DejaVu Serif", "--figure-font", look);
   EXPECT_EQ(look.font, "DejaVu Serif");
   EXPECT_EQ(look.font_size, 9);

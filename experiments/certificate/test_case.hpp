@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Motions on which traits are measured (stages), and methods whose traits are measured (subjects).
+// Motions on which traits are measured (test cases), and methods whose traits are measured (subjects).
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ struct Subject {
 };
 
 /// A scenario on which traits are measured.
-struct Stage {
+struct TestCase {
   std::string name;
   Problem problem;
   bool free = false;          ///< no force acts
@@ -34,9 +34,9 @@ struct Stage {
   std::string refusal(const Subject& subject) const;
 };
 
-/// Stages of the scenarios: one for each scenario, and a shaken copy of the first one with forces (if there is none, of
-/// the first one).
-std::vector<Stage> stages_of(const std::vector<Scenario>& scenarios);
+/// Test cases of the scenarios: one for each scenario, and a shaken copy of the first one with forces (if there is
+/// none, of the first one).
+std::vector<TestCase> test_cases_of(const std::vector<Scenario>& scenarios);
 
 /// Adds a time-dependent force and torque, in directions fixed in the world frame, on every moving body.
 template <class S>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/certificate/stage.hpp"
+#include "experiments/certificate/test_case.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -59,37 +59,37 @@ void shake(System<S>& system) {
 }
 
 template <class S>
-std::unique_ptr<System<S>> Stage::system(const Formulation& formulation) const {
+std::unique_ptr<System<S>> TestCase::system(const Formulation& formulation) const {
   auto made = make_system<S>(problem, formulation);
   if (shaken) shake(*made);
   return made;
 }
 
-std::string Stage::refusal(const Subject& subject) const {
+std::string TestCase::refusal(const Subject& subject) const {
   return subject.entry.refusal ? subject.entry.refusal(problem, subject.formulation) : std::string();
 }
 
-std::vector<Stage> stages_of(const std::vector<Scenario>& scenarios) {
-  std::vector<Stage> stages;
+std::vector<TestCase> test_cases_of(const std::vector<Scenario>& scenarios) {
+  std::vector<TestCase> test_cases;
   for (const Scenario& scenario : scenarios) {
-    Stage stage{.name = scenario.name, .problem = scenario.problem};
-    stage.free = scenario.problem.forces.empty() && scenario.problem.joints.empty();
-    stage.conservative = !stage.free && !make_system<double>(scenario.problem, {})->forces_do_work();
-    stages.push_back(std::move(stage));
+    TestCase test_case{.name = scenario.name, .problem = scenario.problem};
+    test_case.free = scenario.problem.forces.empty() && scenario.problem.joints.empty();
+    test_case.conservative = !test_case.free && !make_system<double>(scenario.problem, {})->forces_do_work();
+    test_cases.push_back(std::move(test_case));
   }
-  if (stages.empty()) return stages;
-  const auto forced = std::find_if(stages.begin(), stages.end(), [](const Stage& s) { return !s.free; });
-  Stage shaken = forced == stages.end() ? stages.front() : *forced;
+  if (test_cases.empty()) return test_cases;
+  const auto forced = std::find_if(test_cases.begin(), test_cases.end(), [](const TestCase& s) { return !s.free; });
+  TestCase shaken = forced == test_cases.end() ? test_cases.front() : *forced;
   shaken.name += ", shaken";
   shaken.free = shaken.conservative = false;
   shaken.shaken = true;
-  stages.push_back(std::move(shaken));
-  return stages;
+  test_cases.push_back(std::move(shaken));
+  return test_cases;
 }
 
 template void shake(System<double>&);
 template void shake(System<long double>&);
-template std::unique_ptr<System<double>> Stage::system(const Formulation&) const;
-template std::unique_ptr<System<long double>> Stage::system(const Formulation&) const;
+template std::unique_ptr<System<double>> TestCase::system(const Formulation&) const;
+template std::unique_ptr<System<long double>> TestCase::system(const Formulation&) const;
 
 }  // namespace polhode::study::certificate
