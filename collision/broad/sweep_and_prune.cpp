@@ -68,9 +68,9 @@ class SweepAndPrune final : public BroadPhase {
     for (const PlainBox& b : boxes_) {
       for (std::size_t k = 0; k < 3; ++k) spread[k] += weight * std::abs(clamped(centre(b, k)) - mean[k]);
     }
-    const auto widest = static_cast<std::size_t>(std::max_element(spread.begin(), spread.end()) - spread.begin());
-    if (!(spread[widest] > worth_another_axis * spread[axis_])) return false;
-    axis_ = widest;
+    const auto axis = static_cast<std::size_t>(std::max_element(spread.begin(), spread.end()) - spread.begin());
+    if (!(spread[axis] > worth_another_axis * spread[axis_])) return false;
+    axis_ = axis;
     return true;
   }
 

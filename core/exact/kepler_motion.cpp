@@ -29,13 +29,13 @@ Vector3<long double> rounded(const Precise3& a) {
 
 /// Values of the universal functions U0 to U3.
 template <class T>
-struct Universal {
+struct UniversalFunctions {
   T u0, u1, u2, u3;
 };
 
 /// The universal functions U0 to U3 of s. For |βs²| < 1 they are computed by their power series.
 template <class T>
-Universal<T> universal(const T& beta, const T& s) {
+UniversalFunctions<T> universal(const T& beta, const T& s) {
   using std::abs, std::cos, std::cosh, std::sin, std::sinh, std::sqrt;
   const T x = beta * s * s;
   if (abs(x) < 1) {
@@ -76,7 +76,7 @@ KeplerMotion::KeplerMotion(double mu, const Vector3<double>& position, const Vec
     if (abs(beta) * u1 * u1 < 1e-6 && abs(beta) * u2 < 1) {
       s = u1;
       for (int k = 0; k < 8; ++k) {
-        const Universal<Precise> u = universal(beta, s);
+        const UniversalFunctions<Precise> u = universal(beta, s);
         s -= (u.u1 - u1) / u.u0;
       }
     } else if (beta > 0) {
@@ -115,7 +115,7 @@ KeplerMotion::Real KeplerMotion::solve(Real since) const {
     most = std::min(most, std::max(Real(2), std::asinh(3 * t * root * root * root / mu_)) / root);
   }
   const auto equation = [&](Real s) {
-    const Universal<Real> u = universal(beta_, s);
+    const UniversalFunctions<Real> u = universal(beta_, s);
     return std::make_tuple(q_ * u.u1 + mu_ * u.u3 - t, q_ * u.u0 + mu_ * u.u2);
   };
   // Initial guess from the cubic equation of the parabola, t = q s + μ s³/6.
@@ -129,7 +129,7 @@ KeplerMotion::Real KeplerMotion::solve(Real since) const {
 KeplerMotion::Motion KeplerMotion::at(double t) const {
   Real since = since_pericentre_ + static_cast<Real>(t);
   if (period_ > 0) since -= period_ * std::nearbyint(since / period_);
-  const Universal<Real> u = universal(beta_, solve(since));
+  const UniversalFunctions<Real> u = universal(beta_, solve(since));
   const Real distance = q_ * u.u0 + mu_ * u.u2;
   const Vector3<Real> position = (q_ - mu_ * u.u2) * towards_pericentre_ + momentum_ * u.u1 * across_;
   const Vector3<Real> velocity = (-mu_ * u.u1 * towards_pericentre_ + momentum_ * u.u0 * across_) / distance;

@@ -42,9 +42,9 @@ std::vector<std::string> methods_of(const std::vector<RunRecord>& runs) {
 }
 
 /// The variant of a run: its options that differ between the runs of the study.
-class Variants {
+class VariedOptions {
  public:
-  explicit Variants(const std::vector<RunRecord>& runs) {
+  explicit VariedOptions(const std::vector<RunRecord>& runs) {
     for (const RunOption* option : options_of_role(RunOption::Role::variant)) {
       const bool varies = std::any_of(runs.begin(), runs.end(), [&](const RunRecord& run) {
         return label_of(*option, run.config) != label_of(*option, runs.front().config);
@@ -140,7 +140,7 @@ Grouping group(const StudyView& study) {
   std::map<std::tuple<std::size_t, std::size_t, std::size_t, bool>, std::size_t> curves;
   std::vector<std::optional<double>> sizes;  // extent of the motion of each case with measured positions, m
   const Durations durations(study);
-  const Variants options(study.runs);
+  const VariedOptions options(study.runs);
 
   for (const auto& run : study.runs) {
     Case motion = case_of(run.config, durations);

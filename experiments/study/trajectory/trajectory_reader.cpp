@@ -22,11 +22,11 @@ namespace polhode::study::inline trajectory {
 namespace {
 
 /// The names of trajectory.csv in groups that are there as a whole or not at all.
-struct Group {
+struct ColumnGroup {
   const char* what;
   std::vector<std::string> columns;
 };
-const Group time_group{"the time", {"t_s"}}, body_group{"the body", {"body"}},
+const ColumnGroup time_group{"the time", {"t_s"}}, body_group{"the body", {"body"}},
     position_group{"the position", {"px_m", "py_m", "pz_m"}},
     quaternion_group{"the quaternion", {"qw", "qx", "qy", "qz"}},
     velocity_group{"the velocity", {"vx_m_per_s", "vy_m_per_s", "vz_m_per_s"}},
@@ -41,15 +41,15 @@ const std::array groups = {&time_group,  &body_group,     &position_group, &quat
 /// orientations may be anywhere, since leaving the manifold is a finding.
 constexpr double first_defect = 0.02, least_length = 1e-6;
 
-struct Cell {
+struct CsvCell {
   std::string_view text;
   std::size_t column;  ///< column of its first character, from 1
 };
 
 constexpr std::string_view around_cells = " \t\r\"";
 
-std::vector<Cell> cells_of(std::string_view line) {
-  std::vector<Cell> cells;
+std::vector<CsvCell> cells_of(std::string_view line) {
+  std::vector<CsvCell> cells;
   for (std::size_t at = 0;;) {
     const auto end = std::min(line.find(',', at), line.size());
     const std::string_view whole = line.substr(at, end - at), text = trimmed(whole, around_cells);
@@ -100,11 +100,11 @@ class Parser {
     return false;
   }
 
-  void read_header(const std::vector<Cell>& cells) {
+  void read_header(const std::vector<CsvCell>& cells) {
     columns_ = cells.size();
     for (std::size_t k = 0; k < cells.size(); ++k) {
       const std::string name(cells[k].text);
-      const bool known = std::any_of(groups.begin(), groups.end(), [&](const Group* g) {
+      const bool known = std::any_of(groups.begin(), groups.end(), [&](const ColumnGroup* g) {
         return std::find(g->columns.begin(), g->columns.end(), name) != g->columns.end();
       });
       if (known && !places_.emplace(name, k).second) fail(cells[k].column, "the column " + name + " stands twice");
@@ -121,7 +121,7 @@ class Parser {
     result_.has_energy = has(energy_group);
   }
 
-  bool has(const Group& group) const {
+  bool has(const ColumnGroup& group) const {
     const auto there = static_cast<std::size_t>(
         std::count_if(group.columns.begin(), group.columns.end(), [&](const auto& c) { return places_.contains(c); }));
     if (there != 0 && there != group.columns.size()) {
@@ -133,10 +133,10 @@ class Parser {
     return there != 0;
   }
 
-  void require(const Group& group, const std::vector<Cell>& cells) const {
+  void require(const ColumnGroup& group, const std::vector<CsvCell>& cells) const {
     if (has(group)) return;
     std::vector<std::string_view> given;
-    for (const Cell& cell : cells) given.push_back(cell.text);
+    for (const CsvCell& cell : cells) given.push_back(cell.text);
     const std::string& name = group.columns.front();
     std::string what = fmt::format("there is no column {}", name);
     if (group.columns.size() > 1) what += fmt::format(" (of {})", fmt::join(group.columns, ", "));
@@ -145,8 +145,8 @@ class Parser {
     fail(1, what + "; name it in the first line");
   }
 
-  double number(const std::vector<Cell>& cells, const std::string& name) const {
-    const Cell& cell = cells[places_.at(name)];
+  double number(const std::vector<CsvCell>& cells, const std::string& name) const {
+    const CsvCell& cell = cells[places_.at(name)];
     std::string_view text = cell.text;
     if (text.starts_with('+')) text.remove_prefix(1);
     double x = 0;
@@ -161,15 +161,15 @@ class Parser {
     return x;
   }
 
-  Vector3<double> vector(const std::vector<Cell>& cells, const Group& group) const {
+  Vector3<double> vector(const std::vector<CsvCell>& cells, const ColumnGroup& group) const {
     return {number(cells, group.columns[0]), number(cells, group.columns[1]), number(cells, group.columns[2])};
   }
 
-  std::size_t cell_column(const std::vector<Cell>& cells, const char* name) const {
+  std::size_t cell_column(const std::vector<CsvCell>& cells, const char* name) const {
     return cells[places_.at(name)].column;
   }
 
-  void read_row(const std::vector<Cell>& cells) {
+  void read_row(const std::vector<CsvCell>& cells) {
     if (cells.size() != columns_) {
       fail(cells.back().column,
            fmt::format("{} cells under {} column names; end the file after a whole row", cells.size(), columns_));
@@ -197,7 +197,7 @@ class Parser {
     read_body(cells, result_.bodies[result_.bodies.size() - result_.moving + body]);
   }
 
-  std::size_t body_of(const std::vector<Cell>& cells) const {
+  std::size_t body_of(const std::vector<CsvCell>& cells) const {
     if (!has_body_) return 0;
     const double x = number(cells, "body");
     if (!(x >= 0 && x < static_cast<double>(result_.moving)) || x != std::floor(x)) {
@@ -207,7 +207,7 @@ class Parser {
     return static_cast<std::size_t>(x);
   }
 
-  void read_body(const std::vector<Cell>& cells, BodySnapshot<double>& body) const {
+  void read_body(const std::vector<CsvCell>& cells, BodySnapshot<double>& body) const {
     const bool first = result_.times.size() == 1;
     if (result_.has_matrix) {
       for (int k = 0; k < 9; ++k) body.rotation(k / 3, k % 3) = number(cells, matrix_group.columns[std::size_t(k)]);

@@ -156,17 +156,17 @@ std::string short_colour(const std::string& value) {
 }
 
 /// Points of a path, in hundredths of a pixel.
-struct Point {
+struct PathPoint {
   long x, y;
 };
 
 /// One or more lines as differences, from wherever the pen is.
 class Pen {
  public:
-  void line(const std::vector<Point>& points, bool closed) {
+  void line(const std::vector<PathPoint>& points, bool closed) {
     out_ += 'm';
     bool first = true;
-    for (const Point& point : points) {
+    for (const PathPoint& point : points) {
       append(point.x - at_.x, first);
       append(point.y - at_.y, false);
       at_ = point;
@@ -186,11 +186,11 @@ class Pen {
   }
 
   std::string out_;
-  Point at_{0, 0};
+  PathPoint at_{0, 0};
 };
 
 struct Line {
-  std::vector<Point> points;
+  std::vector<PathPoint> points;
   bool closed = false;
 };
 
@@ -411,7 +411,7 @@ class Compact {
     const auto number = known - markers_.begin();
     if (known == markers_.end()) markers_.push_back(look);
     const std::string line = fmt::format("fill:none;marker:url(#m{})", number);
-    const Point at{hundredths(found[1]), hundredths(found[2])};
+    const PathPoint at{hundredths(found[1]), hundredths(found[2])};
     if (line == waiting_style_ && !waiting_.empty()) waiting_.back().points.push_back(at);
     else draw(line, {{at}, false});
   }
