@@ -33,7 +33,7 @@ std::vector<Motion> motions_of(const std::vector<const Curve*>& curves, const st
   for (const Curve* curve : curves) {
     const RunConfig& config = curve->runs.front()->config;
     const auto test_case = std::find_if(test_cases.begin(), test_cases.end(),
-                                        [&](const TestCase& s) { return s.name == config.scenario; });
+                                        [&](const TestCase& t) { return t.name == config.scenario; });
     const auto scenario =
         std::find_if(scenarios.begin(), scenarios.end(), [&](const Scenario& s) { return s.name == config.scenario; });
     if (test_case == test_cases.end() || scenario == scenarios.end()) continue;
@@ -171,8 +171,8 @@ std::vector<Finding> run_traits(const Subject& subject, const std::vector<const 
   const Declaration& d = subject.declaration();
   const auto motions = motions_of(curves, test_cases, scenarios);
   const RunTraits traits(subject, motions);
-  const auto free = [](const TestCase& s) { return s.free; };
-  const auto conservative = [](const TestCase& s) { return s.conservative; };
+  const auto free = [](const TestCase& t) { return t.free; };
+  const auto conservative = [](const TestCase& t) { return t.conservative; };
   const auto any = [](const TestCase&) { return true; };
   const auto energy = [](const RunResult& r) { return r.energy_drift_max_rel; };
 

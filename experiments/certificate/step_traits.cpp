@@ -20,8 +20,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The worst of the findings measure(test_case) over the test cases for which select(test_case) is true.
 template <class Select, class Measure>
-Finding over_stages(const std::string& trait, const Subject& subject, std::span<const TestCase> test_cases,
-                    const std::string& none, const Select& select, const Measure& measure) {
+Finding over_test_cases(const std::string& trait, const Subject& subject, std::span<const TestCase> test_cases,
+                        const std::string& none, const Select& select, const Measure& measure) {
   std::vector<Finding> findings;
   std::string refused;
   for (const TestCase& test_case : test_cases) {
@@ -143,7 +143,7 @@ Finding time_reversibility(const Subject& subject, std::span<const TestCase> tes
     return not_applicable(trait, "it chooses its steps: the way back has other ones than the way there");
   }
   const double limit = steps == 1 ? return_limit : many_return_limit;
-  return over_stages(
+  return over_test_cases(
       trait, subject, test_cases, "no motion to measure it on", [](const TestCase&) { return true; },
       [&](const TestCase& test_case) {
         const auto system = test_case.system<double>(subject.formulation);
@@ -173,7 +173,7 @@ Finding symplecticity(const Subject& subject, std::span<const TestCase> test_cas
   if (subject.declaration().multi_step) {
     return not_applicable(trait, "its step depends on those before it, which is no map of the state");
   }
-  return over_stages(
+  return over_test_cases(
       trait, subject, test_cases, "no motion without forces, or with a potential of all of them",
       [](const TestCase& test_case) { return test_case.free || test_case.conservative; },
       [&](const TestCase& test_case) {
@@ -188,7 +188,7 @@ Finding casimir(const Subject& subject, std::span<const TestCase> test_cases, co
   // |IΩ|² is a quadratic invariant of Euler's equations.
   const bool declared = d.conserves_casimir ||
                         (d.conserves_quadratics && subject.formulation.angular_state == AngularState::velocity_body);
-  return over_stages(
+  return over_test_cases(
       trait, subject, test_cases, "no body without forces", [](const TestCase& test_case) { return test_case.free; },
       [&](const TestCase& test_case) {
         const auto system = test_case.system<double>(subject.formulation);
@@ -290,8 +290,8 @@ Finding evaluations_per_step(const Subject& subject, std::span<const TestCase> t
   const int declared = subject.declaration().evaluations_per_step;
   constexpr int warm_up = 10, steps = 40;
   const bool any_forced =
-      std::any_of(test_cases.begin(), test_cases.end(), [](const TestCase& s) { return !s.free && !s.shaken; });
-  return over_stages(
+      std::any_of(test_cases.begin(), test_cases.end(), [](const TestCase& t) { return !t.free && !t.shaken; });
+  return over_test_cases(
       trait, subject, test_cases, "no motion to measure it on",
       [&](const TestCase& test_case) { return !test_case.shaken && test_case.free != any_forced; },
       [&](const TestCase& test_case) {
@@ -323,7 +323,7 @@ double nanoseconds_per_step(const Subject& subject, std::span<const TestCase> te
   constexpr int repeats = 5;
   constexpr double long_enough = 1e-3;  // shortest time of a batch of steps, s
   const auto test_case =
-      std::find_if(test_cases.begin(), test_cases.end(), [&](const TestCase& s) { return s.refusal(subject).empty(); });
+      std::find_if(test_cases.begin(), test_cases.end(), [&](const TestCase& t) { return t.refusal(subject).empty(); });
   if (test_case == test_cases.end()) return std::numeric_limits<double>::quiet_NaN();
   const auto system = test_case->system<double>(subject.formulation);
   double least = infinity;

@@ -78,7 +78,7 @@ std::vector<TestCase> test_cases_of(const std::vector<Scenario>& scenarios) {
     test_cases.push_back(std::move(test_case));
   }
   if (test_cases.empty()) return test_cases;
-  const auto forced = std::find_if(test_cases.begin(), test_cases.end(), [](const TestCase& s) { return !s.free; });
+  const auto forced = std::find_if(test_cases.begin(), test_cases.end(), [](const TestCase& t) { return !t.free; });
   TestCase shaken = forced == test_cases.end() ? test_cases.front() : *forced;
   shaken.name += ", shaken";
   shaken.free = shaken.conservative = false;

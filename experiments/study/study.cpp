@@ -36,7 +36,7 @@
 #include "experiments/study/text/read_file.hpp"
 #include "experiments/study/text/value_lists.hpp"
 #include "experiments/study/time_needed.hpp"
-#include "experiments/study/work/study_runs.hpp"
+#include "experiments/study/workers/study_runs.hpp"
 
 namespace polhode::study {
 namespace {

@@ -22,7 +22,7 @@
 #include "experiments/study/store/store.hpp"
 #include "experiments/study/text/in_order.hpp"
 #include "experiments/study/text/value_lists.hpp"
-#include "experiments/study/work/run_times.hpp"
+#include "experiments/study/workers/run_times.hpp"
 
 namespace polhode::study {
 namespace {

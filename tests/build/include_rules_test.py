@@ -60,9 +60,9 @@ MAY_INCLUDE = {
                               " experiments/study/scenario experiments/study/plot experiments/study/trajectory"
                               " experiments/study/record experiments/study/run",
     "experiments/study/process": "",
-    "experiments/study/work": "core/math experiments/study/text experiments/study/trajectory experiments/study/record"
-                              " experiments/study/store experiments/study/metrics experiments/study/run"
-                              " experiments/study/plan experiments/study/process",
+    "experiments/study/workers": "core/math experiments/study/text experiments/study/trajectory experiments/study/record"
+                                 " experiments/study/store experiments/study/metrics experiments/study/run"
+                                 " experiments/study/plan experiments/study/process",
     "experiments/study/query": "experiments/study/text experiments/study/scenario experiments/study/record"
                                " experiments/study/store experiments/study/plan",
     "experiments/study/report/findings": "integrators experiments/study/text experiments/study/statistics"
@@ -131,18 +131,19 @@ SOURCE_SUFFIXES = {".cpp", ".cc", ".cxx"}
 # Every source that includes it compiles all of it, seconds each.
 ONLY_IN = {"CLI/": "experiments/study/text/command_line.cpp"}
 NOT_IN_A_HEADER = ("toml++/", "toml.hpp", "boost/numeric/odeint", "nlohmann/")
-# Rooms with a namespace of another name. The rooms of methods share one; two programs have the names of rooms of the study.
+# Programs with the names of rooms of the study.
 NAMESPACES = {"experiments/figures": "polhode::study::figures_program", "experiments/plot": "polhode::study::plot_program"}
 LICENCE = "// SPDX-License-Identifier: BSD-3-Clause"
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 NAMESPACE = re.compile(r"^namespace (polhode[\w: ]*) \{$(.*?)^\}  // namespace", re.MULTILINE | re.DOTALL)
 FORWARD = re.compile(r"|template <.*>|(class|struct) \w+;|inline namespace \w+ \{|\}|")  # a line that only declares types
-ENTRY = re.compile(r"\s*\w+Entry \w+\(\) \{")  # an entry stands in the namespace of its catalogue
+# The function of an entry, which stands in the namespace of its catalogue.
+ENTRY = re.compile(r"\s*\w+Entry \w+\(\) \{\n(?:(?: .*)?\n)*\}\s*")
 
 
 def namespace_of(room):
-    """The namespace of the names in a room."""
+    """The namespace of the names in a room. The rooms of methods share one."""
     if room in NAMESPACES:
         return NAMESPACES[room]
     parts = room.split("/")
@@ -158,7 +159,7 @@ def foreign_namespaces(room, text):
     own = namespace_of(room) + "::"
     for block in NAMESPACE.finditer(text):
         name = block[1].replace("inline ", "")
-        if (name + "::").startswith(own) or ENTRY.match(block[2]):
+        if (name + "::").startswith(own) or ENTRY.fullmatch(block[2]):
             continue
         if not all(map(FORWARD.fullmatch, block[2].splitlines())):
             yield text.count("\n", 0, block.start()) + 1, name
@@ -339,6 +340,14 @@ class IncludeRules(unittest.TestCase):
                 found = self.found_in({path: text})
                 self.assertEqual(len(found), 1, found)
                 self.assertTrue(found[0].startswith(f"{path}:3: "), found)
+
+    def test_an_entry_opens_the_namespace_of_its_catalogue_for_itself_alone(self):
+        entry = "ResponseEntry compliant() {\n  return {};\n}\n"
+        for more, number in [("", 0), ("class A {\n};\n", 1), ("\nint a();\n", 1)]:
+            for body in [f"{entry}{more}", f"{more}{entry}"]:
+                text = f"namespace polhode::inline collision::inline response {{\n{body}}}  // namespace\n"
+                with self.subTest(body=body):
+                    self.assertEqual(len(self.found_in({"collision/contact/a.cpp": f"{LICENCE}\n{text}"})), number)
 
     def test_a_room_names_what_is_its_own_and_declares_types_of_others(self):
         forward = ("namespace polhode::inline core {\ninline namespace system {\ntemplate <class S>\nclass System;\n}\n"

@@ -13,7 +13,7 @@
 #include "experiments/study/plan/plan.hpp"
 #include "experiments/study/store/store.hpp"
 
-namespace polhode::study::inline work {
+namespace polhode::study::inline workers {
 
 /// Runs that are carried out together by one call in one thread.
 using Batch = std::span<const PlannedRun>;
@@ -37,4 +37,4 @@ struct Work {
 std::vector<std::uint32_t> run_all(const std::string& name, const Plan& plan, const std::vector<std::uint32_t>& runs,
                                    const Work& work, int jobs, Store& store, std::atomic<bool>& no_more);
 
-}  // namespace polhode::study::work
+}  // namespace polhode::study::workers

@@ -10,7 +10,7 @@
 
 #include "experiments/study/plan/plan.hpp"
 
-namespace polhode::study::inline work {
+namespace polhode::study::inline workers {
 
 struct RunTimes {
   std::vector<double> seconds;  ///< time that one worker takes for each run, s, in the order of the runs
@@ -49,12 +49,11 @@ double time_of_whole(double seconds, double share, double share_at_half);
 /// heaps fall for longer.
 double time_of_falling(double seen, double settled);
 
-/// Time of `runs` runs, of which `times` are all or a choice, with so many workers, s. The runs need at most
-/// `true_motions` different true motions, each of which is made once: a choice of the runs meets most of them, and does
-/// not share them as all runs do.
+/// Time of `runs` runs with so many workers, s, from the times of all of them or of a choice. All runs together need at
+/// most `true_motions` different true motions. Each of these is made once, so their time does not grow with the runs.
 double time_of_all(const RunTimes& times, double runs, double true_motions, std::size_t workers);
 
 /// Time until so many workers have carried out runs that take these times (s), begun in this order, s.
 double time_of_workers(std::span<const double> seconds, std::size_t workers);
 
-}  // namespace polhode::study::work
+}  // namespace polhode::study::workers

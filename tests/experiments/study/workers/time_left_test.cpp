@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/study/work/time_left.hpp"
+#include "experiments/study/workers/time_left.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Times of runs: what follows from times that are known. No measured time is compared.
-#include "experiments/study/work/run_times.hpp"
+#include "experiments/study/workers/run_times.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/study/work/workers.hpp"
+#include "experiments/study/workers/workers.hpp"
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -16,10 +16,10 @@
 #include "experiments/study/process/progress.hpp"
 #include "experiments/study/record/run_id.hpp"
 #include "experiments/study/text/in_order.hpp"
-#include "experiments/study/work/run_queue.hpp"
-#include "experiments/study/work/time_left.hpp"
+#include "experiments/study/workers/run_queue.hpp"
+#include "experiments/study/workers/time_left.hpp"
 
-namespace polhode::study::inline work {
+namespace polhode::study::inline workers {
 namespace {
 
 constexpr std::chrono::milliseconds between_commits{80};
@@ -240,4 +240,4 @@ std::vector<std::uint32_t> run_all(const std::string& name, const Plan& plan, co
   return stored;
 }
 
-}  // namespace polhode::study::work
+}  // namespace polhode::study::workers

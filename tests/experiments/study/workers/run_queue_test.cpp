@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/study/work/run_queue.hpp"
+#include "experiments/study/workers/run_queue.hpp"
 
 #include <gtest/gtest.h>
 

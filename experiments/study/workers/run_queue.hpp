@@ -11,7 +11,7 @@
 
 #include "experiments/study/plan/plan.hpp"
 
-namespace polhode::study::inline work {
+namespace polhode::study::inline workers {
 
 /// Gives each worker a few runs of one kind at a time: the longest first, and so few of them that all workers finish at
 /// about the same time. Thread-safe.
@@ -44,4 +44,4 @@ class RunQueue {
   std::mutex mutex_;
 };
 
-}  // namespace polhode::study::work
+}  // namespace polhode::study::workers

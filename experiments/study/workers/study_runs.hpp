@@ -19,7 +19,7 @@
 #include "experiments/study/store/store.hpp"
 #include "experiments/study/text/in_order.hpp"
 
-namespace polhode::study::inline work {
+namespace polhode::study::inline workers {
 
 /// Results of runs by their id, as number_of_id() gives it.
 using ResultsById = std::unordered_map<std::uint64_t, RunResult>;
@@ -89,4 +89,4 @@ void choose_curves(const Options& options, Plan& plan);
 BelongsToStudy runs_of_study(const Experiment& experiment, const Options& options, const Plan& plan,
                              const std::filesystem::path& folder);
 
-}  // namespace polhode::study::work
+}  // namespace polhode::study::workers

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/study/work/run_times.hpp"
+#include "experiments/study/workers/run_times.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -26,7 +26,7 @@
 #include "experiments/study/process/alarm.hpp"
 #include "experiments/study/run/run.hpp"
 
-namespace polhode::study::inline work {
+namespace polhode::study::inline workers {
 namespace {
 
 /// Processor time of this thread, s. Other programs do not change it much, as they do the wall time of a short run.
@@ -463,4 +463,4 @@ double time_of_workers(std::span<const double> seconds, std::size_t workers) {
   return end;
 }
 
-}  // namespace polhode::study::work
+}  // namespace polhode::study::workers

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/study/work/run_queue.hpp"
+#include "experiments/study/workers/run_queue.hpp"
 
 #include <algorithm>
 #include <utility>
 
-namespace polhode::study::inline work {
+namespace polhode::study::inline workers {
 
 RunQueue::RunQueue(const Plan& plan, const std::vector<std::uint32_t>& runs, std::size_t workers,
                    std::vector<std::size_t> together)
@@ -54,4 +54,4 @@ std::vector<std::uint32_t> RunQueue::take() {
   return taken;
 }
 
-}  // namespace polhode::study::work
+}  // namespace polhode::study::workers

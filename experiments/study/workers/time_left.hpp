@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-namespace polhode::study::inline work {
+namespace polhode::study::inline workers {
 
 /// Runs of one kind take times in proportion to their work; each kind has a rate of its own. Work is in any unit.
 class TimeLeft {
@@ -50,4 +50,4 @@ class TimeLeft {
   std::map<std::string, Kind> kinds_;
 };
 
-}  // namespace polhode::study::work
+}  // namespace polhode::study::workers

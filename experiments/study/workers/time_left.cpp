@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/study/work/time_left.hpp"
+#include "experiments/study/workers/time_left.hpp"
 
 #include <algorithm>
 
-namespace polhode::study::inline work {
+namespace polhode::study::inline workers {
 namespace {
 
 /// Smallest share of work under way from which a rate is estimated.
@@ -74,4 +74,4 @@ double TimeLeft::share(std::span<const UnderWay> under_way) const {
   return all_seconds > 0 ? std::min(done_seconds / all_seconds, 1.0) : 1;
 }
 
-}  // namespace polhode::study::work
+}  // namespace polhode::study::workers

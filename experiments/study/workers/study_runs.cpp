@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "experiments/study/work/study_runs.hpp"
+#include "experiments/study/workers/study_runs.hpp"
 
 #include <fmt/format.h>
 
@@ -21,9 +21,9 @@
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/store/shard_folders.hpp"
 #include "experiments/study/trajectory/trajectory_files.hpp"
-#include "experiments/study/work/workers.hpp"
+#include "experiments/study/workers/workers.hpp"
 
-namespace polhode::study::inline work {
+namespace polhode::study::inline workers {
 namespace {
 
 std::filesystem::path trajectory_folder(const Experiment& experiment, const std::filesystem::path& folder,
@@ -384,4 +384,4 @@ BelongsToStudy runs_of_study(const Experiment& experiment, const Options& option
   return [whole](std::uint64_t id) { return whole->contains(id); };
 }
 
-}  // namespace polhode::study::work
+}  // namespace polhode::study::workers
