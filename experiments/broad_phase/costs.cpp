@@ -38,8 +38,9 @@ using Clock = std::chrono::steady_clock;
 /// Cost of a step at one number of bodies. The mean decides the cost of a run: some broad phases do most of their work
 /// in a few steps.
 struct Cost {
-  double ns_per_box = 0, median_ns_per_box = 0, pairs_per_box = 0;
-  std::size_t steps = 0;
+  double ns_per_box = 0, median_ns_per_box = 0;
+  double pairs_per_box = 0;  ///< mean of the first `fewest` measured steps, the same on a machine of any speed
+  std::size_t steps = 0;     ///< measured steps
 };
 
 struct Runner {
@@ -106,7 +107,7 @@ class Measurement {
     for (const Runner& r : runners) {
       const double mean = std::accumulate(r.seconds.begin(), r.seconds.end(), 0.0) / static_cast<double>(steps);
       costs_[r.entry][n] = {1e9 * mean / count, 1e9 * median(r.seconds) / count,
-                            pairs / static_cast<double>(steps) / count, steps};
+                            pairs / static_cast<double>(fewest) / count, steps};
     }
   }
 
@@ -115,7 +116,7 @@ class Measurement {
   static constexpr std::size_t warm = 40, fewest = 20, most = 200;
 
   /// Takes steps until the time is used up, and compares the pairs of all broad phases. Returns the number of pairs in
-  /// the measured steps.
+  /// the first `fewest` measured steps: how many follow depends on the speed of the machine.
   double first_round(std::size_t n, std::vector<Runner>& runners) {
     constexpr double long_enough = 2;  // time of all broad phases together, s
     FlyingBoxes boxes(n, options_.filling, options_.motion, options_.seed);
@@ -131,7 +132,7 @@ class Measurement {
         else compare(*runners.front().entry, first, *r.entry, found, n, k);
       }
       ++steps_compared_;
-      if (k >= warm) pairs += static_cast<double>(first.size());
+      if (k >= warm && k < warm + fewest) pairs += static_cast<double>(first.size());
     }
     return pairs;
   }

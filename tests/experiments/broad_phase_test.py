@@ -120,6 +120,15 @@ class Costs(BroadPhaseTest):
         for table in ("cost.csv", "cost.md", "cost.tex"):
             self.assertIn("bvh", (self.folder / "out" / "tables" / table).read_text(encoding="utf-8"))
 
+    def test_pairs_are_those_of_the_same_steps_on_a_machine_of_any_speed(self):
+        rows = []
+        for phases in ("bvh", "bvh,all_pairs"):
+            self.call("--bodies", "6000", "--broad-phase", phases, "--out", "out", "--no-figures")
+            rows += [r for r in read(self.folder / "out" / "cost.csv") if r["broad_phase"] == "bvh"]
+        self.assertEqual(rows[0]["pairs_per_box"], rows[1]["pairs_per_box"])
+        if rows[0]["steps"] == rows[1]["steps"]:
+            self.skipTest("this machine takes as many steps with all_pairs as without")
+
     def test_the_figure_is_drawn(self):
         self.call("--bodies", "50,200", "--broad-phase", "bvh,octree", "--out", "out")
         for ending in ("gp", "dat", "svg", "tex"):
