@@ -39,7 +39,7 @@ using Clock = std::chrono::steady_clock;
 /// in a few steps.
 struct Cost {
   double ns_per_box = 0, median_ns_per_box = 0;
-  double pairs_per_box = 0;  ///< mean of the first `fewest` measured steps, the same on a machine of any speed
+  double pairs_per_box = 0;  ///< mean of the first Measurement::fewest measured steps, the same on every machine
   std::size_t steps = 0;     ///< measured steps
 };
 
