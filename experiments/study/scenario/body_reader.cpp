@@ -57,7 +57,7 @@ std::string vector_text(const Vector3<double>& v) {
 }
 
 /// The entry of the shape's kind.
-const ShapeEntry& read_kind(const TomlCursor& shape) {
+const ShapeEntry& read_shape_kind(const TomlCursor& shape) {
   const TomlCursor name = shape.at("kind", "the name of a shape");
   const ShapeEntry* entry = find_shape(name.text("the name of a shape"));
   if (entry) return *entry;
@@ -81,7 +81,7 @@ ShapePointer build_shape(const TomlCursor& shape, const ShapeEntry& entry, const
 
 Matrix3<double> read_shape(const TomlCursor& shape, double mass) {
   if (shape.value().type != TomlValue::Type::table) shape.refuse("a table such as { kind = \"sphere\", radius = 0.1 }");
-  const ShapeEntry& entry = read_kind(shape);
+  const ShapeEntry& entry = read_shape_kind(shape);
   const ShapeParameters sizes = read_sizes(shape, entry);
   if (entry.moments) return entry.moments(mass, sizes).asDiagonal();
   const ShapePointer built = build_shape(shape, entry, sizes);
@@ -258,7 +258,7 @@ void read_collider(const TomlCursor& table, bool contact, ReadBody& read) {
     read.shape = seen_shape(shape);
     return;
   }
-  const ShapeEntry& entry = read_kind(shape);
+  const ShapeEntry& entry = read_shape_kind(shape);
   const ShapeParameters sizes = read_sizes(shape, entry);
   read.shape = collider.shape = build_shape(shape, entry, sizes);
   if (!collider.shape->finite() && !read.body.fixed) {

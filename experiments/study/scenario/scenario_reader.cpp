@@ -101,7 +101,7 @@ void read_gravity(const TomlCursor& root, Problem& problem) {
   problem.forces.push_back(std::move(force));
 }
 
-const ForceKind& read_kind(const TomlCursor& force) {
+const ForceKind& read_force_kind(const TomlCursor& force) {
   const TomlCursor name = force.at("kind", "the name of a force");
   if (const ForceEntry* entry = find_force(name.text("the name of a force"))) return entry->kind;
   std::vector<std::string_view> known;
@@ -158,7 +158,7 @@ void check_that_they_move(const TomlCursor& force, const ForceKind& kind, const 
 
 void read_force(const TomlCursor& force, const BodyIndex& index, Problem& problem) {
   if (force.value().type != TomlValue::Type::table) force.refuse("a table under [[force]]");
-  const ForceKind& kind = read_kind(force);
+  const ForceKind& kind = read_force_kind(force);
   ForceParameters parameters{kind.name, {}, {}};
   const std::size_t named = force.has("bodies") ? force.at("bodies", "").value().items.size() : 0;
   parameters.values = read_parameters(force, kind.parameters, {"kind", "bodies"}, "A " + kind.name + " has", named);
