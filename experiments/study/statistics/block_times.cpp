@@ -42,7 +42,7 @@ BlockTimes::BlockTimes(const Vector& t)
       flat_(polynomial_, Spectrum::Ones(polynomial_.rows())),
       orthonormal_(orthonormal_polynomials(t)) {
   for (std::size_t k = 0; k < first_exponents.size(); ++k) {
-    first_powers_[k] = cosines_->transform((first_exponents[k] * log_t_).array().exp());
+    first_powers_[k] = power(first_exponents[k], cosines_->size);
   }
 }
 
@@ -59,9 +59,18 @@ const Regression& BlockTimes::regression(Trend trend, Index count, std::size_t s
   return *made;
 }
 
-const Regression& BlockTimes::first_power(std::size_t k, Index count, std::size_t shape) {
-  std::optional<Regression>& made = first_power_regressions_[count][k][shape];
-  if (!made) made = with_shape(with_edges(first_powers_[k].head(count), *cosines_), cosines_->shapes[shape]);
+BlockTimes::Power BlockTimes::power(double p, Index count) const {
+  const Vector series = (p * log_t_).array().exp();
+  return {cosines_->transform(series, count), cosines_->transform(series.cwiseProduct(log_t_), count)};
+}
+
+BlockTimes::Power BlockTimes::first_power(std::size_t k, Index count) const {
+  return {first_powers_[k].value.head(count), first_powers_[k].derivative.head(count)};
+}
+
+const Regression& BlockTimes::first_regression(std::size_t k, Index count, std::size_t shape) {
+  std::optional<Regression>& made = first_regressions_[count][k][shape];
+  if (!made) made = with_shape(with_edges(first_powers_[k].value.head(count), *cosines_), cosines_->shapes[shape]);
   return *made;
 }
 
@@ -79,7 +88,7 @@ BlockTimes& block_times(const Vector& t) {
   }
   BlockTimes& times = kept.front();
   if (times.regressions_.size() > most_regressions) times.regressions_.clear();
-  if (times.first_power_regressions_.size() > most_regressions) times.first_power_regressions_.clear();
+  if (times.first_regressions_.size() > most_regressions) times.first_regressions_.clear();
   return times;
 }
 

@@ -32,10 +32,18 @@ class BlockTimes {
   /// The regression on the first `count` cosines with the variances of a shape of Cosines::shapes.
   const Regression& regression(Trend trend, Index count, std::size_t shape);
 
+  /// Cosines of t^p and of its derivative with respect to p.
+  struct Power {
+    Spectrum value, derivative;
+  };
+  Power power(double p, Index count) const;
+
   /// The exponents p at which the search of an exponent begins.
   static constexpr std::array<double, 4> first_exponents = {0.5, 1, 2, 4};
+  /// power() of the k-th of these exponents.
+  Power first_power(std::size_t k, Index count) const;
   /// The regression on t^p and the pulses, with the k-th of these exponents.
-  const Regression& first_power(std::size_t k, Index count, std::size_t shape);
+  const Regression& first_regression(std::size_t k, Index count, std::size_t shape);
 
  private:
   friend BlockTimes& block_times(const Vector& t);
@@ -46,10 +54,10 @@ class BlockTimes {
   std::shared_ptr<const Cosines> cosines_;
   Regressors polynomial_;
   Regression flat_;
-  std::array<Spectrum, first_exponents.size()> first_powers_;
+  std::array<Power, first_exponents.size()> first_powers_;
   Matrix orthonormal_;
   std::map<Key, Shaped> regressions_;
-  std::map<Index, std::array<Shaped, first_exponents.size()>> first_power_regressions_;  ///< by number of cosines
+  std::map<Index, std::array<Shaped, first_exponents.size()>> first_regressions_;  ///< by number of cosines
 };
 
 /// The one of these times. Kept for later calls of the thread, since the runs of a study mostly share their times: at

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <type_traits>
 
 #include "experiments/study/statistics/eight.hpp"
 
@@ -72,6 +73,7 @@ Cosines::Cosines(Index n)
     shape.variance = &shape == &shapes.front()  ? Spectrum(Spectrum::Ones(size))
                      : &shape == &shapes.back() ? walk
                                                 : Spectrum(1 + (ratio *= 8) * walk.array());
+    shape.inverse = shape.variance.cwiseInverse();
     shape.sum_of_logs = shape.variance.array().log();
     for (Index k = 1; k < size; ++k) shape.sum_of_logs[k] += shape.sum_of_logs[k - 1];
   }
@@ -80,12 +82,14 @@ Cosines::Cosines(Index n)
 Spectrum Cosines::transform(const Vector& series, Index count) const {
   // Even cosines depend on the even part of the series about its middle, odd ones on the odd part.
   const Index half = (blocks + 1) / 2, middle = blocks % 2;
-  const double mean = series.mean();
-  const Vector first = series.head(half).array() - mean;
-  Vector last = series.tail(half).reverse().array() - mean;
-  if (middle) last[half - 1] = 0;
-  Vector symmetric = first + last, antisymmetric = first - last;
-  if (middle) antisymmetric[half - 1] = 0;
+  const double mean = sum(series.data(), blocks) / static_cast<double>(blocks);
+  Vector symmetric(half), antisymmetric(half);
+  for (Index i = 0; i < half; ++i) {
+    const double first = series[i] - mean, last = series[blocks - 1 - i] - mean;
+    symmetric[i] = first + last;
+    antisymmetric[i] = first - last;
+  }
+  if (middle) symmetric[half - 1] /= 2;
   const Spectrum even = first_rows(even_, symmetric, count / 2),
                  odd = first_rows(odd_, antisymmetric, count - count / 2);
   Spectrum c(count);
@@ -116,16 +120,14 @@ std::shared_ptr<const Cosines> cosines_of(Index n) {
 }
 
 double dot(const double* a, const double* b, Index n) {
-  Eight sums = {}, left, right;
-  Index i = 0;
-  for (; i + 8 <= n; i += 8) {
-    read(left, a + i);
-    read(right, b + i);
+  Eight sums = {};
+  for_each_eight(n, [&](Index i, auto count) {
+    Eight left, right;
+    read(left, a + i, count);
+    read(right, b + i, count);
     sums += left * right;
-  }
-  double sum = total(sums);
-  for (; i < n; ++i) sum += a[i] * b[i];
-  return sum;
+  });
+  return total(sums);
 }
 
 Regression::Regression(const Regressors& x, const Spectrum& v, double sum_of_log_v)
@@ -143,53 +145,121 @@ Regression::Regression(const Regressors& x, const Spectrum& v, double sum_of_log
   log_determinant_ = factors.vectorD().array().log().sum();
 }
 
-Coefficients Regression::coefficients(const Spectrum& c) const {
-  Coefficients right(x_.cols());
-  for (Index j = 0; j < x_.cols(); ++j) right[j] = dot(weighted_.col(j).data(), c.data(), c.size());
-  return covariance_ * right;
-}
-
-void Regression::subtract(const Coefficients& coefficients, Spectrum& c) const {
-  for (Index j = 0; j < x_.cols(); ++j) c -= coefficients[j] * x_.col(j);
-}
-
 namespace {
 
-/// Weighted sum of squares. The data are of size one: below the least there is nothing but the rounding of this
-/// arithmetic.
-double squares_of(const Spectrum& rest, const Spectrum& weight) {
-  constexpr double least = 1e-30;
-  const Spectrum weighted = rest.cwiseProduct(weight);
-  return std::max(dot(rest.data(), weighted.data(), rest.size()), least);
+/// Calls use(k), k an integral constant, the number of regressors: the sums for all of them then stay in registers.
+template <class Use>
+void with_number_of(const Regressors& x, const Use& use) {
+  switch (x.cols()) {
+    case 1: return use(std::integral_constant<int, 1>());
+    case 2: return use(std::integral_constant<int, 2>());
+    case 3: return use(std::integral_constant<int, 3>());
+    case 4: return use(std::integral_constant<int, 4>());
+    case 5: return use(std::integral_constant<int, 5>());
+    default: return use(std::integral_constant<int, most_regressors>());
+  }
 }
 
+/// Sets `out` to the scalar products of c with each of these columns.
+template <int columns>
+void dot_columns(const Regressors& x, const Spectrum& c, double* out) {
+  Eight sums[columns] = {};
+  for_each_eight(c.size(), [&](Index i, auto count) {
+    Eight column, numbers;
+    read(numbers, &c[i], count);
+    for (int j = 0; j < columns; ++j) {
+      read(column, &x(i, j), count);
+      sums[j] += column * numbers;
+    }
+  });
+  for (int j = 0; j < columns; ++j) out[j] = total(sums[j]);
+}
+
+/// Calls use(i, count, rest) as for_each_eight(): rest is c less the columns of x times their coefficients.
+template <int columns, class Use>
+void for_each_rest(const Regressors& x, const Coefficients& coefficients, const Spectrum& c, const Use& use) {
+  for_each_eight(c.size(), [&](Index i, auto count) {
+    Eight rest, column;
+    read(rest, &c[i], count);
+    for (int j = 0; j < columns; ++j) {
+      read(column, &x(i, j), count);
+      rest -= coefficients[j] * column;
+    }
+    use(i, count, rest);
+  });
+}
+
+/// The data are of size one: a sum of squares below it is nothing but the rounding of this arithmetic.
+constexpr double least_squares = 1e-30;
+
 }  // namespace
+
+Coefficients Regression::coefficients(const Spectrum& c) const {
+  Coefficients right(x_.cols());
+  with_number_of(x_, [&](auto number) { dot_columns<number>(weighted_, c, right.data()); });
+  return covariance_.lazyProduct(right);
+}
+
+double Regression::squares_without(const Coefficients& coefficients, const Spectrum& c) const {
+  Eight sums = {};
+  with_number_of(x_, [&](auto number) {
+    for_each_rest<number>(x_, coefficients, c, [&](Index i, auto count, const Eight& rest) {
+      Eight weight;
+      read(weight, &weight_[i], count);
+      sums += rest * (rest * weight);
+    });
+  });
+  return std::max(total(sums), least_squares);
+}
+
+Spectrum Regression::rest_of(const Spectrum& c) const {
+  const Coefficients explained = coefficients(c);
+  Spectrum all(c.size());
+  with_number_of(x_, [&](auto number) {
+    for_each_rest<number>(x_, explained, c, [&](Index i, auto count, const Eight& rest) {
+      std::memcpy(&all[i], &rest, static_cast<std::size_t>(count) * sizeof(double));
+    });
+  });
+  return all;
+}
+
+double Regression::restricted_of(double squares) const {
+  const auto degrees = static_cast<double>(x_.rows() - x_.cols());
+  return -0.5 * (sum_of_log_v_ + degrees * std::log(squares) + log_determinant_);
+}
 
 Fit Regression::fit(const Spectrum& c) const {
   Fit f;
   f.covariance = covariance_;
   f.coefficients = coefficients(c);
-  Spectrum rest = c;
-  subtract(f.coefficients, rest);
-  f.squares = squares_of(rest, weight_);
-  f.degrees = static_cast<double>(c.size() - x_.cols());
-  f.restricted = -0.5 * (sum_of_log_v_ + f.degrees * std::log(f.squares) + log_determinant_);
+  f.squares = squares_without(f.coefficients, c);
+  f.degrees = static_cast<double>(x_.rows() - x_.cols());
+  f.restricted = restricted_of(f.squares);
   return f;
 }
 
-Beside::Beside(const Regression& behind, const Spectrum& c) : behind_(behind), rest_(c) {
-  behind.subtract(behind.coefficients(c), rest_);
-}
+double Regression::restricted(const Spectrum& c) const { return restricted_of(squares_without(coefficients(c), c)); }
+
+Beside::Beside(const Regression& behind, const Spectrum& c) : behind_(behind), rest_(behind.rest_of(c)) {}
 
 Fit Beside::fit(const Spectrum& x, const Spectrum& z) const {
   const Index n = rest_.size();
-  Spectrum x_free = x, z_free = z;
-  behind_.subtract(behind_.coefficients(x), x_free);
-  behind_.subtract(behind_.coefficients(z), z_free);
-  const Spectrum x_weighted = x_free.cwiseProduct(behind_.weight_), z_weighted = z_free.cwiseProduct(behind_.weight_);
-  const double xx = dot(x_free.data(), x_weighted.data(), n), xz = dot(x_free.data(), z_weighted.data(), n);
-  const double zz = dot(z_free.data(), z_weighted.data(), n);
-  const double xc = dot(x_weighted.data(), rest_.data(), n), zc = dot(z_weighted.data(), rest_.data(), n);
+  const Spectrum x_free = behind_.rest_of(x), z_free = behind_.rest_of(z);
+  Eight sums[5] = {};
+  for_each_eight(n, [&](Index i, auto count) {
+    Eight x8, z8, c8, weight;
+    read(x8, &x_free[i], count);
+    read(z8, &z_free[i], count);
+    read(c8, &rest_[i], count);
+    read(weight, &behind_.weight_[i], count);
+    const Eight x_weighted = x8 * weight, z_weighted = z8 * weight;
+    sums[0] += x8 * x_weighted;
+    sums[1] += x8 * z_weighted;
+    sums[2] += z8 * z_weighted;
+    sums[3] += x_weighted * c8;
+    sums[4] += z_weighted * c8;
+  });
+  const double xx = total(sums[0]), xz = total(sums[1]), zz = total(sums[2]), xc = total(sums[3]), zc = total(sums[4]);
   // Elimination of x: [xx xz; xz zz] = L diag(xx, pivot) Lᵀ, with `ratio` below the diagonal of L.
   const double ratio = xz / xx, pivot = zz - ratio * xz;
   Fit f;
@@ -198,8 +268,17 @@ Fit Beside::fit(const Spectrum& x, const Spectrum& z) const {
   f.coefficients[0] = xc / xx - ratio * f.coefficients[1];
   f.covariance.resize(2, 2);
   f.covariance << 1 / xx + ratio * ratio / pivot, -ratio / pivot, -ratio / pivot, 1 / pivot;
-  const Spectrum rest = rest_ - f.coefficients[0] * x_free - f.coefficients[1] * z_free;
-  f.squares = squares_of(rest, behind_.weight_);
+  Eight squares = {};
+  for_each_eight(n, [&](Index i, auto count) {
+    Eight x8, z8, c8, weight;
+    read(x8, &x_free[i], count);
+    read(z8, &z_free[i], count);
+    read(c8, &rest_[i], count);
+    read(weight, &behind_.weight_[i], count);
+    const Eight rest = c8 - f.coefficients[0] * x8 - f.coefficients[1] * z8;
+    squares += rest * (rest * weight);
+  });
+  f.squares = std::max(total(squares), least_squares);
   f.degrees = static_cast<double>(n - 2 - behind_.x_.cols());
   const double log_determinant = behind_.log_determinant_ + std::log(xx) + std::log(pivot);
   f.restricted = -0.5 * (behind_.sum_of_log_v_ + f.degrees * std::log(f.squares) + log_determinant);
@@ -213,14 +292,15 @@ Spectrum whitened(const Cosines& cosines, const Spectrum& power) {
   for (std::size_t k = 0; k < noise_shapes; ++k) {
     const Cosines::Shape& shape = cosines.shapes[k];
     const double mean_of_logs = shape.sum_of_logs[n - 1] / static_cast<double>(n);
-    const double minus_likelihood = mean_of_logs + std::log(power.cwiseQuotient(shape.variance.head(n)).mean());
+    const double mean_square = dot(power.data(), shape.inverse.data(), n) / static_cast<double>(n);
+    const double minus_likelihood = mean_of_logs + std::log(mean_square);
     if (minus_likelihood < least) {
       least = minus_likelihood;
       best = k;
     }
   }
   if (best == noise_shapes) return power;
-  return power.cwiseQuotient(cosines.shapes[best].variance.head(n));
+  return power.cwiseProduct(cosines.shapes[best].inverse.head(n));
 }
 
 }  // namespace polhode::study::statistics::spectral

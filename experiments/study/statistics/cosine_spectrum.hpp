@@ -39,7 +39,7 @@ class Cosines {
   Spectrum log_frequency;  ///< ln(2 sin(θ/2)), θ = πk/n
   Spectrum log_averaging;  ///< ln((2 + cos θ)/3): what the means over blocks leave of a random walk
   struct Shape {
-    Spectrum variance;
+    Spectrum variance, inverse;
     Spectrum sum_of_logs;  ///< Σ ln v_1 … v_k at k − 1
   };
   /// Shapes of the noise a + b g_k, from b = 0 to a = 0.
@@ -74,11 +74,17 @@ class Regression {
   Regression(const Regressors& x, const Spectrum& v, double sum_of_log_v = 0);
 
   Fit fit(const Spectrum& c) const;
+  /// The same as fit(c).restricted.
+  double restricted(const Spectrum& c) const;
 
  private:
   friend class Beside;
   Coefficients coefficients(const Spectrum& c) const;
-  void subtract(const Coefficients& coefficients, Spectrum& c) const;
+  /// Weighted sum of the squares of c without what the regressors with these coefficients explain.
+  double squares_without(const Coefficients& coefficients, const Spectrum& c) const;
+  /// c without what the regressors explain.
+  Spectrum rest_of(const Spectrum& c) const;
+  double restricted_of(double squares) const;
 
   Regressors x_, weighted_;  ///< weighted: over the variances
   Spectrum weight_;          ///< 1/v_k
@@ -104,13 +110,13 @@ inline Fit fit(const Spectrum& c, const Regressors& x, const Spectrum& v, double
   return Regression(x, v, sum_of_log_v).fit(c);
 }
 
-/// Number of the shape of Cosines::shapes that is most likely; fit_of(k) is the fit with shape k.
-template <class FitOf>
-std::size_t likeliest_shape(const FitOf& fit_of) {
+/// Number of the shape of Cosines::shapes that is most likely; restricted_of(k) is Fit::restricted with shape k.
+template <class RestrictedOf>
+std::size_t likeliest_shape(const RestrictedOf& restricted_of) {
   std::size_t best = 0;
   double most = -std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < noise_shapes; ++k) {
-    const double likelihood = fit_of(k).restricted;
+    const double likelihood = restricted_of(k);
     if (likelihood > most) {
       most = likelihood;
       best = k;

@@ -9,6 +9,7 @@
 
 #include "experiments/study/statistics/block_times.hpp"
 #include "experiments/study/statistics/cosine_spectrum.hpp"
+#include "experiments/study/statistics/eight.hpp"
 #include "experiments/study/statistics/quantiles.hpp"
 #include "experiments/study/statistics/spectral_lines.hpp"
 
@@ -68,22 +69,25 @@ class Estimator {
   Exponent power_law() {
     constexpr double least = 0.05, most = 20, longest_step = 0.5, close = 1e-5;
     constexpr int passes = 2, most_steps = 20;
-    double p = start();
+    const Index count = c_.size();
+    const std::size_t first = best_first();
+    double p = BlockTimes::first_exponents[first];
+    BlockTimes::Power x = times_.first_power(first, count);
     for (int pass = 0; pass < passes; ++pass) {
       const Beside noise = beside_noise(shape_);
       for (int i = 0; i < most_steps; ++i) {
-        const Power x = power(p);
+        if (i > 0) x = times_.power(p, count);
         const Fit f = noise.fit(x.value, x.derivative);
         const double step = std::clamp(f.coefficients[1] / f.coefficients[0], -longest_step, longest_step);
         p = std::clamp(p + step, least, most);
         if (!(std::abs(step) > close)) break;
       }
+      x = times_.power(p, count);
       if (pass + 1 < passes) {
-        const Power x = power(p);
-        shape_ = likeliest_shape([&](std::size_t shape) { return beside_noise(shape).fit(x.value, x.derivative); });
+        shape_ = likeliest_shape(
+            [&](std::size_t shape) { return beside_noise(shape).fit(x.value, x.derivative).restricted; });
       }
     }
-    const Power x = power(p);
     const Fit f = beside_noise(shape_).fit(x.value, x.derivative);
     change_ = std::abs(f.coefficients[0]) * (1 - std::pow(times_.t()[0], p));
     misfit_ = c_ - x.value * f.coefficients[0];
@@ -153,7 +157,11 @@ class Estimator {
   }
 
   /// The rest without the oscillations that were subtracted.
-  double largest_rest() const { return (smooth_.array() - smooth_.mean()).abs().maxCoeff(); }
+  double largest_rest() const {
+    const double mean = sum(smooth_.data(), smooth_.size()) / static_cast<double>(smooth_.size());
+    const Vector rest = smooth_.array() - mean;
+    return largest_size(rest.data(), rest.size());
+  }
   double largest_oscillation() const { return largest_oscillation_; }
   /// Number of its periods in the run.
   double slowest_line() const { return static_cast<double>(slowest_line_) / 2; }
@@ -172,7 +180,7 @@ class Estimator {
   Spectrum first_of(Index count) const { return all_.head(std::min(most_cosines, count)); }
 
   std::size_t likeliest(const Spectrum& c, Trend trend) {
-    return likeliest_shape([&](std::size_t shape) { return times_.regression(trend, c.size(), shape).fit(c); });
+    return likeliest_shape([&](std::size_t shape) { return times_.regression(trend, c.size(), shape).restricted(c); });
   }
   Fit fitted(Trend trend) { return times_.regression(trend, c_.size(), shape_).fit(c_); }
   Beside beside_noise(std::size_t shape) { return {times_.regression(Trend::none, c_.size(), shape), c_}; }
@@ -196,26 +204,20 @@ class Estimator {
       below_ = c.head(below_lines(cosines_, rest));
     }
     c_ = below_.head(std::min(most_cosines, below_.size()));
-    largest_oscillation_ = (drift_ - smooth).cwiseAbs().maxCoeff();
+    const Vector oscillations = drift_ - smooth;
+    largest_oscillation_ = largest_size(oscillations.data(), oscillations.size());
     smooth_ = std::move(smooth);
   }
 
-  /// Cosines of t^p and of its derivative with respect to p.
-  struct Power {
-    Spectrum value, derivative;
-  };
-  Power power(double p) const {
-    const Vector series = (p * times_.log_t()).array().exp();
-    return {cosines_.transform(series, c_.size()), cosines_.transform(series.cwiseProduct(times_.log_t()), c_.size())};
-  }
-
-  double start() {
-    double best = 1, least = std::numeric_limits<double>::infinity();
+  /// Number of the first exponent with the least misfit.
+  std::size_t best_first() {
+    std::size_t best = 1;
+    double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < BlockTimes::first_exponents.size(); ++k) {
-      const double squares = times_.first_power(k, c_.size(), shape_).fit(c_).squares;
+      const double squares = times_.first_regression(k, c_.size(), shape_).fit(c_).squares;
       if (squares < least) {
         least = squares;
-        best = BlockTimes::first_exponents[k];
+        best = k;
       }
     }
     return best;
@@ -253,11 +255,11 @@ std::optional<Series> series_of(const std::vector<BlockMean>& blocks) {
     drift[i] = blocks[static_cast<std::size_t>(i)].value;
   }
   end = t[n - 1];
-  const double largest = drift.cwiseAbs().maxCoeff();
+  const double largest = largest_size(drift.data(), n);
   if (!drift.allFinite() || !t.allFinite() || !(t[0] >= 0) || !(end > t[0])) return std::nullopt;
   t = (t / end).cwiseMax(std::numeric_limits<double>::min());
-  drift.array() -= drift.mean();
-  size = drift.cwiseAbs().maxCoeff();
+  drift.array() -= sum(drift.data(), n) / static_cast<double>(n);
+  size = largest_size(drift.data(), n);
   if (!(size > std::numeric_limits<double>::epsilon() * largest)) return std::nullopt;
   drift /= size;
   return series;

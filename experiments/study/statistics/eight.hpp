@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <type_traits>
 
 namespace polhode::study::inline statistics::spectral {
 
@@ -12,9 +13,50 @@ using Eight [[gnu::vector_size(8 * sizeof(double))]] = double;
 /// Sets `eight` to the numbers from this one on. It is no result, since no register of every processor can return it.
 inline void read(Eight& eight, const double* numbers) { std::memcpy(&eight, numbers, sizeof eight); }
 
+/// The same, where only `count` numbers are left; where these are fewer than eight, zeros follow them.
+inline void read(Eight& eight, const double* numbers, std::ptrdiff_t count) {
+  if (count >= 8) return read(eight, numbers);
+  eight = Eight{};
+  std::memcpy(&eight, numbers, static_cast<std::size_t>(count) * sizeof(double));
+}
+
+/// Calls use(i, count), i = 0, 8, …, for n numbers: `count` is the constant 8, and at last what is left. Calls with the
+/// constant keep their numbers in registers.
+template <class Use>
+void for_each_eight(std::ptrdiff_t n, const Use& use) {
+  std::ptrdiff_t i = 0;
+  for (; i + 8 <= n; i += 8) use(i, std::integral_constant<std::ptrdiff_t, 8>());
+  if (i < n) use(i, n - i);
+}
+
 /// The least multiple of eight that is not less than `count`.
 constexpr std::ptrdiff_t in_eights(std::ptrdiff_t count) { return (count + 7) / 8 * 8; }
 
 inline double total(const Eight& s) { return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7])); }
+
+/// The sum, in eight sums.
+inline double sum(const double* numbers, std::ptrdiff_t n) {
+  Eight sums = {};
+  for_each_eight(n, [&](std::ptrdiff_t i, auto count) {
+    Eight next;
+    read(next, numbers + i, count);
+    sums += next;
+  });
+  return total(sums);
+}
+
+/// The largest size of any of them, at least 0. NaN counts as nothing.
+inline double largest_size(const double* numbers, std::ptrdiff_t n) {
+  Eight largest = {};
+  for_each_eight(n, [&](std::ptrdiff_t i, auto count) {
+    Eight next;
+    read(next, numbers + i, count);
+    next = next < 0 ? -next : next;
+    largest = next > largest ? next : largest;
+  });
+  double size = 0;
+  for (int i = 0; i < 8; ++i) size = largest[i] > size ? largest[i] : size;
+  return size;
+}
 
 }  // namespace polhode::study::statistics::spectral
