@@ -36,6 +36,7 @@ void ThinnedSeries::add(const LargestDrifts<double>& largest, std::size_t count)
 }
 
 void ThinnedSeries::close() {
+  if (points_.empty()) points_.reserve(capacity);
   points_.push_back({open_.t, open_.energy, open_.linear2, open_.angular2, open_.defect});
   in_open_ = 0;
   if (points_.size() == capacity) merge();

@@ -27,7 +27,6 @@ namespace polhode::study::inline metrics {
 /// History of a run in at most 256 intervals of equally many samples; when all are in use, neighbours are merged.
 class ThinnedSeries {
  public:
-  ThinnedSeries() { points_.reserve(capacity); }
   /// Adds `count` samples. Energies and momenta in any units.
   void add(const DriftsOfRun& drifts, std::size_t count);
 

@@ -25,24 +25,25 @@ void BlockMeans::set_open_sums(const BlockMean& sums, std::size_t count) {
 }
 
 void BlockMeans::close() {
-  sums_.push_back(open_);
+  sums_[closed_++] = open_;
   open_ = {};
   in_open_ = 0;
-  if (sums_.size() < capacity) return;
+  if (closed_ < capacity) return;
   for (std::size_t i = 0; i < capacity / 2; ++i) {
     const BlockMean &a = sums_[2 * i], &b = sums_[2 * i + 1];
     sums_[i] = {a.t + b.t, a.value + b.value};
   }
-  sums_.resize(capacity / 2);
+  closed_ = capacity / 2;
   per_block_ *= 2;
 }
 
 std::vector<BlockMean> BlockMeans::finish() const {
   std::vector<BlockMean> means;
+  means.reserve(closed_ + 1);
   const auto mean = [&](const BlockMean& sum, std::size_t n) {
     means.push_back({sum.t / static_cast<double>(n), sum.value / static_cast<double>(n)});
   };
-  for (const BlockMean& sum : sums_) mean(sum, per_block_);
+  for (std::size_t i = 0; i < closed_; ++i) mean(sums_[i], per_block_);
   if (2 * in_open_ >= per_block_ && in_open_ > 0) mean(open_, in_open_);
   return means;
 }

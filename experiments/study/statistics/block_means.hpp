@@ -2,6 +2,7 @@
 // Reduction of a series of any length to at most 128 means.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -17,7 +18,6 @@ struct BlockMean {
 /// Means of a series over blocks of equally many samples; when all blocks are in use, neighbours are merged.
 class BlockMeans {
  public:
-  BlockMeans() { sums_.reserve(capacity); }
   void add(double t, double value) { add({&t}, {&value}, 1); }
   /// Adds `count` consecutive samples.
   void add(Strided t, Strided values, std::size_t count);
@@ -35,7 +35,8 @@ class BlockMeans {
   static constexpr std::size_t capacity = 128;
   void close();
 
-  std::vector<BlockMean> sums_;
+  std::array<BlockMean, capacity> sums_;  ///< sums of t and value in the closed blocks
+  std::size_t closed_ = 0;
   BlockMean open_;
   std::size_t in_open_ = 0, per_block_ = 1;
 };
