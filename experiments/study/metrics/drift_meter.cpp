@@ -29,15 +29,19 @@ void ThinnedSeries::add(const DriftsOfRun& drifts, std::size_t count) {
 }
 
 void ThinnedSeries::add(const LargestDrifts<double>& largest, std::size_t count) {
-  if (in_open_ == 0) open_ = largest;
-  else open_.add(largest.t, largest.energy, largest.linear2, largest.angular2, largest.defect);
+  LargestDrifts<double> all = largest;
+  if (in_open_ > 0) {
+    all = open_;
+    all.add(largest.t, largest.energy, largest.linear2, largest.angular2, largest.defect);
+  }
   in_open_ += count;
-  if (in_open_ == per_point_) close();
+  if (in_open_ == per_point_) close(all);
+  else open_ = all;
 }
 
-void ThinnedSeries::close() {
+void ThinnedSeries::close(const LargestDrifts<double>& open) {
   if (points_.empty()) points_.reserve(capacity);
-  points_.push_back({open_.t, open_.energy, open_.linear2, open_.angular2, open_.defect});
+  points_.push_back({open.t, open.energy, open.linear2, open.angular2, open.defect});
   in_open_ = 0;
   if (points_.size() == capacity) merge();
 }

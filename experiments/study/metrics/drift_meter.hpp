@@ -39,7 +39,7 @@ class ThinnedSeries {
 
  private:
   static constexpr std::size_t capacity = 256;
-  void close();
+  void close(const LargestDrifts<double>& open);
   void merge();
 
   std::vector<SeriesPoint> points_;

@@ -19,13 +19,13 @@ void BlockMeans::add(Strided t, Strided values, std::size_t count) {
 }
 
 void BlockMeans::set_open_sums(const BlockMean& sums, std::size_t count) {
-  open_ = sums;
   in_open_ += count;
-  if (in_open_ == per_block_) close();
+  if (in_open_ == per_block_) close(sums);
+  else open_ = sums;
 }
 
-void BlockMeans::close() {
-  sums_[closed_++] = open_;
+void BlockMeans::close(const BlockMean& open) {
+  sums_[closed_++] = open;
   open_ = {};
   in_open_ = 0;
   if (closed_ < capacity) return;

@@ -33,7 +33,7 @@ class BlockMeans {
 
  private:
   static constexpr std::size_t capacity = 128;
-  void close();
+  void close(const BlockMean& open);
 
   std::array<BlockMean, capacity> sums_;  ///< sums of t and value in the closed blocks
   std::size_t closed_ = 0;
