@@ -124,14 +124,21 @@ std::string letters_of(const std::string& id) {
   return out;
 }
 
-void define(std::string& out, const std::string& command, const std::optional<double>& value) {
-  if (!value || !std::isfinite(*value)) return;
-  const auto printed = tex_number(number(*value, 4));
-  out += fmt::format("\\newcommand{{\\{}}}{{\\ensuremath{{{}}}}}\n", command, printed.substr(1, printed.size() - 2));
+/// A command whose name is `run` and then `quantity`.
+void define_as(std::string& out, std::string_view run, std::string_view quantity, std::string_view printed) {
+  for (const std::string_view part : {std::string_view("\\newcommand{\\"), run, quantity,
+                                      std::string_view("}{\\ensuremath{"), printed, std::string_view("}}\n")})
+    out += part;
 }
 
-void define_count(std::string& out, const std::string& command, std::int64_t n) {
-  if (n > 0) out += fmt::format("\\newcommand{{\\{}}}{{\\ensuremath{{{}}}}}\n", command, n);
+void define(std::string& out, std::string_view run, std::string_view quantity, const std::optional<double>& value) {
+  if (!value || !std::isfinite(*value)) return;
+  const std::string printed = tex_number(number(*value, 4));
+  define_as(out, run, quantity, std::string_view(printed).substr(1, printed.size() - 2));
+}
+
+void define_count(std::string& out, std::string_view run, std::string_view quantity, std::int64_t n) {
+  if (n > 0) define_as(out, run, quantity, std::to_string(n));
 }
 
 void define_run(std::string& out, const std::string& run, const RunResult& r,
@@ -140,11 +147,11 @@ void define_run(std::string& out, const std::string& run, const RunResult& r,
     if (metric->tex.empty()) continue;
     with_value(*metric, r, [&]<class Value>(const Value& value) {
       if constexpr (std::is_same_v<Value, std::optional<double>>) {
-        define(out, run + metric->tex, value);
+        define(out, run, metric->tex, value);
       } else if constexpr (std::is_same_v<Value, std::int64_t>) {
-        define_count(out, run + metric->tex, value);
+        define_count(out, run, metric->tex, value);
       } else if constexpr (std::is_same_v<Value, std::map<std::string, double>>) {
-        for (const auto& [invariant, drift] : value) define(out, run + spelt_name(invariant) + metric->tex, drift);
+        for (const auto& [invariant, drift] : value) define(out, run, spelt_name(invariant) + metric->tex, drift);
       }
     });
   }
@@ -166,7 +173,7 @@ void define_slopes(std::string& out, const StudyView& study, std::span<const std
     for (const auto& [quantity, ending] : {std::pair(quantity::energy_drift(), "EnergyDriftSlope"),
                                            std::pair(quantity::angular_momentum_drift(), "AngularMomentumDriftSlope"),
                                            std::pair(quantity::attitude_error(), "AttitudeErrorSlope")}) {
-      if (const auto line = told_line(observed_order(curve, quantity))) define(lines, name + ending, line->order);
+      if (const auto line = told_line(observed_order(curve, quantity))) define(lines, name, ending, line->order);
     }
   }
   if (!lines.empty()) out += "\n% Observed slopes against the step (Tolerance: against the tolerance).\n" + lines;
@@ -228,7 +235,7 @@ void write_tex_values(const StudyView& study, std::span<const std::size_t> shown
   if (!one_file)
     out +=
         "% The runs of a method are in a file of their own, since TeX cannot hold all: \\input{values_METHOD.tex}.\n";
-  define_count(out, "polhodeRuns", static_cast<std::int64_t>(study.size()));
+  define_count(out, "polhode", "Runs", static_cast<std::int64_t>(study.size()));
   if (one_file) out += values_of(study, shown, names, all);
   define_slopes(out, study, shown);
   write_text(folder / "values.tex", out);
