@@ -168,7 +168,7 @@ bool Product::has_own_presets(const RunConfig& config, const Opened& opened, con
 }
 
 Product::Run Product::made(const Cell& cell, const Opened& opened, std::shared_ptr<const Scenario> scenario) const {
-  if (!scenario) scenario = std::make_shared<const Scenario>(opened.source.resolve(cell.varied));
+  if (!scenario) scenario = std::make_shared<const Scenario>(opened.source.resolve(cell.varied, opened.scenario.get()));
   RunConfig config = completed(cell, opened, *scenario);
   return {std::move(config), std::move(scenario)};
 }

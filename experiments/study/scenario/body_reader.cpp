@@ -216,24 +216,6 @@ Vector3<double> read_motion(const TomlCursor& vector, std::string_view unit, boo
   return v;
 }
 
-BodyStart read_start(const TomlCursor& table, const Body& body) {
-  BodyStart start;
-  start.position = body_key(table, "position").vector("m");
-  start.orientation = read_orientation(body_key(table, "orientation"));
-  start.velocity = read_motion(body_key(table, "velocity"), "m/s", !body.fixed && !body.pinned,
-                               body.pinned ? "a pinned body has no velocity: its pivot stays where it is; "
-                                             "give an angular_velocity"
-                                           : "a static body does not move");
-  start.angular_velocity =
-      read_motion(body_key(table, "angular_velocity"), "rad/s", !body.fixed, "a static body does not move");
-  const TomlCursor frame = body_key(table, "angular_velocity_frame");
-  constexpr std::string_view frames = "\"world\" or \"body\"";
-  const std::string& name = frame.text(frames);
-  if (name != "world" && name != "body") frame.refuse(frames);
-  start.angular_velocity_in_body = name == "body";
-  return start;
-}
-
 /// The shape of a body that touches nothing, for pictures. Null where the sizes are fit for moments alone.
 ShapePointer seen_shape(const TomlCursor& shape) {
   const ShapeEntry* entry = find_shape(shape.at("kind", "the name of a shape").text("the name of a shape"));
@@ -271,6 +253,30 @@ void read_collider(const TomlCursor& table, bool contact, ReadBody& read) {
 
 TomlCursor body_key(const TomlCursor& body, std::string_view name) {
   return body.at(name, otherwise(body_keys(), name));
+}
+
+BodyStart read_start(const TomlCursor& table, const Body& body) {
+  BodyStart start;
+  start.position = body_key(table, "position").vector("m");
+  start.orientation = read_orientation(body_key(table, "orientation"));
+  start.velocity = read_motion(body_key(table, "velocity"), "m/s", !body.fixed && !body.pinned,
+                               body.pinned ? "a pinned body has no velocity: its pivot stays where it is; "
+                                             "give an angular_velocity"
+                                           : "a static body does not move");
+  start.angular_velocity =
+      read_motion(body_key(table, "angular_velocity"), "rad/s", !body.fixed, "a static body does not move");
+  const TomlCursor frame = body_key(table, "angular_velocity_frame");
+  constexpr std::string_view frames = "\"world\" or \"body\"";
+  const std::string& name = frame.text(frames);
+  if (name != "world" && name != "body") frame.refuse(frames);
+  start.angular_velocity_in_body = name == "body";
+  return start;
+}
+
+bool is_of_start(std::string_view key) {
+  constexpr std::string_view keys[] = {"position", "orientation", "velocity", "angular_velocity",
+                                       "angular_velocity_frame"};
+  return std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
 }
 
 ReadBody read_body(const TomlCursor& table, std::size_t index, bool contact) {

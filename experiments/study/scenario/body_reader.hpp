@@ -20,6 +20,11 @@ struct ReadBody {
 /// The value of a body's key, or its default.
 TomlCursor body_key(const TomlCursor& body, std::string_view name);
 
+/// The initial state in the table of a body. Throws a Fault.
+BodyStart read_start(const TomlCursor& table, const Body& body);
+/// True for the keys that read_start() reads and no other step.
+bool is_of_start(std::string_view key);
+
 /// Reads a body. `index` names a body without a name: body0, body1, … With `contact` the shape must be one that
 /// collides. Throws a Fault.
 ReadBody read_body(const TomlCursor& table, std::size_t index, bool contact);

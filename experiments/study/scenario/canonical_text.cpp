@@ -16,19 +16,25 @@ class Line {
   Line(const Line&) = delete;
   Line& operator=(const Line&) = delete;
 
-  void add(std::string_view key, double x) { start(key).append(exact(x)); }
+  void add(std::string_view key, double x) { add_exact(start(key), x); }
   void add(std::string_view key, std::string_view text) { start(key).append(text); }
   void add(std::string_view key, bool flag) { start(key).append(flag ? "true" : "false"); }
   template <class Derived>
   void add(std::string_view key, const Eigen::MatrixBase<Derived>& numbers) {
     start(key);
     for (Eigen::Index i = 0; i < numbers.size(); ++i) {
-      out_.append(i == 0 ? "" : ",").append(exact(numbers(i / numbers.cols(), i % numbers.cols())));
+      if (i > 0) out_ += ',';
+      add_exact(out_, numbers(i / numbers.cols(), i % numbers.cols()));
     }
   }
 
  private:
-  std::string& start(std::string_view key) { return out_.append(" ").append(key).append("="); }
+  std::string& start(std::string_view key) {
+    out_ += ' ';
+    out_.append(key);
+    out_ += '=';
+    return out_;
+  }
 
   std::string& out_;
 };
@@ -71,15 +77,13 @@ std::string canonical_collider(const Collider& collider, const std::map<std::str
   return out;
 }
 
-std::string canonical_text(const Problem& problem, const std::vector<std::string>& invariants) {
-  std::string out;
+void add_canonical_text(const Problem& problem, const std::vector<std::string>& invariants, std::string& out) {
   for (std::size_t i = 0; i < problem.bodies.size(); ++i) write_body(problem.bodies[i], problem.starts[i], out);
   for (const ForceParameters& force : problem.forces) write_force(force, out);
   for (const JointParameters& joint : problem.joints) write_force(joint.of, out, "joint ");
   std::vector<std::string> sorted = invariants;
   std::sort(sorted.begin(), sorted.end());
   for (const std::string& name : sorted) out.append("invariant ").append(name).append("\n");
-  return out;
 }
 
 }  // namespace polhode::study::scenario

@@ -11,9 +11,9 @@
 
 namespace polhode::study::inline scenario {
 
-/// The text of Scenario::canonical. Bodies and forces are in their order; the keys of a force and the invariants are
-/// sorted.
-std::string canonical_text(const Problem& problem, const std::vector<std::string>& invariants);
+/// Adds the text of Scenario::canonical to `out`. Bodies and forces are in their order; the keys of a force and the
+/// invariants are sorted.
+void add_canonical_text(const Problem& problem, const std::vector<std::string>& invariants, std::string& out);
 
 /// The line of a body that can collide, with the sizes of its shape.
 std::string canonical_collider(const Collider& collider, const std::map<std::string, ParameterValue>& sizes);

@@ -7,6 +7,7 @@
 #include "experiments/study/scenario/builtin_scenarios.hpp"
 #include "experiments/study/scenario/scenario_override.hpp"
 #include "experiments/study/scenario/scenario_reader.hpp"
+#include "experiments/study/scenario/scenario_variant.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/suggestion.hpp"
 #include "experiments/study/text/text_file.hpp"
@@ -19,13 +20,13 @@ struct ScenarioSource::Parsed {
   std::string name;
   std::string origin;  ///< name in messages: the path as the user gave it, or "builtin NAME"
   std::shared_ptr<const std::string> text;
-  TomlValue root;
+  std::shared_ptr<const TomlValue> root;
 
   Parsed(std::string given_name, std::string given_origin, std::string_view given_text)
       : name(std::move(given_name)),
         origin(std::move(given_origin)),
         text(std::make_shared<const std::string>(given_text)),
-        root(parsed()) {}
+        root(std::make_shared<const TomlValue>(parsed())) {}
 
   TomlValue parsed() const {
     try {
@@ -39,7 +40,7 @@ struct ScenarioSource::Parsed {
     return origin + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) + ": ";
   }
 
-  Scenario resolve(std::span<const Override> overrides) const;
+  Scenario resolve(std::span<const Override> overrides, const Scenario* plain) const;
   [[noreturn]] void tell(const Fault& fault, std::span<const Override> overrides,
                          const std::vector<std::string>& paths) const;
   bool sound_by_itself() const;
@@ -76,7 +77,7 @@ bool speaks_for(const std::string& path, const std::string& at) { return path ==
 
 bool ScenarioSource::Parsed::sound_by_itself() const {
   try {
-    read_scenario(root, name);
+    read_scenario(*root, name);
     return true;
   } catch (const Fault&) {
     return false;
@@ -100,20 +101,31 @@ void ScenarioSource::Parsed::tell(const Fault& fault, std::span<const Override> 
   throw InputError(blamed + at(fault.place) + path + fault.message);
 }
 
-Scenario ScenarioSource::Parsed::resolve(std::span<const Override> overrides) const {
-  std::vector<std::string> paths;
+Scenario ScenarioSource::Parsed::resolve(std::span<const Override> overrides, const Scenario* plain) const {
   const auto read = [&](const TomlValue& tree) {
     Scenario scenario = read_scenario(tree, name);
     scenario.source = text;
     return scenario;
   };
+  // The tree of this thread, which is that of the file between two calls: a large study sets the same few keys in each
+  // run, and a copy of the tree for each takes longer than to read what they change.
+  thread_local struct {
+    std::shared_ptr<const TomlValue> of;  // null: the tree is that of no file
+    TomlValue tree;
+  } own;
+  std::vector<std::string> paths;
   try {
-    if (overrides.empty()) return read(root);
-    TomlValue tree = root;
+    if (overrides.empty()) return read(*root);
+    if (own.of != root) own.tree = *root;
+    own.of = nullptr;
     for (std::size_t i = 0; i < overrides.size(); ++i) {
-      paths.push_back(apply_override(tree, overrides[i], static_cast<int>(i)));
+      paths.push_back(apply_override(own.tree, overrides[i], static_cast<int>(i)));
     }
-    return read(tree);
+    std::optional<Scenario> variant = plain ? variant_of(*plain, own.tree, paths) : std::nullopt;
+    if (!variant) variant = read(own.tree);
+    for (const std::string& path : paths) undo_override(own.tree, *root, path);
+    own.of = root;
+    return *std::move(variant);
   } catch (const Fault& fault) {
     tell(fault, overrides, paths);
   }
@@ -121,7 +133,11 @@ Scenario ScenarioSource::Parsed::resolve(std::span<const Override> overrides) co
 
 // The interface.
 
-std::uint64_t number_of(const Scenario& scenario) { return text_number(scenario.name + '\n' + scenario.canonical); }
+std::uint64_t number_of(const Scenario& scenario) {
+  std::string text;
+  text.reserve(scenario.name.size() + 1 + scenario.canonical.size());
+  return text_number(text.append(scenario.name).append("\n").append(scenario.canonical));
+}
 
 ScenarioSource ScenarioSource::open(const std::string& name_or_path, const std::string& label) {
   if (is_path(name_or_path)) {
@@ -150,15 +166,17 @@ ScenarioSource::~ScenarioSource() = default;
 const std::string& ScenarioSource::name() const { return parsed_->name; }
 
 FoundKey ScenarioSource::find(const Override& key) const {
-  TomlValue tree = parsed_->root;
+  TomlValue tree = *parsed_->root;
   try {
     const std::string path = apply_override(tree, {key.key, "0", key.place}, 0);
-    return {path, value_at(parsed_->root, path)};
+    return {path, value_at(*parsed_->root, path)};
   } catch (const Fault& fault) {
     parsed_->tell(fault, {&key, 1}, {});
   }
 }
 
-Scenario ScenarioSource::resolve(std::span<const Override> overrides) const { return parsed_->resolve(overrides); }
+Scenario ScenarioSource::resolve(std::span<const Override> overrides, const Scenario* plain) const {
+  return parsed_->resolve(overrides, plain);
+}
 
 }  // namespace polhode::study::scenario

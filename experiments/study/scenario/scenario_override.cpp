@@ -27,20 +27,20 @@ void mark(TomlValue& value, TomlPlace place) {
   }
 }
 
-std::vector<std::string> parts_of(const std::string& key) {
-  std::vector<std::string> parts(1);
-  for (const char c : key) {
-    if (c == '.') {
-      parts.emplace_back();
-    } else {
-      parts.back() += c;
-    }
+/// The parts of a key, which must outlive them.
+std::vector<std::string_view> parts_of(std::string_view key) {
+  std::vector<std::string_view> parts;
+  parts.reserve(4);
+  for (;;) {
+    const auto dot = key.find('.');
+    parts.push_back(key.substr(0, dot));
+    if (dot == std::string_view::npos) return parts;
+    key.remove_prefix(dot + 1);
   }
-  return parts;
 }
 
 /// The number in a part, if it is one below `count`.
-std::optional<std::size_t> index_in(const std::string& part, std::size_t count) {
+std::optional<std::size_t> index_in(std::string_view part, std::size_t count) {
   std::size_t i = 0;
   const char* end = part.data() + part.size();
   const auto [stop, error] = std::from_chars(part.data(), end, i);
@@ -101,14 +101,14 @@ class Walk {
       : root_(root), place_{0, 0, index}, parts_(parts_of(override.key)), value_(parsed(override.value)) {}
 
   std::string run() {
-    const std::string& first = parts_.front();
-    if (is_list_of_tables(first)) {
-      into_element(first);
+    if (is_list_of_tables(parts_.front())) {
+      into_element(std::string(parts_.front()));
     } else {
       into_table(root_, root_keys(), 0);
     }
-    std::string path = parts_.front();
-    for (std::size_t i = 1; i < parts_.size(); ++i) path += '.' + parts_[i];
+    std::string path;
+    path.reserve(64);
+    for (const std::string_view part : parts_) path.append(path.empty() ? "" : ".").append(part);
     return path;
   }
 
@@ -135,15 +135,18 @@ class Walk {
     TomlValue* elements = root_.find(list);
     const std::size_t count = elements && elements->type == Type::list ? elements->items.size() : 0;
     if (parts_.size() < 3) fail("it must name one key of one " + list + ", as in " + list + ".0.KEY");
-    std::optional<std::size_t> index = index_in(parts_[1], count);
+    const std::string_view said = parts_[1];
+    std::optional<std::size_t> index = index_in(said, count);
     for (std::size_t i = 0; list != "force" && !index && i < count; ++i) {
       const TomlValue* name = elements->items[i].find("name");
-      if ((name ? name->text : list + std::to_string(i)) == parts_[1]) index = i;
+      if ((name ? name->text : list + std::to_string(i)) == said) index = i;
     }
-    if (!index) fail("the scenario has no " + list + " '" + parts_[1] + "'; " + they_are(list, elements, count));
-    parts_[1] = std::to_string(*index);
+    if (!index)
+      fail("the scenario has no " + list + " '" + std::string(said) + "'; " + they_are(list, elements, count));
+    index_ = std::to_string(*index);
+    parts_[1] = index_;
     TomlValue& element = elements->items[*index];
-    if (element.type != Type::table) fail(list + "." + parts_[1] + " is not a table");
+    if (element.type != Type::table) fail(list + "." + index_ + " is not a table");
     if (list == "body") into_table(element, body_keys(), 2);  // without a copy of the keys
     else into_table(element, keys_of(list, element), 2);
   }
@@ -160,7 +163,7 @@ class Walk {
 
   /// parts_[depth] is a key of this table, and those after it lead into its value.
   void into_table(TomlValue& table, const std::vector<ScenarioKey>& keys, std::size_t depth) {
-    const std::string& name = parts_[depth];
+    const std::string name(parts_[depth]);
     const ScenarioKey* key = find_key(keys, name);
     if (!key) fail("there is no key '" + name + "'" + suggestion(name, "There are", names(keys)));
     const TomlValue* said = root_.find("contact");
@@ -194,23 +197,26 @@ class Walk {
       value = std::move(value_);
       return;
     }
-    const std::string& part = parts_[depth];
+    const std::string_view part = parts_[depth];
     if (value.type == Type::list) {
       const std::optional<std::size_t> index = index_in(part, value.items.size());
-      if (!index) fail("'" + part + "' is not a place in a list of " + std::to_string(value.items.size()) + ", from 0");
+      if (!index)
+        fail("'" + std::string(part) + "' is not a place in a list of " + std::to_string(value.items.size()) +
+             ", from 0");
       into_value(value.items[*index], depth + 1);
     } else if (value.type == Type::table) {
       if (TomlValue* found = value.find(part)) return into_value(*found, depth + 1);
-      if (depth + 1 < parts_.size()) fail("there is no '" + part + "' of which to set a part");
-      value.insert(part, std::move(value_));
+      if (depth + 1 < parts_.size()) fail("there is no '" + std::string(part) + "' of which to set a part");
+      value.insert(std::string(part), std::move(value_));
     } else {
-      fail("there is nothing below '" + parts_[depth - 1] + "'");
+      fail("there is nothing below '" + std::string(parts_[depth - 1]) + "'");
     }
   }
 
   TomlValue& root_;
   TomlPlace place_;
-  std::vector<std::string> parts_;
+  std::vector<std::string_view> parts_;
+  std::string index_;  ///< the second part, if it is the number of an element
   TomlValue value_;
 };
 
@@ -220,8 +226,24 @@ std::string apply_override(TomlValue& root, const Override& override, int index)
   return Walk(root, override, index).run();
 }
 
+void undo_override(TomlValue& tree, const TomlValue& root, std::string_view path) {
+  TomlValue* table = &tree;
+  const TomlValue* before = &root;
+  const std::vector<std::string_view> parts = parts_of(path);
+  std::size_t key = 0;
+  if (is_list_of_tables(parts[0])) {
+    const TomlValue* elements = root.find(parts[0]);
+    const std::size_t i = *index_in(parts[1], elements->items.size());
+    table = &tree.find(parts[0])->items[i];
+    before = &elements->items[i];
+    key = 2;
+  }
+  if (const TomlValue* value = before->find(parts[key])) *table->find(parts[key]) = *value;
+  else table->erase(parts[key]);
+}
+
 std::optional<TomlValue> value_at(const TomlValue& root, const std::string& path) {
-  const std::vector<std::string> parts = parts_of(path);
+  const std::vector<std::string_view> parts = parts_of(path);
   const TomlValue* at = &root;
   std::vector<ScenarioKey> keys = root_keys();
   std::optional<TomlValue> preset;

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "experiments/study/scenario/scenario.hpp"
 #include "experiments/study/text/toml_value.hpp"
@@ -14,6 +15,10 @@ namespace polhode::study::inline scenario {
 /// The reader of the result checks the value. Returns the path with bodies by number. Throws a Fault that belongs to
 /// the override.
 std::string apply_override(TomlValue& root, const Override& override, int index);
+
+/// Puts back what apply_override() changed in a tree that was like `root` before. `path` as apply_override() returned
+/// it.
+void undo_override(TomlValue& tree, const TomlValue& root, std::string_view path);
 
 /// The value of a key in the tree of a scenario, or its default; absent if it has neither. `path` as apply_override()
 /// returns it.

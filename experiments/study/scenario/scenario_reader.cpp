@@ -204,6 +204,16 @@ std::vector<std::string> read_invariants(const TomlCursor& root, const Problem& 
 
 }  // namespace
 
+void complete(Scenario& scenario, const TomlCursor& root, std::string_view contact) {
+  scenario.invariants = read_invariants(root, scenario.problem);
+  scenario.canonical.clear();
+  add_canonical_text(scenario.problem, scenario.invariants, scenario.canonical);
+  scenario.canonical += contact;
+  if (!root.has("energy_scale")) return;
+  scenario.energy_scale = root.at("energy_scale", "").number("J", Parameter::Range::positive);
+  scenario.canonical += "energy_scale " + exact(*scenario.energy_scale) + "\n";
+}
+
 Scenario read_scenario(const TomlValue& tree, const std::string& name) {
   const TomlCursor root(tree);
   static const std::vector<std::string_view> known = names(root_keys());
@@ -219,12 +229,7 @@ Scenario read_scenario(const TomlValue& tree, const std::string& name) {
   read_gravity(root, scenario.problem);
   read_forces(root, index, scenario.problem);
   read_joints(root, index, scenario);
-  scenario.invariants = read_invariants(root, scenario.problem);
-  scenario.canonical = canonical_text(scenario.problem, scenario.invariants) + contact;
-  if (root.has("energy_scale")) {
-    scenario.energy_scale = root.at("energy_scale", "").number("J", Parameter::Range::positive);
-    scenario.canonical += "energy_scale " + exact(*scenario.energy_scale) + "\n";
-  }
+  complete(scenario, root, contact);
   return scenario;
 }
 

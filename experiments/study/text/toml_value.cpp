@@ -146,6 +146,11 @@ TomlEntry& TomlValue::insert(std::string key, TomlValue value) {
   return *entries.insert(where, TomlEntry{std::move(key), value.place, std::move(value)});
 }
 
+void TomlValue::erase(std::string_view key) {
+  const auto found = lower_bound(entries, key);
+  if (found != entries.end() && found->key == key) entries.erase(found);
+}
+
 TomlValue parse_toml(std::string_view text) {
   refuse_deep_nesting(text);
   try {

@@ -39,6 +39,7 @@ struct TomlValue {
   const TomlValue* find(std::string_view key) const;
   TomlValue* find(std::string_view key);
   TomlEntry& insert(std::string key, TomlValue value);
+  void erase(std::string_view key);
 };
 
 struct TomlEntry {

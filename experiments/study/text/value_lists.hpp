@@ -28,5 +28,7 @@ std::optional<double> to_number(std::string_view text);
 
 /// The shortest text that reads back as the same double.
 std::string exact(double x);
+/// Adds exact(x) to a text.
+void add_exact(std::string& out, double x);
 
 }  // namespace polhode::study::text
