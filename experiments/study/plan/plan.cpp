@@ -34,21 +34,6 @@ double cost_of(const RunConfig& config) {
   return config.t_end / *config.dt * (stages + 1);
 }
 
-/// The identity of a run.
-struct Identity {
-  std::uint64_t id = 0;
-  std::uint64_t scenario = 0;  ///< number of the scenario, the same as PlanRow::scenario
-  std::uint64_t motion = 0;    ///< the id without --reference, which does not change the motion
-};
-
-Identity identity_of_run(const RunConfig& config, const Scenario& scenario) {
-  Identity identity{run_number(config, scenario.canonical), number_of(scenario), 0};
-  RunConfig motion = config;
-  motion.reference = false;
-  identity.motion = config.reference ? run_number(motion, scenario.canonical) : identity.id;
-  return identity;
-}
-
 /// Runs of one kind take times in proportion to their cost.
 std::string kind_of(const RunConfig& config) {
   return fmt::format("{} {} {}", config.integrator, config.scenario, name(config.precision));
@@ -57,10 +42,11 @@ std::string kind_of(const RunConfig& config) {
 /// Adds an empty value for each key that the product of the run does not vary, and sorts the values by `keys`.
 void fill_varied(RunConfig& config, const std::vector<std::string>& keys) {
   std::vector<Override> varied;
+  varied.reserve(keys.size());
   for (const std::string& key : keys) {
     const auto own =
         std::find_if(config.varied.begin(), config.varied.end(), [&](const Override& o) { return o.key == key; });
-    varied.push_back(own == config.varied.end() ? Override{key, ""} : *own);
+    varied.push_back(own == config.varied.end() ? Override{key, ""} : std::move(*own));
   }
   config.varied = std::move(varied);
 }
@@ -73,23 +59,43 @@ std::uint16_t number_of_kind(const std::string& kind, std::vector<std::string>& 
   return number;
 }
 
+/// What the runs have in common whose configurations differ in the varied keys alone. It takes longer to make than the
+/// rest of a draft, and most runs of a large study have it in common with the one before.
+struct OptionsOfRuns {
+  explicit OptionsOfRuns(const RunConfig& config)
+      : numbers(config), kind(kind_of(config)), cost(cost_of(config)), key(sort_key_of_options(config)) {
+    if (!config.reference) return;
+    RunConfig motion = config;
+    motion.reference = false;
+    motion_numbers.emplace(motion);
+  }
+
+  RunNumbers numbers;
+  std::optional<RunNumbers> motion_numbers;  ///< those without --reference, where the configuration has it
+  std::string kind;
+  double cost;
+  std::vector<OptionValue> key;  ///< sort_key_of_options()
+};
+
 /// A run on its way into the plan.
 struct Draft {
-  PlanRow row;  ///< the row, whose kind is not yet set
-  std::string kind;
-  std::uint64_t motion = 0;      ///< the same as Identity::motion
-  std::vector<OptionValue> key;  ///< sort_key()
+  PlanRow row;                                   ///< the row, whose kind is not yet set
+  std::shared_ptr<const OptionsOfRuns> options;  ///< never null
+  std::uint64_t motion = 0;                      ///< the id without --reference, which does not change the motion
+  std::vector<OptionValue> key;                  ///< sort_key_of_varied()
 };
 
 /// Throws std::invalid_argument for an impossible step.
-Draft draft_of(const RunConfig& config, const Scenario& scenario) {
-  const Identity identity = identity_of_run(config, scenario);
-  Draft draft{{.id = identity.id, .scenario = identity.scenario, .cost = cost_of(config)},
-              kind_of(config),
-              identity.motion,
-              sort_key(config)};
-  draft.row.refused = !refusal(config, scenario).empty();
-  return draft;
+Draft draft_of(const RunConfig& config, const Scenario& scenario, std::shared_ptr<const OptionsOfRuns> options) {
+  const std::uint64_t id = options->numbers.of(config.varied, scenario.canonical);
+  const std::uint64_t motion =
+      options->motion_numbers ? options->motion_numbers->of(config.varied, scenario.canonical) : id;
+  const bool refused = !refusal(config, scenario).empty();
+  const double cost = options->cost;
+  return {{.id = id, .scenario = number_of(scenario), .cost = cost, .refused = refused},
+          std::move(options),
+          motion,
+          sort_key_of_varied(config.varied)};
 }
 
 /// The rows of a plan in the making.
@@ -105,9 +111,9 @@ class Rows {
 
   void add(const Draft& draft) {
     rows_.push_back(draft.row);
-    rows_.back().kind = number_of_kind(draft.kind, kinds_);
+    rows_.back().kind = number_of_kind(draft.options->kind, kinds_);
     motions_.push_back(draft.motion);
-    order_.add(draft.key);
+    order_.add(draft.options->key, draft.key);
   }
 
   /// Puts the rows into the plan, by configuration. Of several runs of the same motion the first one is kept.
@@ -236,9 +242,11 @@ std::size_t add_cells(const Product& product, std::uint16_t number, std::size_t 
     const auto made = std::make_shared<Made>();
     std::vector<std::uint64_t> cells;
     for (std::size_t k = part * at_a_time; k < std::min((part + 1) * at_a_time, count); ++k) cells.push_back(cell(k));
+    std::shared_ptr<const OptionsOfRuns> options;
     made->part = product.for_each(cells, [&](std::uint64_t at, Product::Run&& run) {
       fill_varied(run.config, plan.varied_keys);
-      made->drafts.push_back(draft_of(run.config, *run.scenario));
+      if (!run.same_options) options = std::make_shared<const OptionsOfRuns>(run.config);
+      made->drafts.push_back(draft_of(run.config, *run.scenario, options));
       made->drafts.back().row.product = number;
       made->drafts.back().row.cell = at;
       made->drafts.back().row.own_presets = run.own_presets;
@@ -439,15 +447,15 @@ std::size_t widen(Plan& plan, const std::vector<RunConfig>& configs) {
   for (const RunConfig& config : configs) {
     const auto like = scenarios.find(setting(config));
     if (like == scenarios.end()) throw std::logic_error("a further run of a scenario that the study does not have");
-    const Draft draft = draft_of(config, *like->second);
+    const Draft draft = draft_of(config, *like->second, std::make_shared<const OptionsOfRuns>(config));
     PlanRow row = draft.row;
     if (plan.contains(row.id) || !added.insert(row.id).second) continue;
-    row.kind = number_of_kind(draft.kind, plan.kinds);
+    row.kind = number_of_kind(draft.options->kind, plan.kinds);
     row.product = static_cast<std::uint16_t>(plan.products_.size());
     row.cell = plan.further_.size();
     plan.further_.push_back({config, like->second});
     plan.rows.push_back(row);
-    order.add(draft.key);
+    order.add(draft.options->key, draft.key);
   }
   if (added.empty()) return 0;
   std::vector<PlanRow> sorted;

@@ -57,6 +57,7 @@ Product::Product(const Experiment& experiment, const StudyAxes& study, bool refe
   check_durations(experiment, study_);
   for (const RunOption& option : run_options()) {
     if (option.needed) needed_.push_back(&option);
+    if (option.preset) with_presets_.push_back(&option);
   }
   for (const Condition& condition : study_.where) conditions_.emplace_back(condition.text, condition.label);
   open_scenarios(dimensions(study_, true));
@@ -161,16 +162,14 @@ RunConfig Product::completed(const Cell& cell, const Opened& opened, const Scena
 
 /// `scenario`: that of the run, with the varied keys set.
 bool Product::has_own_presets(const RunConfig& config, const Opened& opened, const Scenario& scenario) const {
-  const auto& options = run_options();
-  return std::any_of(options.begin(), options.end(), [&](const RunOption& option) {
-    return option.preset && option.applies_to(config) && option.preset(scenario) != option.preset(*opened.scenario);
+  return std::any_of(with_presets_.begin(), with_presets_.end(), [&](const RunOption* option) {
+    return option->applies_to(config) && option->preset(scenario) != option->preset(*opened.scenario);
   });
 }
 
-Product::Run Product::made(const Cell& cell, const Opened& opened, std::shared_ptr<const Scenario> scenario) const {
-  if (!scenario) scenario = std::make_shared<const Scenario>(opened.source.resolve(cell.varied, opened.scenario.get()));
-  RunConfig config = completed(cell, opened, *scenario);
-  return {std::move(config), std::move(scenario)};
+std::shared_ptr<const Scenario> Product::scenario_of(const Cell& cell, const Opened& opened) {
+  if (cell.varied.empty()) return opened.scenario;
+  return std::make_shared<const Scenario>(opened.source.resolve(cell.varied, opened.scenario.get()));
 }
 
 /// False: the conditions leave out the cell.
@@ -213,9 +212,11 @@ Product::Part Product::for_each(std::span<const std::uint64_t> cells,
   for (const RunOption& option : run_options()) {
     if (study_.has(option.name)) without_effect.push_back(&option);
   }
-  std::shared_ptr<const Scenario> variant;  // the last one: neighbouring cells mostly have the same
-  const Opened* variant_of = nullptr;
-  std::vector<Override> variant_keys;
+  // The last run: neighbouring cells mostly have its scenario, or all its options.
+  Cell last;
+  const Opened* opened = nullptr;
+  std::shared_ptr<const Scenario> scenario;
+  std::optional<RunConfig> config;  // without the varied keys; absent if some of these give options their defaults
   Cells::Place place;
   for (const std::uint64_t k : cells) {
     cells_->find(k, place);
@@ -223,20 +224,30 @@ Product::Part Product::for_each(std::span<const std::uint64_t> cells,
       ++part.left_out;
       continue;
     }
-    const Cell cell = cells_->at(place);
-    const Opened& opened = *by_name_.at(cell.scenario);
-    if (variant_of != &opened || variant_keys != cell.varied) variant.reset();
-    Run run = made(cell, opened, variant);
-    variant = run.scenario;
-    variant_of = &opened;
-    variant_keys = cell.varied;
-    check(run.config);
-    run.own_presets = has_own_presets(run.config, opened, *run.scenario);
-    std::erase_if(without_effect, [&](const RunOption* option) {
-      if (!option->applies_to(run.config)) return false;
-      part.effective.insert(option->name);
-      return true;
-    });
+    Cell cell = cells_->at(place);
+    const Opened& of_cell = *by_name_.at(cell.scenario);
+    if (opened != &of_cell) scenario.reset(), config.reset();
+    opened = &of_cell;
+    if (!scenario || last.varied != cell.varied) scenario = scenario_of(cell, *opened);
+    Run run;
+    run.same_options = config && last.options == cell.options && !has_own_presets(*config, *opened, *scenario);
+    if (run.same_options) {
+      run.config = *config;
+      run.config.varied = cell.varied;
+    } else {
+      run.config = completed(cell, *opened, *scenario);
+      check(run.config);
+      run.own_presets = has_own_presets(run.config, *opened, *scenario);
+      std::erase_if(without_effect, [&](const RunOption* option) {
+        if (!option->applies_to(run.config)) return false;
+        part.effective.insert(option->name);
+        return true;
+      });
+      config.reset();
+      if (!run.own_presets) config.emplace(run.config).varied.clear();
+    }
+    run.scenario = scenario;
+    last = std::move(cell);
     try {
       use(k, std::move(run));
     } catch (const std::invalid_argument& error) {
@@ -253,7 +264,11 @@ void Product::refuse_empty() const {
 
 Product::Run Product::run(std::uint64_t cell, std::shared_ptr<const Scenario> scenario) const {
   const Cell of = cells_->at(cell);
-  return made(of, *by_name_.at(of.scenario), std::move(scenario));
+  const Opened& opened = *by_name_.at(of.scenario);
+  Run run;
+  run.scenario = scenario ? std::move(scenario) : scenario_of(of, opened);
+  run.config = completed(of, opened, *run.scenario);
+  return run;
 }
 
 RunConfig Product::config(std::uint64_t cell) const {

@@ -53,6 +53,8 @@ class Product {
     std::shared_ptr<const Scenario> scenario;
     bool own_presets =
         false;  ///< set by for_each(): the varied keys change the default of an option, t_end that of --t-end
+    /// Set by for_each(): the configuration differs from that of the run before in the varied keys alone.
+    bool same_options = false;
   };
   /// Makes the cells, each of which can then be made from its number. Throws InputError for invalid values.
   void open();
@@ -85,7 +87,7 @@ class Product {
   RunConfig configured(const Cell& cell, const Opened& opened, const Scenario& scenario) const;
   RunConfig completed(const Cell& cell, const Opened& opened, const Scenario& scenario) const;
   bool has_own_presets(const RunConfig& config, const Opened& opened, const Scenario& scenario) const;
-  Run made(const Cell& cell, const Opened& opened, std::shared_ptr<const Scenario> scenario) const;
+  static std::shared_ptr<const Scenario> scenario_of(const Cell& cell, const Opened& opened);
   /// Conditions of each scenario, with what they keep from cell to cell.
   using Conditions = std::map<const Opened*, BoundConditions>;
   bool holds(const Cells::Place& place, Conditions& conditions) const;
@@ -95,6 +97,7 @@ class Product {
   StudyAxes study_;
   bool reference_;
   std::vector<const RunOption*> needed_;
+  std::vector<const RunOption*> with_presets_;
   std::vector<Where> conditions_;
   std::vector<std::unique_ptr<Opened>> opened_;
   std::map<std::string, Opened*> by_name_;  ///< scenarios by the name that is written in the study

@@ -30,19 +30,20 @@ RunOrder::Code RunOrder::code_of(const OptionValue& value, Column& column) {
   return {type, 0};
 }
 
-void RunOrder::add(const std::vector<OptionValue>& key) {
-  if (runs_ == 0) {
-    for (const OptionValue& value : key) columns_.push_back({value, {}, {}});
-  }
-  for (std::size_t k = 0; k < key.size(); ++k) {
-    Column& column = columns_[k];
+void RunOrder::add(const std::vector<OptionValue>& key, const std::vector<OptionValue>& rest) {
+  std::size_t k = 0;
+  const auto add_value = [&](const OptionValue& value) {
+    if (runs_ == 0) columns_.push_back({value, {}, {}});
+    Column& column = columns_[k++];
     if (column.codes.empty()) {
-      if (key[k] == column.first) continue;
+      if (value == column.first) return;
       column.codes.reserve(expected_);
       column.codes.assign(runs_, code_of(column.first, column));
     }
-    column.codes.push_back(code_of(key[k], column));
-  }
+    column.codes.push_back(code_of(value, column));
+  };
+  for (const OptionValue& value : key) add_value(value);
+  for (const OptionValue& value : rest) add_value(value);
   ++runs_;
 }
 

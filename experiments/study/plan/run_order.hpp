@@ -20,8 +20,8 @@ class RunOrder {
   /// `expected`: number of runs, for which room is made.
   explicit RunOrder(std::size_t expected = 0) : expected_(expected) {}
 
-  /// Adds the next run by its sort_key(). All keys have the same length.
-  void add(const std::vector<OptionValue>& key);
+  /// Adds the next run by its sort_key(), or by the two parts of it. All keys have the same length.
+  void add(const std::vector<OptionValue>& key, const std::vector<OptionValue>& rest = {});
 
   /// Numbers of all runs in their order, from 0. `before` decides between runs of equal keys.
   std::vector<std::uint32_t> sorted(const std::function<bool(std::uint32_t, std::uint32_t)>& before) const;

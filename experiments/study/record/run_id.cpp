@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/record/run_id.hpp"
 
-#include <fmt/format.h>
-
 #include <charconv>
 #include <stdexcept>
 
-#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/text/text_hash.hpp"
 
 namespace polhode::study::inline record {
 
+RunNumbers::RunNumbers(const RunConfig& config, int version)
+    : version_(std::to_string(version)), text_(identity_text(config)) {}
+
+std::uint64_t RunNumbers::of(const std::vector<Override>& varied, std::string_view canonical) const {
+  std::string text;
+  text.reserve(512 + canonical.size());
+  text.append(version_).append("\n").append(canonical).append("\n").append(text_.before);
+  for (const Override& o : varied) {
+    if (!o.value.empty()) text.append(o.value).append("\n");
+  }
+  return text_number(text.append(text_.after));
+}
+
 std::uint64_t run_number(const RunConfig& config, std::string_view canonical, int version) {
-  RunConfig said = config;
-  std::erase_if(said.varied, [](const Override& o) { return o.value.empty(); });
-  return text_number(fmt::format("{}\n{}\n", version, canonical) + identity_of(said));
+  return RunNumbers(config, version).of(config.varied, canonical);
 }
 
 std::string run_id(const RunConfig& config, std::string_view canonical, int version) {
@@ -43,6 +51,10 @@ std::uint64_t number_of_id(const std::string& id) {
   return number;
 }
 
-std::string id_of_number(std::uint64_t number) { return fmt::format("{:016x}", number); }
+std::string id_of_number(std::uint64_t number) {
+  std::string id(16, '0');
+  for (std::size_t i = id.size(); number != 0; number >>= 4U) id[--i] = "0123456789abcdef"[number & 15U];
+  return id;
+}
 
 }  // namespace polhode::study::record

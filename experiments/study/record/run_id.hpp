@@ -8,10 +8,24 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/record/run_record.hpp"
 #include "experiments/study/record/versions.hpp"
 
 namespace polhode::study::inline record {
+
+/// The ids of runs whose configurations differ in the varied keys alone.
+class RunNumbers {
+ public:
+  explicit RunNumbers(const RunConfig& config, int version = results_version);
+
+  /// As run_number() of the configuration with these varied keys.
+  std::uint64_t of(const std::vector<Override>& varied, std::string_view canonical) const;
+
+ private:
+  std::string version_;
+  IdentityText text_;
+};
 
 /// `canonical`: Scenario::canonical with the varied keys set. Varied keys with an empty value, which the run leaves
 /// unchanged, are no part of the id.

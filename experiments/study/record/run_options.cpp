@@ -670,20 +670,29 @@ std::vector<std::string> config_cells(const RunConfig& config, const NamedOption
   return cells;
 }
 
-std::string identity_of(const RunConfig& config) {
-  std::string text;
-  for (const std::string& cell : config_cells(config, {})) text += cell + "\n";
+IdentityText identity_text(const RunConfig& config) {
+  IdentityText text;
+  for (const RunOption* option : options_by_column()) {
+    if (has_column(*option, {}, {})) text.before += config_cell(*option, config) + "\n";
+  }
   for (const RunOption& option : run_options()) {
-    if (option.column.empty() && is_axis(option)) text += text_of(applied(option, config));
+    if (option.column.empty() && is_axis(option)) text.after += text_of(applied(option, config));
   }
   for (const RunOption* option : options_by_column()) {
     const bool may_be_absent = option->on_demand || !is_axis(*option);
-    if (may_be_absent && !is_usual(*option, config)) text += "\n" + label_of(*option, config);
+    if (may_be_absent && !is_usual(*option, config)) text.after += "\n" + label_of(*option, config);
   }
   return text;
 }
 
-std::vector<OptionValue> sort_key(const RunConfig& config) {
+std::string identity_of(const RunConfig& config) {
+  const IdentityText text = identity_text(config);
+  std::string varied;
+  for (const Override& o : config.varied) varied += o.value + "\n";
+  return text.before + varied + text.after;
+}
+
+std::vector<OptionValue> sort_key_of_options(const RunConfig& config) {
   std::vector<OptionValue> key;
   for (const RunOption* option : options_by_column()) {
     if (option->column.empty()) continue;
@@ -693,7 +702,18 @@ std::vector<OptionValue> sort_key(const RunConfig& config) {
     }
     key.push_back(std::move(value));
   }
-  for (const Override& o : config.varied) key.push_back(value_in(o.value));
+  return key;
+}
+
+std::vector<OptionValue> sort_key_of_varied(const std::vector<Override>& varied) {
+  std::vector<OptionValue> key;
+  for (const Override& o : varied) key.push_back(value_in(o.value));
+  return key;
+}
+
+std::vector<OptionValue> sort_key(const RunConfig& config) {
+  std::vector<OptionValue> key = sort_key_of_options(config);
+  for (OptionValue& value : sort_key_of_varied(config.varied)) key.push_back(std::move(value));
   return key;
 }
 

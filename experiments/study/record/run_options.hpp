@@ -128,11 +128,19 @@ std::string config_cell(const RunOption& option, const RunConfig& config);
 /// The option with this column; null if there is none, as for a varied key.
 const RunOption* option_of_column(const std::string& column);
 
+/// The configuration as text, without the values of its varied keys, which stand between the two parts.
+struct IdentityText {
+  std::string before, after;
+};
+IdentityText identity_text(const RunConfig& config);
 /// The configuration as text. It does not depend on the study that contains the run.
 std::string identity_of(const RunConfig& config);
 
 /// The values of a configuration by which runs are sorted. Keys are comparable if both runs vary the same keys.
 std::vector<OptionValue> sort_key(const RunConfig& config);
+/// Its two parts: the values of the options, and those of the varied keys, which come last.
+std::vector<OptionValue> sort_key_of_options(const RunConfig& config);
+std::vector<OptionValue> sort_key_of_varied(const std::vector<Override>& varied);
 /// The name of the column in config_columns() of each value of a sort_key().
 std::vector<std::string> sort_columns(const std::vector<std::string>& varied_keys);
 
