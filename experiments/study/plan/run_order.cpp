@@ -2,11 +2,9 @@
 #include "experiments/study/plan/run_order.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <numeric>
 #include <string_view>
-#include <unordered_set>
 
 namespace polhode::study::inline plan {
 namespace {
@@ -86,13 +84,17 @@ std::vector<RunOrder::Values> RunOrder::values(const std::vector<std::uint32_t>&
       values.runs = {runs.front()};
       continue;
     }
-    std::array<std::unordered_set<std::uint64_t>, std::variant_size_v<OptionValue>> seen;  // values met so far, by type
+    std::vector<Code> codes, first;  // the codes of all runs, and those met first
+    codes.reserve(runs.size());
     for (const std::uint32_t run : runs) {
-      const auto [type, bits] = column.codes[run];
-      if (!seen[type].insert(bits).second) continue;
-      ++values.count;
-      if (values.runs.size() < most) values.runs.push_back(run);
+      const Code& code = column.codes[run];
+      codes.push_back(code);
+      if (first.size() == most || std::find(first.begin(), first.end(), code) != first.end()) continue;
+      first.push_back(code);
+      values.runs.push_back(run);
     }
+    std::sort(codes.begin(), codes.end());
+    values.count = static_cast<std::size_t>(std::unique(codes.begin(), codes.end()) - codes.begin());
   }
   return all;
 }

@@ -639,6 +639,11 @@ bool is_usual(const RunOption& option, const RunConfig& config, const RunConfig&
   return value == OptionValue{} || value == option.usual || value == option.value(usual);
 }
 
+bool is_usual(const RunOption& option, const RunConfig& config) {
+  static const RunConfig usual;
+  return is_usual(option, config, usual);
+}
+
 std::vector<std::string> config_columns(const std::vector<std::string>& varied_keys, const NamedOptions& named,
                                         Roles without) {
   std::vector<std::string> columns;
@@ -672,8 +677,9 @@ std::vector<std::string> config_cells(const RunConfig& config, const NamedOption
 
 IdentityText identity_text(const RunConfig& config) {
   IdentityText text;
+  text.before.reserve(256);
   for (const RunOption* option : options_by_column()) {
-    if (has_column(*option, {}, {})) text.before += config_cell(*option, config) + "\n";
+    if (has_column(*option, {}, {})) text.before.append(config_cell(*option, config)).append("\n");
   }
   for (const RunOption& option : run_options()) {
     if (option.column.empty() && is_axis(option)) text.after += text_of(applied(option, config));
@@ -694,6 +700,7 @@ std::string identity_of(const RunConfig& config) {
 
 std::vector<OptionValue> sort_key_of_options(const RunConfig& config) {
   std::vector<OptionValue> key;
+  key.reserve(run_options().size() + 1);  // the scenario has two values
   for (const RunOption* option : options_by_column()) {
     if (option->column.empty()) continue;
     OptionValue value = applied(*option, config);

@@ -113,7 +113,8 @@ std::string text_of(const OptionValue& value);
 /// The value for readers: "gyroscopic on", "matrix", "order 5"; empty if the run has no value of the option.
 std::string label_of(const RunOption& option, const RunConfig& config);
 /// True if the run has no value of the option, the option's usual value, or the value that the run `usual` has.
-bool is_usual(const RunOption& option, const RunConfig& config, const RunConfig& usual = {});
+bool is_usual(const RunOption& option, const RunConfig& config, const RunConfig& usual);
+bool is_usual(const RunOption& option, const RunConfig& config);  ///< the same with the defaults of RunConfig
 
 using Roles = std::initializer_list<RunOption::Role>;
 
