@@ -33,7 +33,7 @@ const std::vector<ForceEntry>& force_catalogue() {
 }
 
 const ForceEntry* find_force(std::string_view name) {
-  return find_entry(force_catalogue(), name, [](const auto& entry) { return entry.kind.name; });
+  return find_entry(force_catalogue(), name, [](const auto& entry) -> std::string_view { return entry.kind.name; });
 }
 
 namespace {

@@ -36,7 +36,7 @@ const std::vector<JointEntry>& joint_catalogue() {
 }
 
 const JointEntry* find_joint(std::string_view name) {
-  return find_entry(joint_catalogue(), name, [](const auto& entry) { return entry.kind.name; });
+  return find_entry(joint_catalogue(), name, [](const auto& entry) -> std::string_view { return entry.kind.name; });
 }
 
 template <class S>

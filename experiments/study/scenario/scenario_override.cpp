@@ -2,6 +2,8 @@
 #include "experiments/study/scenario/scenario_override.hpp"
 
 #include <charconv>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -76,22 +78,33 @@ std::optional<double> plain_number(std::string_view text) {
   return number;
 }
 
-/// The keys of an element of one of these lists: of a body, or of a force or joint of its kind.
-std::vector<ScenarioKey> keys_of(std::string_view list, const TomlValue& element) {
-  if (list == "body") return body_keys();
-  std::vector<ScenarioKey> keys = {{"kind", std::nullopt}, {"bodies", std::nullopt}};
-  if (list == "joint") keys.push_back({"name", std::nullopt, Decides::never});
-  const auto add = [&](const auto* entry) {
-    if (!entry) return;
-    for (const Parameter& p : entry->kind.parameters) {
+/// The keys of forces or joints: `common` and the parameters of the kind, by kind. That of no kind has `common` alone.
+using KeysOfKinds = std::map<std::string, std::vector<ScenarioKey>, std::less<>>;
+template <class Catalogue>
+KeysOfKinds keys_of_kinds(const std::vector<ScenarioKey>& common, const Catalogue& catalogue) {
+  KeysOfKinds all = {{"", common}};
+  for (const auto& entry : catalogue) {
+    std::vector<ScenarioKey>& keys = all[entry.kind.name] = common;
+    for (const Parameter& p : entry.kind.parameters) {
       const bool required = p.need == Parameter::Need::required;
       keys.push_back({p.key, required ? std::nullopt : std::optional(to_toml(p.value))});
     }
-  };
-  const TomlValue* kind = element.find("kind");
-  if (kind && list == "force") add(find_force(kind->text));
-  if (kind && list == "joint") add(find_joint(kind->text));
-  return keys;
+  }
+  return all;
+}
+
+/// The keys of an element of one of these lists: of a body, or of a force or joint of its kind. Studies set such keys
+/// in each run, so that they are made once.
+const std::vector<ScenarioKey>& keys_of(std::string_view list, const TomlValue& element) {
+  static const std::vector<ScenarioKey> common = {{"kind", std::nullopt}, {"bodies", std::nullopt}};
+  static const std::vector<ScenarioKey> named = {common[0], common[1], {"name", std::nullopt, Decides::never}};
+  static const KeysOfKinds of_forces = keys_of_kinds(common, force_catalogue());
+  static const KeysOfKinds of_joints = keys_of_kinds(named, joint_catalogue());
+  if (list == "body") return body_keys();
+  const KeysOfKinds& kinds = list == "force" ? of_forces : of_joints;
+  const TomlValue* said = element.find("kind");
+  const auto found = kinds.find(said ? std::string_view(said->text) : "");
+  return found == kinds.end() ? kinds.at("") : found->second;
 }
 
 /// The walk of one override down the tree.
@@ -147,8 +160,7 @@ class Walk {
     parts_[1] = index_;
     TomlValue& element = elements->items[*index];
     if (element.type != Type::table) fail(list + "." + index_ + " is not a table");
-    if (list == "body") into_table(element, body_keys(), 2);  // without a copy of the keys
-    else into_table(element, keys_of(list, element), 2);
+    into_table(element, keys_of(list, element), 2);
   }
 
   static std::string they_are(const std::string& list, const TomlValue* elements, std::size_t count) {

@@ -44,5 +44,22 @@ TEST(RunOrder, OfEqualKeysIsTheGivenOne) {
   EXPECT_EQ(order.sorted([](auto a, auto b) { return a > b; }), (std::vector<std::uint32_t>{2, 1, 0}));
 }
 
+TEST(RunOrder, CountsTheValuesAndNamesTheFirstRunsThatHaveThem) {
+  RunOrder order;
+  order.add({1.0, "a", 5.0});
+  order.add({2.0, "a"}, {5.0});  // in two parts
+  order.add({1.0}, {"b", 5.0});
+  order.add({std::int64_t{1}, {}, 5.0});
+  order.add({{}, "b", 5.0});
+  const std::vector<RunOrder::Values> values = order.values({3, 2, 0, 1, 4}, 3);
+  ASSERT_EQ(values.size(), 3u);
+  EXPECT_EQ(values[0].count, 4u);
+  EXPECT_EQ(values[0].runs, (std::vector<std::uint32_t>{3, 2, 1}));
+  EXPECT_EQ(values[1].count, 3u);
+  EXPECT_EQ(values[1].runs, (std::vector<std::uint32_t>{3, 2, 0}));
+  EXPECT_EQ(values[2].count, 1u);
+  EXPECT_EQ(values[2].runs, (std::vector<std::uint32_t>{3}));
+}
+
 }  // namespace
 }  // namespace polhode::study::run_order_test
