@@ -117,9 +117,9 @@ ThetaDirection::ThetaDirection(double m, double m_c, double beta) {
   double re = 0, im = 0;  // real part of θ and imaginary part of its derivative at u = 0
   if (!transformed_) {
     // Series: 1 + 2 Σ (−1)^n q^(n²) cos(2nπ(u + iβ)/2K)
-    frequency_ = pi / k;
     re_[0] = re = 1;
-    if (m == 0) return;  // θ = 1 is constant
+    if (m == 0) return;
+    frequency_ = pi / k;
     for (std::size_t n = 1; n <= terms; ++n) {
       const double order = static_cast<double>(n), sign = n % 2 == 0 ? 1 : -1;
       // q^(n²) exp(±2nπβ/2K). No overflow: 2n² K' ≥ n β.
@@ -152,6 +152,7 @@ ThetaDirection::ThetaDirection(double m, double m_c, double beta) {
 }
 
 ThetaDirection::Values ThetaDirection::operator()(double u) const {
+  if (frequency_ == 0) return {0, 1, 0};
   if (!transformed_) {
     const double c1 = std::cos(frequency_ * u), s1 = std::sin(frequency_ * u);
     double c = c1, s = s1, re = re_[0], im = 0;

@@ -67,7 +67,7 @@ class ThetaDirection {
   static constexpr int terms = 3;
   bool transformed_ = false;
   double half_period_ = 0;  // K
-  double frequency_ = 0;    // π/K, transformed: π/2K'
+  double frequency_ = 0;    // π/K, transformed: π/2K'; 0: m = 0, where θ = 1 is constant
   double turn_ = 0;         // turn per unit of u
   double slope_at_zero_ = 0;
   std::array<double, terms + 1> re_{}, im_{}, nome_power_{};  // nome_power_: p^n
