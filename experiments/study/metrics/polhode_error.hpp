@@ -36,19 +36,25 @@ class PolhodeError {
  private:
   PolhodeError(const Matrix3<double>& inertia, const Vector3<double>& omega_body);
   struct Momentum {
-    Vector3<double> value, rate, second;  ///< y in kg m²/s, and its first and second time derivatives, body frame
+    Vector3<double> y, omega;                                ///< kg m²/s and rad/s, body frame
+    Vector3<double> rate() const { return y.cross(omega); }  ///< ẏ, Euler's equations
+  };
+  struct Derivatives {
+    Vector3<double> rate = Vector3<double>::Zero(), second = rate, third = rate;  ///< of y in time, body frame
   };
   struct Nearest {
-    double phase = 0;      ///< s
-    double distance2 = 0;  ///< squared distance of y from the exact one at that phase, (kg m²/s)²
+    double phase = 0;     ///< s
+    double distance = 0;  ///< of y from the exact one at that phase, kg m²/s
   };
   Momentum exact(double t) const;
-  Nearest refined(double t, const Vector3<double>& y, double phase) const;
+  Derivatives derivatives(const Momentum& m) const;
+  Nearest refined(double t, const Vector3<double>& y, double phase, Momentum start) const;
   double nearest_of_ring(double t, const Vector3<double>& y, double expected);
 
   Matrix3<double> inertia_, inverse_inertia_;
   FreeTop top_;
   double speed_, size_;  ///< |ω(0)|, |y(0)|
+  double reach_;         ///< time within which the cubic Taylor polynomial of y is exact to round-off, s
   double search_step_;   ///< time between the points of the ring, s
   std::size_t points_;   ///< number of the points of the ring
   /// Exact y at equal steps over a period, for the search of the nearest point; made when it is first needed.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "experiments/study/run/run.hpp"
 
@@ -63,6 +64,51 @@ TEST(PolhodeError, GivesADistanceBack) {
       const auto at = error->at(t, shifted(problem, t, 0.01 * t, 1.001));
       ASSERT_NEAR(at.phase, 0.01 * t, 1e-7);
       ASSERT_NEAR(at.off, 0.001, 1e-7);
+    }
+  }
+}
+
+/// A body whose nearest point is known: at t + phase, aside by the fraction `off` of |y| at right angles to ẏ.
+struct Aside {
+  BodySnapshot<double> body{};
+  double speed = 0, curvature = 0;  ///< |ẏ|/|y|; of half the squared distance in the phase, over |ẏ|²
+
+  Aside(const Problem& problem, const FreeTop& exact, double at, double off) {
+    const Matrix3<double>& inertia = problem.bodies[0].inertia;
+    const Vector3<double> omega = exact.angular_velocity_body(at), y = inertia * omega, rate = y.cross(omega);
+    const Vector3<double> second = rate.cross(omega) + y.cross(inertia.inverse() * rate);
+    const Vector3<double> aside = off * y.norm() * rate.cross(y).normalized();
+    body.rotation.setIdentity();
+    body.angular_velocity = inertia.inverse() * (y + aside);
+    speed = rate.norm() / y.norm();
+    curvature = 1 - aside.dot(second) / rate.squaredNorm();
+  }
+};
+
+TEST(PolhodeError, FindsTheNearestPointToRoundOff) {
+  constexpr double rounding = std::numeric_limits<double>::epsilon();
+  for (const Problem& problem : tops()) {
+    const auto system = make_system<double>(problem, {});
+    const Matrix3<double>& inertia = problem.bodies[0].inertia;
+    const Vector3<double>& omega = problem.starts[0].angular_velocity;
+    const FreeTop exact(inertia, identity_quaternion<double>(), omega);
+    const double fastest = inertia.inverse().norm() * (inertia * omega).norm();
+    // About where the Taylor polynomial is left for elliptic functions, 1e-4, and far on both sides.
+    for (const double turn : {1e-12, 1e-8, 2e-5, 7e-5, 9.9e-5, 1.01e-4, 1e-3, 1e-2, 0.1}) {
+      for (const double off : {0.0, 1e-10, 1e-5, -0.01}) {
+        auto error = PolhodeError::of(*system);
+        for (double t = 0; t <= 8; t += 0.25) {
+          // The error grows from call to call and swings, which no extrapolation foresees.
+          const double phase = turn / fastest * (1 + 0.3 * std::sin(5 * t));
+          const Aside known(problem, exact, t + phase, off);
+          if (known.curvature < 0.3) break;  // as far aside as the curve bends; another point may be nearer
+          const auto at = error->at(t, known.body);
+          const double round_off = 3 * rounding * (1 + fastest * t);
+          ASSERT_NEAR(at.phase, phase, round_off / (known.speed * known.curvature))
+              << turn << ' ' << off << " at " << t;
+          ASSERT_NEAR(at.off, std::abs(off), round_off);
+        }
+      }
     }
   }
 }
