@@ -86,21 +86,33 @@ VectorX<double> ExactMotion::state(const System<double>& system, const State<dou
   return y;
 }
 
-ExactMotion::Error ExactMotion::error(const System<double>& system, const State<double>& state) const {
-  Error error;
-  const auto raise = [](std::optional<double>& worst, double e) {
-    if (!worst || !(e <= *worst)) worst = e;
-  };
-  for (std::size_t i = 0; i < system.moving(); ++i) {
-    const BodySnapshot<double> now = system.snapshot(state.y, i);
-    if (has_angular_velocity_) {
-      const RotationAt exact = rotations_[i](state.t);
-      if (has_attitude_) raise(error.attitude, angle_between(now.orientation, *exact.orientation));
-      raise(error.angular_velocity, (now.angular_velocity - exact.angular_velocity).norm() / speed_scale_);
-    }
-    if (has_position_ && paths_[i]) raise(error.position, (now.position - paths_[i](state.t).position).norm());
+ExactMotion::BodyError ExactMotion::error(double t, std::size_t body, const BodySnapshot<double>& now) const {
+  BodyError one;
+  if (has_angular_velocity_) {
+    const RotationAt exact = rotations_[body](t);
+    if (has_attitude_) one.error.attitude = angle_between(now.orientation, *exact.orientation);
+    one.error.angular_velocity = (now.angular_velocity - exact.angular_velocity).norm() / speed_scale_;
+    one.angular_velocity_body = exact.angular_velocity_body;
   }
-  return error;
+  if (has_position_ && paths_[body]) one.error.position = (now.position - paths_[body](t).position).norm();
+  return one;
+}
+
+void ExactMotion::Error::raise(const Error& other) {
+  const auto keep = [](std::optional<double>& worst, const std::optional<double>& now) {
+    if (now && !(worst && *now <= *worst)) worst = now;
+  };
+  keep(position, other.position);
+  keep(attitude, other.attitude);
+  keep(angular_velocity, other.angular_velocity);
+}
+
+ExactMotion::Error ExactMotion::error(const System<double>& system, const State<double>& state) const {
+  Error worst;
+  for (std::size_t i = 0; i < system.moving(); ++i) {
+    worst.raise(error(state.t, i, system.snapshot(state.y, i)).error);
+  }
+  return worst;
 }
 
 ConservedMomenta conserved_momenta(const System<double>& system) {

@@ -42,8 +42,17 @@ class ExactMotion {
     std::optional<double> position;          ///< largest position error of a body, m
     std::optional<double> attitude;          ///< largest attitude error of a body, rad
     std::optional<double> angular_velocity;  ///< largest error of ω of a body, over the largest |ω| at the start
+    void raise(const Error& other);          ///< the larger one of each
   };
   Error error(const System<double>& system, const State<double>& state) const;
+
+  /// What a comparison with the exact motion tells.
+  struct BodyError {
+    Error error;
+    std::optional<Vector3<double>> angular_velocity_body;  ///< the exact one of a top, body axes, rad/s
+  };
+  /// The error of one body, which is `now` at t (s).
+  BodyError error(double t, std::size_t body, const BodySnapshot<double>& now) const;
 
  private:
   bool has_attitude_ = true, has_angular_velocity_ = true, has_position_ = false;

@@ -26,9 +26,7 @@ struct Torques {
     const Problem& problem = system.problem();
     const BodyStart& start = problem.starts[i];
     orientation = start.orientation / start.orientation.norm();
-    omega_body = start.angular_velocity_in_body
-                     ? start.angular_velocity
-                     : Vector3<double>(rotation_matrix(orientation).transpose() * start.angular_velocity);
+    omega_body = start_omega_body(start);
     for (std::size_t k = 0; k < system.forces().size(); ++k) {
       if (!system.forces()[k]->effect_on(i).torque) continue;
       if (k < problem.forces.size()) forces.push_back(&problem.forces[k]);
@@ -48,7 +46,8 @@ template <class Top>
 ExactRotation in_world(Top top) {
   return [top](double t) -> RotationAt {
     const auto motion = top.at(t);
-    return {motion.orientation, rotation_matrix(motion.orientation) * motion.angular_velocity_body};
+    return {motion.orientation, rotation_matrix(motion.orientation) * motion.angular_velocity_body,
+            motion.angular_velocity_body};
   };
 }
 
@@ -116,6 +115,12 @@ ExactRotation about_an_axis(const Torques& at) {
 }
 
 }  // namespace
+
+Vector3<double> start_omega_body(const BodyStart& start) {
+  if (start.angular_velocity_in_body) return start.angular_velocity;
+  const Quaternion<double> orientation = start.orientation / start.orientation.norm();
+  return rotation_matrix(orientation).transpose() * start.angular_velocity;
+}
 
 ExactRotation exact_rotation(const System<double>& system, std::size_t body) {
   const Torques at(system, body);

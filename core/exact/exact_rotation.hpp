@@ -13,7 +13,13 @@ namespace polhode::inline core::inline exact {
 struct RotationAt {
   std::optional<Quaternion<double>> orientation;  ///< body to world; absent if only the angular velocity is known
   Vector3<double> angular_velocity;               ///< angular velocity, world axes, rad/s
+  /// The same in body axes; absent if the rotation is no top's.
+  std::optional<Vector3<double>> angular_velocity_body = std::nullopt;
 };
+
+/// The angular velocity of a body at the start, rad/s, body axes.
+Vector3<double> start_omega_body(const BodyStart& start);
+
 /// A rotation as a function of time (s).
 using ExactRotation = std::function<RotationAt(double)>;
 

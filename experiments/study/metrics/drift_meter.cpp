@@ -169,7 +169,13 @@ void DriftMeter::measure_further(const State<double>& state) {
 
 void DriftMeter::measure_errors(const State<double>& state) {
   errors_until_ = state.t;
-  ExactMotion::Error e = exact_.error(system_, state);
+  ExactMotion::Error e;
+  for (std::size_t i = 0; i < system_.moving(); ++i) {
+    const BodySnapshot<double> body = system_.snapshot(state.y, i);
+    const ExactMotion::BodyError one = exact_.error(state.t, i, body);
+    e.raise(one.error);
+    if (polhode_) measure_polhode(state.t, body, one.angular_velocity_body);
+  }
   const double next_kept = t_end_ * static_cast<double>(attitude_errors_.size()) / most_attitude_errors;
   if (e.attitude && state.t >= next_kept * (1 - 1e-12)) attitude_errors_.push_back({state.t, *e.attitude});
   if (follower_) {
@@ -178,14 +184,13 @@ void DriftMeter::measure_errors(const State<double>& state) {
     if (!e.attitude) e.attitude = r.attitude;
     if (!e.angular_velocity) e.angular_velocity = r.angular_velocity;
   }
-  const auto keep = [](std::optional<double>& worst, const std::optional<double>& now) {
-    if (now && !(worst && *now <= *worst)) worst = now;
-  };
-  keep(worst_error_.position, e.position);
-  keep(worst_error_.attitude, e.attitude);
-  keep(worst_error_.angular_velocity, e.angular_velocity);
-  if (!polhode_) return;
-  const PolhodeError::At at = polhode_->at(state.t, system_.snapshot(state.y, 0));
+  worst_error_.raise(e);
+}
+
+void DriftMeter::measure_polhode(double t, const BodySnapshot<double>& body,
+                                 const std::optional<Vector3<double>>& exact_omega) {
+  // On a joint a body has another exact motion than PolhodeError's, which is that of a free one.
+  const PolhodeError::At at = polhode_->at(t, body, system_.has_joints() ? std::nullopt : exact_omega);
   raise_size(worst_polhode_.phase, at.phase);
   raise_size(worst_polhode_.phase_rad, at.phase_rad);
   raise_size(worst_polhode_.off, at.off);

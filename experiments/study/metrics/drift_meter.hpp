@@ -86,6 +86,7 @@ class DriftMeter final : public Observer {
   std::size_t take(std::span<const Sample> samples);
   void follow(const DriftsOfRun& drifts, std::size_t count);
   void measure_errors(const State<double>& state);
+  void measure_polhode(double t, const BodySnapshot<double>& body, const std::optional<Vector3<double>>& exact_omega);
   static void forget_errors(RunResult& result);
   void judge_by_reference(RunResult& result) const;
   void classify(RunResult& result) const;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/exact/exact_rotation.hpp"
+
 namespace polhode::study::inline metrics {
 
 std::optional<PolhodeError> PolhodeError::of(const System<double>& system) {
@@ -13,8 +15,7 @@ std::optional<PolhodeError> PolhodeError::of(const System<double>& system) {
   const bool torque =
       std::any_of(forces.begin(), forces.end(), [](const auto& force) { return force->effect_on(0).torque; });
   if (system.moving() != 1 || torque) return std::nullopt;
-  const BodySnapshot<double> body = system.snapshot(system.start().y, 0);
-  PolhodeError error(system.problem().bodies[0].inertia, body.rotation.transpose() * body.angular_velocity);
+  PolhodeError error(system.problem().bodies[0].inertia, start_omega_body(system.problem().starts[0]));
   if (error.top_.period() == 0) return std::nullopt;
   return error;
 }
@@ -109,11 +110,15 @@ double PolhodeError::nearest_of_ring(double t, const Vector3<double>& y, double 
   return best * search_step_ - t;
 }
 
-PolhodeError::At PolhodeError::at(double t, const BodySnapshot<double>& body) {
+PolhodeError::At PolhodeError::at(double t, const BodySnapshot<double>& body,
+                                  const std::optional<Vector3<double>>& exact_omega) {
   const Vector3<double> y = inertia_ * (body.rotation.transpose() * body.angular_velocity);
   if (!y.allFinite()) return {t, t, std::numeric_limits<double>::infinity()};
   const double expected = phase_ + phase_rate_ * (t - t_);
-  Nearest found = refined(t, y, expected, exact(t + expected));
+  const bool near = std::abs(expected) <= reach_;
+  const double from = near ? 0 : expected;
+  const Momentum start = near && exact_omega ? Momentum{inertia_ * *exact_omega, *exact_omega} : exact(t + from);
+  Nearest found = refined(t, y, from, start);
   // If y is close to the curve, the minimum next to the expected phase is the global one.
   constexpr double close = 0.02;
   if (!(found.distance <= close * size_)) {

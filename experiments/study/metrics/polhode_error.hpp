@@ -31,7 +31,8 @@ class PolhodeError {
 
   /// The error of the body at time t, s. Calls must go forwards in time: the phase continues from that of the last
   /// call, beyond whole periods. Several calls are required for each period by which the phase changes.
-  At at(double t, const BodySnapshot<double>& body);
+  /// exact_omega: exact angular velocity at t, body axes, rad/s, if it is known already; saves its computation.
+  At at(double t, const BodySnapshot<double>& body, const std::optional<Vector3<double>>& exact_omega = {});
 
  private:
   PolhodeError(const Matrix3<double>& inertia, const Vector3<double>& omega_body);
