@@ -189,8 +189,7 @@ void DriftMeter::measure_errors(const State<double>& state) {
 
 void DriftMeter::measure_polhode(double t, const BodySnapshot<double>& body,
                                  const std::optional<Vector3<double>>& exact_omega) {
-  // On a joint a body has another exact motion than PolhodeError's, which is that of a free one.
-  const PolhodeError::At at = polhode_->at(t, body, system_.has_joints() ? std::nullopt : exact_omega);
+  const PolhodeError::At at = polhode_->at(t, body, exact_omega);
   raise_size(worst_polhode_.phase, at.phase);
   raise_size(worst_polhode_.phase_rad, at.phase_rad);
   raise_size(worst_polhode_.off, at.off);

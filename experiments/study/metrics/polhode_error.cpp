@@ -14,7 +14,7 @@ std::optional<PolhodeError> PolhodeError::of(const System<double>& system) {
   const auto& forces = system.forces();
   const bool torque =
       std::any_of(forces.begin(), forces.end(), [](const auto& force) { return force->effect_on(0).torque; });
-  if (system.moving() != 1 || torque) return std::nullopt;
+  if (system.moving() != 1 || torque || system.has_joints()) return std::nullopt;
   PolhodeError error(system.problem().bodies[0].inertia, start_omega_body(system.problem().starts[0]));
   if (error.top_.period() == 0) return std::nullopt;
   return error;

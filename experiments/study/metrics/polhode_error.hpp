@@ -26,7 +26,8 @@ class PolhodeError {
     double off = 0;        ///< relative error off the polhode
   };
 
-  /// Absent unless one body moves, no torque acts, and its body-frame ω varies; otherwise its polhode is a point.
+  /// Absent unless one body moves, no joint and no torque acts on it, and its body-frame ω varies; otherwise its
+  /// polhode is a point.
   static std::optional<PolhodeError> of(const System<double>& system);
 
   /// The error of the body at time t, s. Calls must go forwards in time: the phase continues from that of the last

@@ -121,7 +121,7 @@ TEST(PolhodeError, HasNoMeaningWhereThereIsNoCurve) {
   const Problem sphere = top({1, 1, 1}, {1, 2, 3}), spin = top({1, 2, 3}, {0, 0, 2});
   EXPECT_FALSE(PolhodeError::of(*make_system<double>(sphere, {})));
   EXPECT_FALSE(PolhodeError::of(*make_system<double>(spin, {})));
-  for (const char* name : {"lagrange_top", "spring_box", "two_bodies", "oscillator"}) {
+  for (const char* name : {"lagrange_top", "spring_box", "two_bodies", "oscillator", "ball_joint_top"}) {
     EXPECT_FALSE(PolhodeError::of(*make_system<double>(ScenarioSource::open(name).resolve().problem, {}))) << name;
   }
   EXPECT_TRUE(PolhodeError::of(*make_system<double>(ScenarioSource::open("peters_hsu").resolve().problem, {})));
