@@ -62,8 +62,9 @@ Database::Database(std::filesystem::path path, Access access, Journal journal) :
     sqlite3_vfs* vfs = sqlite3_vfs_find(nullptr);
     return vfs->xSetSystemCall(vfs, "mmap", reinterpret_cast<sqlite3_syscall_ptr>(map_filled));
   }();
-  int flags = SQLITE_OPEN_READONLY | SQLITE_OPEN_NOMUTEX;  // one thread at a time uses a connection
-  if (access != Access::read) flags = SQLITE_OPEN_READWRITE | (access == Access::create ? SQLITE_OPEN_CREATE : 0);
+  int flags = SQLITE_OPEN_NOMUTEX;  // one thread at a time uses a connection
+  flags |= access == Access::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
+  if (access == Access::create) flags |= SQLITE_OPEN_CREATE;
   std::string name = path_.string();
   if (access == Access::read && is_frozen(path_)) {
     name = immutable_uri(path_);
