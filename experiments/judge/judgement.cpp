@@ -74,23 +74,17 @@ std::string csv_of(const StudyView& study, const std::vector<Judged>& judged) {
   for (const Judged& one : judged) {
     const TrajectoryScore& s = one.score;
     const RunResult& r = s.record.result;
-    std::vector<std::string> row = {s.record.config.integrator,
-                                    s.record.config.scenario,
-                                    r.status,
-                                    r.message,
-                                    std::to_string(s.instants),
-                                    exact(s.t_first),
-                                    exact(s.record.config.t_end),
-                                    csv_cell(s.record.config.dt),
-                                    one.diagnosis.name,
-                                    csv_cell(one.diagnosis.factor),
-                                    csv_cell(one.diagnosis.margin),
-                                    polhode_pace(s)};
-    for (const Metric* metric : measured) add(row, csv_cells(*metric, r, study.invariants));
-    row.push_back(csv_cell(s.energy_column_difference_max_rel));
-    for (const Metric* metric : references) add(row, csv_cells(*metric, r, study.invariants));
-    row.push_back(fmt::format("{}", fmt::join(s.notes, "; ")));
-    text += csv_row(row);
+    CsvRow row(text);
+    for (const std::string& cell :
+         {s.record.config.integrator, s.record.config.scenario, r.status, r.message, std::to_string(s.instants),
+          exact(s.t_first), exact(s.record.config.t_end), csv_cell(s.record.config.dt), one.diagnosis.name,
+          csv_cell(one.diagnosis.factor), csv_cell(one.diagnosis.margin), polhode_pace(s)})
+      row.add(cell);
+    for (const Metric* metric : measured) add_csv_cells(row, *metric, r, study.invariants);
+    row.add(s.energy_column_difference_max_rel);
+    for (const Metric* metric : references) add_csv_cells(row, *metric, r, study.invariants);
+    row.add(fmt::format("{}", fmt::join(s.notes, "; ")));
+    row.end();
   }
   return text;
 }

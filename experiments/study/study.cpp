@@ -157,7 +157,7 @@ int write_large_study(const Experiment& experiment, const Options& options, cons
     part->records = std::move(records);
     for (const RunRecord& run : part->records) {
       part->cells.push_back(config_cells(run.config, plan.named));
-      part->results += results.row(run, part->cells.back());
+      results.write(run, part->cells.back(), part->results);
       part->timings += TimingsCsv::row(run);
     }
     return [&, part] {

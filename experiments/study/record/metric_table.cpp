@@ -477,10 +477,6 @@ std::vector<Metric> all_metrics() {
   };
 }
 
-std::string csv_text(const std::optional<double>& x) { return csv_cell(x); }
-std::string csv_text(std::int64_t n) { return std::to_string(n); }
-std::string csv_text(const std::string& text) { return text; }
-
 std::string table_text(const std::optional<double>& x) { return x && std::isfinite(*x) ? number(*x) : ""; }
 std::string table_text(std::int64_t n) { return n > 0 ? std::to_string(n) : ""; }
 std::string table_text(const std::string& text) { return text; }
@@ -517,20 +513,18 @@ std::vector<std::string> csv_columns(const Metric& metric, const std::vector<std
   return columns;
 }
 
-std::vector<std::string> csv_cells(const Metric& metric, const RunResult& result,
-                                   const std::vector<std::string>& invariants) {
-  std::vector<std::string> cells;
+void add_csv_cells(CsvRow& row, const Metric& metric, const RunResult& result,
+                   const std::vector<std::string>& invariants) {
   with_value(metric, result, [&]<class Value>(const Value& value) {
     if constexpr (by_invariant<Value>) {
       for (const std::string& invariant : invariants) {
         const auto found = value.find(invariant);
-        cells.push_back(found == value.end() ? "" : exact(found->second));
+        row.add(found == value.end() ? std::nullopt : std::optional(found->second));
       }
     } else {
-      cells.push_back(csv_text(value));
+      row.add(value);
     }
   });
-  return cells;
 }
 
 std::string table_cell(const Metric& metric, const RunResult& result) {

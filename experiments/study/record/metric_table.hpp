@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "experiments/study/record/run_record.hpp"
+#include "experiments/study/text/csv.hpp"
 
 namespace polhode::study::inline record {
 
@@ -117,9 +118,9 @@ void with_value(const Metric& metric, Result& result, const Use& use) {
 /// Columns of the metric in runs.csv: one, or one for each of the invariants.
 std::vector<std::string> csv_columns(const Metric& metric, const std::vector<std::string>& invariants);
 
-/// The cells below csv_columns(), with all digits; empty if the number is absent or not finite.
-std::vector<std::string> csv_cells(const Metric& metric, const RunResult& result,
-                                   const std::vector<std::string>& invariants);
+/// Adds the cells below csv_columns(), with all digits; empty if the number is absent or not finite.
+void add_csv_cells(CsvRow& row, const Metric& metric, const RunResult& result,
+                   const std::vector<std::string>& invariants);
 
 /// The cell of the tables of runs: the number in the format of number(). Empty if the number is absent or not finite,
 /// for a count of 0, and for a metric with one number per invariant.

@@ -152,11 +152,12 @@ RunsCsv::RunsCsv(const StudyView& study)
   file_.add(csv_row(header));
 }
 
-std::string RunsCsv::row(const RunRecord& run, const std::vector<std::string>& cells) const {
-  std::vector<std::string> row = {run.id};
-  add_to(row, cells);
-  for (const Metric* metric : metrics_) add_to(row, csv_cells(*metric, run.result, invariants_));
-  return csv_row(row);
+void RunsCsv::write(const RunRecord& run, const std::vector<std::string>& cells, std::string& rows) const {
+  CsvRow row(rows);
+  row.add(run.id);
+  for (const std::string& cell : cells) row.add(cell);
+  for (const Metric* metric : metrics_) add_csv_cells(row, *metric, run.result, invariants_);
+  row.end();
 }
 
 TimingsCsv::TimingsCsv(const StudyView& study) : file_(study.folder / "timings.csv") {
@@ -171,7 +172,12 @@ std::string TimingsCsv::row(const RunRecord& run) {
 
 void write_runs_csv(const StudyView& study) {
   RunsCsv file(study);
-  for (const RunRecord& run : study.runs) file.add(file.row(run, config_cells(run.config, study.named)));
+  std::string row;
+  for (const RunRecord& run : study.runs) {
+    row.clear();
+    file.write(run, config_cells(run.config, study.named), row);
+    file.add(row);
+  }
   file.finish();
 }
 

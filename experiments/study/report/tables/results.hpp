@@ -18,8 +18,8 @@ class RunsCsv {
  public:
   /// `study`: all of it, or a sample of its runs. Throws WriteError, as the other members do.
   explicit RunsCsv(const StudyView& study);
-  /// The row of a run. `cells`: those of the run below config_columns(). Thread-safe.
-  std::string row(const RunRecord& run, const std::vector<std::string>& cells) const;
+  /// Appends the row of a run to the rows. `cells`: those of the run below config_columns(). Thread-safe.
+  void write(const RunRecord& run, const std::vector<std::string>& cells, std::string& rows) const;
   void add(const std::string& rows) { file_.add(rows); }
   void finish() { file_.finish(); }
 
