@@ -158,7 +158,7 @@ int write_large_study(const Experiment& experiment, const Options& options, cons
     for (const RunRecord& run : part->records) {
       part->cells.push_back(config_cells(run.config, plan.named));
       results.write(run, part->cells.back(), part->results);
-      part->timings += TimingsCsv::row(run);
+      TimingsCsv::write(run, part->timings);
     }
     return [&, part] {
       results.add(part->results);

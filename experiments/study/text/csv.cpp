@@ -40,9 +40,14 @@ void CsvRow::add(std::int64_t number) {
   append(text_, number);
 }
 
-void CsvRow::add(const std::optional<double>& number) {
+void CsvRow::add(double number) {
   separate();
-  if (number && std::isfinite(*number)) append(text_, *number);
+  if (std::isfinite(number)) append(text_, number);
+}
+
+void CsvRow::add(const std::optional<double>& number) {
+  if (number) add(*number);
+  else separate();
 }
 
 std::string csv_row(const std::vector<std::string>& cells) {

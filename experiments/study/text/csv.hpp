@@ -22,6 +22,7 @@ class CsvRow {
   void add(std::string_view cell);
   void add(std::int64_t number);
   /// A number with all its digits; an empty cell if it is absent or not finite.
+  void add(double number);
   void add(const std::optional<double>& number);
   void end() { text_ += '\n'; }
 

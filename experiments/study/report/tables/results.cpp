@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -164,10 +165,14 @@ TimingsCsv::TimingsCsv(const StudyView& study) : file_(study.folder / "timings.c
   file_.add("run,wall_s,steps,wall_per_step_s\n");
 }
 
-std::string TimingsCsv::row(const RunRecord& run) {
+void TimingsCsv::write(const RunRecord& run, std::string& rows) {
   const RunResult& r = run.result;
-  return fmt::format("{},{},{},{}\n", run.id, exact(r.seconds), r.steps,
-                     r.steps > 0 ? exact(r.seconds / static_cast<double>(r.steps)) : "");
+  CsvRow row(rows);
+  row.add(run.id);
+  row.add(r.seconds);
+  row.add(r.steps);
+  row.add(r.steps > 0 ? std::optional(r.seconds / static_cast<double>(r.steps)) : std::nullopt);
+  row.end();
 }
 
 void write_runs_csv(const StudyView& study) {
@@ -183,7 +188,12 @@ void write_runs_csv(const StudyView& study) {
 
 void write_timings_csv(const StudyView& study) {
   TimingsCsv file(study);
-  for (const RunRecord& run : study.runs) file.add(TimingsCsv::row(run));
+  std::string row;
+  for (const RunRecord& run : study.runs) {
+    row.clear();
+    TimingsCsv::write(run, row);
+    file.add(row);
+  }
   file.finish();
 }
 

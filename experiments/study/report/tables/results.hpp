@@ -33,7 +33,8 @@ class RunsCsv {
 class TimingsCsv {
  public:
   explicit TimingsCsv(const StudyView& study);
-  static std::string row(const RunRecord& run);
+  /// Appends the row of a run to the rows.
+  static void write(const RunRecord& run, std::string& rows);
   void add(const std::string& rows) { file_.add(rows); }
   void finish() { file_.finish(); }
 
