@@ -91,8 +91,9 @@ class Keeper {
 
  private:
   void loop() {
+    std::vector<RunRecord> records;  // changes places with pending_, so that neither list grows anew each time
     for (bool last = false; !last;) {
-      std::vector<RunRecord> records;
+      records.clear();
       {
         std::unique_lock lock(mutex_);
         wake_.wait_for(lock, between_commits, [this] { return finished_; });
