@@ -621,10 +621,10 @@ std::string summary_of(const Declaration& method) {
   return text;
 }
 
-std::string text_of(const OptionValue& value) {
+std::string text_of(OptionValue value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
   if (const auto* number = std::get_if<double>(&value)) return exact(*number);
-  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (auto* text = std::get_if<std::string>(&value)) return std::move(*text);
   return {};
 }
 
@@ -655,8 +655,8 @@ std::vector<std::string> config_columns(const std::vector<std::string>& varied_k
 }
 
 std::string config_cell(const RunOption& option, const RunConfig& config) {
-  const OptionValue value = applied(option, config);
-  return option.kind == Kind::flag && value != OptionValue{} ? "on" : text_of(value);
+  OptionValue value = applied(option, config);
+  return option.kind == Kind::flag && value != OptionValue{} ? "on" : text_of(std::move(value));
 }
 
 const RunOption* option_of_column(const std::string& column) {
@@ -668,6 +668,7 @@ const RunOption* option_of_column(const std::string& column) {
 
 std::vector<std::string> config_cells(const RunConfig& config, const NamedOptions& named, Roles without) {
   std::vector<std::string> cells;
+  cells.reserve(options_by_column().size() + config.varied.size());
   for (const RunOption* option : options_by_column()) {
     if (has_column(*option, named, without)) cells.push_back(config_cell(*option, config));
   }

@@ -109,7 +109,7 @@ std::string values_in_studies(const RunOption& option);
 std::string summary_of(const Declaration& method);
 
 /// The value as text, with all digits; empty if there is no value.
-std::string text_of(const OptionValue& value);
+std::string text_of(OptionValue value);
 /// The value for readers: "gyroscopic on", "matrix", "order 5"; empty if the run has no value of the option.
 std::string label_of(const RunOption& option, const RunConfig& config);
 /// True if the run has no value of the option, the option's usual value, or the value that the run `usual` has.

@@ -326,6 +326,7 @@ void StudyRuns::for_each_part(const std::function<UsePart(std::vector<RunRecord>
     std::vector<RunRecord> records;
     Variants variants;
     const std::size_t first = part * at_a_time, end = std::min(first + at_a_time, plan_.size());
+    records.reserve(end - first);
     for (std::size_t i = first; i < end; ++i) {
       if (plan_.rows[i].refused) {
         PlannedRun run = plan_.run(i, &variants);
