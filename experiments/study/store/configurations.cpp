@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/store/configurations.hpp"
 
+#include <algorithm>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -31,34 +33,53 @@ OptionValue option_of_value(const Value& value) {
       value);
 }
 
-}  // namespace
-
-Configuration configuration_of(const RunConfig& config) {
-  Configuration values;
+/// The entries of configuration_of(), in any order.
+std::vector<std::pair<std::string, OptionValue>> entries_of(const RunConfig& config) {
+  std::vector<std::pair<std::string, OptionValue>> entries;
+  entries.reserve(run_options().size());
   for (const RunOption& option : run_options()) {
     if (!option.applies_to(config)) continue;
     OptionValue value = option.value(config);
     if (value != OptionValue{})
-      values.emplace(option.column.empty() ? file_key(option) : option.column, std::move(value));
+      entries.emplace_back(option.column.empty() ? file_key(option) : option.column, std::move(value));
   }
-  return values;
+  return entries;
 }
 
-std::int64_t key_of(const Configuration& configuration) {
+template <class Entries>
+std::int64_t key_of_entries(const Entries& entries) {
+  std::vector<std::pair<std::string_view, Value>> sorted;
+  sorted.reserve(entries.size());
+  for (const auto& [name, value] : entries) sorted.emplace_back(name, value_of_option(value));
+  std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Value> values;
-  for (const auto& [name, value] : configuration) {
-    values.emplace_back(std::string_view(name));
-    values.push_back(value_of_option(value));
-  }
+  values.reserve(2 * sorted.size());
+  for (const auto& [name, value] : sorted) values.insert(values.end(), {name, value});
   return checksum_of(0, values);
 }
+
+}  // namespace
+
+Configuration configuration_of(const RunConfig& config) {
+  const auto entries = entries_of(config);
+  return {entries.begin(), entries.end()};
+}
+
+std::int64_t key_of(const Configuration& configuration) { return key_of_entries(configuration); }
+std::int64_t configuration_key(const RunConfig& config) { return key_of_entries(entries_of(config)); }
 
 std::string varied_text(const RunConfig& config) {
   std::string text;
   for (const Override& varied : config.varied) {
     if (varied.value.empty()) continue;
-    text += (text.empty() ? "" : "\n") + varied.key + "=";
-    for (const char c : varied.value) text += c == '\\' ? "\\\\" : c == '\n' ? "\\n" : std::string(1, c);
+    if (!text.empty()) text += '\n';
+    text += varied.key;
+    text += '=';
+    for (const char c : varied.value) {
+      if (c == '\\') text += "\\\\";
+      else if (c == '\n') text += "\\n";
+      else text += c;
+    }
   }
   return text;
 }

@@ -21,6 +21,7 @@ Configuration configuration_of(const RunConfig& config);
 
 /// Key of a configuration: the checksum of its names and values (value.hpp). Equal in every store.
 std::int64_t key_of(const Configuration& configuration);
+std::int64_t configuration_key(const RunConfig& config);  ///< the key of its configuration
 
 /// The varied keys of the scenario, "key=value" in a line each; `\` and line breaks in a value are written `\\` and
 /// `\n`. Keys that the run leaves unchanged are left out.

@@ -163,11 +163,12 @@ bool Statement::step() {
 
 void Statement::reset() { sqlite3_reset(statement_.get()); }
 
-void Statement::run(std::span<const Value> parameters) {
+int Statement::run(std::span<const Value> parameters) {
   for (std::size_t k = 0; k < parameters.size(); ++k) bind(static_cast<int>(k) + 1, parameters[k]);
   while (step()) {
   }
   reset();
+  return sqlite3_changes(db_->handle());
 }
 
 Value Statement::value(int column) const {

@@ -55,8 +55,9 @@ class Statement {
  public:
   Statement(const Database& db, const std::string& sql);
 
-  /// Sets the parameters, the first of which has the number 1, and carries the statement out to its end.
-  void run(std::span<const Value> parameters);
+  /// Sets the parameters, the first of which has the number 1, and carries the statement out to its end. Returns the
+  /// number of rows that an INSERT or DELETE has added or deleted.
+  int run(std::span<const Value> parameters);
 
   void bind(int parameter, const Value& value);  ///< counted from 1; a text or a blob must live until the next step()
   bool step();                                   ///< advances to the next row; false if there is none

@@ -159,11 +159,10 @@ ResultColumn has_curves_column() {
 }
 
 ResultColumn configuration_key_column() {
-  return {
-      .name = std::string(configuration_column),
-      .type = "INTEGER",
-      .value = [](const RunRecord& record, std::string&) -> Value { return key_of(configuration_of(record.config)); },
-      .put = [](const Value& stored, RunResult&) { return std::holds_alternative<std::int64_t>(stored); }};
+  return {.name = std::string(configuration_column),
+          .type = "INTEGER",
+          .value = [](const RunRecord& record, std::string&) -> Value { return configuration_key(record.config); },
+          .put = [](const Value& stored, RunResult&) { return std::holds_alternative<std::int64_t>(stored); }};
 }
 
 ResultColumn varied_text_column() {
@@ -216,13 +215,13 @@ std::string ResultTable::definition() const {
   return text + ", checksum INTEGER)";
 }
 
-std::string ResultTable::insertion() const {
+std::string ResultTable::insertion(std::string_view else_do) const {
   std::string names = has_id ? "number, id" : "number", parameters = has_id ? "?,?" : "?";
   for (const ResultColumn& column : columns) {
     names += ", " + quoted_name(column.name);
     parameters += ",?";
   }
-  return fmt::format("INSERT OR REPLACE INTO {} ({}, checksum) VALUES ({},?)", name, names, parameters);
+  return fmt::format("INSERT OR {} INTO {} ({}, checksum) VALUES ({},?)", else_do, name, names, parameters);
 }
 
 void ResultTable::check(const Database& db) const {

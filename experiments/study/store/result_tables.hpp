@@ -37,8 +37,8 @@ struct ResultTable {
   bool has_id = false;                ///< true for `runs`
 
   std::string definition() const;  ///< CREATE TABLE …
-  /// INSERT OR REPLACE …, with parameters for `number`, `id` if there is one, the columns and `checksum`.
-  std::string insertion() const;
+  /// INSERT OR `else_do` …, with parameters for `number`, `id` if there is one, the columns and `checksum`.
+  std::string insertion(std::string_view else_do) const;
   /// Throws std::runtime_error if the table in the database has other columns, or columns of other types.
   void check(const Database& db) const;
 };

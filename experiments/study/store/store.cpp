@@ -113,6 +113,7 @@ class Store::Writer {
   Writer(const Database& db, const Tables& tables)
       : metrics_(tables.metrics),
         runs_(db, tables.runs),
+        new_run_(db, tables.runs.insertion("IGNORE")),
         curves_(db, tables.curves),
         timings_(db, tables.timings),
         configurations_(db),
@@ -137,11 +138,14 @@ class Store::Writer {
       }
     }
     const std::int64_t id = key_of(record.id);
-    number_.bind(1, id);
-    const bool known = number_.step();
-    const std::int64_t number = known ? number_.integer(0) : next_++;
-    number_.reset();
-    runs_.write(number, id, record);
+    std::int64_t number = next_;
+    const bool known = new_run_.run(runs_.row.values(number, id, record)) == 0;
+    if (known) {
+      number = number_of(id);
+      runs_.write(number, id, record);
+    } else {
+      ++next_;
+    }
     timings_.write(number, id, record);
     configurations_.keep(runs_.row.integer(configuration_column), record.config);
     if (!record.result.series.empty() || !record.result.attitude_errors.empty()) {
@@ -154,7 +158,7 @@ class Store::Writer {
 
  private:
   struct Rows {
-    Rows(const Database& db, const ResultTable& table) : row(table), insertion(db, table.insertion()) {}
+    Rows(const Database& db, const ResultTable& table) : row(table), insertion(db, table.insertion("REPLACE")) {}
     void write(std::int64_t number, std::int64_t id, const RunRecord& record) {
       insertion.run(row.values(number, id, record));
     }
@@ -163,8 +167,19 @@ class Store::Writer {
     Statement insertion;
   };
 
+  /// The number of a run that is there.
+  std::int64_t number_of(std::int64_t id) {
+    number_.bind(1, id);
+    number_.step();
+    const std::int64_t number = number_.integer(0);
+    number_.reset();
+    return number;
+  }
+
   std::span<const Metric> metrics_;
-  Rows runs_, curves_, timings_;
+  Rows runs_;
+  Statement new_run_;  // stores a run, unless one with its id is there
+  Rows curves_, timings_;
   ConfigurationWriter configurations_;
   Statement number_, drop_curves_, last_;
   std::int64_t next_ = 1;
