@@ -25,7 +25,12 @@ using NamedNumbers = std::map<std::string, double>;
 /// "name=value " of each entry; names are identifiers, values have all digits.
 std::string text_of_numbers(const NamedNumbers& numbers) {
   std::string text;
-  for (const auto& [name, number] : numbers) text += name + "=" + exact(number) + " ";
+  for (const auto& [name, number] : numbers) {
+    text += name;
+    text += '=';
+    text += exact(number);
+    text += ' ';
+  }
   return text;
 }
 
@@ -71,9 +76,9 @@ bool put_value(const Metric& metric, const Value& stored, RunResult& result) {
       if (sound) value = *text;
     } else {
       const auto* text = std::get_if<std::string_view>(&stored);
-      const auto numbers = text ? numbers_of_text(*text) : std::nullopt;
+      auto numbers = text ? numbers_of_text(*text) : std::nullopt;
       sound = numbers.has_value();
-      if (sound) value = *numbers;
+      if (sound) value = std::move(*numbers);
     }
   });
   return sound;

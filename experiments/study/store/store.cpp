@@ -189,11 +189,12 @@ class Store::Writer {
 class Store::Reader {
  public:
   Reader(const Database& db, const Tables& tables, Curves curves, const std::string& condition)
-      : runs_(tables.runs, 1), timings_(tables.timings, 1 + runs_.size()) {
-    std::string columns = "runs.id, " + RowReader::selection(tables.runs) + ", " + RowReader::selection(tables.timings);
+      : runs_(tables.runs, 2), timings_(tables.timings, 2 + runs_.size()) {
+    std::string columns =
+        "runs.id, runs.number, " + RowReader::selection(tables.runs) + ", " + RowReader::selection(tables.timings);
     std::string joined = "runs LEFT JOIN timings ON timings.number = runs.number";
     if (curves == Curves::with) {
-      curves_.emplace(tables.curves, 1 + runs_.size() + timings_.size());
+      curves_.emplace(tables.curves, 2 + runs_.size() + timings_.size());
       columns += ", " + RowReader::selection(tables.curves);
       joined += " LEFT JOIN curves ON curves.number = runs.number";
     }
@@ -201,20 +202,22 @@ class Store::Reader {
   }
 
   Statement& statement() { return *select_; }
+  std::int64_t id() const { return select_->integer(0); }      ///< id of the run of the present row
+  std::int64_t number() const { return select_->integer(1); }  ///< number of that row
 
   /// The run of the present row.
   StoredRun read() {
     StoredRun run;
-    const std::int64_t id = select_->integer(0);
-    run.id = id_of_key(id);
-    run.damage = runs_.read(*select_, id, run.result);
+    const std::int64_t key = id();
+    run.id = id_of_key(key);
+    run.damage = runs_.read(*select_, key, run.result);
     if (run.damage.empty()) {
       run.configuration = std::get<std::int64_t>(runs_.value(configuration_column));
       run.varied = std::get<std::string_view>(runs_.value(varied_column));
     }
-    if (run.damage.empty()) run.damage = timings_.read(*select_, id, run.result);
+    if (run.damage.empty()) run.damage = timings_.read(*select_, key, run.result);
     if (run.damage.empty() && curves_ && is_integer(runs_.value(has_curves), 1))
-      run.damage = curves_->read(*select_, id, run.result);
+      run.damage = curves_->read(*select_, key, run.result);
     return run;
   }
 
@@ -234,8 +237,33 @@ Store::Store(const std::filesystem::path& folder, std::span<const Metric> metric
 
 Store::~Store() = default;
 
-Store::Reading::Reading(const Database& db) : db_(db) { db_.execute("BEGIN"); }
-Store::Reading::~Reading() { sqlite3_exec(db_.handle(), "COMMIT", nullptr, nullptr, nullptr); }
+Store::Reading::Reading(const Store& store) : store_(store) {
+  auto& reader = store_.from_number_;
+  if (!reader) {
+    reader =
+        std::make_unique<Reader>(store_.db_, *store_.tables_, Curves::without,
+                                 " WHERE runs.number >= (SELECT number FROM runs WHERE id = ?) ORDER BY runs.number");
+  }
+  store_.db_.execute("BEGIN");
+}
+
+Store::Reading::~Reading() {
+  store_.from_number_->statement().reset();
+  sqlite3_exec(store_.db_.handle(), "COMMIT", nullptr, nullptr, nullptr);
+}
+
+std::optional<StoredRun> Store::Reading::find(const std::string& id) {
+  Reader& reader = *store_.from_number_;
+  Statement& rows = reader.statement();
+  const std::int64_t key = key_of(id);
+  if (!in_order_ || !rows.step() || reader.id() != key) {
+    rows.reset();
+    rows.bind(1, key);
+    if (!rows.step()) return std::nullopt;
+  }
+  in_order_ = reader.number() == std::exchange(number_, reader.number()) + 1;
+  return reader.read();
+}
 
 void Store::for_each(Curves curves, const std::function<void(StoredRun&&)>& use) const {
   Reader reader(db_, *tables_, curves, " ORDER BY runs.number");

@@ -61,18 +61,21 @@ class Store {
   void for_each(Curves curves, const std::function<void(StoredRun&&)>& use) const;
   /// The run with this id; absent if there is none.
   std::optional<StoredRun> find(const std::string& id, Curves curves) const;
-  /// While it lives, find() reads within one transaction, which is faster for many runs.
+  /// Reads many runs, without curves, in one transaction.
   class Reading {
    public:
-    explicit Reading(const Database& db);
+    explicit Reading(const Store& store);
     ~Reading();
     Reading(const Reading&) = delete;
     Reading& operator=(const Reading&) = delete;
+    /// The run with this id; absent if there is none. Runs are read faster in the order in which they were stored.
+    std::optional<StoredRun> find(const std::string& id);
 
    private:
-    const Database& db_;
+    const Store& store_;
+    std::int64_t number_ = 0;  // number of the row that was read last
+    bool in_order_ = false;    // that row follows the one before
   };
-  Reading reading() const { return Reading(db_); }
   std::vector<std::uint64_t> ids() const;  ///< ids of all runs, damaged ones too, in ascending order
   /// Ids of the runs, damaged ones too, that begin with these 1 to 16 hexadecimal digits, in ascending order.
   std::vector<std::string> ids_with(const std::string& beginning) const;
@@ -118,6 +121,7 @@ class Store {
   std::unique_ptr<const Tables> tables_;
   std::unique_ptr<Writer> writer_;                             ///< made at the first keep()
   mutable std::unique_ptr<Reader> finder_, finder_of_curves_;  ///< made at the first find()
+  mutable std::unique_ptr<Reader> from_number_;                ///< made by the first Reading
 };
 
 }  // namespace polhode::study::store

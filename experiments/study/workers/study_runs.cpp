@@ -339,9 +339,10 @@ void StudyRuns::for_each_part(const std::function<UsePart(std::vector<RunRecord>
     }
     {
       const std::lock_guard lock(reading);
-      const Store::Reading all = store_.reading();
+      Store::Reading stored(store_);
       for (std::size_t i = first; i < end; ++i) {
-        if (!plan_.rows[i].refused) records[i - first].result = result(i, Curves::without);
+        RunRecord& record = records[i - first];
+        if (!plan_.rows[i].refused) record.result = result_of(i, stored.find(record.id));
       }
     }
     return make(std::move(records));
@@ -349,7 +350,11 @@ void StudyRuns::for_each_part(const std::function<UsePart(std::vector<RunRecord>
 }
 
 RunResult StudyRuns::result(std::size_t run, Curves curves) const {
-  auto stored = store_.find(id_of_number(plan_.rows[run].id), curves);
+  return result_of(run, store_.find(id_of_number(plan_.rows[run].id), curves));
+}
+
+/// The result of a run as it was found in the own store. Throws std::runtime_error if it is none.
+RunResult StudyRuns::result_of(std::size_t run, std::optional<StoredRun>&& stored) const {
   if (!stored || !stored->damage.empty()) {
     throw std::runtime_error(fmt::format("{}: run {} cannot be read back ({})", (own_ / Store::file_name).string(),
                                          id_of_number(plan_.rows[run].id), stored ? stored->damage : "it is gone"));

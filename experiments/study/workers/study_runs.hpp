@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -67,6 +68,7 @@ class StudyRuns {
   bool is_whole(std::size_t run, const RunResult& result) const;
   std::size_t count(Place place) const;
   void run(const std::vector<std::uint32_t>& runs, Interruption& interruption);
+  RunResult result_of(std::size_t run, std::optional<StoredRun>&& stored) const;
 
   const Experiment& experiment_;
   const Options& options_;
