@@ -9,7 +9,6 @@
 
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/notation.hpp"
-#include "experiments/study/text/value_lists.hpp"
 
 namespace polhode::study::inline record {
 namespace {

@@ -22,7 +22,6 @@
 #include "experiments/study/text/build_info.hpp"
 #include "experiments/study/text/csv.hpp"
 #include "experiments/study/text/text_file.hpp"
-#include "experiments/study/text/value_lists.hpp"
 
 namespace polhode::study::inline report::inline tables {
 namespace {
