@@ -197,17 +197,19 @@ std::vector<std::string> tex_names(const StudyView& study, std::span<const std::
 
 namespace {
 
-/// Commands of the runs at these places of `shown`.
-std::string values_of(const StudyView& study, std::span<const std::size_t> shown, const std::vector<std::string>& names,
-                      const std::vector<std::size_t>& places) {
-  std::string out;
+/// Adds the commands of the runs at these places of `shown`.
+void add_values(std::string& out, const StudyView& study, std::span<const std::size_t> shown,
+                const std::vector<std::string>& names, const std::vector<std::size_t>& places) {
   const auto metrics = in_table_order(study.metrics);
+  std::size_t longest = out.size();          // of the whole text, so that it never moves as it grows
+  constexpr std::size_t longest_rest = 100;  // of a line, besides the name of its run
+  for (const std::size_t k : places) longest += (metrics.size() + 1) * (names[k].size() + longest_rest);
+  out.reserve(longest);
   for (const std::size_t k : places) {
     const RunRecord& run = study.runs[shown[k]];
     out += fmt::format("\n% {}{}\n", one_line(run.id), completed(run) ? "" : ", " + one_line(run.result.status));
     define_run(out, names[k], run.result, metrics);
   }
-  return out;
 }
 
 /// The comment at the beginning of a file with the runs at these places, the first completed one as the example.
@@ -236,7 +238,7 @@ void write_tex_values(const StudyView& study, std::span<const std::size_t> shown
     out +=
         "% The runs of a method are in a file of their own, since TeX cannot hold all: \\input{values_METHOD.tex}.\n";
   define_count(out, "polhode", "Runs", static_cast<std::int64_t>(study.size()));
-  if (one_file) out += values_of(study, shown, names, all);
+  if (one_file) add_values(out, study, shown, names, all);
   define_slopes(out, study, shown);
   write_text(folder / "values.tex", out);
   for (const auto& [method, all_of_method] : places) {
@@ -249,7 +251,8 @@ void write_tex_values(const StudyView& study, std::span<const std::size_t> shown
     std::string text = head(study, shown, names, those, file);
     if (those.size() < all_of_method.size())
       text += fmt::format("% {} of {} runs; runs.csv has all of them.\n", those.size(), all_of_method.size());
-    write_text(folder / file, text + values_of(study, shown, names, those));
+    add_values(text, study, shown, names, those);
+    write_text(folder / file, text);
   }
 }
 
