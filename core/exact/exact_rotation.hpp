@@ -13,7 +13,7 @@ namespace polhode::inline core::inline exact {
 struct RotationAt {
   std::optional<Quaternion<double>> orientation;  ///< body to world; absent if only the angular velocity is known
   Vector3<double> angular_velocity;               ///< angular velocity, world axes, rad/s
-  /// The same in body axes; absent if the rotation is no top's.
+  /// The same in body axes; absent unless the rotation is that of a top.
   std::optional<Vector3<double>> angular_velocity_body = std::nullopt;
 };
 

@@ -167,11 +167,10 @@ class Store::Writer {
     Statement insertion;
   };
 
-  /// The number of a run that is there.
+  /// The number of a run that is there. Where there is none, a damaged row has the next number, and is replaced.
   std::int64_t number_of(std::int64_t id) {
     number_.bind(1, id);
-    number_.step();
-    const std::int64_t number = number_.integer(0);
+    const std::int64_t number = number_.step() ? number_.integer(0) : next_;
     number_.reset();
     return number;
   }
