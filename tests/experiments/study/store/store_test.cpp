@@ -85,7 +85,8 @@ TEST(Store, RunsAreReadOneAfterAnotherInAnyOrder) {
   const Store store(folder.path());
   for (int time = 0; time < 2; ++time) {
     Store::Reading reading(store);
-    for (const std::size_t k : {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 9, 8, 7, 0, 1, 2, 6, 3, 5, 4, 5, 9, 0}) {
+    for (const std::size_t k :
+         {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 9U, 8U, 7U, 0U, 1U, 2U, 6U, 3U, 5U, 4U, 5U, 9U, 0U}) {
       const auto found = reading.find(runs[k].id);
       ASSERT_EQ(found.has_value(), k != 6) << k;
       if (!found) continue;
