@@ -245,13 +245,19 @@ Beside::Beside(const Regression& behind, const Spectrum& c) : behind_(behind), r
 Fit Beside::fit(const Spectrum& x, const Spectrum& z) const {
   const Index n = rest_.size();
   const Spectrum x_free = behind_.rest_of(x), z_free = behind_.rest_of(z);
+  // Calls use(x8, z8, c8, weight) with eight numbers of each side by side.
+  const auto for_all = [&](const auto& use) {
+    for_each_eight(n, [&](Index i, auto count) {
+      Eight x8, z8, c8, weight;
+      read(x8, &x_free[i], count);
+      read(z8, &z_free[i], count);
+      read(c8, &rest_[i], count);
+      read(weight, &behind_.weight_[i], count);
+      use(x8, z8, c8, weight);
+    });
+  };
   Eight sums[5] = {};
-  for_each_eight(n, [&](Index i, auto count) {
-    Eight x8, z8, c8, weight;
-    read(x8, &x_free[i], count);
-    read(z8, &z_free[i], count);
-    read(c8, &rest_[i], count);
-    read(weight, &behind_.weight_[i], count);
+  for_all([&](const Eight& x8, const Eight& z8, const Eight& c8, const Eight& weight) {
     const Eight x_weighted = x8 * weight, z_weighted = z8 * weight;
     sums[0] += x8 * x_weighted;
     sums[1] += x8 * z_weighted;
@@ -269,12 +275,7 @@ Fit Beside::fit(const Spectrum& x, const Spectrum& z) const {
   f.covariance.resize(2, 2);
   f.covariance << 1 / xx + ratio * ratio / pivot, -ratio / pivot, -ratio / pivot, 1 / pivot;
   Eight squares = {};
-  for_each_eight(n, [&](Index i, auto count) {
-    Eight x8, z8, c8, weight;
-    read(x8, &x_free[i], count);
-    read(z8, &z_free[i], count);
-    read(c8, &rest_[i], count);
-    read(weight, &behind_.weight_[i], count);
+  for_all([&](const Eight& x8, const Eight& z8, const Eight& c8, const Eight& weight) {
     const Eight rest = c8 - f.coefficients[0] * x8 - f.coefficients[1] * z8;
     squares += rest * (rest * weight);
   });
