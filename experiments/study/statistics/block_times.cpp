@@ -28,10 +28,6 @@ Regressors with_edges(const Regressors& x, const Cosines& cosines) {
   return both;
 }
 
-Regression with_shape(const Regressors& x, const Cosines::Shape& noise) {
-  return {x, noise.variance.head(x.rows()), noise.sum_of_logs[x.rows() - 1]};
-}
-
 }  // namespace
 
 BlockTimes::BlockTimes(const Vector& t)
@@ -39,24 +35,33 @@ BlockTimes::BlockTimes(const Vector& t)
       log_t_(t.array().log()),
       cosines_(cosines_of(t.size())),
       polynomial_(polynomial_of(*cosines_, t)),
-      flat_(polynomial_, Spectrum::Ones(polynomial_.rows())),
+      flat_(polynomial_, cosines_->shapes.front().inverse, 0),
       orthonormal_(orthonormal_polynomials(t)) {
   for (std::size_t k = 0; k < first_exponents.size(); ++k) {
     first_powers_[k] = power(first_exponents[k], cosines_->size);
   }
 }
 
-const Regression& BlockTimes::regression(Trend trend, Index count, std::size_t shape) {
-  std::optional<Regression>& made = regressions_[{trend, count}][shape];
-  if (made) return *made;
-  const Cosines::Shape& noise = cosines_->shapes[shape];
-  switch (trend) {
-    case Trend::polynomial: made = with_shape(polynomial_.topRows(count), noise); break;
-    case Trend::none: made = with_shape(cosines_->edges(count), noise); break;
-    case Trend::line: made = with_shape(with_edges(polynomial_.topLeftCorner(count, 1), *cosines_), noise); break;
-    case Trend::curve: made = with_shape(with_edges(polynomial_.topRows(count), *cosines_), noise); break;
+const Regression& BlockTimes::with_shape(Shaped& all, std::size_t shape) const {
+  std::optional<Regression>& made = all.made[shape];
+  if (!made) {
+    const Cosines::Shape& noise = cosines_->shapes[shape];
+    made.emplace(all.x, noise.inverse, noise.sum_of_logs[all.x.rows() - 1]);
   }
   return *made;
+}
+
+const Regression& BlockTimes::regression(Trend trend, Index count, std::size_t shape) {
+  Shaped& all = regressions_[{trend, count}];
+  if (all.x.size() == 0) {
+    switch (trend) {
+      case Trend::polynomial: all.x = polynomial_.topRows(count); break;
+      case Trend::none: all.x = cosines_->edges(count); break;
+      case Trend::line: all.x = with_edges(polynomial_.topLeftCorner(count, 1), *cosines_); break;
+      case Trend::curve: all.x = with_edges(polynomial_.topRows(count), *cosines_); break;
+    }
+  }
+  return with_shape(all, shape);
 }
 
 BlockTimes::Power BlockTimes::power(double p, Index count) const {
@@ -69,9 +74,9 @@ BlockTimes::Power BlockTimes::first_power(std::size_t k, Index count) const {
 }
 
 const Regression& BlockTimes::first_regression(std::size_t k, Index count, std::size_t shape) {
-  std::optional<Regression>& made = first_regressions_[count][k][shape];
-  if (!made) made = with_shape(with_edges(first_powers_[k].value.head(count), *cosines_), cosines_->shapes[shape]);
-  return *made;
+  Shaped& all = first_regressions_[count][k];
+  if (all.x.size() == 0) all.x = with_edges(first_powers_[k].value.head(count), *cosines_);
+  return with_shape(all, shape);
 }
 
 BlockTimes& block_times(const Vector& t) {

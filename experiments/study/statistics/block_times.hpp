@@ -20,6 +20,8 @@ class BlockTimes {
  public:
   /// t: times of the blocks over that of the last one, all above 0.
   explicit BlockTimes(const Vector& t);
+  BlockTimes(const BlockTimes&) = delete;
+  BlockTimes& operator=(const BlockTimes&) = delete;
 
   const Cosines& cosines() const { return *cosines_; }
   const Vector& t() const { return t_; }
@@ -48,7 +50,12 @@ class BlockTimes {
  private:
   friend BlockTimes& block_times(const Vector& t);
   using Key = std::pair<Trend, Index>;
-  using Shaped = std::array<std::optional<Regression>, noise_shapes>;
+  /// Regressions on the same regressors with the variances of each shape, made when they are asked for.
+  struct Shaped {
+    Regressors x;
+    std::array<std::optional<Regression>, noise_shapes> made;
+  };
+  const Regression& with_shape(Shaped& all, std::size_t shape) const;
 
   Vector t_, log_t_;
   std::shared_ptr<const Cosines> cosines_;

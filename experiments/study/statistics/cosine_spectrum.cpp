@@ -130,14 +130,29 @@ double dot(const double* a, const double* b, Index n) {
   return total(sums);
 }
 
-Regression::Regression(const Regressors& x, const Spectrum& v, double sum_of_log_v)
-    : x_(x), weighted_(x.rows(), x.cols()), weight_(v.cwiseInverse()), sum_of_log_v_(sum_of_log_v) {
-  const Index n = x.rows();
+namespace {
+
+/// Sum of a_i b_i w_i over n numbers, in eight sums.
+double weighted_dot(const double* a, const double* b, const double* w, Index n) {
+  Eight sums = {};
+  for_each_eight(n, [&](Index i, auto count) {
+    Eight left, right, weight;
+    read(left, a + i, count);
+    read(right, b + i, count);
+    read(weight, w + i, count);
+    sums += left * (right * weight);
+  });
+  return total(sums);
+}
+
+}  // namespace
+
+Regression::Regression(const Regressors& x, const Spectrum& weight, double sum_of_log_v)
+    : x_(x), weight_(weight.data()), sum_of_log_v_(sum_of_log_v) {
   Normal normal(x.cols(), x.cols());
   for (Index j = 0; j < x.cols(); ++j) {
-    weighted_.col(j) = x.col(j).cwiseProduct(weight_);
     for (Index i = 0; i <= j; ++i) {
-      normal(i, j) = normal(j, i) = dot(x.col(i).data(), weighted_.col(j).data(), n);
+      normal(i, j) = normal(j, i) = weighted_dot(x.col(i).data(), x.col(j).data(), weight_, x.rows());
     }
   }
   const Eigen::LDLT<Normal> factors(normal);
@@ -160,16 +175,17 @@ void with_number_of(const Regressors& x, const Use& use) {
   }
 }
 
-/// Sets `out` to the scalar products of c with each of these columns.
+/// Sets `out` to the scalar products of c with each of these columns times the weights.
 template <int columns>
-void dot_columns(const Regressors& x, const Spectrum& c, double* out) {
+void dot_columns(const Regressors& x, const double* weights, const Spectrum& c, double* out) {
   Eight sums[columns] = {};
   for_each_eight(c.size(), [&](Index i, auto count) {
-    Eight column, numbers;
+    Eight column, weight, numbers;
     read(numbers, &c[i], count);
+    read(weight, weights + i, count);
     for (int j = 0; j < columns; ++j) {
       read(column, &x(i, j), count);
-      sums[j] += column * numbers;
+      sums[j] += column * weight * numbers;
     }
   });
   for (int j = 0; j < columns; ++j) out[j] = total(sums[j]);
@@ -196,7 +212,7 @@ constexpr double least_squares = 1e-30;
 
 Coefficients Regression::coefficients(const Spectrum& c) const {
   Coefficients right(x_.cols());
-  with_number_of(x_, [&](auto number) { dot_columns<number>(weighted_, c, right.data()); });
+  with_number_of(x_, [&](auto number) { dot_columns<number>(x_, weight_, c, right.data()); });
   return covariance_.lazyProduct(right);
 }
 
@@ -205,7 +221,7 @@ double Regression::squares_without(const Coefficients& coefficients, const Spect
   with_number_of(x_, [&](auto number) {
     for_each_rest<number>(x_, coefficients, c, [&](Index i, auto count, const Eight& rest) {
       Eight weight;
-      read(weight, &weight_[i], count);
+      read(weight, weight_ + i, count);
       sums += rest * (rest * weight);
     });
   });
@@ -252,7 +268,7 @@ Fit Beside::fit(const Spectrum& x, const Spectrum& z) const {
       read(x8, &x_free[i], count);
       read(z8, &z_free[i], count);
       read(c8, &rest_[i], count);
-      read(weight, &behind_.weight_[i], count);
+      read(weight, behind_.weight_ + i, count);
       use(x8, z8, c8, weight);
     });
   };

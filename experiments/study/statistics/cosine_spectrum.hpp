@@ -71,7 +71,9 @@ struct Fit {
 /// All of a fit that does not depend on c, for the fits of several series.
 class Regression {
  public:
-  Regression(const Regressors& x, const Spectrum& v, double sum_of_log_v = 0);
+  /// On the columns of x with variances 1/weight_k. `x` and `weight`, one number for each row of x, must outlive this
+  /// object: many regressions share them.
+  Regression(const Regressors& x, const Spectrum& weight, double sum_of_log_v);
 
   Fit fit(const Spectrum& c) const;
   /// The same as fit(c).restricted.
@@ -86,8 +88,8 @@ class Regression {
   Spectrum rest_of(const Spectrum& c) const;
   double restricted_of(double squares) const;
 
-  Regressors x_, weighted_;  ///< weighted: over the variances
-  Spectrum weight_;          ///< 1/v_k
+  const Regressors& x_;
+  const double* weight_;
   Normal covariance_;
   double sum_of_log_v_ = 0, log_determinant_ = 0;
 };
@@ -106,8 +108,9 @@ class Beside {
   Spectrum rest_;  ///< c without what `behind` explains
 };
 
-inline Fit fit(const Spectrum& c, const Regressors& x, const Spectrum& v, double sum_of_log_v = 0) {
-  return Regression(x, v, sum_of_log_v).fit(c);
+inline Fit fit(const Spectrum& c, const Regressors& x, const Spectrum& v, double sum_of_log_v) {
+  const Spectrum weight = v.cwiseInverse();
+  return Regression(x, weight, sum_of_log_v).fit(c);
 }
 
 /// Number of the shape of Cosines::shapes that is most likely; restricted_of(k) is Fit::restricted with shape k.
