@@ -175,65 +175,76 @@ void with_number_of(const Regressors& x, const Use& use) {
   }
 }
 
-/// Sets `out` to the scalar products of c with each of these columns times the weights.
+/// What the columns of x explain of c.
 template <int columns>
-void dot_columns(const Regressors& x, const double* weights, const Spectrum& c, double* out) {
-  Eight sums[columns] = {};
-  for_each_eight(c.size(), [&](Index i, auto count) {
-    Eight column, weight, numbers;
-    read(numbers, &c[i], count);
-    read(weight, weights + i, count);
-    for (int j = 0; j < columns; ++j) {
-      read(column, &x(i, j), count);
-      sums[j] += column * weight * numbers;
+class Explained {
+ public:
+  /// By least squares with these weights; covariance: the inverse of xᵀWx.
+  Explained(const Regressors& x, const double* weights, const Normal& covariance, const Spectrum& c) {
+    for (int j = 0; j < columns; ++j) columns_[j] = x.col(j).data();
+    Eight sums[columns] = {};
+    for_each_eight(c.size(), [&](Index i, auto count) {
+      Eight numbers, weight, column;
+      read(numbers, c.data() + i, count);
+      read(weight, weights + i, count);
+      for (int j = 0; j < columns; ++j) {
+        read(column, columns_[j] + i, count);
+        sums[j] += column * weight * numbers;
+      }
+    });
+    double right[columns];
+    for (int j = 0; j < columns; ++j) right[j] = total(sums[j]);
+    for (int i = 0; i < columns; ++i) {
+      coefficients_[i] = covariance.data()[i] * right[0];
+      for (int j = 1; j < columns; ++j) coefficients_[i] += covariance.data()[i + j * columns] * right[j];
     }
-  });
-  for (int j = 0; j < columns; ++j) out[j] = total(sums[j]);
-}
+  }
 
-/// Calls use(i, count, rest) as for_each_eight(): rest is c less the columns of x times their coefficients.
-template <int columns, class Use>
-void for_each_rest(const Regressors& x, const Coefficients& coefficients, const Spectrum& c, const Use& use) {
-  for_each_eight(c.size(), [&](Index i, auto count) {
-    Eight rest, column;
-    read(rest, &c[i], count);
+  Coefficients coefficients() const { return Eigen::Map<const Eigen::Matrix<double, columns, 1>>(coefficients_); }
+
+  /// Takes it out of `numbers`, those of c from the i-th on.
+  template <class Count>
+  void take_out_of(Eight& numbers, Index i, Count count) const {
     for (int j = 0; j < columns; ++j) {
-      read(column, &x(i, j), count);
-      rest -= coefficients[j] * column;
+      Eight column;
+      read(column, columns_[j] + i, count);
+      numbers -= coefficients_[j] * column;
     }
-    use(i, count, rest);
-  });
-}
+  }
+
+ private:
+  const double* columns_[columns];
+  double coefficients_[columns];
+};
 
 /// The data are of size one: a sum of squares below it is nothing but the rounding of this arithmetic.
 constexpr double least_squares = 1e-30;
 
-}  // namespace
-
-Coefficients Regression::coefficients(const Spectrum& c) const {
-  Coefficients right(x_.cols());
-  with_number_of(x_, [&](auto number) { dot_columns<number>(x_, weight_, c, right.data()); });
-  return covariance_.lazyProduct(right);
-}
-
-double Regression::squares_without(const Coefficients& coefficients, const Spectrum& c) const {
+/// Weighted sum of the squares of c without what is explained of it.
+template <int columns>
+double squares_without(const Explained<columns>& explained, const double* weights, const Spectrum& c) {
   Eight sums = {};
-  with_number_of(x_, [&](auto number) {
-    for_each_rest<number>(x_, coefficients, c, [&](Index i, auto count, const Eight& rest) {
-      Eight weight;
-      read(weight, weight_ + i, count);
-      sums += rest * (rest * weight);
-    });
+  for_each_eight(c.size(), [&](Index i, auto count) {
+    Eight rest, weight;
+    read(rest, c.data() + i, count);
+    explained.take_out_of(rest, i, count);
+    read(weight, weights + i, count);
+    sums += rest * (rest * weight);
   });
   return std::max(total(sums), least_squares);
 }
 
+}  // namespace
+
 Spectrum Regression::rest_of(const Spectrum& c) const {
-  const Coefficients explained = coefficients(c);
   Spectrum all(c.size());
   with_number_of(x_, [&](auto number) {
-    for_each_rest<number>(x_, explained, c, [&](Index i, auto count, const Eight& rest) {
-      std::memcpy(&all[i], &rest, static_cast<std::size_t>(count) * sizeof(double));
+    const Explained<number> explained(x_, weight_, covariance_, c);
+    for_each_eight(c.size(), [&](Index i, auto count) {
+      Eight rest;
+      read(rest, c.data() + i, count);
+      explained.take_out_of(rest, i, count);
+      std::memcpy(all.data() + i, &rest, static_cast<std::size_t>(count) * sizeof(double));
     });
   });
   return all;
@@ -247,39 +258,50 @@ double Regression::restricted_of(double squares) const {
 Fit Regression::fit(const Spectrum& c) const {
   Fit f;
   f.covariance = covariance_;
-  f.coefficients = coefficients(c);
-  f.squares = squares_without(f.coefficients, c);
+  with_number_of(x_, [&](auto number) {
+    const Explained<number> explained(x_, weight_, covariance_, c);
+    f.coefficients = explained.coefficients();
+    f.squares = squares_without(explained, weight_, c);
+  });
   f.degrees = static_cast<double>(x_.rows() - x_.cols());
   f.restricted = restricted_of(f.squares);
   return f;
 }
 
-double Regression::restricted(const Spectrum& c) const { return restricted_of(squares_without(coefficients(c), c)); }
+double Regression::restricted(const Spectrum& c) const {
+  double squares = 0;
+  with_number_of(
+      x_, [&](auto number) { squares = squares_without(Explained<number>(x_, weight_, covariance_, c), weight_, c); });
+  return restricted_of(squares);
+}
 
 Beside::Beside(const Regression& behind, const Spectrum& c) : behind_(behind), rest_(behind.rest_of(c)) {}
 
 Fit Beside::fit(const Spectrum& x, const Spectrum& z) const {
   const Index n = rest_.size();
-  const Spectrum x_free = behind_.rest_of(x), z_free = behind_.rest_of(z);
-  // Calls use(x8, z8, c8, weight) with eight numbers of each side by side.
-  const auto for_all = [&](const auto& use) {
+  const double* weights = behind_.weight_;
+  Spectrum x_free(n), z_free(n);
+  Eight sums[5] = {};
+  with_number_of(behind_.x_, [&](auto number) {
+    const Explained<number> x_explained(behind_.x_, weights, behind_.covariance_, x),
+        z_explained(behind_.x_, weights, behind_.covariance_, z);
     for_each_eight(n, [&](Index i, auto count) {
       Eight x8, z8, c8, weight;
-      read(x8, &x_free[i], count);
-      read(z8, &z_free[i], count);
-      read(c8, &rest_[i], count);
-      read(weight, behind_.weight_ + i, count);
-      use(x8, z8, c8, weight);
+      read(x8, x.data() + i, count);
+      read(z8, z.data() + i, count);
+      x_explained.take_out_of(x8, i, count);
+      z_explained.take_out_of(z8, i, count);
+      std::memcpy(x_free.data() + i, &x8, static_cast<std::size_t>(count) * sizeof(double));
+      std::memcpy(z_free.data() + i, &z8, static_cast<std::size_t>(count) * sizeof(double));
+      read(c8, rest_.data() + i, count);
+      read(weight, weights + i, count);
+      const Eight x_weighted = x8 * weight, z_weighted = z8 * weight;
+      sums[0] += x8 * x_weighted;
+      sums[1] += x8 * z_weighted;
+      sums[2] += z8 * z_weighted;
+      sums[3] += x_weighted * c8;
+      sums[4] += z_weighted * c8;
     });
-  };
-  Eight sums[5] = {};
-  for_all([&](const Eight& x8, const Eight& z8, const Eight& c8, const Eight& weight) {
-    const Eight x_weighted = x8 * weight, z_weighted = z8 * weight;
-    sums[0] += x8 * x_weighted;
-    sums[1] += x8 * z_weighted;
-    sums[2] += z8 * z_weighted;
-    sums[3] += x_weighted * c8;
-    sums[4] += z_weighted * c8;
   });
   const double xx = total(sums[0]), xz = total(sums[1]), zz = total(sums[2]), xc = total(sums[3]), zc = total(sums[4]);
   // Elimination of x: [xx xz; xz zz] = L diag(xx, pivot) Lᵀ, with `ratio` below the diagonal of L.
@@ -290,9 +312,15 @@ Fit Beside::fit(const Spectrum& x, const Spectrum& z) const {
   f.coefficients[0] = xc / xx - ratio * f.coefficients[1];
   f.covariance.resize(2, 2);
   f.covariance << 1 / xx + ratio * ratio / pivot, -ratio / pivot, -ratio / pivot, 1 / pivot;
+  const double along_x = f.coefficients[0], along_z = f.coefficients[1];
   Eight squares = {};
-  for_all([&](const Eight& x8, const Eight& z8, const Eight& c8, const Eight& weight) {
-    const Eight rest = c8 - f.coefficients[0] * x8 - f.coefficients[1] * z8;
+  for_each_eight(n, [&](Index i, auto count) {
+    Eight x8, z8, c8, weight;
+    read(x8, x_free.data() + i, count);
+    read(z8, z_free.data() + i, count);
+    read(c8, rest_.data() + i, count);
+    read(weight, weights + i, count);
+    const Eight rest = c8 - along_x * x8 - along_z * z8;
     squares += rest * (rest * weight);
   });
   f.squares = std::max(total(squares), least_squares);

@@ -81,9 +81,6 @@ class Regression {
 
  private:
   friend class Beside;
-  Coefficients coefficients(const Spectrum& c) const;
-  /// Weighted sum of the squares of c without what the regressors with these coefficients explain.
-  double squares_without(const Coefficients& coefficients, const Spectrum& c) const;
   /// c without what the regressors explain.
   Spectrum rest_of(const Spectrum& c) const;
   double restricted_of(double squares) const;
