@@ -178,9 +178,10 @@ class EnsembleLoop {
       step.first = batch.first + Lanes(static_cast<double>(k));
       step.samples = batch.samples + k;
       method_->advance(state_, step);
-      const BodySnapshot<Lanes> body = system_->snapshot(state_.y, 0);
-      for (std::size_t which = 0; which < watched_.size(); ++which)
-        values_[which * samples_.size() + std::size_t(k)] = watched_[which](body);
+      const BodyMotion<Lanes> body = system_->motion_of(state_.y, 0);
+      for (std::size_t which = 0; which < watched_.size(); ++which) {
+        values_[which * samples_.size() + std::size_t(k)] = watched_[which](body, step.samples->seen.angular_momentum);
+      }
     }
   }
 

@@ -20,8 +20,8 @@ struct LaneRun {
   Schedule schedule{};                    ///< fixed steps dt, with a sample after every step
 };
 
-/// A quantity of the body of each lane.
-using LaneQuantity = std::function<Lanes(const BodySnapshot<Lanes>&)>;
+/// A quantity of the body of each lane, from its motion and its angular momentum about the reference point, world axes.
+using LaneQuantity = std::function<Lanes(const BodyMotion<Lanes>&, const Vector3<Lanes>& angular_momentum)>;
 
 /// Consecutive samples of all lanes. Those of vacant lanes, and those after the end of a run, mean nothing.
 struct LaneBlock {

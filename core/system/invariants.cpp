@@ -98,8 +98,8 @@ double kovalevskaya_k(const Problem& problem) {
   return body.mass * gravity(problem).norm() * body.center_of_mass.x() / body.inertia(2, 2);
 }
 
-// Values of the invariants, each a function of the snapshot of the first body. S: double for one problem, or Lanes for
-// lane_count problems.
+// Values of the invariants, each a function of the first body's motion and of its angular momentum about the reference
+// point, world axes. S: double for one problem, or Lanes for lane_count problems.
 
 using Problems = std::span<const Problem>;
 
@@ -113,16 +113,17 @@ Vector3<S> gathered(Problems problems, const OfProblem& of) {
   return all;
 }
 
-template <class S>
-Vector3<S> angular_velocity_body(const BodySnapshot<S>& s) {
-  return s.rotation.transpose() * s.angular_velocity;
+/// World to body axes.
+template <class Body, class S>
+Vector3<S> in_body(const Body& body, const Vector3<S>& v) {
+  return body.rotation.transpose() * v;
 }
 
 template <class S>
 struct PPhi {
   Vector3<S> vertical;
   explicit PPhi(Problems problems) : vertical(gathered<S>(problems, up)) {}
-  S operator()(const BodySnapshot<S>& s) const { return vertical.dot(s.angular_momentum); }
+  S operator()(const auto&, const Vector3<S>& momentum) const { return vertical.dot(momentum); }
 };
 
 template <class S>
@@ -130,7 +131,7 @@ struct PPsi {
   Vector3<S> inertia3;
   explicit PPsi(Problems problems)
       : inertia3(gathered<S>(problems, [](const Problem& p) { return p.bodies.front().inertia.row(2); })) {}
-  S operator()(const BodySnapshot<S>& s) const { return inertia3.dot(angular_velocity_body(s)); }
+  S operator()(const auto& body, const Vector3<S>&) const { return inertia3.dot(in_body(body, body.angular_velocity)); }
 };
 
 template <class S>
@@ -140,8 +141,8 @@ struct Kovalevskaya {
   explicit Kovalevskaya(Problems problems)
       : vertical(gathered<S>(problems, up)),
         k(gather<S>([&](int lane) { return kovalevskaya_k(problems[std::size_t(lane)]); })) {}
-  S operator()(const BodySnapshot<S>& s) const {
-    const Vector3<S> w = angular_velocity_body(s), gamma = s.rotation.transpose() * vertical;
+  S operator()(const auto& body, const Vector3<S>&) const {
+    const Vector3<S> w = in_body(body, body.angular_velocity), gamma = in_body(body, vertical);
     const S real = w[0] * w[0] - w[1] * w[1] - k * gamma[0];
     const S imaginary = S(2) * w[0] * w[1] - k * gamma[1];
     return real * real + imaginary * imaginary;
@@ -151,12 +152,12 @@ struct Kovalevskaya {
 template <class S>
 struct Casimir {
   explicit Casimir(Problems) {}
-  S operator()(const BodySnapshot<S>& s) const { return s.angular_momentum.norm(); }
+  S operator()(const auto&, const Vector3<S>& momentum) const { return momentum.norm(); }
 };
 
 template <template <class> class Invariant>
 double value(const Problem& problem, const Snapshot& s) {
-  return Invariant<double>({&problem, 1})(s);
+  return Invariant<double>({&problem, 1})(s, s.angular_momentum);
 }
 
 template <template <class> class Invariant>
@@ -169,7 +170,7 @@ LaneInvariant lanes_of(Problems problems) {
 double momentum_scale(const Problem&, const Snapshot& s) { return s.angular_momentum.norm(); }
 
 double kovalevskaya_scale(const Problem& problem, const Snapshot& s) {
-  const double size = angular_velocity_body(s).squaredNorm() + std::abs(kovalevskaya_k(problem));
+  const double size = in_body(s, s.angular_velocity).squaredNorm() + std::abs(kovalevskaya_k(problem));
   return size * size;
 }
 

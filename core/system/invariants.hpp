@@ -14,8 +14,9 @@
 
 namespace polhode::inline core::inline system {
 
-/// The value of an invariant in the lanes of an ensemble.
-using LaneInvariant = std::function<Lanes(const BodySnapshot<Lanes>& first_body)>;
+/// The value of an invariant in the lanes of an ensemble. momentum: the body's angular momentum about its reference
+/// point, world axes, kg m²/s.
+using LaneInvariant = std::function<Lanes(const BodyMotion<Lanes>& first_body, const Vector3<Lanes>& momentum)>;
 
 /// An invariant of the first body.
 struct InvariantKind {

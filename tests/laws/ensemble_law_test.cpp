@@ -101,11 +101,11 @@ void expect_same(const Seen& a, const Seen& b) {
 
 /// Quantities of a body, as one run and as an ensemble measure them.
 template <class S>
-S spin(const BodySnapshot<S>& body) {
-  return body.angular_momentum.norm();
+S spin(const BodyMotion<S>&, const Vector3<S>& angular_momentum) {
+  return angular_momentum.norm();
 }
 template <class S>
-S advance(const BodySnapshot<S>& body) {
+S advance(const BodyMotion<S>& body, const Vector3<S>&) {
   return body.velocity.dot(body.rotation * body.angular_velocity);
 }
 
@@ -119,9 +119,10 @@ struct Watch final : Observer {
   void on_start(const State<double>& state, const Sample& sample) override { seen.on_start(state, sample); }
   std::size_t on_samples(std::span<const Sample> part) override { return seen.on_samples(part); }
   void on_state(const State<double>& state, const Sample& sample) override {
-    const BodySnapshot<double> body = system.snapshot(state.y, 0);
-    values[0].push_back(spin(body));
-    values[1].push_back(advance(body));
+    const BodyMotion<double> body = system.motion_of(state.y, 0);
+    const Vector3<double> momentum = system.snapshot(state.y, 0).angular_momentum;
+    values[0].push_back(spin(body, momentum));
+    values[1].push_back(advance(body, momentum));
     if (sample.t >= seen.next_state()) seen.on_state(state, sample);
   }
   double next_state() const override { return 0; }

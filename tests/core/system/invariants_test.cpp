@@ -200,7 +200,8 @@ TEST(Invariants, LanesHaveTheDigitsOfEachProblem) {
     problems.push_back(problem_of(top, random));
   }
   std::vector<BodySnapshot<double>> each(problems.size());
-  BodySnapshot<Lanes> together;
+  BodyMotion<Lanes> together;
+  Vector3<Lanes> momentum;
   for (std::size_t i = 0; i < problems.size(); ++i) {
     each[i].rotation = rotation_matrix(random_orientation(random));
     each[i].angular_velocity = random_vector(random);
@@ -208,10 +209,10 @@ TEST(Invariants, LanesHaveTheDigitsOfEachProblem) {
     const int lane = static_cast<int>(i);
     for (int j = 0; j < 9; ++j) together.rotation.data()[j].set(lane, each[i].rotation.data()[j]);
     for (int j = 0; j < 3; ++j) together.angular_velocity[j].set(lane, each[i].angular_velocity[j]);
-    for (int j = 0; j < 3; ++j) together.angular_momentum[j].set(lane, each[i].angular_momentum[j]);
+    for (int j = 0; j < 3; ++j) momentum[j].set(lane, each[i].angular_momentum[j]);
   }
   for (const InvariantKind& kind : invariant_catalogue()) {
-    const Lanes values = kind.in_lanes(problems)(together);
+    const Lanes values = kind.in_lanes(problems)(together, momentum);
     for (std::size_t i = 0; i < problems.size(); ++i)
       EXPECT_EQ(values[static_cast<int>(i)], kind.value(problems[i], each[i])) << kind.name << " in lane " << i;
   }
