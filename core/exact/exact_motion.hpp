@@ -34,6 +34,13 @@ class ExactMotion {
   /// The path alone, which is quick: rotations are often elliptic functions.
   std::optional<PathAt> path_at(double t, std::size_t body) const;
 
+  /// The path of a body; empty if it is not known.
+  const ExactPath& path(std::size_t body) const { return paths_[body]; }
+  /// The rotation of a body as that of a free top; null if it is none.
+  const FreeTop* free_top(std::size_t body) const { return free_top_of(rotations_[body]); }
+  /// Largest |ω| of a body at the start, rad/s, to which errors of ω are relative; 1 if it is 0.
+  double speed_scale() const { return speed_scale_; }
+
   /// The state of the exact motion at the time of `near`, a state near it; the works are those of `near`. For a
   /// complete motion whose angular velocities are known.
   VectorX<double> state(const System<double>& system, const State<double>& near) const;
@@ -59,7 +66,7 @@ class ExactMotion {
   bool any_path_ = false;  ///< a body is not pinned
   std::vector<ExactRotation> rotations_;
   std::vector<ExactPath> paths_;
-  double speed_scale_ = 1;  ///< rad/s
+  double speed_scale_ = 1;
 };
 
 /// The momenta that the forces of a problem conserve.

@@ -6,7 +6,6 @@
 #include <limits>
 #include <vector>
 
-#include "core/exact/free_top.hpp"
 #include "core/exact/lagrange_top.hpp"
 #include "core/exact/linear_motion.hpp"
 #include "core/math/directions.hpp"
@@ -43,13 +42,15 @@ struct Torques {
 };
 
 template <class Top>
-ExactRotation in_world(Top top) {
-  return [top](double t) -> RotationAt {
+struct InWorld {
+  Top top;
+
+  RotationAt operator()(double t) const {
     const auto motion = top.at(t);
     return {motion.orientation, rotation_matrix(motion.orientation) * motion.angular_velocity_body,
             motion.angular_velocity_body};
-  };
-}
+  }
+};
 
 ExactRotation heavy_top(const Torques& at) {
   double mass = at.body.mass;
@@ -64,7 +65,7 @@ ExactRotation heavy_top(const Torques& at) {
     return {};
   }
   if (!LagrangeTop::applies(at.body.inertia, center, gravity, at.orientation, at.omega_body)) return {};
-  return in_world(LagrangeTop(mass, at.body.inertia, center, gravity, at.orientation, at.omega_body));
+  return InWorld<LagrangeTop>{{mass, at.body.inertia, center, gravity, at.orientation, at.omega_body}};
 }
 
 bool isotropic(const Matrix3<double>& inertia) {
@@ -125,9 +126,14 @@ Vector3<double> start_omega_body(const BodyStart& start) {
 ExactRotation exact_rotation(const System<double>& system, std::size_t body) {
   const Torques at(system, body);
   if (!at.all_known) return {};
-  if (at.forces.empty()) return in_world(FreeTop(at.body.inertia, at.orientation, at.omega_body));
+  if (at.forces.empty()) return InWorld<FreeTop>{{at.body.inertia, at.orientation, at.omega_body}};
   if (at.all_of({"constant_torque", "drag"})) return about_an_axis(at);
   return heavy_top(at);
+}
+
+const FreeTop* free_top_of(const ExactRotation& rotation) {
+  const auto* in_world = rotation.target<InWorld<FreeTop>>();
+  return in_world ? &in_world->top : nullptr;
 }
 
 }  // namespace polhode::core::exact

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 
+#include "core/exact/free_top.hpp"
 #include "core/system/system.hpp"
 
 namespace polhode::inline core::inline exact {
@@ -31,5 +32,8 @@ using ExactRotation = std::function<RotationAt(double)>;
 ///   angular drag;
 ///   ω alone, unless its direction is constant: isotropic body, torques constant in the world, angular drag.
 ExactRotation exact_rotation(const System<double>& system, std::size_t body);
+
+/// The free top whose rotation this is, part of it; null if it is none.
+const FreeTop* free_top_of(const ExactRotation& rotation);
 
 }  // namespace polhode::core::exact

@@ -170,7 +170,7 @@ FreeTop::FreeTop(const Matrix3<double>& inertia_body, const Quaternion<double>& 
 
   steady_ = top.steady();
   if (steady_) {
-    left_ = orientation;
+    start_ = orientation;
     angular_velocity_ = angular_velocity_body;
     speed_ = angular_velocity_body.stableNorm();
     axis_ = speed_ > 0 ? Vector3<double>(angular_velocity_body.stableNormalized()) : Vector3<double>::Zero();
@@ -185,6 +185,7 @@ FreeTop::FreeTop(const Matrix3<double>& inertia_body, const Quaternion<double>& 
   double delta2 = (towards3 - towards1).hi;
   if (std::abs(delta2) < 1e-30 * (towards3.hi + towards1.hi)) delta2 = 0;  // below the accuracy of double-double
 
+  VaryingTop<double>& v = varying_;
   const bool about_smallest = delta2 <= 0;
   regime_ = sphere           ? "sphere"
             : symmetric      ? "symmetric"
@@ -197,12 +198,12 @@ FreeTop::FreeTop(const Matrix3<double>& inertia_body, const Quaternion<double>& 
   const double ca = top.i31.hi;
   const double delta_a = about_smallest ? delta1 : delta3, delta_c = about_smallest ? delta3 : delta1;
 
-  axes_.col(0) = top.omega[pole].hi < 0 ? -top.axis[pole] : top.axis[pole];
-  axes_.col(1) = top.axis[1];
-  axes_.col(2) = axes_.col(0).cross(axes_.col(1));
-  double omega_b = w2.hi, omega_c = axes_.col(2).dot(top.axis[other]) < 0 ? -top.omega[other].hi : top.omega[other].hi;
+  v.axes.col(0) = top.omega[pole].hi < 0 ? -top.axis[pole] : top.axis[pole];
+  v.axes.col(1) = top.axis[1];
+  v.axes.col(2) = v.axes.col(0).cross(v.axes.col(1));
+  double omega_b = w2.hi, omega_c = v.axes.col(2).dot(top.axis[other]) < 0 ? -top.omega[other].hi : top.omega[other].hi;
   if (omega_c < 0) {  // rotate by π about A: on the separatrix y_C = Y_C sech u ≥ 0
-    axes_.rightCols<2>() *= -1;
+    v.axes.rightCols<2>() *= -1;
     omega_b = -omega_b;
     omega_c = -omega_c;
   }
@@ -214,47 +215,29 @@ FreeTop::FreeTop(const Matrix3<double>& inertia_body, const Quaternion<double>& 
   const double m_c = std::min(1.0, std::abs(delta2) * ca / (delta_c * ba));
   const double m = std::min(1.0, delta_a * cb / (delta_c * ba));
   const double lambda = std::copysign(std::sqrt(delta_c * ba / (a * b * c)), about_smallest ? 1 : -1);
-  jacobi_ = JacobiElliptic(m_c);
-  theta_ = ThetaDirection(m, m_c, m == 0 ? 0 : elliptic_f(std::sqrt(c * ba), std::sqrt(a * cb), m));
+  v.jacobi = JacobiElliptic(m_c);
+  v.theta = ThetaDirection(m, m_c, m == 0 ? 0 : elliptic_f(std::sqrt(c * ba), std::sqrt(a * cb), m));
   // ψ̇ at u = 0 minus the contribution of θ
   const double precession =
-      (twice_energy + momentum * y_a / a) / (momentum + y_a) - 2 * lambda * theta_.slope_at_zero();
+      (twice_energy + momentum * y_a / a) / (momentum + y_a) - 2 * lambda * v.theta.slope_at_zero();
 
-  momentum_amplitude_ = Vector3<double>(y_a, y_b, y_c) / momentum;
+  v.momentum_amplitude = Vector3<double>(y_a, y_b, y_c) / momentum;
   for (const Eigen::Index j : {0, 1, 2}) {
-    rate_per_momentum_[j] = std::scalbn(momentum / (j == 0 ? a : j == 1 ? b : c), top.time_scale);
+    v.rate_per_momentum[j] = std::scalbn(momentum / (j == 0 ? a : j == 1 ? b : c), top.time_scale);
   }
-  phase_ = elliptic_f(omega_b * std::sqrt(b * ba), omega_c * std::sqrt(c * ca), m_c);
-  phase_rate_ = std::scalbn(lambda, top.time_scale);
-  precession_rate_ = std::scalbn(precession, top.time_scale);
-  body_to_frame_ = quaternion_from_rotation_matrix(Matrix3<double>(axes_.transpose()));
-  left_ = product(orientation,
-                  conjugate(product(attitude_in_frame(0, phase_, momentum_direction(phase_)), body_to_frame_)));
+  v.phase = elliptic_f(omega_b * std::sqrt(b * ba), omega_c * std::sqrt(c * ca), m_c);
+  v.phase_rate = std::scalbn(lambda, top.time_scale);
+  v.precession_rate = std::scalbn(precession, top.time_scale);
+  v.body_to_frame = quaternion_from_rotation_matrix(Matrix3<double>(v.axes.transpose()));
+  v.left = product(orientation,
+                   conjugate(product(v.attitude_in_frame(0, v.phase, v.momentum_direction(v.phase)), v.body_to_frame)));
 }
 
 FreeTop::Motion FreeTop::at(double t) const {
-  if (steady_) {
-    const double half = speed_ * t / 2, s = std::sin(half);
-    const Quaternion<double> spin(std::cos(half), s * axis_[0], s * axis_[1], s * axis_[2]);
-    return {product(left_, spin), angular_velocity_};
-  }
-  const double u = phase_ + phase_rate_ * t;
-  const Vector3<double> direction = momentum_direction(u);
-  return {product(left_, product(attitude_in_frame(t, u, direction), body_to_frame_)),
-          axes_ * direction.cwiseProduct(rate_per_momentum_)};
-}
-
-Vector3<double> FreeTop::momentum_direction(double u) const {
-  const auto [sn, cn, dn] = jacobi_(u);
-  return momentum_amplitude_.cwiseProduct(Vector3<double>(dn, sn, cn));
-}
-
-Quaternion<double> FreeTop::attitude_in_frame(double t, double u, const Vector3<double>& l) const {
-  const auto [turn, re, im] = theta_(u);
-  const double half = precession_rate_ * t / 2 + turn, c = std::cos(half), s = std::sin(half);
-  const Quaternion<double> precession(c * re - s * im, s * re + c * im, 0, 0);
-  const Quaternion<double> least_rotation(1 + l[0], 0, l[2], -l[1]);  // (1 + l·e_A, l × e_A)
-  return product(precession, least_rotation) / std::sqrt((re * re + im * im) * 2 * (1 + l[0]));
+  if (!steady_) return varying_.at(t);
+  const double half = speed_ * t / 2, s = std::sin(half);
+  const Quaternion<double> spin(std::cos(half), s * axis_[0], s * axis_[1], s * axis_[2]);
+  return {product(start_, spin), angular_velocity_};
 }
 
 }  // namespace polhode::core::exact

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "core/exact/motion_at.hpp"
-#include "core/math/elliptic.hpp"
+#include "core/exact/varying_top.hpp"
 #include "core/math/linear_algebra.hpp"
 #include "core/math/quaternion.hpp"
 
@@ -34,7 +34,7 @@ class FreeTop {
   FreeTop(const Matrix3<double>& inertia_body, const Quaternion<double>& orientation,
           const Vector3<double>& angular_velocity_body);
 
-  using Motion = TopAt;
+  using Motion = TopAt<double>;
 
   /// The motion at t (s, of either sign), to a few units of round-off times 1 + (|ω| + |λ|) |t|. Costs about 0.15 µs.
   /// The orientation is continuous in t, also in its sign.
@@ -43,7 +43,7 @@ class FreeTop {
   /// The angular velocity alone, in less than half of that time.
   Vector3<double> angular_velocity_body(double t) const {
     if (steady_) return angular_velocity_;
-    return axes_ * momentum_direction(phase_ + phase_rate_ * t).cwiseProduct(rate_per_momentum_);
+    return varying_.angular_velocity_body(t);
   }
 
   /// "at rest", "sphere", "pure spin" (ω is constant), "symmetric" (two moments equal to round-off), "separatrix", or
@@ -51,27 +51,20 @@ class FreeTop {
   std::string_view regime() const { return regime_; }
 
   /// Period (s) of the angular velocity in the body: 0 if it is constant, +inf on the separatrix.
-  double period() const { return steady_ ? 0 : 4 * jacobi_.quarter_period() / std::abs(phase_rate_); }
+  double period() const { return steady_ ? 0 : 4 * varying_.jacobi.quarter_period() / std::abs(varying_.phase_rate); }
+
+  /// The motion of a top whose ω varies; null if it is constant.
+  const VaryingTop<double>* varying() const { return steady_ ? nullptr : &varying_; }
 
  private:
-  Vector3<double> momentum_direction(double u) const;  // y/G in A, B, C
-  Quaternion<double> attitude_in_frame(double t, double u, const Vector3<double>& momentum_direction) const;  // Rot P
-
   std::string_view regime_;
-  Quaternion<double> left_;
   bool steady_ = false;
   // Used if ω is constant.
+  Quaternion<double> start_;
   Vector3<double> angular_velocity_, axis_;
   double speed_ = 0;  // rad/s
   // Used if ω varies.
-  Quaternion<double> body_to_frame_;
-  Matrix3<double> axes_;                // columns: the axes A, B, C in the body
-  Vector3<double> momentum_amplitude_;  // Y/G
-  Vector3<double> rate_per_momentum_;   // G/A, G/B, G/C, rad/s
-  double phase_ = 0, phase_rate_ = 0;   // u0; λ, rad/s
-  double precession_rate_ = 0;          // ℓ, rad/s
-  JacobiElliptic jacobi_{1};
-  ThetaDirection theta_{0, 1, 0};
+  VaryingTop<double> varying_;
 };
 
 }  // namespace polhode::core::exact

@@ -38,7 +38,7 @@ class LagrangeTop {
                       const Vector3<double>& gravity, const Quaternion<double>& orientation,
                       const Vector3<double>& angular_velocity_body);
 
-  using Motion = TopAt;
+  using Motion = TopAt<double>;
 
   /// The motion at t (s, of either sign), to a few units of round-off times 1 + (|ω| + λ) |t|. Costs about 0.2 µs.
   /// The orientation has length 1 and is continuous in t.

@@ -12,10 +12,11 @@ struct PathAt {
   Vector3<double> velocity;  ///< m/s
 };
 
-/// Orientation and angular velocity of a top.
+/// Orientation and angular velocity of a top; in Lanes those of a top in each lane.
+template <class S>
 struct TopAt {
-  Quaternion<double> orientation;         ///< body to world
-  Vector3<double> angular_velocity_body;  ///< angular velocity, body axes, rad/s
+  Quaternion<S> orientation;         ///< body to world
+  Vector3<S> angular_velocity_body;  ///< angular velocity, body axes, rad/s
 };
 
 }  // namespace polhode::core::exact

@@ -62,55 +62,77 @@ double elliptic_f(double phi, double m_c) {
   return half_turns == 0 ? f : f + 2 * half_turns * elliptic_k(m_c);
 }
 
-JacobiElliptic::JacobiElliptic(double m_c) {
-  if (m_c == 0) {
-    quarter_period_ = infinity;
-    return;
-  }
+template <class S>
+JacobiEllipticOf<S>::JacobiEllipticOf(double m_c) requires std::same_as<S, double> {
+  if (m_c == 0) return;
   double a = 1, b = std::sqrt(m_c);
   while (true) {
-    const auto level = static_cast<std::size_t>(levels_);
+    const auto level = static_cast<std::size_t>(most_levels_);
     arithmetic_[level] = a;
     geometric_[level] = b;
-    ++levels_;
+    ++most_levels_;
     mean_ = (a + b) / 2;
     // The change by one more level is of the order of the square of this difference.
-    if (std::abs(a - b) <= 1e-9 * a || levels_ == max_levels) break;
+    if (std::abs(a - b) <= 1e-9 * a || most_levels_ == max_levels) break;
     b = std::sqrt(a * b);
     a = mean_;
   }
+  levels_ = most_levels_;
   quarter_period_ = pi / 2 / mean_;
 }
 
-JacobiElliptic::Values JacobiElliptic::operator()(double u) const {
-  if (levels_ == 0) {
-    const double e = std::exp(-std::abs(u));
-    const double sech = 2 * e / (1 + e * e);
-    return {std::tanh(u), sech, sech};
+template <class S>
+void JacobiEllipticOf<S>::set(int lane, const JacobiEllipticOf<double>& one) requires is_lanes<S> {
+  levels_.set(lane, one.levels_);
+  mean_.set(lane, one.mean_);
+  quarter_period_.set(lane, one.quarter_period_);
+  for (std::size_t n = 0; n < max_levels; ++n) {
+    arithmetic_[n].set(lane, one.arithmetic_[n]);
+    geometric_[n].set(lane, one.geometric_[n]);
   }
-  // Reduce u to [−K, K] by whole periods 4K, then by a half period with a change of sign.
-  u -= 4 * quarter_period_ * std::nearbyint(u / (4 * quarter_period_));
-  double sign = 1;
-  if (std::abs(u) > quarter_period_) {
-    u -= std::copysign(2 * quarter_period_, u);
-    sign = -1;
-  }
-  if (std::abs(u) < 1e-8) return {sign * u, sign, 1};
-  // Recurrence for c from cot(mean u) to cn/sn (Bulirsch).
-  const double phase = mean_ * u, sine = std::sin(phase);
-  double a = std::cos(phase) / sine, c = mean_ * a, dn = 1;
-  for (int n = levels_ - 1; n >= 0; --n) {
-    const auto level = static_cast<std::size_t>(n);
-    a *= c;
-    c *= dn;
-    dn = (geometric_[level] + a) / (arithmetic_[level] + a);
-    a = c / arithmetic_[level];
-  }
-  const double sn = std::copysign(sign / std::sqrt(c * c + 1), sign * sine);
-  return {sn, c * sn, dn};
+  most_levels_ = 0;
+  for (int i = 0; i < lane_count; ++i) most_levels_ = std::max(most_levels_, int(levels_[i]));
 }
 
-ThetaDirection::ThetaDirection(double m, double m_c, double beta) {
+template <class S>
+typename JacobiEllipticOf<S>::Values JacobiEllipticOf<S>::operator()(S u) const {
+  using std::abs, std::copysign, std::nearbyint, std::sqrt;
+  if constexpr (!is_lanes<S>) {
+    if (most_levels_ == 0) {
+      const double e = std::exp(-std::abs(u));
+      const double sech = 2 * e / (1 + e * e);
+      return {std::tanh(u), sech, sech};
+    }
+  }
+  // Reduce u to [−K, K] by whole periods 4K, then by a half period with a change of sign.
+  u -= 4 * quarter_period_ * nearbyint(u / (4 * quarter_period_));
+  const auto beyond = abs(u) > quarter_period_;
+  u = select(beyond, u - copysign(2 * quarter_period_, u), u);
+  const S sign = select(beyond, S(-1), S(1));
+  // Recurrence for c from cot(mean u) to cn/sn (Bulirsch).
+  const auto [sine, cosine] = sine_and_cosine(S(mean_ * u));
+  S a = cosine / sine, c = mean_ * a, dn = 1;
+  for (int n = most_levels_ - 1; n >= 0; --n) {
+    const auto level = static_cast<std::size_t>(n);
+    const S product = a * c, next = c * dn;
+    const S ratio = (geometric_[level] + product) / (arithmetic_[level] + product);
+    const auto has = S(n) < levels_;  // in lanes: the function of the lane has this level
+    a = select(has, next / arithmetic_[level], a);
+    c = select(has, next, c);
+    dn = select(has, ratio, dn);
+  }
+  const S sn = copysign(sign / sqrt(c * c + 1), sign * sine);
+  const auto tiny = abs(u) < S(1e-8);
+  return {select(tiny, sign * u, sn), select(tiny, sign, c * sn), select(tiny, S(1), dn)};
+}
+
+template JacobiEllipticOf<double>::JacobiEllipticOf(double);
+template void JacobiEllipticOf<Lanes>::set(int, const JacobiEllipticOf<double>&);
+template JacobiEllipticOf<double>::Values JacobiEllipticOf<double>::operator()(double) const;
+template JacobiEllipticOf<Lanes>::Values JacobiEllipticOf<Lanes>::operator()(Lanes) const;
+
+template <class S>
+ThetaDirectionOf<S>::ThetaDirectionOf(double m, double m_c, double beta) requires std::same_as<S, double> {
   const double k = elliptic_k(m_c), k_prime = elliptic_k(m);
   half_period_ = k;
   transformed_ = !(k < 2 * k_prime);
@@ -119,6 +141,7 @@ ThetaDirection::ThetaDirection(double m, double m_c, double beta) {
     // Series: 1 + 2 Σ (−1)^n q^(n²) cos(2nπ(u + iβ)/2K)
     re_[0] = re = 1;
     if (m == 0) return;
+    constant_ = false;
     frequency_ = pi / k;
     for (std::size_t n = 1; n <= terms; ++n) {
       const double order = static_cast<double>(n), sign = n % 2 == 0 ? 1 : -1;
@@ -132,6 +155,7 @@ ThetaDirection::ThetaDirection(double m, double m_c, double beta) {
     }
     slope_at_zero_ = im / re;
   } else {
+    constant_ = false;
     // Series: exp(−iπuβ/4KK') Σ p^(n(n+1)) cos((2n+1)(x − iy)), x = πβ/4K', y = πu/4K', p = exp(−πK/2K')
     frequency_ = pi / (2 * k_prime);
     turn_ = -pi * beta / (4 * k * k_prime);
@@ -151,32 +175,56 @@ ThetaDirection::ThetaDirection(double m, double m_c, double beta) {
   }
 }
 
-ThetaDirection::Values ThetaDirection::operator()(double u) const {
-  if (frequency_ == 0) return {0, 1, 0};
-  if (!transformed_) {
-    const double c1 = std::cos(frequency_ * u), s1 = std::sin(frequency_ * u);
-    double c = c1, s = s1, re = re_[0], im = 0;
+template <class S>
+void ThetaDirectionOf<S>::set(int lane, const ThetaDirectionOf<double>& one) requires is_lanes<S> {
+  half_period_.set(lane, one.half_period_);
+  frequency_.set(lane, one.frequency_);
+  turn_.set(lane, one.turn_);
+  slope_at_zero_.set(lane, one.slope_at_zero_);
+  for (std::size_t n = 0; n <= terms; ++n) {
+    re_[n].set(lane, one.re_[n]);
+    im_[n].set(lane, one.im_[n]);
+    nome_power_[n].set(lane, one.nome_power_[n]);
+  }
+  transformed_ = one.transformed_;
+  constant_ = true;
+  for (int i = 0; i < lane_count; ++i) constant_ = constant_ && frequency_[i] == 0;
+}
+
+template <class S>
+typename ThetaDirectionOf<S>::Values ThetaDirectionOf<S>::operator()(S u) const {
+  using std::abs, std::copysign, std::exp, std::nearbyint;
+  if (constant_) return {0, 1, 0};
+  if (!transformed_) {  // in a lane where m = 0 all terms but the first are 0
+    const auto [s1, c1] = sine_and_cosine(S(frequency_ * u));
+    S c = c1, s = s1, re = re_[0], im = 0;
     for (std::size_t n = 1; n <= terms; ++n) {
       re += re_[n] * c;
       im += im_[n] * s;
-      const double next = c * c1 - s * s1;
+      const S next = c * c1 - s * s1;
       s = s * c1 + c * s1;
       c = next;
     }
     return {0, re, im};
   }
-  if (std::isfinite(half_period_)) u -= 2 * half_period_ * std::nearbyint(u / (2 * half_period_));
+  const S reduced = u - 2 * half_period_ * nearbyint(u / (2 * half_period_));
+  u = select(half_period_ < S(infinity), reduced, u);
   // Each term is divided by exp(y) p^n / 2: cosh and sinh((2n+1)y) p^(n(n+1)) become p^(n²) (g^n ± p^n d^(n+1)).
-  const double d = std::exp(-frequency_ * std::abs(u)), g = std::exp(frequency_ * (std::abs(u) - half_period_));
-  double g_n = 1, d_n = d, re = 0, im = 0;
+  const S d = exp(-frequency_ * abs(u)), g = exp(frequency_ * (abs(u) - half_period_));
+  S g_n = 1, d_n = d, re = 0, im = 0;
   for (std::size_t n = 0; n <= terms; ++n) {
-    const double decayed = nome_power_[n] * d_n;
+    const S decayed = nome_power_[n] * d_n;
     re += re_[n] * (g_n + decayed);
     im += im_[n] * (g_n - decayed);
     g_n *= g;
     d_n *= d;
   }
-  return {turn_ * u, re, std::copysign(1.0, u) * im};
+  return {turn_ * u, re, copysign(S(1), u) * im};
 }
+
+template ThetaDirectionOf<double>::ThetaDirectionOf(double, double, double);
+template void ThetaDirectionOf<Lanes>::set(int, const ThetaDirectionOf<double>&);
+template ThetaDirectionOf<double>::Values ThetaDirectionOf<double>::operator()(double) const;
+template ThetaDirectionOf<Lanes>::Values ThetaDirectionOf<Lanes>::operator()(Lanes) const;
 
 }  // namespace polhode::core::math

@@ -94,6 +94,20 @@ class Lanes {
   friend Lanes tan(Lanes a) {
     return each(a, [](double x) { return std::tan(x); });
   }
+  friend Lanes exp(Lanes a) {
+    return each(a, [](double x) { return std::exp(x); });
+  }
+  friend Lanes nearbyint(Lanes a) {
+    return each(a, [](double x) { return std::nearbyint(x); });
+  }
+  friend Lanes atan2(Lanes y, Lanes x) {
+    for (int i = 0; i < lane_count; ++i) y.pack_[i] = std::atan2(y.pack_[i], x.pack_[i]);
+    return y;
+  }
+  friend Lanes copysign(Lanes size, Lanes sign) {
+    const Bits without_sign = Bits{} + std::numeric_limits<std::int64_t>::max();
+    return Lanes(Pack((Bits(size.pack_) & without_sign) | (Bits(sign.pack_) & ~without_sign)));
+  }
 
  private:
   template <class F>
@@ -128,6 +142,34 @@ S select(bool where, S a, S b) {
   return where ? a : b;
 }
 inline bool any(bool a) { return a; }
+
+/// Each component of a where the condition holds, else that of b.
+template <class S, int n>
+Eigen::Matrix<S, n, 1> select(typename LaneType<S>::Mask where, const Eigen::Matrix<S, n, 1>& a,
+                              const Eigen::Matrix<S, n, 1>& b) {
+  Eigen::Matrix<S, n, 1> chosen;
+  for (int k = 0; k < n; ++k) chosen[k] = select(where, a[k], b[k]);
+  return chosen;
+}
+
+/// Sine and cosine of one angle, which cost together what one of them costs.
+template <class S>
+struct SineAndCosine {
+  S sine, cosine;
+};
+template <std::floating_point S>
+SineAndCosine<S> sine_and_cosine(S angle) {
+  return {std::sin(angle), std::cos(angle)};
+}
+inline SineAndCosine<Lanes> sine_and_cosine(Lanes angle) {
+  SineAndCosine<Lanes> all;
+  for (int i = 0; i < lane_count; ++i) {
+    const auto [sine, cosine] = sine_and_cosine(angle[i]);
+    all.sine.set(i, sine);
+    all.cosine.set(i, cosine);
+  }
+  return all;
+}
 
 /// The scalar whose lane i is f(i); a plain scalar has lane 0 only.
 template <class S, class F>

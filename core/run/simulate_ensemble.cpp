@@ -131,9 +131,10 @@ class EnsembleLoop {
     for (std::size_t which = 0; which < watched_.size(); ++which)
       watched.push_back(std::span(values_).subspan(which * samples_.size(), samples.size()));
     observer_.on_samples({samples, watched}, running_, accepted);
+    const std::array<bool, lanes_of_all> due = due_after_all(samples, accepted);
     bool ended = false;
     for (std::size_t i = 0; i < lanes_of_all; ++i) {
-      if (running_[i]) ended = show(i, samples, finite[i], accepted[i]) || ended;
+      if (running_[i]) ended = show(i, samples, finite[i], accepted[i], due[i]) || ended;
     }
     return ended;
   }
@@ -200,8 +201,22 @@ class EnsembleLoop {
     return finite;
   }
 
+  /// Shows the states at the last sample to the observer of all. The lanes whose observers are due to receive theirs.
+  std::array<bool, lanes_of_all> due_after_all(std::span<const LaneSample> samples,
+                                               const std::array<std::size_t, lanes_of_all>& accepted) {
+    std::array<bool, lanes_of_all> due{};
+    bool some = false;
+    for (std::size_t i = 0; i < lanes_of_all; ++i) {
+      due[i] =
+          running_[i] && accepted[i] == samples.size() && samples.back().t[int(i)] >= observer_.of_lane(i).next_state();
+      some = some || due[i];
+    }
+    if (some) observer_.on_states({*system_, state_.y, samples.back()}, due);
+    return due;
+  }
+
   /// Shows the state of a lane at the last sample, if it is due. True if its run has ended.
-  bool show(std::size_t i, std::span<const LaneSample> samples, std::size_t finite, std::size_t accepted) {
+  bool show(std::size_t i, std::span<const LaneSample> samples, std::size_t finite, std::size_t accepted, bool due) {
     Lane& lane = lanes_[i];
     if (accepted < samples.size()) {
       lane.done -= static_cast<std::int64_t>(samples.size() - accepted) - 1;
@@ -209,10 +224,10 @@ class EnsembleLoop {
       return true;
     }
     const double t = samples.back().t[int(i)];
-    if (Observer& observer = observer_.of_lane(i); t >= observer.next_state()) {
+    if (due) {
       lane.state.t = t;
       for (Eigen::Index n = 0; n < state_.y.size(); ++n) lane.state.y[n] = state_.y[n][int(i)];
-      observer.on_state(lane.state, sample_in(samples.back(), int(i)));
+      observer_.of_lane(i).on_state(lane.state, sample_in(samples.back(), int(i)));
     }
     if (lane.left() > 0) return false;
     end(i, t);

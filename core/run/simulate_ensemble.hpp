@@ -32,6 +32,13 @@ struct LaneBlock {
 /// The sample in one lane.
 Sample sample_in(const LaneSample& all, int lane);
 
+/// The states of all lanes at their latest sample. Those of vacant lanes mean nothing.
+struct LaneStates {
+  const System<Lanes>& system;
+  const VectorX<Lanes>& y;
+  const LaneSample& sample;
+};
+
 /// Observes the runs of an ensemble. Each run is shown as simulate() shows it, but for the samples after the start,
 /// which come for all lanes at once.
 class EnsembleObserver {
@@ -47,6 +54,10 @@ class EnsembleObserver {
   /// Receives samples. accepted[lane]: the number of samples before the first one that is not finite; 0 for a vacant
   /// lane. If the observer lowers it, the run ends as diverged at the next sample.
   virtual void on_samples(const LaneBlock& block, std::span<const bool> running, std::span<std::size_t> accepted) = 0;
+
+  /// May receive states that observers of lanes are due to receive. due[lane]: the observer of the lane is; if this one
+  /// lowers it, that one does not receive the state.
+  virtual void on_states(const LaneStates&, std::span<bool> /*due*/) {}
 
   /// Receives the outcome of the run in this lane, which is vacant then, and the run's share of the time, s.
   virtual void on_end(std::size_t lane, RunOutcome&& outcome, double seconds) = 0;

@@ -84,7 +84,7 @@ DriftMeter::DriftMeter(const System<double>& system, const std::vector<std::stri
       has_exact_(exact_.has_anything() || reference_),
       scales_(std::move(motion.scales)),
       precision_(precision),
-      polhode_(PolhodeError::of(system)) {
+      polhode_(PolhodeError::of(system, system.moving() == 1 ? exact_.free_top(0) : nullptr)) {
   if (reference_) follower_.emplace(reference_);
   for (const std::string& name : invariants) invariants_.push_back({find_invariant(name)});
 }
@@ -154,7 +154,12 @@ void DriftMeter::on_state(const State<double>& state, const Sample&) {
   if (measures_invariants()) measure_further(state);
   if (!has_exact_ || (!exact_at_samples_ && state.t < next_exact_)) return;
   measure_errors(state);
-  while (next_exact_ <= state.t) {
+  plan_next_errors(state.t);
+}
+
+/// Sets the time of the next measurement of errors after the one at time t.
+void DriftMeter::plan_next_errors(double t) {
+  while (next_exact_ <= t) {
     // Slightly early, so that a sample at the instant itself counts in spite of the rounding of its time.
     constexpr double early = 1 - 1e-12;
     next_exact_ = exact_count_ < exact_instants ? early * static_cast<double>(++exact_count_) * t_end_ / exact_instants
@@ -176,8 +181,7 @@ void DriftMeter::measure_errors(const State<double>& state) {
     e.raise(one.error);
     if (polhode_) measure_polhode(state.t, body, one.angular_velocity_body);
   }
-  const double next_kept = t_end_ * static_cast<double>(attitude_errors_.size()) / most_attitude_errors;
-  if (e.attitude && state.t >= next_kept * (1 - 1e-12)) attitude_errors_.push_back({state.t, *e.attitude});
+  if (e.attitude) keep_attitude_error(state.t, *e.attitude);
   if (follower_) {
     const ExactMotion::Error r = follower_->error(system_, state);
     if (!e.position) e.position = r.position;
@@ -185,6 +189,12 @@ void DriftMeter::measure_errors(const State<double>& state) {
     if (!e.angular_velocity) e.angular_velocity = r.angular_velocity;
   }
   worst_error_.raise(e);
+}
+
+void DriftMeter::keep_attitude_error(double t, double error) {
+  if (!keeps_curves_) return;
+  const double next_kept = t_end_ * static_cast<double>(attitude_errors_.size()) / most_attitude_errors;
+  if (t >= next_kept * (1 - 1e-12)) attitude_errors_.push_back({t, error});
 }
 
 void DriftMeter::measure_polhode(double t, const BodySnapshot<double>& body,

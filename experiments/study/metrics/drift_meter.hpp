@@ -79,13 +79,16 @@ class DriftMeter final : public Observer {
   void report(RunResult& result);
 
  private:
-  friend class LaneMeter;  // takes the samples after the start, for a meter in each lane
+  friend class LaneMeter;   // takes the samples after the start, for a meter in each lane
+  friend class LaneErrors;  // measures the errors after the start, for a meter in each lane
 
   bool measures_invariants() const { return !invariants_.empty() && !invariants_told_; }
   void measure_further(const State<double>& state);
   std::size_t take(std::span<const Sample> samples);
   void follow(const DriftsOfRun& drifts, std::size_t count);
   void measure_errors(const State<double>& state);
+  void keep_attitude_error(double t, double error);
+  void plan_next_errors(double t);
   void measure_polhode(double t, const BodySnapshot<double>& body, const std::optional<Vector3<double>>& exact_omega);
   static void forget_errors(RunResult& result);
   void judge_by_reference(RunResult& result) const;

@@ -46,6 +46,7 @@ void LaneMeter::begin(std::size_t lane, DriftMeter& meter) {
     starts_[k].set(int(lane), meter.invariants_[k].start);
     worst_[k].set(int(lane), meter.invariants_[k].worst);
   }
+  errors_.begin(lane, meter);
 }
 
 void LaneMeter::on_samples(const LaneBlock& block, std::span<const bool> running, std::span<std::size_t> accepted) {
@@ -139,6 +140,7 @@ void LaneMeter::end(std::size_t lane) {
   DriftMeter& meter = *meters_[lane];
   meter.sums_ = lane_of(sums_, lane);
   for (std::size_t k = 0; k < starts_.size(); ++k) meter.invariants_[k].worst = worst_[k][int(lane)];
+  errors_.end(lane);
 }
 
 }  // namespace polhode::study::metrics

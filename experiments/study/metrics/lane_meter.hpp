@@ -11,6 +11,7 @@
 #include "core/run/simulate_ensemble.hpp"
 #include "experiments/study/metrics/drift_meter.hpp"
 #include "experiments/study/metrics/drift_sums.hpp"
+#include "experiments/study/metrics/lane_errors.hpp"
 
 namespace polhode::study::inline metrics {
 
@@ -22,6 +23,9 @@ class LaneMeter {
   /// Takes samples as EnsembleObserver::on_samples() does. The watched quantities are the invariants of the runs, in
   /// their order.
   void on_samples(const LaneBlock& block, std::span<const bool> running, std::span<std::size_t> accepted);
+
+  /// Measures errors as EnsembleObserver::on_states() receives states: where the exact motion is that of a free top.
+  void on_states(const LaneStates& states, std::span<bool> due) { errors_.measure(states, due); }
 
   /// Gives the meter of the lane what was measured. To be called once, after the run.
   void end(std::size_t lane);
@@ -38,6 +42,7 @@ class LaneMeter {
   DriftSums<Lanes> sums_;
   std::vector<Lanes> starts_, worst_;  ///< start values and largest changes of the invariants
   DriftColumns<Lanes> columns_;
+  LaneErrors errors_;
 };
 
 }  // namespace polhode::study::metrics

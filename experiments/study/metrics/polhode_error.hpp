@@ -15,6 +15,7 @@
 
 #include "core/exact/free_top.hpp"
 #include "core/system/system.hpp"
+#include "experiments/study/metrics/polhode_curve.hpp"
 
 namespace polhode::study::inline metrics {
 
@@ -28,7 +29,8 @@ class PolhodeError {
 
   /// Absent unless one body moves, no joint and no torque acts on it, and its body-frame ω varies; otherwise its
   /// polhode is a point.
-  static std::optional<PolhodeError> of(const System<double>& system);
+  /// top: the exact rotation of the body, if it is known already; saves its computation.
+  static std::optional<PolhodeError> of(const System<double>& system, const FreeTop* top = nullptr);
 
   /// The error of the body at time t, s. Calls must go forwards in time: the phase continues from that of the last
   /// call, beyond whole periods. Several calls are required for each period by which the phase changes.
@@ -36,29 +38,18 @@ class PolhodeError {
   At at(double t, const BodySnapshot<double>& body, const std::optional<Vector3<double>>& exact_omega = {});
 
  private:
-  PolhodeError(const Matrix3<double>& inertia, const Vector3<double>& omega_body);
-  struct Momentum {
-    Vector3<double> y, omega;                                ///< kg m²/s and rad/s, body frame
-    Vector3<double> rate() const { return y.cross(omega); }  ///< ẏ, Euler's equations
-  };
-  struct Derivatives {
-    Vector3<double> rate = Vector3<double>::Zero(), second = rate, third = rate;  ///< of y in time, body frame
-  };
-  struct Nearest {
-    double phase = 0;     ///< s
-    double distance = 0;  ///< of y from the exact one at that phase, kg m²/s
-  };
-  Momentum exact(double t) const;
-  Derivatives derivatives(const Momentum& m) const;
-  Nearest refined(double t, const Vector3<double>& y, double phase, Momentum start) const;
+  friend class PolhodeErrors;  // continues errors in lanes
+  using Curve = PolhodeCurve<double>;
+
+  PolhodeError(const Matrix3<double>& inertia, const Vector3<double>& omega_body, const FreeTop& top);
+  Curve::Momentum exact(double t) const { return curve_.momentum(top_.angular_velocity_body(t)); }
+  Curve::Nearest refined(double t, const Vector3<double>& y, double phase, const Curve::Momentum& start) const;
+  Curve::Nearest searched(double t, const Vector3<double>& y, double expected, const Curve::Nearest& found);
   double nearest_of_ring(double t, const Vector3<double>& y, double expected);
 
-  Matrix3<double> inertia_, inverse_inertia_;
+  Curve curve_;  ///< its search_step is the time between the points of the ring
   FreeTop top_;
-  double speed_, size_;  ///< |ω(0)|, |y(0)|
-  double reach_;         ///< time within which the cubic Taylor polynomial of y is exact to round-off, s
-  double search_step_;   ///< time between the points of the ring, s
-  std::size_t points_;   ///< number of the points of the ring
+  std::size_t points_;  ///< number of the points of the ring
   /// Exact y at equal steps over a period, for the search of the nearest point; made when it is first needed.
   std::vector<Vector3<double>> ring_;
   double t_ = 0, phase_ = 0, phase_rate_ = 0;

@@ -198,6 +198,7 @@ class SideBySide final : public EnsembleObserver {
     steps_done_ += under_way * static_cast<double>(block.samples.size());
     work_.share->store(std::min(steps_done_ / steps_, 1.0), std::memory_order_relaxed);
   }
+  void on_states(const LaneStates& states, std::span<bool> due) override { meter_.on_states(states, due); }
   void on_end(std::size_t lane, RunOutcome&& outcome, double seconds) override {
     meter_.end(lane);
     RunResult result = result_of(outcome, *lanes_[lane].meter, seconds);

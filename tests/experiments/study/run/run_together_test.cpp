@@ -47,6 +47,42 @@ void expect_same_result(const RunResult& a, const RunResult& b) {
                 x.orientation_defect == y.orientation_defect)
         << "point " << i;
   }
+  ASSERT_EQ(a.attitude_errors.size(), b.attitude_errors.size());
+  for (std::size_t i = 0; i < a.attitude_errors.size(); ++i) {
+    EXPECT_EQ(a.attitude_errors[i].t, b.attitude_errors[i].t);
+    EXPECT_EQ(a.attitude_errors[i].error_rad, b.attitude_errors[i].error_rad) << "error " << i;
+  }
+}
+
+TEST(RunsTogether, HaveTheErrorsThatEachHasAlone) {
+  const char* const spins[][3] = {
+      {"0.01", "1", "0.3"}, {"1", "0", "0"}, {"1e-9", "1", "0"}, {"2", "0.1", "1"}, {"30", "-40", "7"}};
+  for (const std::string name : {"dzhanibekov", "free_symmetric_top", "coursework", "projectile"}) {
+    std::vector<Scenario> scenarios;
+    for (const auto& spin : spins) {  // the second one turns steadily
+      std::vector<Override> start;
+      for (std::size_t k = 0; k < 3; ++k) start.push_back({"body.0.angular_velocity." + std::to_string(k), spin[k]});
+      scenarios.push_back(ScenarioSource::open(name).resolve(start));
+    }
+    std::vector<RunConfig> configs;
+    for (const double dt : {0.01, 0.03, 0.3}) {
+      for (const Scenario& scenario : scenarios) configs.push_back(by_rk4(scenario, dt));
+    }
+    for (const std::string method : {"rk4", "explicit_euler"}) {
+      std::vector<LanedRun> runs;
+      for (std::size_t i = 0; i < configs.size(); ++i) {
+        configs[i].integrator = method;
+        runs.push_back({configs[i], scenarios[i % scenarios.size()], true});
+      }
+      std::vector<RunResult> together(runs.size());
+      carry_out_together(
+          {.runs = runs, .finish = [&](std::size_t run, RunResult&& result) { together[run] = std::move(result); }});
+      for (std::size_t i = 0; i < runs.size(); ++i) {
+        SCOPED_TRACE(name + " by " + method + ", run " + std::to_string(i));
+        expect_same_result(together[i], carry_out(configs[i], runs[i].scenario, {}, nullptr));
+      }
+    }
+  }
 }
 
 TEST(RunsTogether, HaveTheResultsThatEachHasAlone) {
