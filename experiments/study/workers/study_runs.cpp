@@ -238,6 +238,7 @@ void StudyRuns::run(const std::vector<std::uint32_t>& runs, Interruption& interr
   for (const std::uint32_t i : runs) scenarios.push_back(plan_.rows[i].scenario);
   references.expect(std::move(scenarios));
   const auto trajectory = [&](const std::string& id) {
+    if (options_.trajectory == TrajectoryFormat::none) return TrajectoryRequest{};
     return TrajectoryRequest{options_.trajectory, trajectory_folder(experiment_, folder_, id)};
   };
   const Work work{
@@ -255,6 +256,7 @@ void StudyRuns::run(const std::vector<std::uint32_t>& runs, Interruption& interr
           },
       .finish =
           [&](const std::vector<RunRecord>& records) {
+            if (options_.trajectory == TrajectoryFormat::none) return;
             std::vector<std::filesystem::path> folders;
             for (const RunRecord& record : records) folders.push_back(trajectory(record.id).folder);
             finish_trajectories(options_.trajectory, folders);
