@@ -14,7 +14,6 @@
 
 #include "core/math/lanes.hpp"
 #include "experiments/study/process/progress.hpp"
-#include "experiments/study/record/run_id.hpp"
 #include "experiments/study/text/in_order.hpp"
 #include "experiments/study/workers/run_queue.hpp"
 #include "experiments/study/workers/time_left.hpp"
@@ -41,7 +40,7 @@ class Keeper {
  public:
   Keeper(const std::string& name, const Plan& plan, const std::vector<std::uint32_t>& runs, std::size_t workers,
          const Work& work, Store& store, std::atomic<bool>& no_more)
-      : plan_(plan), work_(work), store_(store), no_more_(no_more), desks_(workers), progress_(name, runs.size()) {
+      : work_(work), store_(store), no_more_(no_more), desks_(workers), progress_(name, runs.size()) {
     std::vector<double> costs(plan.kinds.size());
     for (const std::uint32_t i : runs) costs[plan.rows[i].kind] += plan.rows[i].cost;
     for (std::size_t kind = 0; kind < costs.size(); ++kind) {
@@ -62,10 +61,11 @@ class Keeper {
     return desk.share;
   }
 
-  /// Receives a finished run.
-  void add(RunRecord&& record) {
+  /// Receives the finished run of the plan with this number.
+  void add(std::uint32_t number, RunRecord&& record) {
     const std::lock_guard lock(mutex_);
-    pending_.push_back(std::move(record));
+    pending_.numbers.push_back(number);
+    pending_.records.push_back(std::move(record));
   }
 
   /// Marks the end of a worker's batch.
@@ -90,17 +90,24 @@ class Keeper {
   }
 
  private:
+  /// Finished runs.
+  struct Runs {
+    std::vector<std::uint32_t> numbers;  // in the plan
+    std::vector<RunRecord> records;
+  };
+
   void loop() {
-    std::vector<RunRecord> records;  // changes places with pending_, so that neither list grows anew each time
+    Runs runs;  // change places with pending_, so that neither list grows anew each time
     for (bool last = false; !last;) {
-      records.clear();
+      runs.numbers.clear();
+      runs.records.clear();
       {
         std::unique_lock lock(mutex_);
         wake_.wait_for(lock, between_commits, [this] { return finished_; });
         last = finished_;
-        records.swap(pending_);
+        std::swap(runs, pending_);
       }
-      keep(records);
+      keep(runs);
       if (progress_.is_due()) report();
     }
   }
@@ -114,22 +121,18 @@ class Keeper {
     progress_.report(stored_.size(), time_left_.share(under_way), time_left_.seconds(under_way, desks_.size()));
   }
 
-  void keep(const std::vector<RunRecord>& records) {
-    if (records.empty() || failure_) return;
+  void keep(const Runs& runs) {
+    if (runs.numbers.empty() || failure_) return;
     try {
-      work_.finish(records);
-      store_.keep(records);
-      for (const RunRecord& record : records) {
-        if (const auto number = plan_.find(number_of_id(record.id)))
-          stored_.push_back(static_cast<std::uint32_t>(*number));
-      }
+      work_.finish(runs.records);
+      store_.keep(runs.records);
+      stored_.insert(stored_.end(), runs.numbers.begin(), runs.numbers.end());
     } catch (...) {
       failure_ = std::current_exception();
       no_more_ = true;
     }
   }
 
-  const Plan& plan_;
   const Work& work_;
   Store& store_;
   std::atomic<bool>& no_more_;
@@ -138,7 +141,7 @@ class Keeper {
   std::vector<Desk> desks_;
   TimeLeft time_left_;
   Progress progress_;
-  std::vector<RunRecord> pending_;
+  Runs pending_;
   std::vector<std::uint32_t> stored_;
   bool finished_ = false;
   std::exception_ptr failure_;
@@ -171,11 +174,13 @@ class Worker {
   /// Carries out these runs, until no more may begin.
   void carry_out(const std::vector<std::uint32_t>& numbers) {
     std::vector<PlannedRun> runs;
+    runs.reserve(numbers.size());
     Variants variants;
     for (const std::uint32_t i : numbers) runs.push_back(plan_.run(i, &variants));
     for (const std::vector<std::size_t>& members : batches_of(runs, work_)) {
       if (no_more_) return;
       std::vector<PlannedRun> batch;
+      batch.reserve(members.size());
       double cost = 0;
       for (const std::size_t k : members) {
         batch.push_back(std::move(runs[k]));
@@ -186,7 +191,7 @@ class Worker {
       work_.carry_out(batch, share, [&](std::size_t k, RunResult&& result) {
         if (result.status == "interrupted") return;
         if (!plan_.rows[numbers[members[k]]].keeps_curves) drop_curves(result);
-        keeper_.add({batch[k].id, batch[k].config, std::move(result)});
+        keeper_.add(numbers[members[k]], {batch[k].id, batch[k].config, std::move(result)});
       });
       keeper_.end(number_);
     }
