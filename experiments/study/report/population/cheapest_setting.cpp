@@ -26,6 +26,12 @@ std::string capital(std::string text) {
 
 }  // namespace
 
+const std::array<double, CheapestSetting::decades.size()> CheapestSetting::limits = [] {
+  std::array<double, decades.size()> all{};
+  std::transform(decades.begin(), decades.end(), all.begin(), [](int decade) { return std::pow(10.0, decade); });
+  return all;
+}();
+
 void CheapestSetting::add(const RunRecord& run) {
   ++outcomes_[run.result.status];
   const auto& step = run.config.tolerance ? run.config.tolerance : run.config.dt;
@@ -40,7 +46,7 @@ void CheapestSetting::add(const RunRecord& run) {
     ++setting.runs;
     if (run.result.status != "ok" || !error || !std::isfinite(*error)) return;
     ++setting.with_error;
-    for (std::size_t k = 0; k < decades.size(); ++k) setting.reached[k] += *error <= std::pow(10.0, decades[k]);
+    for (std::size_t k = 0; k < decades.size(); ++k) setting.reached[k] += *error <= limits[k];
     setting.cost.add(static_cast<double>(run.result.evaluations));
   };
   count(attitude_, run.result.attitude_error_max);

@@ -26,6 +26,7 @@ class CheapestSetting {
  private:
   /// Errors for which an answer may be given, the most usual first: 10 to these powers (rad, or m).
   static constexpr std::array decades = {-3, -2, -4, -1, -5, -6, -7, -8, -9, -10};
+  static const std::array<double, decades.size()> limits;  ///< these powers
   static constexpr std::size_t most_settings = 1000;
 
   /// A method at a step or a tolerance.
