@@ -515,6 +515,7 @@ std::vector<RunOption> options_of_contact() {
 struct OptionTable {
   std::deque<RunOption> options;  // an added option moves no other: plans hold pointers to them
   std::vector<const RunOption*> by_column;
+  std::vector<std::pair<std::string, const RunOption*>> by_stored_name;
 
   OptionTable() {
     for (const auto& part :
@@ -531,6 +532,10 @@ struct OptionTable {
       if (is_axis(*a) != is_axis(*b)) return is_axis(*a);
       return a->on_demand != b->on_demand ? b->on_demand : a->on_demand && a->column < b->column;
     });
+    by_stored_name.clear();
+    for (const RunOption& option : options)
+      by_stored_name.emplace_back(option.column.empty() ? file_key(option) : option.column, &option);
+    std::sort(by_stored_name.begin(), by_stored_name.end());
   }
 };
 
@@ -567,6 +572,8 @@ const std::deque<RunOption>& run_options() { return table().options; }
 bool is_axis(const RunOption& option) { return option.role != Role::study && option.role != Role::call; }
 
 const std::vector<const RunOption*>& options_by_column() { return table().by_column; }
+
+const std::vector<std::pair<std::string, const RunOption*>>& options_by_stored_name() { return table().by_stored_name; }
 
 std::vector<const RunOption*> options_of_role(RunOption::Role role) {
   auto all = options_by_column();

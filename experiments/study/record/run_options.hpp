@@ -11,6 +11,7 @@
 #include <functional>
 #include <initializer_list>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/run/integrator.hpp"
@@ -80,6 +81,8 @@ bool is_axis(const RunOption& option);
 /// All options in the order of the columns of runs.csv: options on demand come last, sorted by column name; options
 /// that are no axes follow.
 const std::vector<const RunOption*>& options_by_column();
+/// All options with their names in the store, sorted by these: the column, or file_key() where there is none.
+const std::vector<std::pair<std::string, const RunOption*>>& options_by_stored_name();
 std::vector<const RunOption*> options_of_role(RunOption::Role role);  ///< options in the order of options_by_column()
 
 NamedOptions options_on_demand();  ///< names of all options on demand

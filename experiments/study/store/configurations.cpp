@@ -33,28 +33,24 @@ OptionValue option_of_value(const Value& value) {
       value);
 }
 
-/// The entries of configuration_of(), in any order.
-std::vector<std::pair<std::string, OptionValue>> entries_of(const RunConfig& config) {
-  std::vector<std::pair<std::string, OptionValue>> entries;
-  entries.reserve(run_options().size());
-  for (const RunOption& option : run_options()) {
-    if (!option.applies_to(config)) continue;
-    OptionValue value = option.value(config);
-    if (value != OptionValue{})
-      entries.emplace_back(option.column.empty() ? file_key(option) : option.column, std::move(value));
+/// The entries of configuration_of(), in the order of their names.
+std::vector<std::pair<std::string_view, OptionValue>> entries_of(const RunConfig& config) {
+  std::vector<std::pair<std::string_view, OptionValue>> entries;
+  entries.reserve(options_by_stored_name().size());
+  for (const auto& [name, option] : options_by_stored_name()) {
+    if (!option->applies_to(config)) continue;
+    OptionValue value = option->value(config);
+    if (value != OptionValue{}) entries.emplace_back(name, std::move(value));
   }
   return entries;
 }
 
+/// `entries`: sorted by name.
 template <class Entries>
 std::int64_t key_of_entries(const Entries& entries) {
-  std::vector<std::pair<std::string_view, Value>> sorted;
-  sorted.reserve(entries.size());
-  for (const auto& [name, value] : entries) sorted.emplace_back(name, value_of_option(value));
-  std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Value> values;
-  values.reserve(2 * sorted.size());
-  for (const auto& [name, value] : sorted) values.insert(values.end(), {name, value});
+  values.reserve(2 * entries.size());
+  for (const auto& [name, value] : entries) values.insert(values.end(), {name, value_of_option(value)});
   return checksum_of(0, values);
 }
 
@@ -70,6 +66,7 @@ std::int64_t configuration_key(const RunConfig& config) { return key_of_entries(
 
 std::string varied_text(const RunConfig& config) {
   std::string text;
+  text.reserve(96);
   for (const Override& varied : config.varied) {
     if (varied.value.empty()) continue;
     if (!text.empty()) text += '\n';
