@@ -129,9 +129,15 @@ Statement::Statement(const Database& db, const std::string& sql) : db_(&db) {
   sqlite3_stmt* statement = nullptr;
   if (sqlite3_prepare_v2(db.handle(), sql.c_str(), -1, &statement, nullptr) != SQLITE_OK) db.fail();
   statement_.reset(statement);
+  is_null_.assign(static_cast<std::size_t>(sqlite3_bind_parameter_count(statement)), true);
 }
 
 void Statement::bind(int parameter, const Value& value) {
+  // Most parameters of a row of results are NULL in all rows.
+  const bool null = std::holds_alternative<std::monostate>(value);
+  const auto place = static_cast<std::size_t>(parameter - 1);
+  if (null && is_null_.at(place)) return;
+  is_null_.at(place) = null;
   sqlite3_stmt* s = statement_.get();
   const auto set = [&]<class T>(const T& v) {
     if constexpr (std::is_same_v<T, std::monostate>) {

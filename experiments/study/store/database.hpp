@@ -9,6 +9,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "experiments/study/store/file_system.hpp"
 #include "experiments/study/store/value.hpp"
@@ -73,6 +74,7 @@ class Statement {
     void operator()(sqlite3_stmt*) const;
   };
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+  std::vector<bool> is_null_;  ///< true for a parameter that is NULL, as all are at first
 };
 
 /// The name as an SQL identifier, in double quotes.
