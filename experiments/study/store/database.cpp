@@ -178,17 +178,18 @@ int Statement::run(std::span<const Value> parameters) {
 }
 
 Value Statement::value(int column) const {
-  sqlite3_stmt* s = statement_.get();
-  const auto size = [&] { return static_cast<std::size_t>(sqlite3_column_bytes(s, column)); };
-  switch (sqlite3_column_type(s, column)) {
-    case SQLITE_INTEGER: return static_cast<std::int64_t>(sqlite3_column_int64(s, column));
-    case SQLITE_FLOAT: return sqlite3_column_double(s, column);
+  // Without mutexes this value may be read as any other (sqlite.org/c3ref/value.html), and is looked up once.
+  sqlite3_value* v = sqlite3_column_value(statement_.get(), column);
+  const auto size = [&] { return static_cast<std::size_t>(sqlite3_value_bytes(v)); };
+  switch (sqlite3_value_type(v)) {
+    case SQLITE_INTEGER: return static_cast<std::int64_t>(sqlite3_value_int64(v));
+    case SQLITE_FLOAT: return sqlite3_value_double(v);
     case SQLITE_TEXT: {
-      const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(s, column));
+      const auto* bytes = reinterpret_cast<const char*>(sqlite3_value_text(v));
       return std::string_view(bytes, size());
     }
     case SQLITE_BLOB: {
-      const auto* bytes = static_cast<const std::byte*>(sqlite3_column_blob(s, column));
+      const auto* bytes = static_cast<const std::byte*>(sqlite3_value_blob(v));
       return Blob(bytes, size());
     }
     default: return std::monostate();

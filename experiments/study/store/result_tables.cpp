@@ -26,10 +26,11 @@ using NamedNumbers = std::map<std::string, double>;
 /// "name=value " of each entry; names are identifiers, values have all digits.
 std::string text_of_numbers(const NamedNumbers& numbers) {
   std::string text;
+  text.reserve(96);
   for (const auto& [name, number] : numbers) {
     text += name;
     text += '=';
-    text += exact(number);
+    add_exact(text, number);
     text += ' ';
   }
   return text;
@@ -109,6 +110,20 @@ std::string_view type_of(const Metric& metric) {
     return text ? "TEXT" : "REAL";
   };
   return std::visit(of_member, metric.member);
+}
+
+/// True if put_value() takes NULL for no number.
+bool may_be_absent(const Metric& metric) {
+  const auto of_member = []<class M>(M) {
+    return !std::is_same_v<M, std::int64_t RunResult::*> && !std::is_same_v<M, std::string RunResult::*> &&
+           !std::is_same_v<M, NamedNumbers RunResult::*>;
+  };
+  return std::visit(of_member, metric.member);
+}
+
+/// Puts a value into a result, into which none was put before. Returns false if no study writes such a value.
+bool put(const ResultColumn& column, const Value& value, RunResult& result) {
+  return (column.may_be_absent && std::holds_alternative<std::monostate>(value)) || column.put(value, result);
 }
 
 /// A number of a run that is always there.
@@ -197,7 +212,8 @@ ResultTable runs_table(std::span<const Metric> metrics) {
          .type = type_of(metric),
          .value = [&metric](const RunRecord& record,
                             std::string& text) { return value_of(metric, record.result, text); },
-         .put = [&metric](const Value& stored, RunResult& result) { return put_value(metric, stored, result); }});
+         .put = [&metric](const Value& stored, RunResult& result) { return put_value(metric, stored, result); },
+         .may_be_absent = may_be_absent(metric)});
   }
   table.columns.push_back(number_column("t_reached_s", &RunResult::t_reached));
   table.columns.push_back(has_curves_column());
@@ -213,6 +229,13 @@ ResultTable curves_table() {
 }
 
 ResultTable timings_table() { return {"timings", {number_column("wall_s", &RunResult::seconds)}}; }
+
+std::size_t ResultTable::find(std::string_view column) const {
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    if (columns[k].name == column) return k;
+  }
+  throw std::logic_error("the table " + name + " has no column " + std::string(column));
+}
 
 std::string ResultTable::definition() const {
   std::string text = "CREATE TABLE " + name + " (number INTEGER PRIMARY KEY";
@@ -259,14 +282,13 @@ RowWriter::RowWriter(const ResultTable& table)
     : table_(&table), texts_(table.columns.size()), values_(table.columns.size() + (table.has_id ? 3 : 2)) {}
 
 std::span<const Value> RowWriter::values(std::int64_t number, std::int64_t id, const RunRecord& record) {
-  RunResult unused;
   const std::span<Value> columns = std::span(values_).last(texts_.size() + 1).first(texts_.size());
   values_[0] = number;
   if (table_->has_id) values_[1] = id;
   for (std::size_t k = 0; k < texts_.size(); ++k) {
     const ResultColumn& column = table_->columns[k];
     columns[k] = column.value(record, texts_[k]);
-    if (!column.put(columns[k], unused)) {
+    if (!put(column, columns[k], read_back_)) {
       throw std::logic_error("run " + record.id + " has a value of " + table_->name + "." + column.name +
                              " that cannot be stored");
     }
@@ -275,11 +297,8 @@ std::span<const Value> RowWriter::values(std::int64_t number, std::int64_t id, c
   return values_;
 }
 
-std::int64_t RowWriter::integer(std::string_view column) const {
-  for (std::size_t k = 0; k < table_->columns.size(); ++k) {
-    if (table_->columns[k].name == column) return std::get<std::int64_t>(values_[k + (table_->has_id ? 2 : 1)]);
-  }
-  throw std::logic_error("the table " + table_->name + " has no column " + std::string(column));
+std::int64_t RowWriter::integer(std::size_t column) const {
+  return std::get<std::int64_t>(values_[column + (table_->has_id ? 2 : 1)]);
 }
 
 RowReader::RowReader(const ResultTable& table, int first)
@@ -296,18 +315,11 @@ std::string RowReader::read(const Statement& row, std::int64_t id, RunResult& re
   for (std::size_t k = 0; k < values_.size(); ++k) {
     const ResultColumn& column = table_->columns[k];
     values_[k] = row.value(first_ + static_cast<int>(k));
-    if (!column.put(values_[k], result) && damaged.empty()) damaged = table_->name + "." + column.name;
+    if (!put(column, values_[k], result) && damaged.empty()) damaged = table_->name + "." + column.name;
   }
   if (!damaged.empty()) return damaged;
   const Value checksum = row.value(first_ + size() - 1);
   return is_integer(checksum, checksum_of(id, values_)) ? "" : table_->name + ".checksum";
-}
-
-const Value& RowReader::value(std::string_view column) const {
-  for (std::size_t k = 0; k < values_.size(); ++k) {
-    if (table_->columns[k].name == column) return values_[k];
-  }
-  throw std::logic_error("the table " + table_->name + " has no column " + std::string(column));
 }
 
 }  // namespace polhode::study::store

@@ -29,6 +29,7 @@ struct ResultColumn {
   std::function<Value(const RunRecord&, std::string& text)> value;
   /// Puts a stored value into a result. Returns false if no study writes such a value.
   std::function<bool(const Value&, RunResult&)> put;
+  bool may_be_absent = false;  ///< NULL stands for no number, as a new result has none; then put() need not be called
 };
 
 struct ResultTable {
@@ -36,6 +37,8 @@ struct ResultTable {
   std::vector<ResultColumn> columns;  ///< columns in the order of their names, without `number`, `id` and `checksum`
   bool has_id = false;                ///< true for `runs`
 
+  /// Place of the column in `columns`. Throws std::logic_error if there is none.
+  std::size_t find(std::string_view column) const;
   std::string definition() const;  ///< CREATE TABLE …
   /// INSERT OR `else_do` …, with parameters for `number`, `id` if there is one, the columns and `checksum`.
   std::string insertion(std::string_view else_do) const;
@@ -62,12 +65,13 @@ class RowWriter {
   /// The values, valid until the next call and as long as the record. Throws std::logic_error if a value is none that
   /// may be read back.
   std::span<const Value> values(std::int64_t number, std::int64_t id, const RunRecord& record);
-  std::int64_t integer(std::string_view column) const;  ///< value of a column in the row that was made last
+  std::int64_t integer(std::size_t column) const;  ///< value of a column in the row that was made last
 
  private:
   const ResultTable* table_;
   std::vector<std::string> texts_;
   std::vector<Value> values_;
+  RunResult read_back_;  ///< into which values are put to see whether they may be read back
 };
 
 /// Reads the columns of a table from the rows of a SELECT.
@@ -78,10 +82,10 @@ class RowReader {
   static std::string selection(const ResultTable& table);  ///< "runs.…, runs.checksum"
   int size() const { return static_cast<int>(table_->columns.size()) + 1; }
 
-  /// Puts the values of the run with this id into the result. Returns the name of the first damaged column,
+  /// Puts the values of the run with this id into a new result. Returns the name of the first damaged column,
   /// "runs.status"; empty if there is none. A row that a join did not find is damaged.
   std::string read(const Statement& row, std::int64_t id, RunResult& result);
-  const Value& value(std::string_view column) const;  ///< value in the row that was read last
+  const Value& value(std::size_t column) const { return values_[column]; }  ///< value in the row that was read last
 
  private:
   const ResultTable* table_;

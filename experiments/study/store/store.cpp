@@ -116,6 +116,7 @@ class Store::Writer {
         new_run_(db, tables.runs.insertion("IGNORE")),
         curves_(db, tables.curves),
         timings_(db, tables.timings),
+        configuration_(tables.runs.find(configuration_column)),
         configurations_(db),
         number_(db, "SELECT number FROM runs WHERE id = ?"),
         drop_curves_(db, "DELETE FROM curves WHERE number = ?"),
@@ -147,7 +148,7 @@ class Store::Writer {
       ++next_;
     }
     timings_.write(number, id, record);
-    configurations_.keep(runs_.row.integer(configuration_column), record.config);
+    configurations_.keep(runs_.row.integer(configuration_), record.config);
     if (!record.result.series.empty() || !record.result.attitude_errors.empty()) {
       curves_.write(number, id, record);
     } else if (known) {
@@ -179,6 +180,7 @@ class Store::Writer {
   Rows runs_;
   Statement new_run_;  // stores a run, unless one with its id is there
   Rows curves_, timings_;
+  std::size_t configuration_;  // column of `runs`
   ConfigurationWriter configurations_;
   Statement number_, drop_curves_, last_;
   std::int64_t next_ = 1;
@@ -188,7 +190,11 @@ class Store::Writer {
 class Store::Reader {
  public:
   Reader(const Database& db, const Tables& tables, Curves curves, const std::string& condition)
-      : runs_(tables.runs, 2), timings_(tables.timings, 2 + runs_.size()) {
+      : runs_(tables.runs, 2),
+        timings_(tables.timings, 2 + runs_.size()),
+        configuration_(tables.runs.find(configuration_column)),
+        varied_(tables.runs.find(varied_column)),
+        has_curves_(tables.runs.find(has_curves)) {
     std::string columns =
         "runs.id, runs.number, " + RowReader::selection(tables.runs) + ", " + RowReader::selection(tables.timings);
     std::string joined = "runs LEFT JOIN timings ON timings.number = runs.number";
@@ -211,11 +217,11 @@ class Store::Reader {
     run.id = id_of_key(key);
     run.damage = runs_.read(*select_, key, run.result);
     if (run.damage.empty()) {
-      run.configuration = std::get<std::int64_t>(runs_.value(configuration_column));
-      run.varied = std::get<std::string_view>(runs_.value(varied_column));
+      run.configuration = std::get<std::int64_t>(runs_.value(configuration_));
+      run.varied = std::get<std::string_view>(runs_.value(varied_));
     }
     if (run.damage.empty()) run.damage = timings_.read(*select_, key, run.result);
-    if (run.damage.empty() && curves_ && is_integer(runs_.value(has_curves), 1))
+    if (run.damage.empty() && curves_ && is_integer(runs_.value(has_curves_), 1))
       run.damage = curves_->read(*select_, key, run.result);
     return run;
   }
@@ -223,6 +229,7 @@ class Store::Reader {
  private:
   RowReader runs_, timings_;
   std::optional<RowReader> curves_;
+  std::size_t configuration_, varied_, has_curves_;  // columns of `runs`
   std::optional<Statement> select_;
 };
 
