@@ -81,9 +81,9 @@ void add_canonical_text(const Problem& problem, const std::vector<std::string>& 
   for (std::size_t i = 0; i < problem.bodies.size(); ++i) write_body(problem.bodies[i], problem.starts[i], out);
   for (const ForceParameters& force : problem.forces) write_force(force, out);
   for (const JointParameters& joint : problem.joints) write_force(joint.of, out, "joint ");
-  std::vector<std::string> sorted = invariants;
+  std::vector<std::string_view> sorted(invariants.begin(), invariants.end());
   std::sort(sorted.begin(), sorted.end());
-  for (const std::string& name : sorted) out.append("invariant ").append(name).append("\n");
+  for (const std::string_view name : sorted) out.append("invariant ").append(name).append("\n");
 }
 
 }  // namespace polhode::study::scenario

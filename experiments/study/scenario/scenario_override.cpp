@@ -175,27 +175,28 @@ class Walk {
 
   /// parts_[depth] is a key of this table, and those after it lead into its value.
   void into_table(TomlValue& table, const std::vector<ScenarioKey>& keys, std::size_t depth) {
-    const std::string name(parts_[depth]);
+    const std::string_view name = parts_[depth];
     const ScenarioKey* key = find_key(keys, name);
-    if (!key) fail("there is no key '" + name + "'" + suggestion(name, "There are", names(keys)));
+    if (!key) fail("there is no key '" + std::string(name) + "'" + suggestion(name, "There are", names(keys)));
     const TomlValue* said = root_.find("contact");
     const bool contact = said && said->boolean;
     const bool unread = name == "shape" && !contact && (table.find("inertia") || table.find("point_masses"));
     if (key->decides == Decides::never || (key->decides == Decides::with_contact && !contact) || unread) {
-      fail("the " + name + " decides nothing about a run" +
+      fail("the " + std::string(name) + " decides nothing about a run" +
            (unread                           ? " while the inertia is given beside it"
             : key->decides == Decides::never ? ""
                                              : " without contact = true"));
     }
     TomlValue* found = table.find(name);
     if (!found && depth + 1 < parts_.size()) {
-      if (!key->otherwise) fail("the scenario gives no " + name + " of which to set a part; " + instead(name));
-      found = &table.insert(name, *key->otherwise).value;
+      if (!key->otherwise)
+        fail("the scenario gives no " + std::string(name) + " of which to set a part; " + instead(std::string(name)));
+      found = &table.insert(std::string(name), *key->otherwise).value;
     }
     if (found) {
       into_value(*found, depth + 1);
     } else {
-      table.insert(name, std::move(value_));
+      table.insert(std::string(name), std::move(value_));
     }
   }
 
