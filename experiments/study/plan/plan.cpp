@@ -313,12 +313,13 @@ PlannedRun Plan::run(std::size_t i, Variants* known) const {
     run.config = further_[row.cell].config;
     run.scenario = further_[row.cell].scenario;
   } else {
+    if (row.own_presets) known = nullptr;  // the scenario of another duration has the same number
     Product::Run made = products_[row.product]->run(row.cell, known ? known->find(row.scenario) : nullptr);
     run.config = std::move(made.config);
     run.scenario = std::move(made.scenario);
     fill_varied(run.config, varied_keys);
+    if (known) known->add(row.scenario, run.scenario);
   }
-  if (known) known->add(row.scenario, run.scenario);
   if (row.refused) run.refusal = refusal(run.config, *run.scenario);
   return run;
 }

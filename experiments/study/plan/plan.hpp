@@ -93,8 +93,8 @@ class Plan {
   std::size_t size() const { return rows.size(); }
   /// Number of different motions of the scenarios (Product::most_true_motions) without those of widen().
   double most_true_motions() const;
-  /// Run i, below size(). Takes its scenario from `known`, and puts it there, unless `known` is null. Thread-safe for
-  /// different `known`.
+  /// Run i, below size(). Takes its scenario from `known`, and puts it there, unless `known` is null or the run has
+  /// own_presets. Thread-safe for different `known`.
   PlannedRun run(std::size_t i, Variants* known = nullptr) const;
   /// The configuration of run i. The scenario is made only for a run with own_presets. Thread-safe.
   RunConfig config(std::size_t i) const;

@@ -98,9 +98,12 @@ TEST_F(StudyFiles, AGlanceReadsFewerScenariosOfManyBodies) {
 TEST_F(StudyFiles, ConfigurationsAreThoseOfTheRuns) {
   const auto expect_those_of_the_runs = [](const Plan& plan, std::size_t with_own_presets) {
     std::size_t own = 0;
+    Variants variants;
     for (std::size_t i = 0; i < plan.size(); ++i) {
       own += plan.rows[i].own_presets;
-      EXPECT_EQ(run_number(plan.config(i), plan.run(i).scenario->canonical), plan.rows[i].id) << i;
+      const PlannedRun run = plan.run(i);
+      for (const RunConfig& config : {run.config, plan.config(i), plan.run(i, &variants).config})
+        EXPECT_EQ(run_number(config, run.scenario->canonical), plan.rows[i].id) << i;
     }
     EXPECT_EQ(own, with_own_presets);
   };
