@@ -206,6 +206,7 @@ Cell Cells::at(const Place& place) const {
   const Block& block = blocks_[place.block];
   Cell cell;
   cell.scenario = block.scenario;
+  cell.options.reserve(dimensions_.size());
   for (std::size_t d = dimensions_.size(); d-- > 0;) {
     for (std::size_t i = 0; i < dimensions_[d].keys.size(); ++i) {
       const DimensionKey& key = dimensions_[d].keys[i];

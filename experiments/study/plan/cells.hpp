@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,7 +20,7 @@
 namespace polhode::study::inline plan {
 
 struct Cell {
-  std::string scenario;                                           ///< scenario as it is written in the study
+  std::string_view scenario;  ///< scenario as it is written in the study; valid as long as the Cells
   std::vector<std::pair<const RunOption*, OptionValue>> options;  ///< those that the study gives and that apply
   std::vector<Override> varied;                                   ///< sorted by key
 };

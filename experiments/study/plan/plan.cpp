@@ -41,6 +41,10 @@ std::string kind_of(const RunConfig& config) {
 
 /// Adds an empty value for each key that the product of the run does not vary, and sorts the values by `keys`.
 void fill_varied(RunConfig& config, const std::vector<std::string>& keys) {
+  if (std::equal(keys.begin(), keys.end(), config.varied.begin(), config.varied.end(),
+                 [](const std::string& key, const Override& own) { return own.key == key; })) {
+    return;
+  }
   std::vector<Override> varied;
   varied.reserve(keys.size());
   for (const std::string& key : keys) {
@@ -314,7 +318,8 @@ PlannedRun Plan::run(std::size_t i, Variants* known) const {
     run.scenario = further_[row.cell].scenario;
   } else {
     if (row.own_presets) known = nullptr;  // the scenario of another duration has the same number
-    Product::Run made = products_[row.product]->run(row.cell, known ? known->find(row.scenario) : nullptr);
+    Product::Run made = products_[row.product]->run(row.cell, known ? known->find(row.scenario) : nullptr,
+                                                    known ? &known->last : nullptr);
     run.config = std::move(made.config);
     run.scenario = std::move(made.scenario);
     fill_varied(run.config, varied_keys);
@@ -324,10 +329,10 @@ PlannedRun Plan::run(std::size_t i, Variants* known) const {
   return run;
 }
 
-RunConfig Plan::config(std::size_t i) const {
+RunConfig Plan::config(std::size_t i, LastOptions* last) const {
   const PlanRow& row = rows[i];
   if (row.own_presets || row.product == products_.size()) return run(i).config;
-  RunConfig config = products_[row.product]->config(row.cell);
+  RunConfig config = products_[row.product]->config(row.cell, last);
   fill_varied(config, varied_keys);
   return config;
 }

@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "experiments/study/plan/last_options.hpp"
 #include "experiments/study/plan/options.hpp"
 #include "experiments/study/record/run_record.hpp"
 
@@ -48,11 +49,14 @@ struct StudyCount {
   std::vector<std::string> tables;  ///< its tables of points in words: "zip of dt, t-end: 2 points: (0.001, 10), …"
 };
 
-/// Scenarios with their varied keys set, by PlanRow::scenario, so that runs can share them.
+/// What runs that are made one after another share: scenarios with their varied keys set, by PlanRow::scenario, and the
+/// options of the last run.
 class Variants {
  public:
   /// `most`: the largest number that is held.
   explicit Variants(std::size_t most = 256) : most_(most) {}
+
+  LastOptions last;
 
   std::shared_ptr<const Scenario> find(std::uint64_t scenario) const {
     const auto found = held_.find(scenario);
@@ -93,11 +97,12 @@ class Plan {
   std::size_t size() const { return rows.size(); }
   /// Number of different motions of the scenarios (Product::most_true_motions) without those of widen().
   double most_true_motions() const;
-  /// Run i, below size(). Takes its scenario from `known`, and puts it there, unless `known` is null or the run has
-  /// own_presets. Thread-safe for different `known`.
+  /// Run i, below size(). Takes what it shares with other runs from `known`, and puts it there, unless `known` is null
+  /// or the run has own_presets. Thread-safe for different `known`.
   PlannedRun run(std::size_t i, Variants* known = nullptr) const;
-  /// The configuration of run i. The scenario is made only for a run with own_presets. Thread-safe.
-  RunConfig config(std::size_t i) const;
+  /// The configuration of run i. The scenario is made only for a run with own_presets.
+  /// `last`: the options of the run before, which become those of this one. Thread-safe for different `last`.
+  RunConfig config(std::size_t i, LastOptions* last = nullptr) const;
   /// All runs, for a plan of a few.
   std::vector<PlannedRun> runs() const;
   /// Number of the run with this id.

@@ -135,10 +135,10 @@ RunConfig Product::start_of(const Opened& opened, const Scenario& scenario) cons
   return config;
 }
 
-/// The configuration of the cell. Options that the study does not give have the defaults of the scenario.
+/// The configuration of the cell without its varied keys. Options that the study does not give have the defaults of the
+/// scenario.
 RunConfig Product::configured(const Cell& cell, const Opened& opened, const Scenario& scenario) const {
   RunConfig config = start_of(opened, scenario);
-  config.varied = cell.varied;
   for (const RunOption& option : run_options()) {
     if (option.role == RunOption::Role::scenario || !option.applies_to(config)) continue;
     const auto given =
@@ -158,6 +158,18 @@ RunConfig Product::completed(const Cell& cell, const Opened& opened, const Scena
   if (experiment_.duration && (config.tolerance || config.dt))
     config.t_end = experiment_.duration(config.t_end, config.tolerance ? *config.tolerance : *config.dt);
   return config;
+}
+
+/// completed(), which is made anew only if `last` does not have it, and put there.
+RunConfig Product::completed(const Cell& cell, const Opened& opened, const Scenario& scenario,
+                             LastOptions* last) const {
+  if (!last) return completed(cell, opened, scenario);
+  if (last->scenario != &opened || last->options != cell.options) {
+    last->config = completed(cell, opened, scenario);
+    last->options = cell.options;
+    last->scenario = &opened;
+  }
+  return last->config;
 }
 
 /// `scenario`: that of the run, with the varied keys set.
@@ -225,7 +237,7 @@ Product::Part Product::for_each(std::span<const std::uint64_t> cells,
       continue;
     }
     Cell cell = cells_->at(place);
-    const Opened& of_cell = *by_name_.at(cell.scenario);
+    const Opened& of_cell = opened_of(cell);
     if (opened != &of_cell) scenario.reset(), config.reset();
     opened = &of_cell;
     if (!scenario || last.varied != cell.varied) scenario = scenario_of(cell, *opened);
@@ -233,7 +245,6 @@ Product::Part Product::for_each(std::span<const std::uint64_t> cells,
     run.same_options = config && last.options == cell.options && !has_own_presets(*config, *opened, *scenario);
     if (run.same_options) {
       run.config = *config;
-      run.config.varied = cell.varied;
     } else {
       run.config = completed(cell, *opened, *scenario);
       check(run.config);
@@ -244,8 +255,9 @@ Product::Part Product::for_each(std::span<const std::uint64_t> cells,
         return true;
       });
       config.reset();
-      if (!run.own_presets) config.emplace(run.config).varied.clear();
+      if (!run.own_presets) config = run.config;
     }
+    run.config.varied = cell.varied;
     run.scenario = scenario;
     last = std::move(cell);
     try {
@@ -262,19 +274,22 @@ void Product::refuse_empty() const {
                                count(cells(), "cell")));
 }
 
-Product::Run Product::run(std::uint64_t cell, std::shared_ptr<const Scenario> scenario) const {
-  const Cell of = cells_->at(cell);
-  const Opened& opened = *by_name_.at(of.scenario);
+Product::Run Product::run(std::uint64_t cell, std::shared_ptr<const Scenario> scenario, LastOptions* last) const {
+  Cell of = cells_->at(cell);
+  const Opened& opened = opened_of(of);
   Run run;
   run.scenario = scenario ? std::move(scenario) : scenario_of(of, opened);
-  run.config = completed(of, opened, *run.scenario);
+  run.config = completed(of, opened, *run.scenario, last);
+  run.config.varied = std::move(of.varied);
   return run;
 }
 
-RunConfig Product::config(std::uint64_t cell) const {
-  const Cell of = cells_->at(cell);
-  const Opened& opened = *by_name_.at(of.scenario);
-  return completed(of, opened, *opened.scenario);
+RunConfig Product::config(std::uint64_t cell, LastOptions* last) const {
+  Cell of = cells_->at(cell);
+  const Opened& opened = opened_of(of);
+  RunConfig config = completed(of, opened, *opened.scenario, last);
+  config.varied = std::move(of.varied);
+  return config;
 }
 
 }  // namespace polhode::study::plan

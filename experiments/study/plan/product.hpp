@@ -15,6 +15,7 @@
 #include "experiments/study/plan/bound_conditions.hpp"
 #include "experiments/study/plan/cells.hpp"
 #include "experiments/study/plan/experiment.hpp"
+#include "experiments/study/plan/last_options.hpp"
 #include "experiments/study/plan/study_axes.hpp"
 #include "experiments/study/plan/where.hpp"
 #include "experiments/study/record/run_record.hpp"
@@ -75,17 +76,21 @@ class Product {
   /// Throws InputError, which says that the conditions leave out all cells.
   [[noreturn]] void refuse_empty() const;
 
-  /// The run of a cell that for_each() gave. `scenario`: that of the run, if it is known. Thread-safe.
-  Run run(std::uint64_t cell, std::shared_ptr<const Scenario> scenario) const;
-  /// The configuration of such a run, which must have no own_presets. Its scenario is not made. Thread-safe.
-  RunConfig config(std::uint64_t cell) const;
+  /// The run of a cell that for_each() gave. `scenario`: that of the run, if it is known. `last`: the options of the
+  /// run before, which become those of this one; null for a run with own_presets. Thread-safe for different `last`.
+  Run run(std::uint64_t cell, std::shared_ptr<const Scenario> scenario, LastOptions* last) const;
+  /// The configuration of such a run, which must have no own_presets. Its scenario is not made. Thread-safe as run()
+  /// is.
+  RunConfig config(std::uint64_t cell, LastOptions* last) const;
 
  private:
   Cells make_cells(bool counted);
   void open_scenarios(const std::vector<Dimension>& dimensions);
+  const Opened& opened_of(const Cell& cell) const { return *by_name_.find(cell.scenario)->second; }
   RunConfig start_of(const Opened& opened, const Scenario& scenario) const;
   RunConfig configured(const Cell& cell, const Opened& opened, const Scenario& scenario) const;
   RunConfig completed(const Cell& cell, const Opened& opened, const Scenario& scenario) const;
+  RunConfig completed(const Cell& cell, const Opened& opened, const Scenario& scenario, LastOptions* last) const;
   bool has_own_presets(const RunConfig& config, const Opened& opened, const Scenario& scenario) const;
   static std::shared_ptr<const Scenario> scenario_of(const Cell& cell, const Opened& opened);
   /// Conditions of each scenario, with what they keep from cell to cell.
@@ -100,7 +105,7 @@ class Product {
   std::vector<const RunOption*> with_presets_;
   std::vector<Where> conditions_;
   std::vector<std::unique_ptr<Opened>> opened_;
-  std::map<std::string, Opened*> by_name_;  ///< scenarios by the name that is written in the study
+  std::map<std::string, Opened*, std::less<>> by_name_;  ///< scenarios by the name that is written in the study
   double counted_ = 0, true_motions_ = 1;
   std::optional<Cells> cells_;
 };

@@ -327,6 +327,7 @@ void StudyRuns::for_each_part(const std::function<UsePart(std::vector<RunRecord>
   in_order((plan_.size() + at_a_time - 1) / at_a_time, number_of_threads(options_.jobs), [&](std::size_t part) {
     std::vector<RunRecord> records;
     Variants variants;
+    LastOptions last;
     const std::size_t first = part * at_a_time, end = std::min(first + at_a_time, plan_.size());
     records.reserve(end - first);
     for (std::size_t i = first; i < end; ++i) {
@@ -336,7 +337,7 @@ void StudyRuns::for_each_part(const std::function<UsePart(std::vector<RunRecord>
         records.back().result.status = "refused";
         records.back().result.message = std::move(run.refusal);
       } else {
-        records.push_back({id_of_number(plan_.rows[i].id), plan_.config(i), {}});
+        records.push_back({id_of_number(plan_.rows[i].id), plan_.config(i, &last), {}});
       }
     }
     {

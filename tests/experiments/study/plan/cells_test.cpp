@@ -44,7 +44,7 @@ PointTable table(PointTable::Kind kind, const std::string& text) {
 }
 
 std::string words_of(const Cell& cell) {
-  std::string text = cell.scenario;
+  std::string text(cell.scenario);
   for (const RunOption& option : run_options()) {
     for (const auto& [given, value] : cell.options) {
       if (given == &option) text += " " + option.name + "=" + text_of(value);

@@ -98,16 +98,20 @@ TEST_F(StudyFiles, AGlanceReadsFewerScenariosOfManyBodies) {
 TEST_F(StudyFiles, ConfigurationsAreThoseOfTheRuns) {
   const auto expect_those_of_the_runs = [](const Plan& plan, std::size_t with_own_presets) {
     std::size_t own = 0;
+    LastOptions last;
     Variants variants;
     for (std::size_t i = 0; i < plan.size(); ++i) {
       own += plan.rows[i].own_presets;
       const PlannedRun run = plan.run(i);
-      for (const RunConfig& config : {run.config, plan.config(i), plan.run(i, &variants).config})
+      for (const RunConfig& config : {run.config, plan.config(i), plan.config(i, &last), plan.run(i, &variants).config})
         EXPECT_EQ(run_number(config, run.scenario->canonical), plan.rows[i].id) << i;
     }
     EXPECT_EQ(own, with_own_presets);
   };
   expect_those_of_the_runs(planned({"--vary", "body.0.mass=1,2,3"}), 0);
+  expect_those_of_the_runs(planned({"--scenario", "peters_hsu,dzhanibekov", "--integrator", "rk4,cvode_adams", "--dt",
+                                    "0.1,0.2", "--tolerance", "1e-6,1e-7", "--vary", "body.0.mass=1,2"}),
+                           0);
   expect_those_of_the_runs(planned({"--vary", "t_end=10,3", "--vary", "body.0.mass=1,2"}), 2);
   expect_those_of_the_runs(planned({"--vary", "t_end=10,3", "--t-end", "1"}), 1);
   // A sphere and a half space meet by the separating axes, a cylinder by GJK only.
