@@ -40,6 +40,16 @@ std::string refusal(const std::filesystem::path& folder) {
   }
 }
 
+TEST(Store, ARowTakesNoValueFromTheRowBefore) {
+  const TemporaryFolder folder;
+  auto runs = made_up_runs(3);
+  runs[1].result = {};
+  runs[1].result.status = "failed";
+  Store(folder.path()).keep(runs);
+  const auto loaded = load(Store(folder.path()));
+  for (const RunRecord& run : runs) EXPECT_EQ(text_of_result(loaded.runs.at(run.id)), text_of_result(run.result));
+}
+
 TEST(Store, EveryValueComesBackInEveryWayOfReading) {
   const TemporaryFolder folder;
   const auto runs = made_up_runs(20);
