@@ -25,18 +25,48 @@ void LaneErrors::begin(std::size_t lane, DriftMeter& meter) {
   }
   any_before_ = true;
   speed_scale_.set(i, meter.exact_.speed_scale());
-  position_.set(i, start.position.value_or(0));
-  attitude_.set(i, *start.attitude);
-  angular_velocity_.set(i, *start.angular_velocity);
+  take(lane);
+}
+
+void LaneErrors::take(std::size_t lane) {
+  const DriftMeter& meter = *meters_[lane];
+  const int i = int(lane);
+  const ExactMotion::Error& worst = meter.worst_error_;
+  position_.set(i, worst.position.value_or(0));
+  attitude_.set(i, *worst.attitude);
+  angular_velocity_.set(i, *worst.angular_velocity);
   phase_.set(i, meter.worst_polhode_.phase);
   phase_rad_.set(i, meter.worst_polhode_.phase_rad);
   off_.set(i, meter.worst_polhode_.off);
+  polhode_.take(lane);
+  alone_[lane] = false;
+}
+
+void LaneErrors::give(std::size_t lane) {
+  if (std::exchange(alone_[lane], true)) return;
+  DriftMeter& meter = *meters_[lane];
+  const int i = int(lane);
+  ExactMotion::Error& worst = meter.worst_error_;
+  if (worst.position) worst.position = position_[i];
+  worst.attitude = attitude_[i];
+  worst.angular_velocity = angular_velocity_[i];
+  meter.worst_polhode_ = {phase_[i], phase_rad_[i], off_[i]};
+  polhode_.give(lane);
 }
 
 void LaneErrors::measure(const LaneStates& states, std::span<bool> due) {
   Lanes::Mask here(false);
-  for (std::size_t i = 0; i < count; ++i) here.bits[i] = due[i] && meters_[i] ? -1 : 0;
-  if (!any(here)) return;
+  int due_here = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    here.bits[i] = due[i] && meters_[i] ? -1 : 0;
+    due_here += here.bits[i] ? 1 : 0;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!here.bits[i]) continue;
+    if (due_here < fewest) give(i);
+    else if (alone_[i]) take(i);
+  }
+  if (due_here < fewest) return;
   const Lanes t = states.sample.t;
   const BodySnapshot<Lanes> body = states.system.snapshot(states.y, 0);
   const TopAt<Lanes> exact = tops_.at(t);
@@ -67,13 +97,8 @@ void LaneErrors::measure(const LaneStates& states, std::span<bool> due) {
 
 void LaneErrors::end(std::size_t lane) {
   if (!meters_[lane]) return;
-  DriftMeter& meter = *std::exchange(meters_[lane], nullptr);
-  const int i = int(lane);
-  ExactMotion::Error& worst = meter.worst_error_;
-  if (worst.position) worst.position = position_[i];
-  worst.attitude = attitude_[i];
-  worst.angular_velocity = angular_velocity_[i];
-  meter.worst_polhode_ = {phase_[i], phase_rad_[i], off_[i]};
+  give(lane);
+  meters_[lane] = nullptr;
 }
 
 }  // namespace polhode::study::metrics

@@ -20,7 +20,8 @@ class LaneErrors {
   /// here if its body is a free top whose ω varies.
   void begin(std::size_t lane, DriftMeter& meter);
 
-  /// Measures the errors in the lanes that are due, and lowers `due` there; other lanes stay due.
+  /// Measures the errors in the lanes that are due, and lowers `due` there; other lanes stay due. So do all where few
+  /// are due: their meters are as quick alone.
   void measure(const LaneStates& states, std::span<bool> due);
 
   /// Gives the meter of the lane what was measured. To be called once, after the run.
@@ -28,8 +29,14 @@ class LaneErrors {
 
  private:
   static constexpr auto count = std::size_t(lane_count);
+  static constexpr int fewest = 3;  ///< smallest number of lanes that cost less together than alone
+
+  /// The lane goes on from the errors of its meter, or the meter from those of the lane.
+  void take(std::size_t lane);
+  void give(std::size_t lane);
 
   std::array<DriftMeter*, count> meters_{};  ///< null: the errors of the lane are not measured here
+  std::array<bool, count> alone_{};          ///< the meter has measured last, not the lane
   bool any_before_ = false;                  ///< a lane has had a meter
   FreeTops tops_;
   PolhodeErrors polhode_;

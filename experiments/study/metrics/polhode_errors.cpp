@@ -16,6 +16,20 @@ void PolhodeErrors::set(std::size_t lane, PolhodeError& one) {
   curve_.size.set(i, one.curve_.size);
   curve_.reach.set(i, one.curve_.reach);
   curve_.search_step.set(i, one.curve_.search_step);
+  take(lane);
+}
+
+void PolhodeErrors::give(std::size_t lane) const {
+  PolhodeError& one = *alone_[lane];
+  const int i = int(lane);
+  one.t_ = t_[i];
+  one.phase_ = phase_[i];
+  one.phase_rate_ = phase_rate_[i];
+}
+
+void PolhodeErrors::take(std::size_t lane) {
+  const PolhodeError& one = *alone_[lane];
+  const int i = int(lane);
   t_.set(i, one.t_);
   phase_.set(i, one.phase_);
   phase_rate_.set(i, one.phase_rate_);

@@ -18,6 +18,9 @@ class PolhodeErrors {
 
   /// Continues the error of the body in a lane, which must outlive its last at(). Every lane must have one.
   void set(std::size_t lane, PolhodeError& one);
+  /// The error alone goes on where that in its lane is, and that in the lane where the error alone is.
+  void give(std::size_t lane) const;
+  void take(std::size_t lane);
 
   /// The errors at times t (s) in the lanes that are due; those of others mean nothing. tops: the exact motions of the
   /// bodies. exact_omega: their angular velocities at t, body axes, rad/s.
