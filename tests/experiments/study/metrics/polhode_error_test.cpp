@@ -8,19 +8,10 @@
 #include <limits>
 
 #include "experiments/study/run/run.hpp"
+#include "tests/experiments/study/metrics/free_body.hpp"
 
 namespace polhode::study::polhode_error_test {
 namespace {
-
-Problem top(const Vector3<double>& moments, const Vector3<double>& omega) {
-  Problem problem;
-  problem.bodies.resize(1);
-  problem.bodies[0].inertia = moments.asDiagonal();
-  problem.starts.resize(1);
-  problem.starts[0].angular_velocity = omega;
-  problem.starts[0].angular_velocity_in_body = true;
-  return problem;
-}
 
 /// The body in the exact motion at t + shift, its momentum in the body stretched by a factor.
 BodySnapshot<double> shifted(const Problem& problem, double t, double shift, double factor) {
@@ -32,10 +23,10 @@ BodySnapshot<double> shifted(const Problem& problem, double t, double shift, dou
 }
 
 const std::vector<Problem>& tops() {
-  static const std::vector<Problem> all = {top({0.6, 0.8, 1.0}, {3, 0.5, -0.9}),
-                                           top({2, 3, 1}, {0, std::sqrt(0.51), std::sqrt(3)}),
-                                           top({3, 5, 9}, {0, 0.4, 0.01 / 9}),  // near the separatrix
-                                           top({2, 2, 1}, {1, 0, 3})};
+  static const std::vector<Problem> all = {free_body({0.6, 0.8, 1.0}, {3, 0.5, -0.9}),
+                                           free_body({2, 3, 1}, {0, std::sqrt(0.51), std::sqrt(3)}),
+                                           free_body({3, 5, 9}, {0, 0.4, 0.01 / 9}),  // near the separatrix
+                                           free_body({2, 2, 1}, {1, 0, 3})};
   return all;
 }
 
@@ -118,7 +109,7 @@ TEST(PolhodeError, FindsTheNearestPointToRoundOff) {
 }
 
 TEST(PolhodeError, HasNoMeaningWhereThereIsNoCurve) {
-  const Problem sphere = top({1, 1, 1}, {1, 2, 3}), spin = top({1, 2, 3}, {0, 0, 2});
+  const Problem sphere = free_body({1, 1, 1}, {1, 2, 3}), spin = free_body({1, 2, 3}, {0, 0, 2});
   EXPECT_FALSE(PolhodeError::of(*make_system<double>(sphere, {})));
   EXPECT_FALSE(PolhodeError::of(*make_system<double>(spin, {})));
   for (const char* name : {"lagrange_top", "spring_box", "two_bodies", "oscillator", "ball_joint_top"}) {

@@ -11,19 +11,10 @@
 #include <vector>
 
 #include "core/math/portable_random.hpp"
+#include "tests/experiments/study/metrics/free_body.hpp"
 
 namespace polhode::study::polhode_errors_test {
 namespace {
-
-Problem problem_of(const Vector3<double>& moments, const Vector3<double>& omega) {
-  Problem problem;
-  problem.bodies.resize(1);
-  problem.bodies[0].inertia = moments.asDiagonal();
-  problem.starts.resize(1);
-  problem.starts[0].angular_velocity = omega;
-  problem.starts[0].angular_velocity_in_body = true;
-  return problem;
-}
 
 /// A body with a top that it follows more or less.
 struct Body {
@@ -82,9 +73,9 @@ void expect_errors_of_bodies_alone(std::vector<Body> bodies, PortableRandom& ran
 
 TEST(PolhodeErrors, AreThoseOfEachAlone) {
   PortableRandom random(1);
-  const std::vector<Problem> kinds = {problem_of({0.6, 0.8, 1.0}, {3, 0.5, -0.9}), problem_of({2, 2, 1}, {1, 0, 3}),
-                                      problem_of({3, 5, 9}, {0, 0.4, 0.01 / 9}),  // near the separatrix
-                                      problem_of({1, 2, 2.25}, {0.75, 0.7, 1})};  // on it
+  const std::vector<Problem> kinds = {free_body({0.6, 0.8, 1.0}, {3, 0.5, -0.9}), free_body({2, 2, 1}, {1, 0, 3}),
+                                      free_body({3, 5, 9}, {0, 0.4, 0.01 / 9}),  // near the separatrix
+                                      free_body({1, 2, 2.25}, {0.75, 0.7, 1})};  // on it
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<Body> bodies;
     for (int lane = 0; lane < lane_count; ++lane) {
