@@ -148,15 +148,24 @@ class FixedStep final : public Integrator<typename System::Scalar> {
       if (account) injected = energy(y) - before;
     }
     if (!batch.samples) return;
-    batch.samples[k - 1] = {batch.time(k), measurement_of(y), y[y.size() - 1], injected, S(0)};
+    BodyMotion<S>* motion = nullptr;
+    if constexpr (is_lanes<S>) motion = batch.motions ? batch.motions + (k - 1) : nullptr;
+    batch.samples[k - 1] = {batch.time(k), measurement_of(y, motion), y[y.size() - 1], injected, S(0)};
     if constexpr (!System::is_one) {
       if (system_.has_joints()) batch.samples[k - 1].joint_work = y[system_.layout().joint_work()];
     }
   }
 
-  Measurement<S> measurement_of(const Flat& y) const {
-    if constexpr (measures_inline) return measurement::measure(system_, y.data());
-    else return system_.measure_flat(y.data());
+  /// `motion`: if given, which is for lanes only, receives the motion of the first body.
+  Measurement<S> measurement_of(const Flat& y, BodyMotion<S>* motion) const {
+    if constexpr (measures_inline) {
+      return measurement::measure(system_, y.data(), motion);
+    } else {
+      if constexpr (is_lanes<S>) {
+        if (motion) *motion = system_.motion(y.data(), 0);
+      }
+      return system_.measure_flat(y.data());
+    }
   }
 
   /// Energy of a copy of the state, J. The function is rarely called and not inlined, so that the state of the caller

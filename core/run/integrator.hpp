@@ -121,6 +121,8 @@ struct StepBatchOf {
   std::conditional_t<is_lanes<T>, Lanes, std::int64_t> first{};
   bool project = false;            ///< project onto the manifold and discard the history after each step
   SampleOf<T>* samples = nullptr;  ///< output: one sample per step; null: none
+  /// Output: the motion of the first body, one per sample; null: none. Of lanes only.
+  BodyMotion<T>* motions = nullptr;
 
   /// Time (s) at the end of step k.
   T time(std::int64_t k) const {

@@ -95,6 +95,7 @@ class EnsembleLoop {
     method_ = parts_.method(*system_);
     watched_ = parts_.watched ? parts_.watched(problems) : std::vector<LaneQuantity>();
     values_.resize(watched_.size() * samples_.size());
+    motions_.resize(watched_.empty() ? 0 : samples_.size());
     steps_of_method_ = 0;
     const bool first = state_.y.size() == 0;
     if (first) state_ = system_->start();
@@ -144,6 +145,7 @@ class EnsembleLoop {
     LaneBatch batch;
     batch.count = longest;
     batch.samples = samples_.data();
+    if (!watched_.empty()) batch.motions = motions_.data();
     Lanes h = 0, t0 = 0, first = 0;  // a lane without a run stays where it is
     for (std::size_t i = 0; i < lanes_of_all; ++i) {
       if (!running_[i]) continue;
@@ -167,22 +169,13 @@ class EnsembleLoop {
     return batch;
   }
 
-  /// Takes the steps of a batch; where quantities are watched, one by one.
+  /// Takes the steps of a batch and measures the watched quantities after each.
   void advance(const LaneBatch& batch) {
-    if (watched_.empty()) {
-      method_->advance(state_, batch);
-      return;
-    }
-    LaneBatch step = batch;
-    step.count = 1;
-    for (std::int64_t k = 0; k < batch.count; ++k) {
-      step.first = batch.first + Lanes(static_cast<double>(k));
-      step.samples = batch.samples + k;
-      method_->advance(state_, step);
-      const BodyMotion<Lanes> body = system_->motion_of(state_.y, 0);
-      for (std::size_t which = 0; which < watched_.size(); ++which) {
-        values_[which * samples_.size() + std::size_t(k)] = watched_[which](body, step.samples->seen.angular_momentum);
-      }
+    method_->advance(state_, batch);
+    for (std::size_t which = 0; which < watched_.size(); ++which) {
+      Lanes* values = &values_[which * samples_.size()];
+      for (std::size_t k = 0; k < std::size_t(batch.count); ++k)
+        values[k] = watched_[which](motions_[k], batch.samples[k].seen.angular_momentum);
     }
   }
 
@@ -285,6 +278,7 @@ class EnsembleLoop {
   State<Lanes> state_;
   Lanes projection_ = 0;  ///< energy injected by all projections of the run in each lane, J
   std::vector<LaneSample> samples_;
+  std::vector<BodyMotion<Lanes>> motions_;  ///< of the body in each lane at each sample; empty: nothing is watched
   std::vector<Lanes> values_;  ///< values of the watched quantities: by quantity and step
   std::vector<std::span<const Lanes>> watched_values_;
   std::int64_t steps_of_method_ = 0;  ///< number of steps that method_ has taken

@@ -6,8 +6,9 @@
 
 namespace polhode::inline core::inline system::measurement {
 
+/// `motion_of_first`: if given, receives the motion of the first body.
 template <class Bodies, class S>
-inline Measurement<S> measure(const Bodies& bodies, const S* y) {
+inline Measurement<S> measure(const Bodies& bodies, const S* y, BodyMotion<S>* motion_of_first = nullptr) {
   using Vector = typename Bodies::Vector;
   using ChartOf = typename Bodies::ChartOf;
   Measurement<S> m;
@@ -17,6 +18,7 @@ inline Measurement<S> measure(const Bodies& bodies, const S* y) {
     const typename Bodies::Constants& b = bodies.body(i);
     const BodyMotion<S> now = bodies.motion(y, i);
     if (bodies.forces_read_rotation()) bodies.motions()[i] = now;
+    if (motion_of_first && i == 0) *motion_of_first = now;
     Vector l = bodies.angular_momentum(b, now.rotation, load_vector(y + s.angular));
     if constexpr (Bodies::angular_variable == AngularState::momentum_world) {
       m.kinetic += S(0.5) * now.angular_velocity.dot(l);

@@ -84,18 +84,19 @@ void LaneMeter::follow(const std::array<std::size_t, count>& seen, std::size_t n
   LargestDrifts<Lanes> largest{columns_.t[0], columns_.energy[0], columns_.linear2[0], columns_.angular2[0],
                                columns_.defect[0]};
   Lanes t = 0, energy = 0;
+  bool curves = false;
   for (std::size_t i = 0; i < count; ++i) {
     if (seen[i] == 0) continue;
+    curves = curves || meters_[i]->keeps_curves_;
     t.set(int(i), meters_[i]->blocks_.open_sums().t);
     energy.set(int(i), meters_[i]->blocks_.open_sums().value);
   }
   for (std::size_t k = 0; k < n; ++k) {
     t += columns_.t[k];
     energy += columns_.energy[k];
-    if (k > 0) {
-      largest.add(columns_.t[k], columns_.energy[k], columns_.linear2[k], columns_.angular2[k], columns_.defect[k]);
-    }
   }
+  for (std::size_t k = 1; curves && k < n; ++k)
+    largest.add(columns_.t[k], columns_.energy[k], columns_.linear2[k], columns_.angular2[k], columns_.defect[k]);
   for (std::size_t i = 0; i < count; ++i) {
     if (seen[i] == 0) continue;
     DriftMeter& meter = *meters_[i];
