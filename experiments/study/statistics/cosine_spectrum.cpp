@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 #include <type_traits>
+#include <vector>
 
 #include "experiments/study/statistics/eight.hpp"
 
@@ -16,28 +17,68 @@ namespace polhode::study::inline statistics::spectral {
 
 namespace {
 
-/// Σ_i series_i table(k, i) for 8 `eights` rows k from the first one, which stay in registers.
-template <int eights>
-void add_columns(const Matrix& table, const Vector& series, Index first_row, double* out) {
-  Eight sums[eights] = {};
-  const double* column = table.data() + first_row;
-  for (Index i = 0; i < series.size(); ++i, column += table.rows()) {
-    for (int e = 0; e < eights; ++e) {
-      Eight numbers;
-      read(numbers, column + 8 * e);
-      sums[e] += series[i] * numbers;
+constexpr Index per_column = 32;  ///< numbers k in a column of the table of cosines
+
+/// The parts of a series that are even and odd about its middle. Even cosines depend on the one, odd ones on the other.
+struct Parts {
+  std::vector<double> even, odd;
+
+  void take(const Vector& series) {
+    const Index n = series.size(), half = (n + 1) / 2;
+    even.resize(static_cast<std::size_t>(half));
+    odd.resize(static_cast<std::size_t>(half));
+    const double mean = sum(series.data(), n) / static_cast<double>(n);
+    const double *from_first = series.data(), *from_last = series.data() + n - 1;
+    double *evens = even.data(), *odds = odd.data();
+    for (Index i = 0; i < half; ++i) {
+      const double first = from_first[i] - mean, last = from_last[-i] - mean;
+      evens[i] = first + last;
+      odds[i] = first - last;
+    }
+    if (n % 2) even.back() /= 2;
+  }
+};
+
+/// As many numbers as a SIMD register holds, since more do not stay in registers. No sum depends on how many these are.
+#if defined(__AVX512F__)
+constexpr Index wide = 8;
+#elif defined(__AVX__)
+constexpr Index wide = 4;
+#else
+constexpr Index wide = 2;
+#endif
+using Wide [[gnu::vector_size(wide * sizeof(double))]] = double;
+
+/// Sums of the products of each series' parts and `half` columns, for the 32 cosines of a column.
+template <std::size_t several>
+void add_columns(const double* columns, Index half, const std::array<Parts, several>& parts,
+                 std::array<std::array<double, per_column>, several>& cosines) {
+  constexpr Index odd_ones = per_column / 2, at_once = 2 * wide;
+  for (Index from = 0; from < odd_ones; from += at_once) {
+    Wide odd[several][2] = {}, even[several][2] = {};
+    const double* column = columns + from;
+    for (Index i = 0; i < half; ++i, column += per_column) {
+      for (Index e = 0; e < 2; ++e) {
+        Wide odd_cosines, even_cosines;
+        std::memcpy(&odd_cosines, column + wide * e, sizeof odd_cosines);
+        std::memcpy(&even_cosines, column + odd_ones + wide * e, sizeof even_cosines);
+        for (std::size_t s = 0; s < several; ++s) {
+          odd[s][e] += parts[s].odd[static_cast<std::size_t>(i)] * odd_cosines;
+          even[s][e] += parts[s].even[static_cast<std::size_t>(i)] * even_cosines;
+        }
+      }
+    }
+    for (std::size_t s = 0; s < several; ++s) {
+      double odds[at_once], evens[at_once];
+      std::memcpy(odds, odd[s], sizeof odds);
+      std::memcpy(evens, even[s], sizeof evens);
+      double* const c = cosines[s].data() + 2 * from;
+      for (Index k = 0; k < at_once; ++k) {
+        c[2 * k] = odds[k];
+        c[2 * k + 1] = evens[k];
+      }
     }
   }
-  std::memcpy(out, sums, sizeof sums);
-}
-
-/// table · series for the first `rows` rows of a table, up to a multiple of eight.
-Spectrum first_rows(const Matrix& table, const Vector& series, Index rows) {
-  Spectrum out(in_eights(rows));
-  Index k = 0;
-  for (; k + 32 <= out.size(); k += 32) add_columns<4>(table, series, k, out.data() + k);
-  for (; k < out.size(); k += 8) add_columns<1>(table, series, k, out.data() + k);
-  return out;
 }
 
 }  // namespace
@@ -45,19 +86,19 @@ Spectrum first_rows(const Matrix& table, const Vector& series, Index rows) {
 Cosines::Cosines(Index n)
     : blocks(n),
       size(n - 1),
-      even_(Matrix::Zero(in_eights(size / 2), (n + 1) / 2)),
-      odd_(Matrix::Zero(in_eights(size - size / 2), (n + 1) / 2)) {
+      half_((n + 1) / 2),
+      table_(Vector::Zero((size + per_column - 1) / per_column * per_column * half_)) {
   const double pi = std::numbers::pi, blocks_ = static_cast<double>(n);
-  Vector table(4 * n);
+  Vector cosines(4 * n);
   for (Index j = 0; j < 4 * n; ++j) {
-    table[j] = std::sqrt(2 / blocks_) * std::cos(pi * static_cast<double>(j) / (2 * blocks_));
+    cosines[j] = std::sqrt(2 / blocks_) * std::cos(pi * static_cast<double>(j) / (2 * blocks_));
   }
-  for (Index i = 0; i < (n + 1) / 2; ++i) {
-    Index place = 0;  // k (2i + 1) modulo 4n
+  for (Index i = 0; i < half_; ++i) {
+    Index step = 0;  // k (2i + 1) modulo 4n
     for (Index k = 1; k <= size; ++k) {
-      place += 2 * i + 1;
-      if (place >= 4 * n) place -= 4 * n;
-      (k % 2 == 0 ? even_(k / 2 - 1, i) : odd_(k / 2, i)) = table[place];
+      step += 2 * i + 1;
+      if (step >= 4 * n) step -= 4 * n;
+      table_[place(k, i)] = cosines[step];
     }
   }
   log_frequency.resize(size);
@@ -79,35 +120,45 @@ Cosines::Cosines(Index n)
   }
 }
 
-Spectrum Cosines::transform(const Vector& series, Index count) const {
-  // Even cosines depend on the even part of the series about its middle, odd ones on the odd part.
-  const Index half = (blocks + 1) / 2, middle = blocks % 2;
-  const double mean = sum(series.data(), blocks) / static_cast<double>(blocks);
-  Vector symmetric(half), antisymmetric(half);
-  for (Index i = 0; i < half; ++i) {
-    const double first = series[i] - mean, last = series[blocks - 1 - i] - mean;
-    symmetric[i] = first + last;
-    antisymmetric[i] = first - last;
+template <std::size_t several>
+void Cosines::transform(const std::array<const Vector*, several>& series, Index count,
+                        const std::array<double*, several>& c) const {
+  thread_local std::array<Parts, several> parts;  // kept, since allocations take time
+  for (std::size_t s = 0; s < several; ++s) parts[s].take(*series[s]);
+  std::array<std::array<double, per_column>, several> cosines;
+  for (Index k = 0; k < count; k += per_column) {
+    add_columns(table_.data() + k * half_, half_, parts, cosines);
+    const auto bytes = static_cast<std::size_t>(std::min(per_column, count - k)) * sizeof(double);
+    for (std::size_t s = 0; s < several; ++s) std::memcpy(c[s] + k, &cosines[s], bytes);
   }
-  if (middle) symmetric[half - 1] /= 2;
-  const Spectrum even = first_rows(even_, symmetric, count / 2),
-                 odd = first_rows(odd_, antisymmetric, count - count / 2);
-  Spectrum c(count);
-  for (Index k = 1; k <= count; ++k) c[k - 1] = k % 2 == 0 ? even[k / 2 - 1] : odd[k / 2];
+}
+
+Spectrum Cosines::transform(const Vector& series) const {
+  Spectrum c(size);
+  transform<1>({&series}, size, {c.data()});
   return c;
+}
+
+void Cosines::transform(const Vector& first, const Vector& second, Low& of_first, Low& of_second) const {
+  transform<2>({&first, &second}, of_first.size(), {of_first.data(), of_second.data()});
+}
+
+Index Cosines::place(Index k, Index i) const {
+  const Index first = (k - 1) / per_column * per_column, rest = k - 1 - first;
+  return first * half_ + i * per_column + rest % 2 * (per_column / 2) + rest / 2;
 }
 
 Regressors Cosines::edges(Index count) const {
   constexpr Index enough = 24;
   const Index each = count < enough ? 1 : 2;
-  Regressors x(count, 2 * each);
+  Matrix x(count, 2 * each);
   for (Index k = 1; k <= count; ++k) {
     for (Index i = 0; i < each; ++i) {
-      x(k - 1, i) = k % 2 == 0 ? even_(k / 2 - 1, i) : odd_(k / 2, i);
+      x(k - 1, i) = table_[place(k, i)];
       x(k - 1, each + i) = k % 2 == 0 ? x(k - 1, i) : -x(k - 1, i);
     }
   }
-  return x;
+  return {std::move(x), each};
 }
 
 std::shared_ptr<const Cosines> cosines_of(Index n) {
@@ -117,17 +168,6 @@ std::shared_ptr<const Cosines> cosines_of(Index n) {
   auto& cosines = kept[n];
   if (!cosines) cosines = std::make_shared<const Cosines>(n);
   return cosines;
-}
-
-double dot(const double* a, const double* b, Index n) {
-  Eight sums = {};
-  for_each_eight(n, [&](Index i, auto count) {
-    Eight left, right;
-    read(left, a + i, count);
-    read(right, b + i, count);
-    sums += left * right;
-  });
-  return total(sums);
 }
 
 namespace {
@@ -147,87 +187,115 @@ double weighted_dot(const double* a, const double* b, const double* w, Index n) 
 
 }  // namespace
 
-Regression::Regression(const Regressors& x, const Spectrum& weight, double sum_of_log_v)
-    : x_(x), weight_(weight.data()), sum_of_log_v_(sum_of_log_v) {
-  Normal normal(x.cols(), x.cols());
-  for (Index j = 0; j < x.cols(); ++j) {
+Regression::Regression(const Regressors& regressors, const Spectrum& weight, double sum_of_log_v)
+    : x_(regressors.x),
+      mirrored_(regressors.mirrored),
+      weight_(weight.data()),
+      covariance_(8, x_.cols()),
+      sum_of_log_v_(sum_of_log_v) {
+  using Normal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_regressors, most_regressors>;
+  Normal normal(x_.cols(), x_.cols());
+  for (Index j = 0; j < x_.cols(); ++j) {
     for (Index i = 0; i <= j; ++i) {
-      normal(i, j) = normal(j, i) = weighted_dot(x.col(i).data(), x.col(j).data(), weight_, x.rows());
+      normal(i, j) = normal(j, i) = weighted_dot(x_.col(i).data(), x_.col(j).data(), weight_, x_.rows());
     }
   }
   const Eigen::LDLT<Normal> factors(normal);
-  covariance_ = factors.solve(Normal::Identity(normal.rows(), normal.cols()));
+  covariance_.setZero();
+  covariance_.topRows(x_.cols()) = factors.solve(Normal::Identity(normal.rows(), normal.cols()));
   log_determinant_ = factors.vectorD().array().log().sum();
 }
 
 namespace {
 
-/// Calls use(k), k an integral constant, the number of regressors: the sums for all of them then stay in registers.
+template <int number>
+using Number = std::integral_constant<int, number>;
+
+/// Calls use(columns, mirrored) with constants, those of Regressors: the sums for all columns then stay in registers.
 template <class Use>
-void with_number_of(const Regressors& x, const Use& use) {
-  switch (x.cols()) {
-    case 1: return use(std::integral_constant<int, 1>());
-    case 2: return use(std::integral_constant<int, 2>());
-    case 3: return use(std::integral_constant<int, 3>());
-    case 4: return use(std::integral_constant<int, 4>());
-    case 5: return use(std::integral_constant<int, 5>());
-    default: return use(std::integral_constant<int, most_regressors>());
+void with_sizes_of(const Matrix& x, Index mirrored, const Use& use) {
+  const auto beside = [&](auto pulses) {
+    switch (x.cols() - 2 * pulses) {
+      case 0: return use(Number<2 * pulses>(), pulses);
+      case 1: return use(Number<2 * pulses + 1>(), pulses);
+      default: return use(Number<2 * pulses + 2>(), pulses);
+    }
+  };
+  switch (mirrored) {
+    case 0: return use(Number<2>(), Number<0>());
+    case 1: return beside(Number<1>());
+    default: return beside(Number<2>());
   }
 }
 
-/// What the columns of x explain of c.
-template <int columns>
+/// What the columns of x explain of several series; the last ones are Regressors::mirrored.
+template <int columns, int mirrored, std::size_t several>
 class Explained {
  public:
-  /// By least squares with these weights; covariance: the inverse of xᵀWx.
-  Explained(const Regressors& x, const double* weights, const Normal& covariance, const Spectrum& c) {
+  /// By least squares with these weights; covariance: the inverse of xᵀWx, a column in every eight numbers.
+  Explained(const Matrix& x, const double* weights, const double* covariance,
+            const std::array<const double*, several>& series) {
     for (int j = 0; j < columns; ++j) columns_[j] = x.col(j).data();
-    Eight sums[columns] = {};
-    for_each_eight(c.size(), [&](Index i, auto count) {
-      Eight numbers, weight, column;
-      read(numbers, c.data() + i, count);
+    constexpr int summed = columns - mirrored;
+    Eight sums[several][summed] = {};
+    for_each_eight(x.rows(), [&](Index i, auto count) {
+      Eight numbers[several], weight;
+      for (std::size_t s = 0; s < several; ++s) read(numbers[s], series[s] + i, count);
       read(weight, weights + i, count);
-      for (int j = 0; j < columns; ++j) {
+      for (int j = 0; j < summed; ++j) {
+        Eight column;
         read(column, columns_[j] + i, count);
-        sums[j] += column * weight * numbers;
+        const Eight weighted = column * weight;
+        for (std::size_t s = 0; s < several; ++s) sums[s][j] += weighted * numbers[s];
       }
     });
-    double right[columns];
-    for (int j = 0; j < columns; ++j) right[j] = total(sums[j]);
-    for (int i = 0; i < columns; ++i) {
-      coefficients_[i] = covariance.data()[i] * right[0];
-      for (int j = 1; j < columns; ++j) coefficients_[i] += covariance.data()[i + j * columns] * right[j];
+    for (std::size_t s = 0; s < several; ++s) {
+      double products[columns];
+      for (int j = 0; j < summed; ++j) {
+        const TwoTotals two = two_totals(sums[s][j]);
+        products[j] = two.even + two.odd;
+        // The place of k is k − 1: where it is even, the mirrored column has the other sign.
+        if (j >= summed - mirrored) products[j + mirrored] = two.odd - two.even;
+      }
+      Eight column, coefficients;
+      read(column, covariance);
+      coefficients = column * products[0];
+      for (int j = 1; j < columns; ++j) {
+        read(column, covariance + 8 * j);
+        coefficients += column * products[j];
+      }
+      std::memcpy(coefficients_[s], &coefficients, sizeof coefficients);
     }
   }
 
-  Coefficients coefficients() const { return Eigen::Map<const Eigen::Matrix<double, columns, 1>>(coefficients_); }
+  double coefficient(std::size_t s, Index j) const { return coefficients_[s][j]; }
 
-  /// Takes it out of `numbers`, those of c from the i-th on.
+  /// Takes it out of `numbers`, those of the s-th series from the i-th on.
   template <class Count>
-  void take_out_of(Eight& numbers, Index i, Count count) const {
+  void take_out_of(Eight& numbers, std::size_t s, Index i, Count count) const {
     for (int j = 0; j < columns; ++j) {
       Eight column;
       read(column, columns_[j] + i, count);
-      numbers -= coefficients_[j] * column;
+      numbers -= coefficients_[s][j] * column;
     }
   }
 
  private:
   const double* columns_[columns];
-  double coefficients_[columns];
+  double coefficients_[several][8];
 };
 
 /// The data are of size one: a sum of squares below it is nothing but the rounding of this arithmetic.
 constexpr double least_squares = 1e-30;
 
 /// Weighted sum of the squares of c without what is explained of it.
-template <int columns>
-double squares_without(const Explained<columns>& explained, const double* weights, const Spectrum& c) {
+template <int columns, int mirrored>
+double squares_without(const Explained<columns, mirrored, 1>& explained, const double* weights, const Numbers& c) {
   Eight sums = {};
   for_each_eight(c.size(), [&](Index i, auto count) {
     Eight rest, weight;
     read(rest, c.data() + i, count);
-    explained.take_out_of(rest, i, count);
+    explained.take_out_of(rest, 0, i, count);
     read(weight, weights + i, count);
     sums += rest * (rest * weight);
   });
@@ -236,65 +304,72 @@ double squares_without(const Explained<columns>& explained, const double* weight
 
 }  // namespace
 
-Spectrum Regression::rest_of(const Spectrum& c) const {
-  Spectrum all(c.size());
-  with_number_of(x_, [&](auto number) {
-    const Explained<number> explained(x_, weight_, covariance_, c);
-    for_each_eight(c.size(), [&](Index i, auto count) {
-      Eight rest;
-      read(rest, c.data() + i, count);
-      explained.take_out_of(rest, i, count);
-      std::memcpy(all.data() + i, &rest, static_cast<std::size_t>(count) * sizeof(double));
-    });
-  });
-  return all;
-}
-
-double Regression::restricted_of(double squares) const {
-  const auto degrees = static_cast<double>(x_.rows() - x_.cols());
-  return -0.5 * (sum_of_log_v_ + degrees * std::log(squares) + log_determinant_);
-}
-
-Fit Regression::fit(const Spectrum& c) const {
+Fit Regression::fit(const Numbers& c) const {
   Fit f;
-  f.covariance = covariance_;
-  with_number_of(x_, [&](auto number) {
-    const Explained<number> explained(x_, weight_, covariance_, c);
-    f.coefficients = explained.coefficients();
+  f.variances = covariance_.diagonal();
+  f.coefficients.resize(x_.cols());
+  with_sizes_of(x_, mirrored_, [&](auto columns, auto mirrored) {
+    const Explained<columns, mirrored, 1> explained(x_, weight_, covariance_.data(), {c.data()});
+    for (Index j = 0; j < columns; ++j) f.coefficients[j] = explained.coefficient(0, j);
     f.squares = squares_without(explained, weight_, c);
   });
-  f.degrees = static_cast<double>(x_.rows() - x_.cols());
-  f.restricted = restricted_of(f.squares);
+  f.degrees = degrees();
   return f;
 }
 
-double Regression::restricted(const Spectrum& c) const {
+double Regression::squares(const Numbers& c) const {
   double squares = 0;
-  with_number_of(
-      x_, [&](auto number) { squares = squares_without(Explained<number>(x_, weight_, covariance_, c), weight_, c); });
-  return restricted_of(squares);
+  with_sizes_of(x_, mirrored_, [&](auto columns, auto mirrored) {
+    squares = squares_without(Explained<columns, mirrored, 1>(x_, weight_, covariance_.data(), {c.data()}), weight_, c);
+  });
+  return squares;
 }
 
-Beside::Beside(const Regression& behind, const Spectrum& c) : behind_(behind), rest_(behind.rest_of(c)) {}
+std::array<double, noise_shapes> Regression::squares(const OfShapes& all, const Numbers& c) {
+  const Matrix& x = all.front()->x_;
+  std::array<double, noise_shapes> squares;
+  with_sizes_of(x, all.front()->mirrored_, [&](auto columns, auto mirrored) {
+    constexpr int number = columns;
+    double coefficients[noise_shapes][number];
+    for (std::size_t k = 0; k < noise_shapes; ++k) {
+      const Explained<columns, mirrored, 1> explained(x, all[k]->weight_, all[k]->covariance_.data(), {c.data()});
+      for (int j = 0; j < columns; ++j) coefficients[k][j] = explained.coefficient(0, j);
+    }
+    Eight sums[noise_shapes] = {};
+    for_each_eight(x.rows(), [&](Index i, auto count) {
+      Eight numbers, column[number], weight;
+      read(numbers, c.data() + i, count);
+      for (int j = 0; j < columns; ++j) read(column[j], x.col(j).data() + i, count);
+      for (std::size_t k = 0; k < noise_shapes; ++k) {
+        Eight rest = numbers;
+        for (int j = 0; j < columns; ++j) rest -= coefficients[k][j] * column[j];
+        read(weight, all[k]->weight_ + i, count);
+        sums[k] += rest * (rest * weight);
+      }
+    });
+    for (std::size_t k = 0; k < noise_shapes; ++k) squares[k] = std::max(total(sums[k]), least_squares);
+  });
+  return squares;
+}
 
-Fit Beside::fit(const Spectrum& x, const Spectrum& z) const {
-  const Index n = rest_.size();
-  const double* weights = behind_.weight_;
-  Spectrum x_free(n), z_free(n);
+FitBeside Regression::fit_beside(const Low& x, const Low& z, const Low& c) const {
+  const Index n = x_.rows();
+  Eight x_free[most_cosines / 8], z_free[most_cosines / 8], c_free[most_cosines / 8];  // of what is explained
   Eight sums[5] = {};
-  with_number_of(behind_.x_, [&](auto number) {
-    const Explained<number> x_explained(behind_.x_, weights, behind_.covariance_, x),
-        z_explained(behind_.x_, weights, behind_.covariance_, z);
+  with_sizes_of(x_, mirrored_, [&](auto columns, auto mirrored) {
+    const Explained<columns, mirrored, 3> explained(x_, weight_, covariance_.data(), {x.data(), z.data(), c.data()});
     for_each_eight(n, [&](Index i, auto count) {
       Eight x8, z8, c8, weight;
       read(x8, x.data() + i, count);
       read(z8, z.data() + i, count);
-      x_explained.take_out_of(x8, i, count);
-      z_explained.take_out_of(z8, i, count);
-      std::memcpy(x_free.data() + i, &x8, static_cast<std::size_t>(count) * sizeof(double));
-      std::memcpy(z_free.data() + i, &z8, static_cast<std::size_t>(count) * sizeof(double));
-      read(c8, rest_.data() + i, count);
-      read(weight, weights + i, count);
+      read(c8, c.data() + i, count);
+      explained.take_out_of(x8, 0, i, count);
+      explained.take_out_of(z8, 1, i, count);
+      explained.take_out_of(c8, 2, i, count);
+      x_free[i / 8] = x8;
+      z_free[i / 8] = z8;
+      c_free[i / 8] = c8;
+      read(weight, weight_ + i, count);
       const Eight x_weighted = x8 * weight, z_weighted = z8 * weight;
       sums[0] += x8 * x_weighted;
       sums[1] += x8 * z_weighted;
@@ -306,46 +381,41 @@ Fit Beside::fit(const Spectrum& x, const Spectrum& z) const {
   const double xx = total(sums[0]), xz = total(sums[1]), zz = total(sums[2]), xc = total(sums[3]), zc = total(sums[4]);
   // Elimination of x: [xx xz; xz zz] = L diag(xx, pivot) Lᵀ, with `ratio` below the diagonal of L.
   const double ratio = xz / xx, pivot = zz - ratio * xz;
-  Fit f;
-  f.coefficients.resize(2);
-  f.coefficients[1] = (zc - ratio * xc) / pivot;
-  f.coefficients[0] = xc / xx - ratio * f.coefficients[1];
-  f.covariance.resize(2, 2);
-  f.covariance << 1 / xx + ratio * ratio / pivot, -ratio / pivot, -ratio / pivot, 1 / pivot;
-  const double along_x = f.coefficients[0], along_z = f.coefficients[1];
+  FitBeside f;
+  f.z = (zc - ratio * xc) / pivot;
+  f.x = xc / xx - ratio * f.z;
   Eight squares = {};
   for_each_eight(n, [&](Index i, auto count) {
-    Eight x8, z8, c8, weight;
-    read(x8, x_free.data() + i, count);
-    read(z8, z_free.data() + i, count);
-    read(c8, rest_.data() + i, count);
-    read(weight, weights + i, count);
-    const Eight rest = c8 - along_x * x8 - along_z * z8;
+    Eight weight;
+    read(weight, weight_ + i, count);
+    const Eight rest = c_free[i / 8] - f.x * x_free[i / 8] - f.z * z_free[i / 8];
     squares += rest * (rest * weight);
   });
   f.squares = std::max(total(squares), least_squares);
-  f.degrees = static_cast<double>(n - 2 - behind_.x_.cols());
-  const double log_determinant = behind_.log_determinant_ + std::log(xx) + std::log(pivot);
-  f.restricted = -0.5 * (behind_.sum_of_log_v_ + f.degrees * std::log(f.squares) + log_determinant);
+  f.degrees = degrees() - 2;
+  f.xx = xx;
+  f.pivot = pivot;
   return f;
 }
 
-Spectrum whitened(const Cosines& cosines, const Spectrum& power) {
-  const Index n = power.size();
-  std::size_t best = noise_shapes;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < noise_shapes; ++k) {
-    const Cosines::Shape& shape = cosines.shapes[k];
-    const double mean_of_logs = shape.sum_of_logs[n - 1] / static_cast<double>(n);
-    const double mean_square = dot(power.data(), shape.inverse.data(), n) / static_cast<double>(n);
-    const double minus_likelihood = mean_of_logs + std::log(mean_square);
-    if (minus_likelihood < least) {
-      least = minus_likelihood;
-      best = k;
+const Spectrum& likeliest_weights(const Cosines& cosines, const Numbers& c) {
+  const Index n = c.size();
+  Eight sums[noise_shapes] = {};
+  for_each_eight(n, [&](Index i, auto count) {
+    Eight numbers, weight;
+    read(numbers, c.data() + i, count);
+    const Eight squares = numbers * numbers;
+    for (std::size_t k = 0; k < noise_shapes; ++k) {
+      read(weight, cosines.shapes[k].inverse.data() + i, count);
+      sums[k] += squares * weight;
     }
-  }
-  if (best == noise_shapes) return power;
-  return power.cwiseProduct(cosines.shapes[best].inverse.head(n));
+  });
+  std::array<double, noise_shapes> means;
+  for (std::size_t k = 0; k < noise_shapes; ++k) means[k] = total(sums[k]) / static_cast<double>(n);
+  const std::size_t shape = likeliest_shape([&](std::size_t k) {
+    return -(cosines.shapes[k].sum_of_logs[n - 1] / static_cast<double>(n) + std::log(means[k]));
+  });
+  return cosines.shapes[shape].inverse;
 }
 
 }  // namespace polhode::study::statistics::spectral

@@ -2,8 +2,10 @@
 #include "experiments/study/statistics/drift_growth.hpp"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <optional>
 
@@ -18,7 +20,6 @@ namespace {
 
 using namespace spectral;
 
-constexpr Index most_cosines = 64;
 constexpr double significance = 0.005;  // level of significance of the test for a secular drift
 /// A number that comes once in some 3000 normal ones, in squares of their deviation.
 constexpr double stands_out = 13;
@@ -34,35 +35,33 @@ class Estimator {
       : times_(times), cosines_(times.cosines()), drift_(drift), all_(cosines_.transform(drift)) {
     const Spectrum rest = without_polynomial(all_);
     strongest_line_ = line_in(cosines_, rest);
-    with_lines_ = first_of(strongest_line_ ? below_lines(cosines_, rest) : rest.size());
+    with_lines_ = all_.head(std::min(most_cosines, strongest_line_ ? below_lines(cosines_, rest) : rest.size()));
   }
 
   /// Half the 95 % interval of the slope by ordinary least squares, which the oscillations affect too.
   double slope_half_width() {
-    const Index count = with_lines_.size();
-    const std::size_t shape = likeliest(with_lines_, Trend::polynomial);
-    const Spectrum v = cosines_.shapes[shape].variance.head(count);
-    const Spectrum x2 = times_.polynomial().col(0).head(count).cwiseAbs2();
-    const Fit f = times_.regression(Trend::polynomial, count, shape).fit(with_lines_);
-    return students_t_95(f.degrees) * std::sqrt(f.scale2() * x2.dot(v)) / x2.sum();
+    const Noise noise = likeliest(with_lines_, Trend::polynomial);
+    const BlockTimes::Slope& slope = times_.slope(with_lines_.size());
+    return students_t_95(noise.degrees) * std::sqrt(noise.scale2() * slope.with_noise[noise.shape]) / slope.squares;
   }
 
   /// Takes out the oscillations, and finds the noise beside a trend.
   void separate() {
     without_lines();
-    shape_ = likeliest(c_, Trend::curve);
+    beside_curve_ = likeliest(c_, Trend::curve);
+    shape_ = beside_curve_.shape;
   }
 
   bool secular() {
-    const Fit with = fitted(Trend::curve), without = fitted(Trend::none);
-    const double f = (without.squares - with.squares) / 2 / with.scale2();
-    return f > fisher_f_exceeded(2, with.degrees, significance);
+    const double without = regression(Trend::none).squares(c_);
+    const double f = (without - beside_curve_.squares) / 2 / beside_curve_.scale2();
+    return f > fisher_f_exceeded(2, beside_curve_.degrees, significance);
   }
 
   /// Upper limit (97.5 % confidence) of a change in proportion to time over the run.
   double change_limit() {
-    const Fit f = fitted(Trend::line);
-    return std::abs(f.coefficients[0]) + students_t_95(f.degrees) * std::sqrt(f.scale2() * f.covariance(0, 0));
+    const Fit f = regression(Trend::line).fit(c_);
+    return std::abs(f.coefficients[0]) + students_t_95(f.degrees) * std::sqrt(f.scale2() * f.variances[0]);
   }
 
   /// constant + a t^p, by Gauss and Newton: the regressors are t^p and its derivative with respect to p.
@@ -73,25 +72,28 @@ class Estimator {
     const std::size_t first = best_first();
     double p = BlockTimes::first_exponents[first];
     BlockTimes::Power x = times_.first_power(first, count);
+    Regressions& pulses = times_.regressions(Trend::none, count);
+    const auto fit = [&](std::size_t shape) { return pulses[shape].fit_beside(x.value, x.derivative, c_); };
+    FitBeside f = fit(shape_);
     for (int pass = 0; pass < passes; ++pass) {
-      const Beside noise = beside_noise(shape_);
       for (int i = 0; i < most_steps; ++i) {
-        if (i > 0) x = times_.power(p, count);
-        const Fit f = noise.fit(x.value, x.derivative);
-        const double step = std::clamp(f.coefficients[1] / f.coefficients[0], -longest_step, longest_step);
+        const double step = std::clamp(f.z / f.x, -longest_step, longest_step);
         p = std::clamp(p + step, least, most);
+        x = times_.power(p, count);
         if (!(std::abs(step) > close)) break;
+        f = fit(shape_);
       }
-      x = times_.power(p, count);
       if (pass + 1 < passes) {
-        shape_ = likeliest_shape(
-            [&](std::size_t shape) { return beside_noise(shape).fit(x.value, x.derivative).restricted; });
+        std::array<FitBeside, noise_shapes> fits;
+        for (std::size_t shape = 0; shape < noise_shapes; ++shape) fits[shape] = fit(shape);
+        shape_ = likeliest_shape([&](std::size_t shape) { return pulses[shape].restricted(fits[shape]); });
+        f = fits[shape_];
       }
     }
-    const Fit f = beside_noise(shape_).fit(x.value, x.derivative);
-    change_ = std::abs(f.coefficients[0]) * (1 - std::pow(times_.t()[0], p));
-    misfit_ = c_ - x.value * f.coefficients[0];
-    const double error = std::sqrt(f.scale2() * f.covariance(1, 1)) / std::abs(f.coefficients[0]);
+    f = fit(shape_);
+    change_ = std::abs(f.x) * (1 - std::pow(times_.t()[0], p));
+    misfit_ = c_ - x.value * f.x;
+    const double error = std::sqrt(f.scale2() * (1 / f.pivot)) / std::abs(f.x);
     return {p, students_t_95(f.degrees) * error};
   }
 
@@ -101,7 +103,7 @@ class Estimator {
   /// Half of the number of the strongest cosine beside t^p, where those that are too slow for a line come to half of
   /// the change from peak to peak.
   double slow_periods_beside_growth() const {
-    const Spectrum low = misfit_.head(lowest_line - 1).cwiseAbs2();
+    const Low low = misfit_.head(lowest_line - 1).cwiseAbs2();
     Index at = 0;
     low.maxCoeff(&at);
     return peak_to_peak(low.sum()) > change_ / 2 ? static_cast<double>(at + 1) / 2 : 0;
@@ -111,7 +113,7 @@ class Estimator {
   double smooth_misfit() const {
     constexpr Index smooth = 4;
     constexpr double far_above = 20;
-    const Spectrum power = misfit_.cwiseAbs2();
+    const Low power = misfit_.cwiseAbs2();
     const double low = power.head(smooth).sum(), high = power.tail(power.size() - smooth).sum();
     return low > far_above * high ? peak_to_peak(low) : 0;
   }
@@ -128,7 +130,8 @@ class Estimator {
   bool is_even(double h) const {
     const Spectrum per_h = cosines_.log_averaging.head(below_.size()) - 2 * cosines_.log_frequency.head(below_.size());
     const Spectrum white = below_.cwiseAbs2().cwiseQuotient(((h + 0.5) * per_h).array().exp().matrix());
-    const Vector steps = (smooth_.tail(smooth_.size() - 1) - smooth_.head(smooth_.size() - 1)).cwiseAbs2();
+    const Vector& smooth = this->smooth();
+    const Vector steps = (smooth.tail(smooth.size() - 1) - smooth.head(smooth.size() - 1)).cwiseAbs2();
     const auto its_part = [&](Index from, Index to) {
       // The mean of m squares of normal numbers has the standard deviation √(2/m).
       const double part = white.segment(from, to - from).mean() / white.mean();
@@ -146,8 +149,9 @@ class Estimator {
     const Spectrum per_h = cosines_.log_averaging.head(used) - 2 * cosines_.log_frequency.head(used);
     const Regressors edges = cosines_.edges(used);
     const auto minus_likelihood = [&](double h) {
-      const Spectrum log_v = (h + 0.5) * per_h;
-      return -fit(below_, edges, log_v.array().exp(), log_v.sum()).restricted;
+      const Spectrum log_v = (h + 0.5) * per_h, weight = log_v.array().exp().inverse();
+      const Regression regression(edges, weight, log_v.sum());
+      return -regression.restricted(regression.squares(below_));
     };
     constexpr double least = -1.5, most = 2.5;
     constexpr int bits = 16;
@@ -158,63 +162,75 @@ class Estimator {
 
   /// The rest without the oscillations that were subtracted.
   double largest_rest() const {
-    const double mean = sum(smooth_.data(), smooth_.size()) / static_cast<double>(smooth_.size());
-    const Vector rest = smooth_.array() - mean;
-    return largest_size(rest.data(), rest.size());
+    const double mean = sum(smooth().data(), smooth().size()) / static_cast<double>(smooth().size());
+    return largest_distance(smooth().data(), smooth().size(), mean);
   }
   double largest_oscillation() const { return largest_oscillation_; }
   /// Number of its periods in the run.
   double slowest_line() const { return static_cast<double>(slowest_line_) / 2; }
 
  private:
+  /// The most likely noise beside a trend.
+  struct Noise {
+    std::size_t shape = 0;            ///< of its variances
+    double squares = 0, degrees = 0;  ///< those of Fit
+    double scale2() const { return squares / degrees; }
+  };
+
   /// Peak-to-peak amplitude of a sine whose cosines have this sum of squares.
   double peak_to_peak(double squares) const {
     return 2 * std::sqrt(2 * squares / static_cast<double>(times_.t().size()));
   }
 
   Spectrum without_polynomial(const Spectrum& c) const {
-    return c - times_.polynomial() * times_.flat().fit(c).coefficients;
+    const Matrix& x = times_.polynomial();
+    const Coefficients a = times_.flat().fit(c).coefficients;
+    return c - (x.col(0) * a[0] + x.col(1) * a[1]);
   }
 
-  /// The first cosines of the drift, as many as trends are fitted to.
-  Spectrum first_of(Index count) const { return all_.head(std::min(most_cosines, count)); }
-
-  std::size_t likeliest(const Spectrum& c, Trend trend) {
-    return likeliest_shape([&](std::size_t shape) { return times_.regression(trend, c.size(), shape).restricted(c); });
+  Noise likeliest(const Low& c, Trend trend) {
+    Regressions& regressions = times_.regressions(trend, c.size());
+    const auto squares = regressions.squares(c);
+    const std::size_t shape = likeliest_shape([&](std::size_t k) { return regressions[k].restricted(squares[k]); });
+    return {shape, squares[shape], regressions[shape].degrees()};
   }
-  Fit fitted(Trend trend) { return times_.regression(trend, c_.size(), shape_).fit(c_); }
-  Beside beside_noise(std::size_t shape) { return {times_.regression(Trend::none, c_.size(), shape), c_}; }
+
+  /// The regression for c_ with its noise.
+  const Regression& regression(Trend trend) { return times_.regressions(trend, c_.size())[shape_]; }
 
   /// Takes out, one after the other, the oscillations that the blocks resolve.
   void without_lines() {
     constexpr int most_oscillations = 8;
-    Vector smooth = drift_;
-    below_ = all_;
+    below_ = std::move(all_);
     if (strongest_line_) {
-      const Matrix trend = times_.orthonormal();
-      Spectrum c = all_, rest = without_polynomial(c);
+      const Matrix& trend = times_.orthonormal();
+      Spectrum rest = without_polynomial(below_);
+      smooth_ = drift_;
       for (int i = 0; i < most_oscillations; ++i) {
         const auto line = i == 0 ? strongest_line_ : line_in(cosines_, rest);
         if (!line) break;
-        smooth -= fitted_oscillation(smooth, trend, *line);
+        smooth_ -= fitted_oscillation(smooth_, trend, *line);
         slowest_line_ = i == 0 ? *line : std::min(slowest_line_, *line);
-        c = cosines_.transform(smooth);
-        rest = without_polynomial(c);
+        below_ = cosines_.transform(smooth_);
+        rest = without_polynomial(below_);
       }
-      below_ = c.head(below_lines(cosines_, rest));
+      below_.conservativeResize(below_lines(cosines_, rest));
+      const Vector oscillations = drift_ - smooth_;
+      largest_oscillation_ = largest_size(oscillations.data(), oscillations.size());
     }
     c_ = below_.head(std::min(most_cosines, below_.size()));
-    const Vector oscillations = drift_ - smooth;
-    largest_oscillation_ = largest_size(oscillations.data(), oscillations.size());
-    smooth_ = std::move(smooth);
   }
+
+  /// The drift without its lines.
+  const Vector& smooth() const { return strongest_line_ ? smooth_ : drift_; }
 
   /// Number of the first exponent with the least misfit.
   std::size_t best_first() {
     std::size_t best = 1;
     double least = std::numeric_limits<double>::infinity();
+    std::deque<Regressions>& regressions = times_.first_regressions(c_.size());
     for (std::size_t k = 0; k < BlockTimes::first_exponents.size(); ++k) {
-      const double squares = times_.first_regression(k, c_.size(), shape_).fit(c_).squares;
+      const double squares = regressions[k][shape_].squares(c_);
       if (squares < least) {
         least = squares;
         best = k;
@@ -226,21 +242,22 @@ class Estimator {
   BlockTimes& times_;
   const Cosines& cosines_;
   const Vector& drift_;
-  Spectrum all_;                         ///< the drift's cosines
+  Spectrum all_;                         ///< the drift's cosines, until separate()
   std::optional<Index> strongest_line_;  ///< the first one to be taken out
-  Spectrum with_lines_;                  ///< the drift's cosines below its lowest line
+  alignas(64) Low with_lines_;           ///< the drift's cosines below its lowest line
   Spectrum below_;         ///< the drift's cosines without its lines, those that are well below what is left of them
-  Spectrum c_;             ///< the first of these, which trends are fitted to
+  alignas(64) Low c_;      ///< the first of these, which trends are fitted to
+  Noise beside_curve_;     ///< the noise in them beside a trend
   std::size_t shape_ = 0;  ///< shape of their variances
-  Vector smooth_;          ///< the drift without its lines
-  Spectrum misfit_;        ///< c_ without t^p
+  Vector smooth_;          ///< the drift without its lines, where it has some
+  Low misfit_;             ///< c_ without t^p
   double largest_oscillation_ = 0, change_ = 0;
   Index slowest_line_ = 0;
 };
 
 /// The series of a drift, over its largest deviation from its mean.
 struct Series {
-  Vector t;      ///< time over the last time
+  BlockTimes& times;
   Vector drift;  ///< less its mean, over `size`
   double size = 0, end = 0;
 };
@@ -248,21 +265,17 @@ struct Series {
 std::optional<Series> series_of(const std::vector<BlockMean>& blocks) {
   if (blocks.size() < fewest_blocks) return std::nullopt;
   const auto n = static_cast<Index>(blocks.size());
-  Series series{Vector(n), Vector(n)};
-  auto& [t, drift, size, end] = series;
-  for (Index i = 0; i < n; ++i) {
-    t[i] = blocks[static_cast<std::size_t>(i)].t;
-    drift[i] = blocks[static_cast<std::size_t>(i)].value;
-  }
-  end = t[n - 1];
+  Vector drift(n);
+  for (Index i = 0; i < n; ++i) drift[i] = blocks[static_cast<std::size_t>(i)].value;
+  if (!all_finite(drift.data(), n)) return std::nullopt;
   const double largest = largest_size(drift.data(), n);
-  if (!drift.allFinite() || !t.allFinite() || !(t[0] >= 0) || !(end > t[0])) return std::nullopt;
-  t = (t / end).cwiseMax(std::numeric_limits<double>::min());
   drift.array() -= sum(drift.data(), n) / static_cast<double>(n);
-  size = largest_size(drift.data(), n);
+  const double size = largest_size(drift.data(), n);
   if (!(size > std::numeric_limits<double>::epsilon() * largest)) return std::nullopt;
   drift /= size;
-  return series;
+  BlockTimes* times = block_times(blocks);
+  if (!times) return std::nullopt;
+  return Series{*times, std::move(drift), size, blocks.back().t};
 }
 
 }  // namespace
@@ -270,14 +283,14 @@ std::optional<Series> series_of(const std::vector<BlockMean>& blocks) {
 std::optional<double> slope_half_width_95(const std::vector<BlockMean>& blocks) {
   const auto series = series_of(blocks);
   if (!series) return std::nullopt;
-  return Estimator(block_times(series->t), series->drift).slope_half_width() * series->size / series->end;
+  return Estimator(series->times, series->drift).slope_half_width() * series->size / series->end;
 }
 
 std::optional<DriftGrowth> growth_of(const std::vector<BlockMean>& blocks) {
   const auto series = series_of(blocks);
   if (!series) return std::nullopt;
   const double size = series->size, end = series->end;
-  Estimator estimate(block_times(series->t), series->drift);
+  Estimator estimate(series->times, series->drift);
   DriftGrowth growth;
   growth.slope_half_width_95 = estimate.slope_half_width() * size / end;
   estimate.separate();

@@ -32,7 +32,21 @@ void for_each_eight(std::ptrdiff_t n, const Use& use) {
 /// The least multiple of eight that is not less than `count`.
 constexpr std::ptrdiff_t in_eights(std::ptrdiff_t count) { return (count + 7) / 8 * 8; }
 
-inline double total(const Eight& s) { return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7])); }
+/// The sums of the numbers at even and at odd places, (s0 + s4) + (s2 + s6) and (s1 + s5) + (s3 + s7).
+struct TwoTotals {
+  double even = 0, odd = 0;
+};
+
+inline TwoTotals two_totals(const Eight& s) {
+  const auto four = __builtin_shufflevector(s, s, 0, 1, 2, 3) + __builtin_shufflevector(s, s, 4, 5, 6, 7);
+  const auto two = __builtin_shufflevector(four, four, 0, 1) + __builtin_shufflevector(four, four, 2, 3);
+  return {two[0], two[1]};
+}
+
+inline double total(const Eight& s) {
+  const TwoTotals two = two_totals(s);
+  return two.even + two.odd;
+}
 
 /// The sum, in eight sums.
 inline double sum(const double* numbers, std::ptrdiff_t n) {
@@ -45,18 +59,30 @@ inline double sum(const double* numbers, std::ptrdiff_t n) {
   return total(sums);
 }
 
-/// The largest size of any of them, at least 0. NaN counts as nothing.
-inline double largest_size(const double* numbers, std::ptrdiff_t n) {
+/// The largest distance of any of them from this number. NaN counts as nothing.
+inline double largest_distance(const double* numbers, std::ptrdiff_t n, double from) {
   Eight largest = {};
   for_each_eight(n, [&](std::ptrdiff_t i, auto count) {
-    Eight next;
-    read(next, numbers + i, count);
+    Eight next = Eight{} + from;
+    std::memcpy(&next, numbers + i, static_cast<std::size_t>(count) * sizeof(double));
+    next -= from;
     next = next < 0 ? -next : next;
     largest = next > largest ? next : largest;
   });
   double size = 0;
   for (int i = 0; i < 8; ++i) size = largest[i] > size ? largest[i] : size;
   return size;
+}
+inline double largest_size(const double* numbers, std::ptrdiff_t n) { return largest_distance(numbers, n, 0); }
+
+inline bool all_finite(const double* numbers, std::ptrdiff_t n) {
+  Eight sums = {};
+  for_each_eight(n, [&](std::ptrdiff_t i, auto count) {
+    Eight next;
+    read(next, numbers + i, count);
+    sums += 0 * next;
+  });
+  return total(sums) == 0;
 }
 
 }  // namespace polhode::study::statistics::spectral

@@ -13,20 +13,33 @@
 
 namespace polhode::study::inline statistics::spectral {
 
-std::optional<Index> line_in(const Cosines& cosines, const Spectrum& rest) {
+std::optional<Index> line_in(const Cosines& cosines, const Numbers& rest) {
   constexpr double line = 25;
   constexpr Index lowest = lowest_line, gap = 3;  // four oscillations in the run; a line's flank
-  const Spectrum power = rest.cwiseAbs2();
-  if (!(power.maxCoeff() > 0)) return std::nullopt;
-  const Spectrum white = whitened(cosines, power);
-  Index at = 0;
-  if (white.maxCoeff(&at) >= line * white.mean() && at + 1 >= lowest) return at + 1;
-  const double peak = power.maxCoeff(&at);
-  if (at + 1 >= lowest && peak >= line * power.head(at - gap).mean()) return at + 1;
+  const Spectrum& weights = likeliest_weights(cosines, rest);
+  double white_sum = 0, white_peak = 0, peak = 0;
+  Index white_at = 0, at = 0;
+  for (Index i = 0; i < rest.size(); ++i) {
+    const double power = rest[i] * rest[i], white = power * weights[i];
+    white_sum += white;
+    if (white > white_peak) {
+      white_peak = white;
+      white_at = i;
+    }
+    if (power > peak) {
+      peak = power;
+      at = i;
+    }
+  }
+  if (!(peak > 0)) return std::nullopt;
+  if (white_at + 1 >= lowest && white_peak >= line * (white_sum / static_cast<double>(rest.size()))) {
+    return white_at + 1;
+  }
+  if (at + 1 >= lowest && peak >= line * rest.head(at - gap).cwiseAbs2().mean()) return at + 1;
   return std::nullopt;
 }
 
-Index below_lines(const Cosines& cosines, const Spectrum& rest) {
+Index below_lines(const Cosines& cosines, const Numbers& rest) {
   Index count = rest.size();
   while (count > fewest_cosines) {
     const auto line = line_in(cosines, rest.head(count));

@@ -14,10 +14,10 @@ constexpr Index lowest_line = 8;
 
 /// A line among the first cosines, that is, an oscillation that the blocks resolve: a square 25 times the mean of those
 /// below it, or of the noise there. `rest`: of a fit by t and t², which takes the first cosines.
-std::optional<Index> line_in(const Cosines& cosines, const Spectrum& rest);
+std::optional<Index> line_in(const Cosines& cosines, const Numbers& rest);
 
 /// Number of the first cosines that lie well below every line.
-Index below_lines(const Cosines& cosines, const Spectrum& rest);
+Index below_lines(const Cosines& cosines, const Numbers& rest);
 
 constexpr int trends = 3;  ///< number of the polynomials of a trend: 1, t, t²
 

@@ -191,6 +191,41 @@ TEST(Drift, IsTheSameAfterOtherSeries) {
   }
 }
 
+/// Blocks whose times are in another unit share what is kept of their times.
+TEST(Drift, IsTheSameInAnyUnitOfTime) {
+  constexpr double unit = 4;  // no time is rounded
+  for (const bool oscillates : {false, true}) {
+    const auto blocks = made_up_drift(60, oscillates);
+    auto longer = blocks;
+    for (BlockMean& block : longer) block.t *= unit;
+    const auto growth = growth_of(blocks), other = growth_of(longer);
+    ASSERT_TRUE(growth && other);
+    EXPECT_EQ(slope_half_width_95(longer), growth->slope_half_width_95 / unit);
+    DriftGrowth expected = *growth;
+    expected.slope_half_width_95 /= unit;
+    expect_the_same(*other, expected);
+  }
+}
+
+/// Fits take eight cosines at a time, and transforms 32.
+TEST(Drift, IsDecidedWithAnyNumberOfBlocks) {
+  for (std::size_t n = fewest_blocks; n < 140; ++n) {
+    SCOPED_TRACE(n);
+    std::mt19937 random(static_cast<unsigned>(n));
+    std::normal_distribution<double> normal;
+    std::vector<BlockMean> blocks;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double t = (static_cast<double>(k) + 0.5) / static_cast<double>(n);
+      blocks.push_back({t, t * t + 0.001 * normal(random)});
+    }
+    const auto growth = growth_of(blocks);
+    ASSERT_TRUE(growth);
+    EXPECT_TRUE(growth->secular);
+    EXPECT_NEAR(growth->exponent, 2, 0.03);
+    EXPECT_GT(growth->high, growth->low);
+  }
+}
+
 TEST(Drift, OfOneSizeOverTheBlocksIsTheSameInAnyUnit) {
   BlockMeans small, large;
   for (int k = 0; k < 1000; ++k) {
