@@ -89,30 +89,32 @@ const Metric& metric_of_column(const std::string& column);
 /// The metrics in the order of the tables of runs.
 std::vector<const Metric*> in_table_order(std::span<const Metric> metrics);
 
+/// with_value() for a metric whose member is known to be `member`.
+template <class Member, class Result, class Use>
+void with_value_of(Member member, const Metric& metric, Result& result, const Use& use) {
+  if constexpr (std::is_same_v<Member, std::monostate>) {
+    const auto found = result.further.find(metric.column);
+    std::optional<double> value;
+    if (found != result.further.end()) value = found->second;
+    use(value);
+    if constexpr (!std::is_const_v<Result>) {
+      if (value) result.further[metric.column] = *value;
+      else result.further.erase(metric.column);
+    }
+  } else if constexpr (std::is_same_v<Member, std::optional<double> ContactMeasures::*>) {
+    use(result.contact.*member);
+  } else if constexpr (std::is_same_v<Member, std::optional<double> JointMeasures::*>) {
+    use(result.joints.*member);
+  } else {
+    use(result.*member);
+  }
+}
+
 /// Calls use(value) with a reference to the metric's value in the result: a std::optional<double>, std::int64_t,
 /// std::string or std::map<std::string, double>. If the result is not const, the value may be changed.
 template <class Result, class Use>
 void with_value(const Metric& metric, Result& result, const Use& use) {
-  const auto at_member = [&](auto member) {
-    using M = decltype(member);
-    if constexpr (std::is_same_v<M, std::monostate>) {
-      const auto found = result.further.find(metric.column);
-      std::optional<double> value;
-      if (found != result.further.end()) value = found->second;
-      use(value);
-      if constexpr (!std::is_const_v<Result>) {
-        if (value) result.further[metric.column] = *value;
-        else result.further.erase(metric.column);
-      }
-    } else if constexpr (std::is_same_v<M, std::optional<double> ContactMeasures::*>) {
-      use(result.contact.*member);
-    } else if constexpr (std::is_same_v<M, std::optional<double> JointMeasures::*>) {
-      use(result.joints.*member);
-    } else {
-      use(result.*member);
-    }
-  };
-  std::visit(at_member, metric.member);
+  std::visit([&](auto member) { with_value_of(member, metric, result, use); }, metric.member);
 }
 
 /// Columns of the metric in runs.csv: one, or one for each of the invariants.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -681,6 +682,20 @@ std::vector<std::string> config_cells(const RunConfig& config, const NamedOption
   }
   for (const Override& o : config.varied) cells.push_back(o.value);
   return cells;
+}
+
+bool have_same_options(const RunConfig& a, const RunConfig& b) {
+  // A member that is added to a structure must be named here.
+  const auto options = [](const RunConfig& config) {
+    const auto& [scenario, varied, integrator, formulation, normalize, precision, summation, contact, joints, dt,
+                 tolerance, max_steps, t_end, samples, reference, settings, further] = config;
+    const auto& [orientation, angular_state, gyroscopic, rotation_from, treatment] = formulation;
+    const auto& [stabilization, alpha, beta, penalty, metric] = treatment;
+    return std::tie(scenario, integrator, orientation, angular_state, gyroscopic, rotation_from, stabilization, alpha,
+                    beta, penalty, metric, normalize, precision, summation, contact, joints, dt, tolerance, max_steps,
+                    t_end, samples, reference, settings, further);
+  };
+  return options(a) == options(b);
 }
 
 IdentityText identity_text(const RunConfig& config) {

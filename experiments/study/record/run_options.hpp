@@ -132,6 +132,9 @@ std::string config_cell(const RunOption& option, const RunConfig& config);
 /// The option with this column; null if there is none, as for a varied key.
 const RunOption* option_of_column(const std::string& column);
 
+/// True if two configurations differ in their varied keys alone, if at all.
+bool have_same_options(const RunConfig& a, const RunConfig& b);
+
 /// The configuration as text, without the values of its varied keys, which stand between the two parts.
 struct IdentityText {
   std::string before, after;

@@ -44,6 +44,7 @@ using NamedOptions = std::set<std::string>;
 struct ContactConfig {
   std::string broad_phase, narrow_phase, response;
   std::string impact_timing;  ///< name of the timing; empty if the response is a force
+  bool operator==(const ContactConfig&) const = default;
 };
 
 /// The method by which a run solves the equations of the joints.
@@ -53,6 +54,7 @@ struct JointConfig {
   std::optional<double> alpha_per_step;  ///< a, α = β = a/h in place of them; fixed-step methods only
   std::optional<double> penalty;         ///< penalty in multiples of the mean mass; absent: 1e7
   ProjectionMetric metric = ProjectionMetric::mass;
+  bool operator==(const JointConfig&) const = default;
 };
 
 /// The configuration of one run. run_options.hpp names, reads and prints each member.

@@ -66,19 +66,27 @@ std::int64_t configuration_key(const RunConfig& config) { return key_of_entries(
 
 std::string varied_text(const RunConfig& config) {
   std::string text;
-  text.reserve(96);
+  add_varied_text(text, config);
+  return text;
+}
+
+void add_varied_text(std::string& text, const RunConfig& config) {
   for (const Override& varied : config.varied) {
     if (varied.value.empty()) continue;
     if (!text.empty()) text += '\n';
     text += varied.key;
     text += '=';
+    const auto is_escaped = [](char c) { return c == '\\' || c == '\n'; };
+    if (std::none_of(varied.value.begin(), varied.value.end(), is_escaped)) {
+      text += varied.value;
+      continue;
+    }
     for (const char c : varied.value) {
       if (c == '\\') text += "\\\\";
       else if (c == '\n') text += "\\n";
       else text += c;
     }
   }
-  return text;
 }
 
 ConfigurationWriter::ConfigurationWriter(const Database& db) : db_(&db) {

@@ -24,16 +24,21 @@ namespace {
 using NamedNumbers = std::map<std::string, double>;
 
 /// "name=value " of each entry; names are identifiers, values have all digits.
-std::string text_of_numbers(const NamedNumbers& numbers) {
-  std::string text;
-  text.reserve(96);
+void set_numbers(std::string& text, const NamedNumbers& numbers) {
+  text.clear();
   for (const auto& [name, number] : numbers) {
     text += name;
     text += '=';
     add_exact(text, number);
     text += ' ';
   }
-  return text;
+}
+
+/// True if numbers_of_text() reads these numbers back.
+bool may_be_text(const NamedNumbers& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](const auto& one) {
+    return std::isfinite(one.second) && !one.first.empty() && one.first.find_first_of("= ") == std::string::npos;
+  });
 }
 
 std::optional<NamedNumbers> numbers_of_text(std::string_view text) {
@@ -63,9 +68,10 @@ bool is_word_of(const Metric& metric, std::string_view word) {
   return metric.words.empty() || std::find(metric.words.begin(), metric.words.end(), word) != metric.words.end();
 }
 
-bool put_value(const Metric& metric, const Value& stored, RunResult& result) {
+template <class Member>
+bool put_value(Member member, const Metric& metric, const Value& stored, RunResult& result) {
   bool sound = false;
-  with_value(metric, result, [&]<class T>(T& value) {
+  with_value_of(member, metric, result, [&]<class T>(T& value) {
     if constexpr (std::is_same_v<T, std::optional<double>>) {
       sound = put_number(stored, value, metric.may_be_infinite);
     } else if constexpr (std::is_same_v<T, std::int64_t>) {
@@ -86,39 +92,46 @@ bool put_value(const Metric& metric, const Value& stored, RunResult& result) {
   return sound;
 }
 
-Value value_of(const Metric& metric, const RunResult& result, std::string& text) {
-  Value stored;
-  with_value(metric, result, [&]<class T>(const T& value) {
+/// Returns false if put_value() would refuse the value.
+template <class Member>
+bool get_value(Member member, const Metric& metric, const RunResult& result, std::string& text, Value& stored) {
+  bool sound = false;
+  with_value_of(member, metric, result, [&]<class T>(const T& value) {
     if constexpr (std::is_same_v<T, std::optional<double>>) {
       stored = value ? as_kept(*value) : Value();
+      sound = !value || !std::isinf(*value) || metric.may_be_infinite;
     } else if constexpr (std::is_same_v<T, std::int64_t>) {
       stored = value;
+      sound = value >= 0;
     } else if constexpr (std::is_same_v<T, std::string>) {
       stored = std::string_view(value);
+      sound = is_word_of(metric, value);
     } else {
-      text = text_of_numbers(value);
+      set_numbers(text, value);
       stored = std::string_view(text);
+      sound = may_be_text(value);
     }
   });
-  return stored;
+  return sound;
 }
 
-std::string_view type_of(const Metric& metric) {
-  const auto of_member = []<class M>(M) -> std::string_view {
-    if (std::is_same_v<M, std::int64_t RunResult::*>) return "INTEGER";
-    const bool text = std::is_same_v<M, std::string RunResult::*> || std::is_same_v<M, NamedNumbers RunResult::*>;
-    return text ? "TEXT" : "REAL";
-  };
-  return std::visit(of_member, metric.member);
-}
-
-/// True if put_value() takes NULL for no number.
-bool may_be_absent(const Metric& metric) {
-  const auto of_member = []<class M>(M) {
-    return !std::is_same_v<M, std::int64_t RunResult::*> && !std::is_same_v<M, std::string RunResult::*> &&
-           !std::is_same_v<M, NamedNumbers RunResult::*>;
-  };
-  return std::visit(of_member, metric.member);
+ResultColumn metric_column(const Metric& metric) {
+  return std::visit(
+      [&metric]<class M>(M member) -> ResultColumn {
+        const bool whole = std::is_same_v<M, std::int64_t RunResult::*>;
+        const bool text = std::is_same_v<M, std::string RunResult::*> || std::is_same_v<M, NamedNumbers RunResult::*>;
+        return {.name = metric.column,
+                .type = whole  ? "INTEGER"
+                        : text ? "TEXT"
+                               : "REAL",
+                .value = [&metric, member](
+                             const RunRecord& record, std::string& room,
+                             Value& stored) { return get_value(member, metric, record.result, room, stored); },
+                .put = [&metric, member](const Value& stored,
+                                         RunResult& result) { return put_value(member, metric, stored, result); },
+                .may_be_absent = !whole && !text};
+      },
+      metric.member);
 }
 
 /// Puts a value into a result, into which none was put before. Returns false if no study writes such a value.
@@ -130,7 +143,11 @@ bool put(const ResultColumn& column, const Value& value, RunResult& result) {
 ResultColumn number_column(std::string name, double RunResult::*member) {
   return {.name = std::move(name),
           .type = "REAL",
-          .value = [member](const RunRecord& record, std::string&) { return as_kept(record.result.*member); },
+          .value =
+              [member](const RunRecord& record, std::string&, Value& stored) {
+                stored = as_kept(record.result.*member);
+                return std::isfinite(record.result.*member);
+              },
           .put =
               [member](const Value& stored, RunResult& result) {
                 const double* x = std::get_if<double>(&stored);
@@ -140,59 +157,77 @@ ResultColumn number_column(std::string name, double RunResult::*member) {
               }};
 }
 
-/// A curve against time: points of finite numbers, the first of which is a time that never decreases.
+/// True if the points are a curve against time: finite numbers, the first of which is a time that never decreases.
+template <class Point>
+bool is_curve(const std::vector<Point>& points) {
+  static_assert(std::is_trivially_copyable_v<Point> && sizeof(Point) % sizeof(double) == 0);
+  std::vector<double> numbers(points.size() * (sizeof(Point) / sizeof(double)));
+  if (!points.empty()) std::memcpy(numbers.data(), points.data(), points.size() * sizeof(Point));
+  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }) &&
+         std::is_sorted(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.t < b.t; });
+}
+
 template <class Point>
 ResultColumn curve_column(std::string name, std::vector<Point> RunResult::*member) {
-  static_assert(std::is_trivially_copyable_v<Point> && sizeof(Point) % sizeof(double) == 0);
   return {.name = std::move(name),
           .type = "BLOB",
-          .value = [member](const RunRecord& record, std::string&) -> Value {
-            return std::as_bytes(std::span(record.result.*member));
-          },
+          .value =
+              [member](const RunRecord& record, std::string&, Value& stored) {
+                stored = std::as_bytes(std::span(record.result.*member));
+                return is_curve(record.result.*member);
+              },
           .put =
               [member](const Value& stored, RunResult& result) {
                 const auto* bytes = std::get_if<Blob>(&stored);
                 if (!bytes || bytes->size() % sizeof(Point) != 0) return false;
                 std::vector<Point> points(bytes->size() / sizeof(Point));
-                std::vector<double> numbers(bytes->size() / sizeof(double));
-                if (!points.empty()) {
-                  std::memcpy(points.data(), bytes->data(), bytes->size());
-                  std::memcpy(numbers.data(), bytes->data(), bytes->size());
-                }
-                const auto finite = [](double x) { return std::isfinite(x); };
-                const auto earlier = [](const Point& a, const Point& b) { return a.t < b.t; };
-                if (!std::all_of(numbers.begin(), numbers.end(), finite)) return false;
-                if (!std::is_sorted(points.begin(), points.end(), earlier)) return false;
+                if (!points.empty()) std::memcpy(points.data(), bytes->data(), bytes->size());
+                if (!is_curve(points)) return false;
                 result.*member = std::move(points);
                 return true;
               }};
 }
 
-bool is_curve(const RunResult& result) { return !result.series.empty() || !result.attitude_errors.empty(); }
+bool with_curves(const RunResult& result) { return !result.series.empty() || !result.attitude_errors.empty(); }
 
 ResultColumn has_curves_column() {
   return {.name = std::string(has_curves),
           .type = "INTEGER",
-          .value = [](const RunRecord& record, std::string&) -> Value {
-            return static_cast<std::int64_t>(is_curve(record.result));
-          },
+          .value =
+              [](const RunRecord& record, std::string&, Value& stored) {
+                stored = static_cast<std::int64_t>(with_curves(record.result));
+                return true;
+              },
           .put = [](const Value& stored, RunResult&) { return is_integer(stored, 0) || is_integer(stored, 1); }};
 }
 
+/// The key is made anew where the options differ from those of the record before.
 ResultColumn configuration_key_column() {
   return {.name = std::string(configuration_column),
           .type = "INTEGER",
-          .value = [](const RunRecord& record, std::string&) -> Value { return configuration_key(record.config); },
+          .value =
+              [last = RunConfig(), key = std::optional<std::int64_t>()](const RunRecord& record, std::string&,
+                                                                        Value& stored) mutable {
+                if (!key || !have_same_options(last, record.config)) {
+                  last = record.config;
+                  key = configuration_key(last);
+                }
+                stored = *key;
+                return true;
+              },
           .put = [](const Value& stored, RunResult&) { return std::holds_alternative<std::int64_t>(stored); }};
 }
 
 ResultColumn varied_text_column() {
   return {.name = std::string(varied_column),
           .type = "TEXT",
-          .value = [](const RunRecord& record, std::string& text) -> Value {
-            text = varied_text(record.config);
-            return std::string_view(text);
-          },
+          .value =
+              [](const RunRecord& record, std::string& text, Value& stored) {
+                text.clear();
+                add_varied_text(text, record.config);
+                stored = std::string_view(text);
+                return true;
+              },
           .put = [](const Value& stored, RunResult&) { return std::holds_alternative<std::string_view>(stored); }};
 }
 
@@ -206,15 +241,7 @@ ResultTable sorted(ResultTable table) {
 
 ResultTable runs_table(std::span<const Metric> metrics) {
   ResultTable table{.name = "runs", .columns = {}, .has_id = true};
-  for (const Metric& metric : metrics) {
-    table.columns.push_back(
-        {.name = metric.column,
-         .type = type_of(metric),
-         .value = [&metric](const RunRecord& record,
-                            std::string& text) { return value_of(metric, record.result, text); },
-         .put = [&metric](const Value& stored, RunResult& result) { return put_value(metric, stored, result); },
-         .may_be_absent = may_be_absent(metric)});
-  }
+  for (const Metric& metric : metrics) table.columns.push_back(metric_column(metric));
   table.columns.push_back(number_column("t_reached_s", &RunResult::t_reached));
   table.columns.push_back(has_curves_column());
   table.columns.push_back(configuration_key_column());
@@ -287,8 +314,7 @@ std::span<const Value> RowWriter::values(std::int64_t number, std::int64_t id, c
   if (table_->has_id) values_[1] = id;
   for (std::size_t k = 0; k < texts_.size(); ++k) {
     const ResultColumn& column = table_->columns[k];
-    columns[k] = column.value(record, texts_[k]);
-    if (!put(column, columns[k], read_back_)) {
+    if (!column.value(record, texts_[k], columns[k])) {
       throw std::logic_error("run " + record.id + " has a value of " + table_->name + "." + column.name +
                              " that cannot be stored");
     }

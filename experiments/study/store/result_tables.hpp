@@ -25,8 +25,9 @@ namespace polhode::study::inline store {
 struct ResultColumn {
   std::string name;
   std::string_view type;  ///< declared type in SQL
-  /// The value to store. `text` is room for a text that the record does not hold; it must outlive the value.
-  std::function<Value(const RunRecord&, std::string& text)> value;
+  /// Gives the value to store. Returns false if put() would refuse it. `text` is room for a text that the record does
+  /// not hold; it must outlive the value. One thread at a time may call it.
+  std::function<bool(const RunRecord&, std::string& text, Value& stored)> value;
   /// Puts a stored value into a result. Returns false if no study writes such a value.
   std::function<bool(const Value&, RunResult&)> put;
   bool may_be_absent = false;  ///< NULL stands for no number, as a new result has none; then put() need not be called
@@ -71,7 +72,6 @@ class RowWriter {
   const ResultTable* table_;
   std::vector<std::string> texts_;
   std::vector<Value> values_;
-  RunResult read_back_;  ///< into which values are put to see whether they may be read back
 };
 
 /// Reads the columns of a table from the rows of a SELECT.

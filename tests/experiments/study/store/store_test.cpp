@@ -131,6 +131,24 @@ TEST(Store, AValueThatCouldNotBeReadBackIsNotKept) {
   for (const auto spoil :
        {+[](RunRecord& r) { r.result.status = "perhaps"; }, +[](RunRecord& r) { r.result.drift_class = "steep"; },
         +[](RunRecord& r) { r.result.energy_initial = std::numeric_limits<double>::infinity(); },
+        +[](RunRecord& r) { r.result.steps = -1; },
+        +[](RunRecord& r) { r.result.t_reached = std::numeric_limits<double>::infinity(); },
+        +[](RunRecord& r) { r.result.seconds = std::numeric_limits<double>::quiet_NaN(); },
+        +[](RunRecord& r) {
+          r.result.invariant_drift_max_rel = {{"p_psi", std::numeric_limits<double>::infinity()}};
+        },
+        +[](RunRecord& r) {
+          r.result.invariant_drift_max_rel = {{"p=psi", 1}};
+        },
+        +[](RunRecord& r) {
+          r.result.invariant_drift_max_rel = {{"p psi", 1}};
+        },
+        +[](RunRecord& r) {
+          r.result.invariant_drift_max_rel = {{"", 1}};
+        },
+        +[](RunRecord& r) {
+          r.result.attitude_errors = {{0, std::numeric_limits<double>::quiet_NaN()}};
+        },
         +[](RunRecord& r) {
           r.result.series = {{1, 0, 0, 0, 0}, {0, 0, 0, 0, 0}};
         },
