@@ -210,19 +210,25 @@ class Store::Reader {
   std::int64_t id() const { return select_->integer(0); }      ///< id of the run of the present row
   std::int64_t number() const { return select_->integer(1); }  ///< number of that row
 
+  /// Reads the result of the run of the present row into a new one. Returns StoredRun::damage.
+  std::string read(RunResult& result) {
+    const std::int64_t key = id();
+    std::string damage = runs_.read(*select_, key, result);
+    if (damage.empty()) damage = timings_.read(*select_, key, result);
+    if (damage.empty() && curves_ && is_integer(runs_.value(has_curves_), 1))
+      damage = curves_->read(*select_, key, result);
+    return damage;
+  }
+
   /// The run of the present row.
   StoredRun read() {
     StoredRun run;
-    const std::int64_t key = id();
-    run.id = id_of_key(key);
-    run.damage = runs_.read(*select_, key, run.result);
+    run.id = id_of_key(id());
+    run.damage = read(run.result);
     if (run.damage.empty()) {
       run.configuration = std::get<std::int64_t>(runs_.value(configuration_));
       run.varied = std::get<std::string_view>(runs_.value(varied_));
     }
-    if (run.damage.empty()) run.damage = timings_.read(*select_, key, run.result);
-    if (run.damage.empty() && curves_ && is_integer(runs_.value(has_curves_), 1))
-      run.damage = curves_->read(*select_, key, run.result);
     return run;
   }
 
@@ -258,17 +264,17 @@ Store::Reading::~Reading() {
   sqlite3_exec(store_.db_.handle(), "COMMIT", nullptr, nullptr, nullptr);
 }
 
-std::optional<StoredRun> Store::Reading::find(const std::string& id) {
+std::optional<std::string> Store::Reading::find(std::uint64_t id, RunResult& result) {
   Reader& reader = *store_.from_number_;
   Statement& rows = reader.statement();
-  const std::int64_t key = key_of(id);
+  const auto key = static_cast<std::int64_t>(id);
   if (!in_order_ || !rows.step() || reader.id() != key) {
     rows.reset();
     rows.bind(1, key);
     if (!rows.step()) return std::nullopt;
   }
   in_order_ = reader.number() == std::exchange(number_, reader.number()) + 1;
-  return reader.read();
+  return reader.read(result);
 }
 
 void Store::for_each(Curves curves, const std::function<void(StoredRun&&)>& use) const {

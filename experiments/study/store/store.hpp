@@ -25,9 +25,10 @@ namespace polhode::study::inline store {
 /// A run as it stands in the store.
 struct StoredRun {
   std::string id;
+  // Unspecified if the run is damaged.
   std::int64_t configuration = 0;  ///< key in configurations()
   std::string varied;              ///< varied keys, as varied_text() writes them
-  RunResult result;                ///< unspecified if the run is damaged
+  RunResult result;
   std::string damage;  ///< first invalid column: "runs.status", "curves.series", "runs.checksum"; empty: none
 };
 
@@ -68,8 +69,9 @@ class Store {
     ~Reading();
     Reading(const Reading&) = delete;
     Reading& operator=(const Reading&) = delete;
-    /// The run with this id; absent if there is none. Runs are read faster in the order in which they were stored.
-    std::optional<StoredRun> find(const std::string& id);
+    /// Reads the result of the run with this id into `result`, a new one. Returns StoredRun::damage; absent if there is
+    /// no such run. Runs are read faster in the order in which they were stored.
+    std::optional<std::string> find(std::uint64_t id, RunResult& result);
 
    private:
     const Store& store_;

@@ -331,21 +331,22 @@ void StudyRuns::for_each_part(const std::function<UsePart(std::vector<RunRecord>
     const std::size_t first = part * at_a_time, end = std::min(first + at_a_time, plan_.size());
     records.reserve(end - first);
     for (std::size_t i = first; i < end; ++i) {
+      RunRecord& record = records.emplace_back();
+      record.id = id_of_number(plan_.rows[i].id);
       if (plan_.rows[i].refused) {
         PlannedRun run = plan_.run(i, &variants);
-        records.push_back({std::move(run.id), std::move(run.config), {}});
-        records.back().result.status = "refused";
-        records.back().result.message = std::move(run.refusal);
+        record.config = std::move(run.config);
+        record.result.status = "refused";
+        record.result.message = std::move(run.refusal);
       } else {
-        records.push_back({id_of_number(plan_.rows[i].id), plan_.config(i, &last), {}});
+        record.config = plan_.config(i, &last);
       }
     }
     {
       const std::lock_guard lock(reading);
       Store::Reading stored(store_);
       for (std::size_t i = first; i < end; ++i) {
-        RunRecord& record = records[i - first];
-        if (!plan_.rows[i].refused) record.result = result_of(i, stored.find(record.id));
+        if (!plan_.rows[i].refused) check_found(i, stored.find(plan_.rows[i].id, records[i - first].result));
       }
     }
     return make(std::move(records));
@@ -353,16 +354,16 @@ void StudyRuns::for_each_part(const std::function<UsePart(std::vector<RunRecord>
 }
 
 RunResult StudyRuns::result(std::size_t run, Curves curves) const {
-  return result_of(run, store_.find(id_of_number(plan_.rows[run].id), curves));
+  std::optional<StoredRun> stored = store_.find(id_of_number(plan_.rows[run].id), curves);
+  check_found(run, stored ? std::optional(stored->damage) : std::nullopt);
+  return std::move(stored->result);
 }
 
-/// The result of a run as it was found in the own store. Throws std::runtime_error if it is none.
-RunResult StudyRuns::result_of(std::size_t run, std::optional<StoredRun>&& stored) const {
-  if (!stored || !stored->damage.empty()) {
-    throw std::runtime_error(fmt::format("{}: run {} cannot be read back ({})", (own_ / Store::file_name).string(),
-                                         id_of_number(plan_.rows[run].id), stored ? stored->damage : "it is gone"));
-  }
-  return std::move(stored->result);
+/// Throws std::runtime_error if a run is damaged in the own store, or is not there.
+void StudyRuns::check_found(std::size_t run, const std::optional<std::string>& damage) const {
+  if (damage && damage->empty()) return;
+  throw std::runtime_error(fmt::format("{}: run {} cannot be read back ({})", (own_ / Store::file_name).string(),
+                                       id_of_number(plan_.rows[run].id), damage ? *damage : "it is gone"));
 }
 
 void choose_curves(const Options& options, Plan& plan) {

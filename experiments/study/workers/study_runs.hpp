@@ -68,7 +68,7 @@ class StudyRuns {
   bool is_whole(std::size_t run, const RunResult& result) const;
   std::size_t count(Place place) const;
   void run(const std::vector<std::uint32_t>& runs, Interruption& interruption);
-  RunResult result_of(std::size_t run, std::optional<StoredRun>&& stored) const;
+  void check_found(std::size_t run, const std::optional<std::string>& damage) const;
 
   const Experiment& experiment_;
   const Options& options_;
