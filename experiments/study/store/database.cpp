@@ -75,8 +75,9 @@ Database::Database(std::filesystem::path path, Access access, Journal journal) :
   db_.reset(db);
   if (code != SQLITE_OK) fail();
   sqlite3_busy_timeout(db, patience_ms);
+  execute("PRAGMA page_size=8192");           // of a new file, bytes: each page is written and read by calls of its own
   execute("PRAGMA cache_size=-32768");        // KiB: the index of a million ids
-  execute("PRAGMA wal_autocheckpoint=4096");  // pages of 4 KiB: a page that changes often is copied less often
+  execute("PRAGMA wal_autocheckpoint=8192");  // pages, 64 MiB: a page that changes often is copied less often
   if (access != Access::read) set_journal(journal);
 }
 
