@@ -155,8 +155,9 @@ int write_large_study(const Experiment& experiment, const Options& options, cons
     };
     const auto part = std::make_shared<Part>();
     part->records = std::move(records);
+    ConfigCells cells(plan.named);
     for (const RunRecord& run : part->records) {
-      part->cells.push_back(config_cells(run.config, plan.named));
+      part->cells.push_back(cells.of(run.config));
       results.write(run, part->cells.back(), part->results);
       TimingsCsv::write(run, part->timings);
     }

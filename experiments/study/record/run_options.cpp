@@ -698,6 +698,19 @@ bool have_same_options(const RunConfig& a, const RunConfig& b) {
   return options(a) == options(b);
 }
 
+std::vector<std::string> ConfigCells::of(const RunConfig& config) {
+  if (!last_ || !have_same_options(*last_, config)) {
+    last_ = config;
+    last_->varied.clear();
+    of_options_ = config_cells(*last_, *named_);
+  }
+  std::vector<std::string> cells;
+  cells.reserve(of_options_.size() + config.varied.size());
+  cells = of_options_;
+  for (const Override& o : config.varied) cells.push_back(o.value);
+  return cells;
+}
+
 IdentityText identity_text(const RunConfig& config) {
   IdentityText text;
   text.before.reserve(256);

@@ -10,6 +10,7 @@
 #include <deque>
 #include <functional>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -134,6 +135,19 @@ const RunOption* option_of_column(const std::string& column);
 
 /// True if two configurations differ in their varied keys alone, if at all.
 bool have_same_options(const RunConfig& a, const RunConfig& b);
+
+/// config_cells() of run after run. The cells of the options are made anew where these differ from those of the run
+/// before.
+class ConfigCells {
+ public:
+  explicit ConfigCells(const NamedOptions& named) : named_(&named) {}  ///< `named` must outlive this object
+  std::vector<std::string> of(const RunConfig& config);
+
+ private:
+  const NamedOptions* named_;
+  std::optional<RunConfig> last_;
+  std::vector<std::string> of_options_;  ///< the cells of last_ without those of its varied keys
+};
 
 /// The configuration as text, without the values of its varied keys, which stand between the two parts.
 struct IdentityText {

@@ -270,6 +270,39 @@ TEST(RunOptions, ValuesAreReadPrintedAndSetTheSameWay) {
   }
 }
 
+TEST(RunOptions, RunsWithAnotherValueOfAnOptionHaveOtherOptionsAndCells) {
+  const NamedOptions named = options_on_demand();
+  ConfigCells cells(named);
+  const auto expect_cells = [&](const RunConfig& config) { EXPECT_EQ(cells.of(config), config_cells(config, named)); };
+  RunConfig usual;
+  usual.integrator = "rk4";
+  usual.contact.emplace();
+  usual.joints.emplace();
+  for (const RunOption& option : run_options()) {
+    RunConfig other = usual;
+    OptionValue value = std::string("another");
+    if (option.known) {
+      for (const std::string& known : option.known()) {
+        if (OptionValue(known) != option.value(usual)) value = known;
+      }
+    } else if (option.kind == RunOption::Kind::number) {
+      value = 0.7;
+    } else if (option.kind != RunOption::Kind::name) {
+      value = std::int64_t{1};
+    }
+    option.set(other, value);
+    EXPECT_FALSE(have_same_options(usual, other)) << option.name;
+    expect_cells(usual);
+    expect_cells(other);
+    other.varied = {{"body.0.mass", "2"}, {"gravity.2", ""}};
+    expect_cells(other);
+    RunConfig varied = other;
+    varied.varied[0].value = "3";
+    EXPECT_TRUE(have_same_options(other, varied));
+    expect_cells(varied);
+  }
+}
+
 // Among them the settings of methods, which are named where a method is.
 TEST(RunOptions, NamesAndColumnsAreUnique) {
   std::set<std::string> names, columns;
