@@ -279,7 +279,7 @@ class EnsembleLoop {
   Lanes projection_ = 0;  ///< energy injected by all projections of the run in each lane, J
   std::vector<LaneSample> samples_;
   std::vector<BodyMotion<Lanes>> motions_;  ///< of the body in each lane at each sample; empty: nothing is watched
-  std::vector<Lanes> values_;  ///< values of the watched quantities: by quantity and step
+  std::vector<Lanes> values_;               ///< values of the watched quantities: by quantity and step
   std::vector<std::span<const Lanes>> watched_values_;
   std::int64_t steps_of_method_ = 0;  ///< number of steps that method_ has taken
   Clock::time_point shared_until_ = Clock::now();
