@@ -425,7 +425,7 @@ class FullDisks(FaultsTest):
                 kept = now
                 name = re.search(r"out/([a-z_./]+[a-z])", said[0])[1]
                 stages.add(name.split("/")[0])
-                room += 12 if name == store.name else 4 * max(1, len(whole.get(name, b"")) // 4096)
+                room += 4 if name == store.name else 4 * max(1, len(whole.get(name, b"")) // 4096)
                 self.assertLess(room, 20_000)
                 subprocess.run(["mount", "-o", f"remount,size={room}k", str(place)], check=True, capture_output=True)
             found = files(place / "out")

@@ -66,11 +66,12 @@ std::int64_t configuration_key(const RunConfig& config) { return key_of_entries(
 
 std::string varied_text(const RunConfig& config) {
   std::string text;
-  add_varied_text(text, config);
+  set_varied_text(text, config);
   return text;
 }
 
-void add_varied_text(std::string& text, const RunConfig& config) {
+void set_varied_text(std::string& text, const RunConfig& config) {
+  text.clear();
   for (const Override& varied : config.varied) {
     if (varied.value.empty()) continue;
     if (!text.empty()) text += '\n';

@@ -26,7 +26,7 @@ std::int64_t configuration_key(const RunConfig& config);  ///< the key of its co
 /// The varied keys of the scenario, "key=value" in a line each; `\` and line breaks in a value are written `\\` and
 /// `\n`. Keys that the run leaves unchanged are left out.
 std::string varied_text(const RunConfig& config);
-void add_varied_text(std::string& text, const RunConfig& config);  ///< adds it to an empty text
+void set_varied_text(std::string& text, const RunConfig& config);  ///< the same, in the room that a text has
 
 /// Writes configurations. A column is added to the table when the first configuration has a value for it.
 class ConfigurationWriter {

@@ -223,8 +223,7 @@ ResultColumn varied_text_column() {
           .type = "TEXT",
           .value =
               [](const RunRecord& record, std::string& text, Value& stored) {
-                text.clear();
-                add_varied_text(text, record.config);
+                set_varied_text(text, record.config);
                 stored = std::string_view(text);
                 return true;
               },
