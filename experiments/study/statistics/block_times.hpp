@@ -57,7 +57,6 @@ class BlockTimes {
 
   const Cosines& cosines() const { return *cosines_; }
   const Vector& t() const { return t_; }
-  const Vector& log_t() const { return log_t_; }
   const Matrix& polynomial() const { return polynomial_.x; }  ///< t and t², all cosines
   const Regression& flat() const { return flat_; }            ///< on t and t², with equal variances
   /// Orthonormal polynomials of the time up to the second degree, a column each.
