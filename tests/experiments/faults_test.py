@@ -215,6 +215,10 @@ class DamagedStores(FaultsTest):
 
         for what, sql, more in (("other columns", "ALTER TABLE runs ADD COLUMN colour TEXT", None),
                                 ("fewer columns", "ALTER TABLE runs DROP COLUMN drift_exponent", None),
+                                ("no scenarios", "DROP TABLE scenarios", None),
+                                ("no configurations", "DROP TABLE configurations", None),
+                                ("no studies", "DROP TABLE studies", None),
+                                ("scenarios with other columns", "ALTER TABLE scenarios RENAME COLUMN source TO src", None),
                                 ("another table", "DROP TABLE runs; CREATE TABLE runs (id TEXT)", None),
                                 ("ids that are none", "UPDATE runs SET id = x'00ff' WHERE id = (SELECT min(id) FROM runs)", None),
                                 ("an older version", "PRAGMA user_version = 0; PRAGMA application_id = 0", None),

@@ -183,6 +183,11 @@ class Results(unittest.TestCase):
         for program, arguments in (("results", []), ("rerun", ["--all"]), ("explain", ["00"])):
             line = self.refused(*arguments, "other", program=program)
             self.assertIn("the store has schema version 1, and this program reads version 2; use the version of polhode that made it, or", line)
+        torn = self.copy("torn")
+        change(torn, "DROP TABLE scenarios")
+        for program, arguments in (("results", []), ("rerun", ["--all"]), ("explain", ["00"])):
+            line = self.refused(*arguments, "torn", program=program)
+            self.assertRegex(line, "its table scenarios is missing, .*; the command of its study makes it anew with --force")
         (self.folder / "begun").mkdir()
         self.addCleanup(shutil.rmtree, self.folder / "begun")
         sqlite3.connect(self.folder / "begun/results.sqlite").close()

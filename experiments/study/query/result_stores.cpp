@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "experiments/study/store/shard_folders.hpp"
+#include "experiments/study/store/table_form.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/notation.hpp"
 
@@ -76,6 +77,8 @@ ResultStores::ResultStores(const std::vector<std::string>& folders) {
           } else {
             stores_.push_back(std::make_unique<OpenStore>(study, place));
           }
+        } catch (const OtherTables& reason) {
+          throw InputError(reason.what() + std::string("; the command of its study makes it anew with --force"));
         } catch (const std::runtime_error& reason) {
           throw InputError(reason.what());
         }

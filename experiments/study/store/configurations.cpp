@@ -90,6 +90,10 @@ void set_varied_text(std::string& text, const RunConfig& config) {
   }
 }
 
+TableForm configurations_form() {
+  return {.name = "configurations", .columns = {{"key", "INTEGER"}}, .may_have_more = true};
+}
+
 ConfigurationWriter::ConfigurationWriter(const Database& db) : db_(&db) {
   Statement columns(db, "SELECT name FROM pragma_table_info('configurations')");
   while (columns.step()) {

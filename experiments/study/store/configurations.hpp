@@ -11,6 +11,7 @@
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/record/run_record.hpp"
 #include "experiments/study/store/database.hpp"
+#include "experiments/study/store/table_form.hpp"
 
 namespace polhode::study::inline store {
 
@@ -28,14 +29,14 @@ std::int64_t configuration_key(const RunConfig& config);  ///< the key of its co
 std::string varied_text(const RunConfig& config);
 void set_varied_text(std::string& text, const RunConfig& config);  ///< the same, in the room that a text has
 
+TableForm configurations_form();
+
 /// Writes configurations. A column is added to the table when the first configuration has a value for it.
 class ConfigurationWriter {
  public:
   explicit ConfigurationWriter(const Database& db);  ///< `db` must outlive the writer
   /// Stores the configuration of the run, which has this key, unless it is there.
   void keep(std::int64_t key, const RunConfig& config);
-
-  static constexpr const char* definition = "CREATE TABLE configurations (key INTEGER PRIMARY KEY)";
 
  private:
   const Database* db_;

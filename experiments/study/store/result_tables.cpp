@@ -14,8 +14,8 @@
 #include <utility>
 #include <variant>
 
-#include "experiments/study/record/versions.hpp"
 #include "experiments/study/store/configurations.hpp"
+#include "experiments/study/store/table_form.hpp"
 #include "experiments/study/text/value_lists.hpp"
 
 namespace polhode::study::inline store {
@@ -280,28 +280,10 @@ std::string ResultTable::insertion(std::string_view else_do) const {
 }
 
 void ResultTable::check(const Database& db) const {
-  std::map<std::string, std::string> expected = {{"number", "INTEGER"}, {"checksum", "INTEGER"}};
-  if (has_id) expected.emplace("id", "INTEGER");
-  for (const ResultColumn& column : columns) expected.emplace(column.name, column.type);
-  const auto refuse = [&](const std::string& what) {
-    throw std::runtime_error(
-        fmt::format("{}: its table {} {}, so it is not that of this version of polhode (schema version {})",
-                    db.path().string(), name, what, store_version));
-  };
-  Statement found(db, fmt::format("SELECT name, type, pk FROM pragma_table_info('{}')", name));
-  while (found.step()) {
-    const Value read_name = found.value(0), read_type = found.value(1), key = found.value(2);
-    const auto *column = std::get_if<std::string_view>(&read_name), *type = std::get_if<std::string_view>(&read_type);
-    if (!column || !type) refuse("has a column without a name or a type");
-    const std::string text(*column);
-    const auto known = expected.find(text);
-    if (known == expected.end()) refuse("has the further column " + text);
-    if (known->second != *type) refuse(fmt::format("has {} as {}, not as {}", text, *type, known->second));
-    if (is_integer(key, 0) == (text == "number")) refuse("has another primary key than number");
-    expected.erase(known);
-  }
-  if (expected.contains("number")) refuse("is missing, or has no column number");
-  if (!expected.empty()) refuse("lacks the column " + expected.begin()->first);
+  TableForm form{.name = name, .columns = {{"number", "INTEGER"}, {"checksum", "INTEGER"}}};
+  if (has_id) form.columns.emplace_back("id", "INTEGER");
+  for (const ResultColumn& column : columns) form.columns.emplace_back(column.name, column.type);
+  form.check(db);
 }
 
 RowWriter::RowWriter(const ResultTable& table)

@@ -43,7 +43,7 @@ struct ResultTable {
   std::string definition() const;  ///< CREATE TABLE …
   /// INSERT OR `else_do` …, with parameters for `number`, `id` if there is one, the columns and `checksum`.
   std::string insertion(std::string_view else_do) const;
-  /// Throws std::runtime_error if the table in the database has other columns, or columns of other types.
+  /// Throws OtherTables (table_form.hpp) if the database has no such table.
   void check(const Database& db) const;
 };
 

@@ -13,6 +13,7 @@
 #include "experiments/study/record/run_id.hpp"
 #include "experiments/study/record/versions.hpp"
 #include "experiments/study/store/result_tables.hpp"
+#include "experiments/study/store/table_form.hpp"
 
 namespace polhode::study::inline store {
 namespace {
@@ -89,14 +90,18 @@ struct Store::Tables {
 
   std::span<const Metric> metrics;
   ResultTable runs, curves = curves_table(), timings = timings_table();
+  TableForm configurations = configurations_form();
+  TableForm scenarios{
+      .name = "scenarios",
+      .columns = {{"name", "TEXT"}, {"canonical", "TEXT"}, {"source", "TEXT"}, {"checksum", "INTEGER"}}};
+  TableForm studies{.name = "studies",
+                    .columns = {{"key", "INTEGER"}, {"experiment", "TEXT"}, {"command", "TEXT"}, {"manifest", "TEXT"}}};
 
   void create(const Database& db) const {
     Transaction transaction(db);
     if (is_empty(db)) {
       for (const ResultTable* table : {&runs, &curves, &timings}) db.execute(table->definition());
-      db.execute(ConfigurationWriter::definition);
-      db.execute("CREATE TABLE scenarios (name TEXT PRIMARY KEY, canonical TEXT, source TEXT, checksum INTEGER)");
-      db.execute("CREATE TABLE studies (key INTEGER PRIMARY KEY, experiment TEXT, command TEXT, manifest TEXT)");
+      for (const TableForm* form : {&configurations, &scenarios, &studies}) db.execute(form->definition());
       db.execute(fmt::format("PRAGMA application_id={}", application_id));
       db.execute(fmt::format("PRAGMA user_version={}", store_version));
     }
@@ -105,6 +110,7 @@ struct Store::Tables {
   void check(const Database& db) const {
     check_version(db);
     for (const ResultTable* table : {&runs, &curves, &timings}) table->check(db);
+    for (const TableForm* form : {&configurations, &scenarios, &studies}) form->check(db);
   }
 };
 

@@ -188,6 +188,14 @@ TEST(Store, AStoreOfAnotherVersionIsRefusedInOneLine) {
            {"ALTER TABLE runs RENAME COLUMN steps TO strides", "strides"},
            {"ALTER TABLE timings DROP COLUMN wall_s; ALTER TABLE timings ADD COLUMN wall_s TEXT", "has wall_s as TEXT"},
            {"DROP TABLE curves", "curves is missing"},
+           {"DROP TABLE scenarios", "scenarios is missing"},
+           {"DROP TABLE studies", "studies is missing"},
+           {"DROP TABLE configurations", "configurations is missing"},
+           {"ALTER TABLE scenarios RENAME COLUMN source TO src", "scenarios has the further column src"},
+           {"ALTER TABLE scenarios DROP COLUMN source", "scenarios lacks the column source"},
+           {"ALTER TABLE studies DROP COLUMN manifest", "studies lacks the column manifest"},
+           {"ALTER TABLE configurations RENAME COLUMN key TO number",
+            "configurations has another primary key than key"},
            {"DROP TABLE runs; CREATE TABLE runs (id TEXT)", "has id as TEXT"}}) {
     fresh();
     change(folder.path(), sql);
