@@ -203,6 +203,37 @@ class DamagedStores(FaultsTest):
                 self.assertEqual((self.out / "runs.csv").read_bytes(), self.runs)
                 self.assertNotIn("damaged", self.call(*SMALL).stderr, "it is whole now")
 
+    def test_runs_whose_configuration_is_damaged_are_carried_out_again(self):
+        one = "WHERE key = (SELECT configuration FROM runs ORDER BY number LIMIT 1)"
+        for sql, runs in (("UPDATE configurations SET t_end_s = 'hello'", 2), ("DELETE FROM configurations", 2),
+                          (f"UPDATE configurations SET dt_s = 7 {one}", 1), (f"DELETE FROM configurations {one}", 1),
+                          (f"UPDATE configurations SET key = key + 1 {one}", 1),
+                          ("ALTER TABLE configurations RENAME COLUMN dt_s TO step", 2),
+                          ("ALTER TABLE configurations ADD COLUMN colour TEXT; UPDATE configurations SET colour = 'red'", 2)):
+            with self.subTest(sql):
+                self.damage(sql)
+                done = self.call(*SMALL)
+                self.assertIn(str(self.out / "results.sqlite"), done.said)
+                self.assertIn(f"{runs} of 2 runs are damaged and carried out again", done.said)
+                self.assertIn("runs.configuration", done.said)
+                self.assertEqual((self.out / "runs.csv").read_bytes(), self.runs)
+                self.assertNotIn("damaged", self.call(*SMALL).stderr, "it is whole now")
+                listed = subprocess.run([str(BIN / "results"), str(self.out)], capture_output=True, text=True, timeout=PATIENCE)
+                self.assertEqual(listed.returncode, 0, listed.stdout)
+
+    def test_scenarios_that_are_damaged_are_written_again(self):
+        def scenarios():
+            with contextlib.closing(sqlite3.connect(self.out / "results.sqlite")) as store:
+                return store.execute("SELECT * FROM scenarios").fetchall()
+
+        self.damage("SELECT 1")
+        whole = scenarios()
+        for sql in ("UPDATE scenarios SET source = ''", "UPDATE scenarios SET canonical = NULL", "DELETE FROM scenarios"):
+            with self.subTest(sql):
+                self.damage(sql)
+                self.call(*SMALL)
+                self.assertEqual(scenarios(), whole)
+
     def test_a_store_that_is_no_store_is_refused_and_force_helps(self):
         def cut():
             data = (self.out / "results.sqlite").read_bytes()

@@ -119,8 +119,11 @@ void ConfigurationWriter::keep(std::int64_t key, const RunConfig& config) {
   known_.insert(key);
 }
 
-std::map<std::int64_t, Configuration> read_configurations(const Database& db) {
-  std::map<std::int64_t, Configuration> all;
+namespace {
+
+/// Calls use(key, configuration) for each configuration that is not damaged.
+template <class Use>
+void for_each_configuration(const Database& db, const Use& use) {
   Statement rows(db, "SELECT * FROM configurations");
   while (rows.step()) {
     Configuration one;
@@ -133,9 +136,22 @@ std::map<std::int64_t, Configuration> read_configurations(const Database& db) {
         one.emplace(name, std::move(value));
       }
     }
-    if (key_of(one) == key) all.emplace(key, std::move(one));
+    if (key_of(one) == key) use(key, std::move(one));
   }
+}
+
+}  // namespace
+
+std::map<std::int64_t, Configuration> read_configurations(const Database& db) {
+  std::map<std::int64_t, Configuration> all;
+  for_each_configuration(db, [&](std::int64_t key, Configuration&& one) { all.emplace(key, std::move(one)); });
   return all;
+}
+
+std::unordered_set<std::int64_t> configuration_keys(const Database& db) {
+  std::unordered_set<std::int64_t> keys;
+  for_each_configuration(db, [&](std::int64_t key, Configuration&&) { keys.insert(key); });
+  return keys;
 }
 
 }  // namespace polhode::study::store

@@ -46,5 +46,6 @@ class ConfigurationWriter {
 
 /// All configurations of a store by key. Damaged ones are left out.
 std::map<std::int64_t, Configuration> read_configurations(const Database& db);
+std::unordered_set<std::int64_t> configuration_keys(const Database& db);  ///< the keys of these
 
 }  // namespace polhode::study::store

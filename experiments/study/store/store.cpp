@@ -230,6 +230,7 @@ class Store::Reader {
   StoredRun read() {
     StoredRun run;
     run.id = id_of_key(id());
+    run.number = number();
     run.damage = read(run.result);
     if (run.damage.empty()) {
       run.configuration = std::get<std::int64_t>(runs_.value(configuration_));
@@ -314,12 +315,11 @@ std::vector<std::string> Store::ids_with(const std::string& beginning) const {
   return ids;
 }
 
-void Store::forget(const std::string& id) {
-  const Value key = key_of(id);
+void Store::forget(std::span<const std::int64_t> numbers) {
   Transaction transaction(db_);
   for (const char* table : {"curves", "timings", "runs"}) {
-    Statement(db_, fmt::format("DELETE FROM {} WHERE number IN (SELECT number FROM runs WHERE id = ?)", table))
-        .run({&key, 1});
+    Statement deletion(db_, fmt::format("DELETE FROM {} WHERE number = ?", table));
+    for (const Value number : numbers) deletion.run({&number, 1});
   }
   transaction.commit();
 }
@@ -338,6 +338,7 @@ void Store::keep(std::span<const RunRecord> records) {
 }
 
 std::map<std::int64_t, Configuration> Store::configurations() const { return read_configurations(db_); }
+std::unordered_set<std::int64_t> Store::configuration_keys() const { return store::configuration_keys(db_); }
 
 void Store::keep_scenarios(std::span<const Scenario> scenarios) {
   Transaction transaction(db_);

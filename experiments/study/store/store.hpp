@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "experiments/study/record/metric_table.hpp"
@@ -25,6 +26,7 @@ namespace polhode::study::inline store {
 /// A run as it stands in the store.
 struct StoredRun {
   std::string id;
+  std::int64_t number = 0;  ///< number of its rows
   // Unspecified if the run is damaged.
   std::int64_t configuration = 0;  ///< key in configurations()
   std::string varied;              ///< varied keys, as varied_text() writes them
@@ -85,10 +87,11 @@ class Store {
   /// Stores the runs in one transaction; replaces rows of the same id. A run without series and attitude errors is
   /// stored without curves. Throws std::logic_error for a value that could not be read back.
   void keep(std::span<const RunRecord> records);
-  void forget(const std::string& id);  ///< deletes the rows of a run
+  void forget(std::span<const std::int64_t> numbers);  ///< deletes the rows of the runs with these numbers
 
   /// The configurations of the runs, by key (`runs.configuration`). Damaged ones are left out.
   std::map<std::int64_t, Configuration> configurations() const;
+  std::unordered_set<std::int64_t> configuration_keys() const;  ///< the keys of these
 
   /// The scenarios by name, and the studies. Damaged ones are left out.
   std::map<std::string, StoredScenario> scenarios() const;

@@ -28,7 +28,7 @@ void TableForm::check(const Database& db) const {
         fmt::format("{}: its table {} {}, so it is not that of this version of polhode (schema version {})",
                     db.path().string(), name, what, store_version));
   };
-  Statement found(db, fmt::format("SELECT name, type, pk FROM pragma_table_info('{}')", name));
+  Statement found(db, fmt::format("SELECT name, type, pk, dflt_value FROM pragma_table_info('{}')", name));
   bool is_there = false;
   while (found.step()) {
     is_there = true;
@@ -41,6 +41,7 @@ void TableForm::check(const Database& db) const {
     if (known != missing.end() && known->second != *type)
       refuse(fmt::format("has {} as {}, not as {}", text, *type, known->second));
     if (is_integer(place_in_key, 0) == (text == key)) refuse("has another primary key than " + key);
+    if (!std::holds_alternative<std::monostate>(found.value(3))) refuse("has a default for " + text);
     if (known != missing.end()) missing.erase(known);
   }
   if (!is_there) refuse("is missing");

@@ -139,23 +139,26 @@ StudyRuns::StudyRuns(const Experiment& experiment, const Options& options, Plan&
 /// Finds out which runs of the plan are in a store.
 void StudyRuns::look() {
   places_.assign(plan_.size(), Place::nowhere);
-  std::vector<std::pair<std::string, std::string>> damaged;
+  const std::unordered_set<std::int64_t> configurations = store_.configuration_keys();
+  std::vector<std::int64_t> damaged;  // numbers of runs
+  std::string first;
   std::size_t stored = 0;
   store_.for_each(Curves::with, [&](StoredRun&& run) {
     ++stored;
+    if (run.damage.empty() && !configurations.contains(run.configuration)) run.damage = "runs.configuration";
     if (!run.damage.empty()) {
-      damaged.emplace_back(std::move(run.id), std::move(run.damage));
+      if (damaged.empty()) first = fmt::format("run {}, {}", run.id, run.damage);
+      damaged.push_back(run.number);
     } else if (!options_.force || run.result.status != "failed") {
       const auto number = plan_.find(number_of_id(run.id));
       if (number && is_whole(*number, run.result)) places_[*number] = Place::own_store;
     }
   });
   if (!damaged.empty()) {
-    fmt::print(stderr, "{}: {}: {} of {} runs are damaged and carried out again (the first: run {}, {})\n",
-               experiment_.name, (own_ / Store::file_name).string(), damaged.size(), stored, damaged.front().first,
-               damaged.front().second);
+    fmt::print(stderr, "{}: {}: {} of {} runs are damaged and carried out again (the first: {})\n", experiment_.name,
+               (own_ / Store::file_name).string(), damaged.size(), stored, first);
+    store_.forget(damaged);
   }
-  for (const auto& [id, column] : damaged) store_.forget(id);
   std::erase_if(others_, [&](const std::filesystem::path& other) {
     try {
       for_each_result(other, [&](std::uint64_t id, RunResult&& result) {

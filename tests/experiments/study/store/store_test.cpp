@@ -89,7 +89,7 @@ TEST(Store, RunsAreReadOneAfterAnotherInAnyOrder) {
   {
     Store store(folder.path());
     store.keep(runs);
-    store.forget(runs[6].id);
+    store.forget({{store.find(runs[6].id, Curves::without)->number}});
   }
   change(folder.path(), "UPDATE runs SET steps = steps + 1 WHERE number = 4");
   const Store store(folder.path());
@@ -120,9 +120,11 @@ TEST(Store, ARunKeptAgainIsReplacedAndARunForgottenIsGone) {
   runs[0].result.attitude_errors.clear();
   store.keep({&runs[0], 1});
   EXPECT_EQ(text_of_result(store.find(runs[0].id, Curves::with)->result), text_of_result(runs[0].result));
-  store.forget(runs[1].id);
+  store.forget({{store.find(runs[1].id, Curves::without)->number}});
   EXPECT_FALSE(store.find(runs[1].id, Curves::with));
   EXPECT_EQ(store.ids().size(), 2u);
+  for (const char* table : {"runs", "timings"})
+    EXPECT_EQ(store.database().number(std::string("SELECT count(*) FROM ") + table), 2) << table;
 }
 
 TEST(Store, AValueThatCouldNotBeReadBackIsNotKept) {
@@ -196,6 +198,8 @@ TEST(Store, AStoreOfAnotherVersionIsRefusedInOneLine) {
            {"ALTER TABLE studies DROP COLUMN manifest", "studies lacks the column manifest"},
            {"ALTER TABLE configurations RENAME COLUMN key TO number",
             "configurations has another primary key than key"},
+           {"ALTER TABLE configurations ADD COLUMN colour TEXT DEFAULT 'red'",
+            "configurations has a default for colour"},
            {"DROP TABLE runs; CREATE TABLE runs (id TEXT)", "has id as TEXT"}}) {
     fresh();
     change(folder.path(), sql);
@@ -246,8 +250,13 @@ TEST(Store, ConfigurationsStandOnceAndRunsReferToThem) {
   }
   EXPECT_EQ(varied_text(runs[4].config), "body.0.mass=4");
   EXPECT_EQ(load(store).runs.size(), runs.size());
+  EXPECT_EQ(store.configuration_keys().size(), 3u);
   change(folder.path(), "UPDATE configurations SET dt_s = 0.125 WHERE dt_s = 0.25");
   EXPECT_EQ(Store(folder.path()).configurations().size(), 2u) << "a damaged one is left out";
+  const auto keys = Store(folder.path()).configuration_keys();
+  EXPECT_EQ(keys.size(), 2u);
+  EXPECT_FALSE(keys.contains(key_of(configuration_of(runs[0].config))));
+  EXPECT_TRUE(keys.contains(key_of(configuration_of(runs[5].config))));
 }
 
 TEST(Store, AnIdIsANumberOf16HexadecimalDigits) {
