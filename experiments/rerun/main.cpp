@@ -14,6 +14,7 @@
 #include "experiments/study/process/interruption.hpp"
 #include "experiments/study/process/progress.hpp"
 #include "experiments/study/query/result_stores.hpp"
+#include "experiments/study/store/result_tables.hpp"
 #include "experiments/study/text/aligned.hpp"
 #include "experiments/study/text/notation.hpp"
 #include "experiments/study/text/program.hpp"
@@ -50,6 +51,11 @@ struct Tally {
                  table_of(one.differences));
     }
   }
+  void add_row_without_id(const OpenStore& where, std::int64_t number) {
+    if (++not_repeated + different <= most_named)
+      fmt::print(stderr, "rerun: row {} of {}: not repeated: it is damaged ({})\n", number, where.file.string(),
+                 id_damage);
+  }
   int status() const { return different > 0 ? rerun::different : not_repeated > 0 ? not_carried_out : 0; }
 };
 
@@ -81,8 +87,16 @@ int run(const RerunOptions& options) {
     progress.report(done, share, seconds * (1 - share) / share);
   });
   progress.finish();
+  std::size_t all = runs.size();
+  for (const auto& open : stores.all()) {
+    if (options.random) break;
+    for (const std::int64_t number : open->store.rows_without_id()) {
+      tally.add_row_without_id(*open, number);
+      ++all;
+    }
+  }
   fmt::print("{} of {} repeated: {} the same, {} different, {} not repeated\n", tally.same + tally.different,
-             count(runs.size(), "run"), tally.same, tally.different, tally.not_repeated);
+             count(all, "run"), tally.same, tally.different, tally.not_repeated);
   return done < runs.size() ? interrupted : tally.status();
 }
 

@@ -15,7 +15,6 @@
 
 #include "experiments/results/listing.hpp"
 #include "experiments/study/record/metric_table.hpp"
-#include "experiments/study/record/run_id.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/store/run_rows.hpp"
 #include "experiments/study/store/store.hpp"
@@ -70,19 +69,18 @@ class RowCounter {
 
   void operator()(const RunRows::Row& row) const {
     const auto* key = std::get_if<std::int64_t>(&row.values[configuration_]);
-    if (met_ && met_->sound.contains(row.id)) return;
+    if (met_ && met_->sound.contains(row.run.id)) return;
     if (!row.damage.empty() || !key || !open_.configurations.contains(*key)) {
-      if (!met_ || met_->damaged.insert(row.id).second) ++counts_.damaged_runs;
+      if (!met_ || met_->damaged.insert(row.run.id).second) ++counts_.damaged_runs;
       if (counts_.first_damaged.empty()) {
-        counts_.first_damaged =
-            fmt::format("run {} of {}: {}", id_of_number(static_cast<std::uint64_t>(row.id)), open_.file.string(),
-                        row.damage.empty() ? "runs.configuration" : row.damage);
+        counts_.first_damaged = fmt::format("{} of {}: {}", row.run.name(), open_.file.string(),
+                                            row.damage.empty() ? "runs.configuration" : row.damage);
       }
       return;
     }
     if (met_) {
-      met_->sound.insert(row.id);
-      if (met_->damaged.erase(row.id) > 0) --counts_.damaged_runs;
+      met_->sound.insert(row.run.id);
+      if (met_->damaged.erase(row.run.id) > 0) --counts_.damaged_runs;
     }
     ++counts_.runs;
     ++counts_.by_configuration[*key];

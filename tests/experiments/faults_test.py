@@ -251,7 +251,6 @@ class DamagedStores(FaultsTest):
                                 ("no studies", "DROP TABLE studies", None),
                                 ("scenarios with other columns", "ALTER TABLE scenarios RENAME COLUMN source TO src", None),
                                 ("another table", "DROP TABLE runs; CREATE TABLE runs (id TEXT)", None),
-                                ("ids that are none", "UPDATE runs SET id = x'00ff' WHERE id = (SELECT min(id) FROM runs)", None),
                                 ("an older version", "PRAGMA user_version = 0; PRAGMA application_id = 0", None),
                                 ("a newer version", "PRAGMA user_version = 99", None),
                                 ("a database of another program", "PRAGMA application_id = 1", None),
@@ -270,10 +269,18 @@ class DamagedStores(FaultsTest):
 
 
     def test_an_id_that_is_none_is_damage_and_no_other_study(self):
-        self.damage("UPDATE runs SET id = id + 1 WHERE id = (SELECT min(id) FROM runs)")
-        done = self.call(*SMALL)
-        self.assertIn("1 of 2 runs are damaged", done.said)
-        self.assertEqual((self.out / "runs.csv").read_bytes(), self.runs)
+        none = "(the first: row 1, runs.id)"
+        for value, said in (("id + 1", "(the first: run "), ("'abc'", none), ("x'00ff'", none), ("1.5", none)):
+            for force in ((), ("--force",)):
+                with self.subTest(value, force=force):
+                    self.damage(f"UPDATE runs SET id = {value} WHERE number = 1")
+                    done = self.call(*SMALL, *force)
+                    if value != "id + 1" or not force:  # with it the run of another study takes all with it
+                        self.assertIn("1 of 2 runs are damaged", done.said)
+                        self.assertIn(said, done.said)
+                        self.assertIn("1 of 2 runs are there already", done.stderr)
+                    self.assertEqual((self.out / "runs.csv").read_bytes(), self.runs)
+                    self.assertNotIn("damaged", self.call(*SMALL).stderr, "it is whole now")
 
     def test_random_damage_gives_the_same_table_or_one_line(self):
         random = Random(8)

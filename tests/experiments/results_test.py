@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """results, rerun and explain on the folders of studies, as a user calls them."""
+import contextlib
 import csv
 import io
 import random
@@ -35,6 +36,11 @@ class Results(unittest.TestCase):
         shutil.copytree(self.folder / "results" / study, folder)
         self.addCleanup(shutil.rmtree, folder)
         return folder
+
+    def number(self, folder, run):
+        """The number of the rows of a run."""
+        with contextlib.closing(sqlite3.connect(folder / "results.sqlite")) as db:
+            return db.execute("SELECT number FROM runs WHERE printf('%016x', id) = ?", (run,)).fetchone()[0]
 
     def said(self, *arguments, program="results", status=0):
         done = call(program, *arguments, folder=self.folder, status=status)
@@ -160,6 +166,21 @@ class Results(unittest.TestCase):
         self.assertNotIn("0.02", done.stdout)
         self.assertNotIn(",7\n", done.stdout)
         self.assertIn("runs.configuration", done.stderr)
+
+    def test_a_row_without_an_id_is_one_damaged_run(self):
+        folder = self.copy("nameless")
+        nameless = [self.number(folder, row["run"]) for row in self.top[:2]]
+        change(folder, f"UPDATE runs SET id = 'abc' WHERE number = {nameless[0]}; UPDATE runs SET id = 1.5 WHERE number = {nameless[1]}")
+        done = call("results", "nameless", "--format", "csv", folder=self.folder, status=1)
+        self.assertEqual([r["run"] for r in csv.DictReader(io.StringIO(done.stdout))], [r["run"] for r in self.top[2:]])
+        self.assertRegex(done.stderr, r"results: 2 runs are damaged and left out \(the first: row \d+ of \S+: runs.id\)")
+        text = call("results", "nameless", folder=self.folder, status=1).stdout
+        self.assertRegex(text, rf"  damaged: 2 runs \(the first: row {min(nameless)} of \S+: runs.id\)")
+        done = call("rerun", "--all", "nameless", folder=self.folder, status=3)
+        for number in nameless:
+            self.assertRegex(done.stderr, rf"rerun: row {number} of \S+: not repeated: it is damaged \(runs.id\)")
+        sound = len(self.top) - 2
+        self.assertIn(f"{sound} of {len(self.top)} runs repeated: {sound} the same, 0 different, 2 not repeated", done.stdout)
 
     def test_shards_belong_to_their_study(self):
         study = ["energy_drift", *LANES, "--out", "sharded"]

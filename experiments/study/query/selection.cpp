@@ -14,7 +14,6 @@
 #include <variant>
 
 #include "experiments/study/query/stored_run.hpp"
-#include "experiments/study/record/run_id.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/text/value_lists.hpp"
 
@@ -278,9 +277,9 @@ void RunReader::read(const SelectedRuns& selection, const std::function<bool(con
       const bool known = open.configurations.contains(hit.configuration);
       shown = row.damage.empty() && known;
       if (!shown) {
-        why = fmt::format("run {} of {}: {}", id_of_number(static_cast<std::uint64_t>(row.id)), open.file.string(),
+        why = fmt::format("{} of {}: {}", row.run.name(), open.file.string(),
                           row.damage.empty() ? "runs.configuration" : row.damage);
-      } else if (!use({{&open, row.id, hit.configuration, selection.varied[hit.varied]}, row.values})) {
+      } else if (!use({{&open, row.run.id, hit.configuration, selection.varied[hit.varied]}, row.values})) {
         return;
       }
     }

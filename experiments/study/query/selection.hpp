@@ -63,8 +63,10 @@ class RunReader {
   /// stands in several stores of a study comes once.
   void read(const SelectedRuns& selection, const std::function<bool(const CheckedRow&)>& use);
 
-  std::size_t damaged() const { return damaged_; }             ///< runs that were left out
-  const std::string& first_damaged() const { return first_; }  ///< "run 0123456789abcdef of FILE: runs.checksum"
+  std::size_t damaged() const { return damaged_; }  ///< runs that were left out
+  const std::string& first_damaged() const {
+    return first_;
+  }  ///< "run 0123456789abcdef of FILE: runs.checksum", "row 7 of FILE: runs.id"
 
  private:
   const ResultStores* stores_;

@@ -14,6 +14,7 @@
 #include <utility>
 #include <variant>
 
+#include "experiments/study/record/run_id.hpp"
 #include "experiments/study/store/configurations.hpp"
 #include "experiments/study/store/table_form.hpp"
 #include "experiments/study/text/value_lists.hpp"
@@ -284,6 +285,17 @@ void ResultTable::check(const Database& db) const {
   if (has_id) form.columns.emplace_back("id", "INTEGER");
   for (const ResultColumn& column : columns) form.columns.emplace_back(column.name, column.type);
   form.check(db);
+}
+
+RunKey RunKey::of(const Statement& row, int id, int number) {
+  const std::int64_t own = row.integer(number);
+  const Value found = row.value(id);
+  const auto* sound = std::get_if<std::int64_t>(&found);
+  return {sound ? *sound : own, own, sound != nullptr};
+}
+
+std::string RunKey::name() const {
+  return has_id ? "run " + id_of_number(static_cast<std::uint64_t>(id)) : fmt::format("row {}", number);
 }
 
 RowWriter::RowWriter(const ResultTable& table)

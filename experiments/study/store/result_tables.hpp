@@ -9,6 +9,7 @@
 // the file has no meaning.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
@@ -58,6 +59,19 @@ constexpr std::string_view varied_column = "varied";
 ResultTable runs_table(std::span<const Metric> metrics);
 ResultTable curves_table();
 ResultTable timings_table();
+
+/// Identity of a row of `runs`.
+struct RunKey {
+  std::int64_t id;  ///< run id; the number of the row if it is damaged so that it has none
+  std::int64_t number;
+  bool has_id;
+
+  /// `id` and `number`: columns of the SELECT.
+  static RunKey of(const Statement& row, int id, int number);
+  std::string name() const;  ///< "run 0123456789abcdef"; "row 7" without an id
+};
+/// The damage of a row without an id.
+constexpr std::string_view id_damage = "runs.id";
 
 /// The parameters of insertion() for one record.
 class RowWriter {

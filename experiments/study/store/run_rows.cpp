@@ -35,28 +35,31 @@ void RunRows::scan(std::span<const std::size_t> chosen, const std::function<void
   std::vector<Value> values(chosen.size());
   while (rows.step()) {
     for (std::size_t k = 0; k < values.size(); ++k) values[k] = rows.value(2 + static_cast<int>(k));
-    use({rows.integer(0), rows.integer(1), values});
+    const RunKey run = RunKey::of(rows, 1, 0);
+    use({run.number, run.id, values});
   }
 }
 
 std::string RunRows::selection(const std::string& condition) const {
-  return "SELECT runs.id, " + RowReader::selection(runs_) + ", " + RowReader::selection(timings_) +
+  return "SELECT runs.id, runs.number, " + RowReader::selection(runs_) + ", " + RowReader::selection(timings_) +
          " FROM runs LEFT JOIN timings ON timings.number = runs.number" + condition;
 }
 
 RunRows::Row RunRows::read(const Statement& row, std::vector<Value>& values) const {
-  const std::int64_t id = row.integer(0);
+  const RunKey run = RunKey::of(row, 0, 1);
   const std::size_t own = runs_.columns.size();
   values.resize(columns_.size());
-  for (std::size_t k = 0; k < values.size(); ++k) values[k] = row.value(static_cast<int>(1 + k + (k < own ? 0 : 1)));
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] = row.value(static_cast<int>(2 + k + (k < own ? 0 : 1)));
   const auto checksum = [&](std::size_t column) { return row.value(static_cast<int>(column)); };
   std::string_view damage;
-  if (!is_integer(checksum(1 + own), checksum_of(id, std::span(values).first(own)))) {
+  if (!run.has_id) {
+    damage = id_damage;
+  } else if (!is_integer(checksum(2 + own), checksum_of(run.id, std::span(values).first(own)))) {
     damage = "runs.checksum";
-  } else if (!is_integer(checksum(2 + values.size()), checksum_of(id, std::span(values).subspan(own)))) {
+  } else if (!is_integer(checksum(3 + values.size()), checksum_of(run.id, std::span(values).subspan(own)))) {
     damage = "timings.checksum";
   }
-  return {id, values, damage};
+  return {run, values, damage};
 }
 
 void RunRows::for_each(const std::function<void(const Row&)>& use) const {

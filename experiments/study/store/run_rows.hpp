@@ -34,7 +34,7 @@ class RunRows {
   /// Columns of a row whose checksum is not checked; the values are valid until the next row.
   struct Part {
     std::int64_t number;
-    std::int64_t id;
+    std::int64_t id;                ///< RunKey::id
     std::span<const Value> values;  ///< values of the chosen columns
   };
   /// Calls use(part) for each row, in the order of numbers. `chosen`: indices in columns().
@@ -42,9 +42,9 @@ class RunRows {
 
   /// A row whose checksum was checked.
   struct Row {
-    std::int64_t id;
+    RunKey run;
     std::span<const Value> values;  ///< values in the order of columns(); valid until the next row
-    std::string_view damage;        ///< "runs.checksum", "timings.checksum"; empty: none
+    std::string_view damage;        ///< "runs.id", "runs.checksum", "timings.checksum"; empty: none
   };
   void for_each(const std::function<void(const Row&)>& use) const;  ///< calls use(row) in the order of numbers
   /// The same for the rows whose numbers are above `after` and at most `last`.

@@ -48,7 +48,7 @@ void check_version(const Database& db) {
 
 std::vector<std::uint64_t> all_ids(const Database& db) {
   std::vector<std::uint64_t> ids;
-  Statement rows(db, "SELECT id FROM runs");
+  Statement rows(db, "SELECT id FROM runs WHERE typeof(id) = 'integer'");
   while (rows.step()) ids.push_back(static_cast<std::uint64_t>(rows.integer(0)));
   std::sort(ids.begin(), ids.end());
   return ids;
@@ -84,6 +84,10 @@ class Transaction {
 };
 
 }  // namespace
+
+std::string StoredRun::name() const {
+  return RunKey{static_cast<std::int64_t>(number_of_id(id)), number, damage != id_damage}.name();
+}
 
 struct Store::Tables {
   explicit Tables(std::span<const Metric> all) : metrics(all), runs(runs_table(all)) {}
@@ -213,24 +217,25 @@ class Store::Reader {
   }
 
   Statement& statement() { return *select_; }
-  std::int64_t id() const { return select_->integer(0); }      ///< id of the run of the present row
-  std::int64_t number() const { return select_->integer(1); }  ///< number of that row
+  RunKey key() const { return RunKey::of(*select_, 0, 1); }  ///< that of the present row
 
   /// Reads the result of the run of the present row into a new one. Returns StoredRun::damage.
   std::string read(RunResult& result) {
-    const std::int64_t key = id();
-    std::string damage = runs_.read(*select_, key, result);
-    if (damage.empty()) damage = timings_.read(*select_, key, result);
+    const RunKey run = key();
+    if (!run.has_id) return std::string(id_damage);
+    std::string damage = runs_.read(*select_, run.id, result);
+    if (damage.empty()) damage = timings_.read(*select_, run.id, result);
     if (damage.empty() && curves_ && is_integer(runs_.value(has_curves_), 1))
-      damage = curves_->read(*select_, key, result);
+      damage = curves_->read(*select_, run.id, result);
     return damage;
   }
 
   /// The run of the present row.
   StoredRun read() {
     StoredRun run;
-    run.id = id_of_key(id());
-    run.number = number();
+    const RunKey own = key();
+    run.id = id_of_key(own.id);
+    run.number = own.number;
     run.damage = read(run.result);
     if (run.damage.empty()) {
       run.configuration = std::get<std::int64_t>(runs_.value(configuration_));
@@ -275,12 +280,13 @@ std::optional<std::string> Store::Reading::find(std::uint64_t id, RunResult& res
   Reader& reader = *store_.from_number_;
   Statement& rows = reader.statement();
   const auto key = static_cast<std::int64_t>(id);
-  if (!in_order_ || !rows.step() || reader.id() != key) {
+  if (!in_order_ || !rows.step() || reader.key().id != key) {
     rows.reset();
     rows.bind(1, key);
     if (!rows.step()) return std::nullopt;
   }
-  in_order_ = reader.number() == std::exchange(number_, reader.number()) + 1;
+  const std::int64_t number = reader.key().number;
+  in_order_ = number == std::exchange(number_, number) + 1;
   return reader.read(result);
 }
 
@@ -303,12 +309,19 @@ std::optional<StoredRun> Store::find(const std::string& id, Curves curves) const
 
 std::vector<std::uint64_t> Store::ids() const { return all_ids(db_); }
 
+std::vector<std::int64_t> Store::rows_without_id() const {
+  std::vector<std::int64_t> numbers;
+  Statement rows(db_, "SELECT number FROM runs WHERE typeof(id) <> 'integer' ORDER BY number");
+  while (rows.step()) numbers.push_back(rows.integer(0));
+  return numbers;
+}
+
 std::vector<std::string> Store::ids_with(const std::string& beginning) const {
   const std::string first = beginning + std::string(16 - std::min<std::size_t>(beginning.size(), 16), '0');
   const std::string last = beginning + std::string(16 - std::min<std::size_t>(beginning.size(), 16), 'f');
   std::vector<std::string> ids;
   // All of them have the same first digit, so that their order as integers with sign is that of their digits.
-  Statement rows(db_, "SELECT id FROM runs WHERE id BETWEEN ? AND ? ORDER BY id");
+  Statement rows(db_, "SELECT id FROM runs WHERE id BETWEEN ? AND ? AND typeof(id) = 'integer' ORDER BY id");
   rows.bind(1, key_of(first));
   rows.bind(2, key_of(last));
   while (rows.step()) ids.push_back(id_of_key(rows.integer(0)));

@@ -25,13 +25,16 @@ namespace polhode::study::inline store {
 
 /// A run as it stands in the store.
 struct StoredRun {
-  std::string id;
+  std::string id;           ///< RunKey::id (result_tables.hpp)
   std::int64_t number = 0;  ///< number of its rows
   // Unspecified if the run is damaged.
   std::int64_t configuration = 0;  ///< key in configurations()
   std::string varied;              ///< varied keys, as varied_text() writes them
   RunResult result;
-  std::string damage;  ///< first invalid column: "runs.status", "curves.series", "runs.checksum"; empty: none
+  /// The first invalid column: "runs.id", "runs.status", "curves.series", "runs.checksum"; empty: none.
+  std::string damage;
+
+  std::string name() const;  ///< RunKey::name()
 };
 
 /// A scenario as it stands in the store.
@@ -80,7 +83,8 @@ class Store {
     std::int64_t number_ = 0;  // number of the row that was read last
     bool in_order_ = false;    // that row follows the one before
   };
-  std::vector<std::uint64_t> ids() const;  ///< ids of all runs, damaged ones too, in ascending order
+  std::vector<std::uint64_t> ids() const;  ///< ids of all runs, damaged ones too if they have one, in ascending order
+  std::vector<std::int64_t> rows_without_id() const;  ///< numbers of the rows of `runs` that have no id
   /// Ids of the runs, damaged ones too, that begin with these 1 to 16 hexadecimal digits, in ascending order.
   std::vector<std::string> ids_with(const std::string& beginning) const;
 

@@ -147,7 +147,7 @@ void StudyRuns::look() {
     ++stored;
     if (run.damage.empty() && !configurations.contains(run.configuration)) run.damage = "runs.configuration";
     if (!run.damage.empty()) {
-      if (damaged.empty()) first = fmt::format("run {}, {}", run.id, run.damage);
+      if (damaged.empty()) first = run.name() + ", " + run.damage;
       damaged.push_back(run.number);
     } else if (!options_.force || run.result.status != "failed") {
       const auto number = plan_.find(number_of_id(run.id));

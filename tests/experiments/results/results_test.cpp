@@ -85,6 +85,7 @@ TEST(RunRows, HaveTheValuesThatWereKeptAndTheirChecksums) {
     store.database().execute("UPDATE runs SET steps = steps + 1 WHERE number = 3");
     store.database().execute("UPDATE timings SET wall_s = 9 WHERE number = 5");
     store.database().execute("DELETE FROM timings WHERE number = 7");
+    store.database().execute("UPDATE runs SET id = 'abc' WHERE number = 10");
   }
   const Store store(folder.path(), metric_table(), Access::read);
   RunRows rows(store);
@@ -92,8 +93,8 @@ TEST(RunRows, HaveTheValuesThatWereKeptAndTheirChecksums) {
   std::size_t k = 0;
   const std::size_t steps = *rows.find("steps"), wall = *rows.find("wall_s");
   rows.for_each([&](const RunRows::Row& row) {
-    EXPECT_EQ(id_of_number(static_cast<std::uint64_t>(row.id)), runs[k].id);
-    EXPECT_EQ(row.damage, k == 2 ? "runs.checksum" : k == 4 || k == 6 ? "timings.checksum" : "");
+    EXPECT_EQ(row.run.name(), k == 9 ? "row 10" : "run " + runs[k].id);
+    EXPECT_EQ(row.damage, k == 2 ? "runs.checksum" : k == 4 || k == 6 ? "timings.checksum" : k == 9 ? "runs.id" : "");
     EXPECT_TRUE(is_integer(row.values[steps], runs[k].result.steps + (k == 2 ? 1 : 0)));
     ++k;
   });
@@ -107,10 +108,10 @@ TEST(RunRows, HaveTheValuesThatWereKeptAndTheirChecksums) {
   });
   EXPECT_EQ(k, runs.size());
   std::vector<std::int64_t> all, in_parts;
-  rows.for_each([&](const RunRows::Row& row) { all.push_back(row.id); });
+  rows.for_each([&](const RunRows::Row& row) { all.push_back(row.run.id); });
   EXPECT_EQ(rows.last(), 20);
   for (std::int64_t after = 0; after < rows.last(); after += 7)
-    rows.for_each(after, after + 7, [&](const RunRows::Row& row) { in_parts.push_back(row.id); });
+    rows.for_each(after, after + 7, [&](const RunRows::Row& row) { in_parts.push_back(row.run.id); });
   EXPECT_EQ(in_parts, all);
   EXPECT_EQ(rows.at(3).damage, "runs.checksum");
   EXPECT_EQ(rows.at(4).damage, "");

@@ -110,6 +110,35 @@ TEST(Store, RunsAreReadOneAfterAnotherInAnyOrder) {
   }
 }
 
+TEST(Store, ARowWithoutAnIdIsOneDamagedRun) {
+  const TemporaryFolder folder;
+  const auto runs = made_up_runs(4);
+  Store(folder.path()).keep(runs);
+  change(folder.path(), "UPDATE runs SET id = 'abc' WHERE number = 2; UPDATE runs SET id = 0.5 WHERE number = 3");
+  EXPECT_EQ(Store::ids_in(folder.path()).size(), 2u);
+  Store store(folder.path());
+  EXPECT_EQ(store.ids().size(), 2u);
+  EXPECT_EQ(store.rows_without_id(), (std::vector<std::int64_t>{2, 3}));
+  EXPECT_TRUE(store.ids_with("0").empty()) << "0.5 is no id";
+  std::vector<std::string> said;
+  store.for_each(Curves::with, [&](StoredRun&& run) { said.push_back(run.name() + " " + run.damage); });
+  EXPECT_EQ(said, (std::vector<std::string>{"run " + runs[0].id + " ", "row 2 runs.id", "row 3 runs.id",
+                                            "run " + runs[3].id + " "}));
+  {
+    Store::Reading reading(store);
+    for (const std::size_t k : {0U, 1U, 2U, 3U}) {
+      RunResult result;
+      const auto damage = reading.find(number_of_id(runs[k].id), result);
+      EXPECT_EQ(damage.has_value(), k == 0 || k == 3) << k;
+    }
+  }
+  store.forget(store.rows_without_id());
+  store.keep(runs);
+  const auto loaded = load(store);
+  EXPECT_TRUE(loaded.damaged.empty());
+  EXPECT_EQ(loaded.runs.size(), runs.size());
+}
+
 TEST(Store, ARunKeptAgainIsReplacedAndARunForgottenIsGone) {
   const TemporaryFolder folder;
   auto runs = made_up_runs(3);
