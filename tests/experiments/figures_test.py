@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """figures and plot on the folders of studies, and the options that choose figures and their look, as a user calls them."""
+import contextlib
 import re
 import shutil
+import sqlite3
 import unittest
 
 from programs import call, read, temporary_folder
@@ -117,6 +119,21 @@ class Figures(unittest.TestCase):
         self.refused("figures", say="no folder")
         listed = self.said("energy_drift", "--list", "figures").stdout
         self.assertEqual({line.split()[0] for line in listed.splitlines()}, NAMES | {"invariants"})
+
+    def test_runs_that_cannot_be_read_are_said_where_none_is_left(self):
+        runs = len(read(self.folder / "study/runs.csv"))
+        for sql, why in (("UPDATE runs SET steps = steps + 1", "it is damaged (runs.checksum)"),
+                         ("UPDATE runs SET id = 'row ' || number", "it is damaged (runs.id)"),
+                         ("DELETE FROM configurations", "it is damaged (its configuration)")):
+            for where in ([], ["--where", "integrator == 'rk4'"]):
+                with self.subTest(sql, where=where):
+                    shutil.rmtree(self.folder / "lost", ignore_errors=True)
+                    shutil.copytree(self.folder / "study", self.folder / "lost")
+                    with contextlib.closing(sqlite3.connect(self.folder / "lost/results.sqlite")) as store:
+                        store.executescript(sql)
+                    nothing = "--where: no run satisfies the conditions" if where else "there is no run to draw in lost"
+                    self.refused("figures", "lost", *where, "--out", "x", say=f"{nothing}; {runs} runs left out, which cannot be read; the first: r")
+                    self.refused("figures", "lost", *where, "--out", "x", say=why)
 
     def test_a_figure_that_the_study_does_not_have_is_said(self):
         done = self.said("figures", "study", "--figure", "invariants", "--out", "absent", status=3)

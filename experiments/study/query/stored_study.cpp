@@ -93,7 +93,7 @@ StoredStudyView stored_study(const ResultStores& stores, const std::vector<std::
       view.experiment = study.experiment, view.command = study.command;
     invariants.merge(invariants_of(*open));
     open->store.for_each(Curves::with, [&](StoredRun&& run) {
-      const bool damaged = !run.damage.empty();
+      const bool damaged = !run.damage.empty() || !open->configurations.contains(run.configuration);
       if (seen.contains(run.id) || (!damaged && !ids.contains(number_of_id(run.id)))) return;
       try {
         ReadRun read = read_run(run, open->configurations, open->scenarios);
@@ -102,7 +102,7 @@ StoredStudyView stored_study(const ResultStores& stores, const std::vector<std::
           view.scenarios.push_back(source_of(open->scenarios, read.config.scenario).resolve());
         view.runs.push_back({run.id, std::move(read.config), std::move(run.result), std::move(read.scenario)});
       } catch (const std::runtime_error& reason) {
-        if (unreadable.empty()) first = fmt::format("run {} of {}: {}", run.id, open->file.string(), reason.what());
+        if (unreadable.empty()) first = fmt::format("{} of {}: {}", run.name(), open->file.string(), reason.what());
         unreadable.insert(run.id);
       }
     });
@@ -111,9 +111,12 @@ StoredStudyView stored_study(const ResultStores& stores, const std::vector<std::
   if (!unreadable.empty())
     stored.remarks.push_back(fmt::format("{} left out, which cannot be read; the first: {}",
                                          count(unreadable.size(), "run"), one_line(first)));
-  if (view.runs.empty())
-    throw InputError(where.empty() ? "there is no run to draw in " + words(first_items(stores.folders(), 4))
-                                   : "--where: no run satisfies the conditions");
+  if (view.runs.empty()) {
+    std::string why = where.empty() ? "there is no run to draw in " + words(first_items(stores.folders(), 4))
+                                    : "--where: no run satisfies the conditions";
+    for (const std::string& remark : stored.remarks) why += "; " + remark;
+    throw InputError(why);
+  }
   view.runs = sorted(std::move(view.runs));
   view.durations_follow_steps = stores.all().size() == 1 && durations_follow_steps(view.runs);
   view.invariants.assign(invariants.begin(), invariants.end());
