@@ -268,6 +268,12 @@ class DamagedStores(FaultsTest):
                 self.call(*SMALL)
 
 
+    def test_a_dry_run_refuses_a_store_with_other_tables(self):
+        for sql in ("DROP TABLE scenarios", "ALTER TABLE runs DROP COLUMN steps"):
+            with self.subTest(sql):
+                self.damage(sql)
+                self.assertIn("so it is not that of this version of polhode", self.call(*SMALL, "--dry-run", status=2).said)
+
     def test_an_id_that_is_none_is_damage_and_no_other_study(self):
         none = "(the first: row 1, runs.id)"
         for value, said in (("id + 1", "(the first: run "), ("'abc'", none), ("x'00ff'", none), ("1.5", none)):

@@ -2,18 +2,18 @@
 // The columns of a table of the store, and whether a database has such a table.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "experiments/study/store/database.hpp"
+#include "experiments/study/text/input_error.hpp"
 
 namespace polhode::study::inline store {
 
 /// A table of the store is missing, or has other columns.
-struct OtherTables : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct OtherTables : InputError {
+  using InputError::InputError;
 };
 
 struct TableForm {
