@@ -197,6 +197,16 @@ class Archive(unittest.TestCase):
             call(*command, folder=self.folder)
             self.assertEqual({n: (out / n).read_bytes() for n in whole}, whole)
 
+    def test_a_run_with_an_impact_at_its_very_end_is_whole(self):
+        """The time of the impact is rounded otherwise than that of the last instant, and comes after it."""
+        for name in FILES:
+            out = self.folder / f"bouncing_{name}"
+            call("simulate", "--scenario", "cube_bouncing", "--integrator", "rk4", "--dt", "1e-2", "--t-end", "20", "--no-figures",
+                 "--trajectory", name, "--out", out, folder=self.folder)
+            if name == "csv":
+                self.assertGreater(float(read(out / "events.csv")[-1]["t_s"]), 20)
+            self.assertIn("whole, 2001 instants until t = 20 s", self.archive("check", out))
+
     def test_readers_say_how_far_an_unfinished_file_goes(self):
         out = self.folder / "cut"
         self.assertIsNotNone(self.kill(["simulate", *LONG, "--trajectory", "hdf5", "--out", out], out / "trajectory.h5", 0.5))

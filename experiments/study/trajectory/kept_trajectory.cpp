@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <limits>
 #include <memory>
 
 #include "experiments/study/trajectory/hdf5_file.hpp"
@@ -36,7 +38,7 @@ class Instants {
     energy_kept_ = {energy_.name, energy_.file, 0, 0};
     motion_ = trajectory_.rows->next();
     while (energy_.rows->next() && read_instant()) {
-      ++kept_.instants;
+      interval_ = kept_.instants++ > 0 ? energy_.rows->t - kept_.t_last : 0;
       kept_.t_last = energy_.rows->t;
       trajectory_kept_ = {trajectory_.name, trajectory_.file, before_.rows, before_.bytes};
       energy_kept_ = {energy_.name, energy_.file, energy_.rows->rows, energy_.rows->bytes};
@@ -46,7 +48,7 @@ class Instants {
     bool cut = trajectory_.rows->cut || energy_.rows->cut;
     for (OpenTable& table : events_) {
       KeptTrajectory::Table part{table.name, table.file, 0, table.rows->bytes};
-      while (table.rows->next() && table.rows->t <= kept_.t_last)
+      while (table.rows->next() && table.rows->t <= latest_event())
         part = {table.name, table.file, table.rows->rows, table.rows->bytes};
       same_end_ = same_end_ && part.rows == table.rows->rows;
       cut = cut || table.rows->cut;
@@ -77,6 +79,12 @@ class Instants {
     return bodies == bodies_ && bodies > 0;
   }
 
+  /// Latest time of an event until the last instant. The end of a step is t + h where contacts are followed, and
+  /// t0 + k h, or the end of the run, in the tables: an event may come later than its instant by a rounding.
+  double latest_event() const {
+    return kept_.t_last + 1e-6 * interval_ + 4 * std::numeric_limits<double>::epsilon() * std::abs(kept_.t_last);
+  }
+
   void note(const std::string& fault) {
     if (kept_.fault.empty()) kept_.fault = fault;
   }
@@ -86,6 +94,7 @@ class Instants {
   std::vector<OpenTable> events_;
   bool motion_ = false, same_end_ = true;  // motion_: there is a present row of the trajectory
   std::uint64_t bodies_ = 0;
+  double interval_ = 0;  // from the last instant but one to the last, s
   Place before_;
   KeptTrajectory::Table trajectory_kept_, energy_kept_;
 };

@@ -112,6 +112,18 @@ TEST_F(KeptTrajectories, AreWholeWhenTheirRunEnded) {
   }
 }
 
+TEST_F(KeptTrajectories, AreWholeWhereTheLastEventComesARoundingAfterTheEnd) {
+  write_cubes(TrajectoryFormat::csv, folder_, 1e-2);
+  const fs::path events = folder_ / "events.csv";
+  const std::string before = bytes_of(events);
+  const auto with_event_at = [&](const std::string& t) {
+    put(events, before + t + ",impact,0,1,0,0,0,0,0,1,1,0\n");
+    return in_words(kept(TrajectoryFormat::csv));
+  };
+  EXPECT_EQ(with_event_at("1.0000000000000004"), "whole, 101 instants until t = 1 s");
+  EXPECT_THAT(with_event_at("1.0001"), HasSubstr("same whole instant"));
+}
+
 TEST_F(KeptTrajectories, InCsvThatAreCutEndAtAWholeInstant) {
   write_cubes(TrajectoryFormat::csv, folder_, 1e-2);
   const fs::path motion = folder_ / "trajectory.csv", energy = folder_ / "energy.csv";
