@@ -67,7 +67,8 @@ BroadPhaseOptions parse_broad_phase_options(int argc, const char* const* argv) {
   line.add("--out", options.out,
            "with --boxes the file of pairs: step, a, b; otherwise the folder of results (default: "
            "results/broad_phase)")
-      .type_name("PATH");
+      .type_name("PATH")
+      .not_empty();
   const std::vector<CommandLineOption> measuring = {
       line.add("--bodies", bodies, "how many boxes (default: " + bodies + ")").type_name("N,…"),
       line.add("--filling", options.filling, "part of the space that is within boxes (default: 0.1)").type_name("X"),

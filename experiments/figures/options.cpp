@@ -21,6 +21,7 @@ FiguresOptions parse_figures_options(int argc, const char* const* argv) {
       .group("Results");
   line.add("--out", options.out, "the figures are written to FOLDER/figures (default: the folder of the study)")
       .type_name("FOLDER")
+      .not_empty()
       .group("Results");
   add_figure_options(line, options.choice, true, nullptr);
   options.exit_status = line.parse(argc, argv);

@@ -30,7 +30,8 @@ JudgeOptions parse_judge_options(int argc, const char* const* argv) {
       .type_name("normalized|stored")
       .one_of({"normalized", "stored"});
   line.add("--out", options.out, "folder of the results (default: results/judge-<scenario>-<hash>)")
-      .type_name("FOLDER");
+      .type_name("FOLDER")
+      .not_empty();
   line.add_flag("--force", options.force, "overwrite other results in that folder");
   add_no_figures(line, options.figures);
   add_look_options(line, options.look);

@@ -18,7 +18,8 @@ NarrowPhaseOptions parse_narrow_phase_options(const std::string& question, int a
   line.add("--out", options.out,
            "with --pairs the file of results (default: standard output); else the folder "
            "(default: results/narrow_phase)")
-      .type_name("PATH");
+      .type_name("PATH")
+      .not_empty();
   line.add("--count", options.count, "pairs of each class in the comparison (default: 2000)")
       .type_name("N")
       .range(std::size_t{1}, std::size_t{10000000});

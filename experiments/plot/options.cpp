@@ -46,7 +46,8 @@ PlotOptions parse_plot_options(int argc, const char* const* argv) {
            "first that moves)")
       .type_name("NAME");
   line.add("--out", options.out, "the figures are written to FOLDER/plots (default: the folder of the study)")
-      .type_name("FOLDER");
+      .type_name("FOLDER")
+      .not_empty();
   line.add_flag("--list", options.list, "print the quantities");
   add_look_options(line, options.look);
   options.exit_status = line.parse(argc, argv);

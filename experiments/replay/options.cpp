@@ -36,6 +36,7 @@ ReplayOptions parse_replay_options(int argc, const char* const* argv) {
         .group("Motion");
     line.add("--out", out, "the page (default: replay.html, in the folder of --results)")
         .type_name("FILE")
+        .not_empty()
         .group("Page");
     line.add_flag("--force", options.force, "overwrite a file that is no replay page").group("Page");
     line.add("--limit", megabytes, "MB, how large the page may become; motion is thinned to fit (default: 3)")

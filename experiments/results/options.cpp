@@ -36,36 +36,45 @@ ResultsOptions parse_results_options(int argc, const char* const* argv) {
   std::string sort, columns, group, show, format;
   line.add("--sort", sort, "order by these columns; a dash before a name: the largest first")
       .type_name("COLUMN,…")
+      .not_empty()
       .group("Runs");
   line.add("--limit", options.limit, "at most so many rows (default: 100 on the terminal, else all)")
       .type_name("N")
       .group("Runs");
   line.add("--group", group, "one row for all runs that have the same values in these columns")
       .type_name("COLUMN,…")
+      .not_empty()
       .group("Runs");
   line.add("--columns", columns, "columns to show, or all (default: those that differ; all in CSV)")
       .type_name("COLUMN,…")
+      .not_empty()
       .group("Output");
   line.add("--show", show,
            "what to show of each group: count, or min, max, mean, median, sum or count of a column: "
            "median:attitude_error_max_rad,count (default: count)")
       .type_name("[WORD:]COLUMN,…")
+      .not_empty()
       .group("Output");
   line.add("--format", format, "table, csv, markdown or latex (default: table; all digits in csv, else five)")
       .type_name("FORMAT")
       .one_of({"table", "csv", "markdown", "latex"})
       .group("Output");
-  line.add("--out", options.out, "write this file (default: to the terminal)").type_name("FILE").group("Output");
+  line.add("--out", options.out, "write this file (default: to the terminal)")
+      .type_name("FILE")
+      .not_empty()
+      .group("Output");
   bool list = false;
   line.add_flag("--list", list, "print the names of all columns").group("Output");
   line.add("--by", options.by,
            "best: the column whose least value wins (default: the error, or the cost if --at-most bounds an error)")
       .type_name("COLUMN")
+      .not_empty()
       .group("Best");
   line.add("--at-most", options.at_most,
            "best: runs whose value is not larger, as evaluations=1e5 or attitude_error_max_rad=1e-6 (default: "
            "none, and the runs are shown that no other run of their method beats in both)")
       .type_name("COLUMN=X")
+      .not_empty()
       .group("Best");
   options.exit_status = line.parse(argc, argv);
   if (options.exit_status) return options;

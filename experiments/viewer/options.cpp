@@ -175,7 +175,8 @@ Options parse(const std::string& question, int argc, const char* const* argv) {
       .group(pictures);
   line.add_flag("--plots", options.pictures.plots, "energy, momentum and defect below").group(pictures);
   add("--captions", captions, "method and time in the picture: on, off (default: on)", "ON|OFF", pictures);
-  add("--out", out, "folder of sessions and pictures (default: results/viewer-<scenario>)", "FOLDER", "Output");
+  add("--out", out, "folder of sessions and pictures (default: results/viewer-<scenario>)", "FOLDER", "Output")
+      .not_empty();
   add("--record", record, "session.toml of each live session: on, off (default: on)", "ON|OFF", "Output");
   add("--write-trajectory", options.stage.trajectory,
       "the motion of each session, as a study writes it, into this folder", "FOLDER", "Output");

@@ -71,6 +71,10 @@ class CommandLine(unittest.TestCase):
                           ["--orientation", "matrix,quaternion", "--rotation-from", "stored"]):
             call("energy_drift", *arguments, "--dry-run", folder=self.folder)
 
+    def test_an_empty_folder_name_is_refused(self):
+        self.assertIn("--out: the value is empty", self.refused("--integrator", "rk4", *SHORT, "--out", ""))
+        self.assertFalse(list(self.folder.iterdir()))
+
     def test_a_study_file_is_held_to_the_same(self):
         file = self.folder / "study.toml"
         file.write_text('integrator = "rk4"\n\ntolerance = 1e-9\n', encoding="utf-8")

@@ -146,6 +146,20 @@ class Results(unittest.TestCase):
         self.assertIn("body.0.mass", self.said("results/lanes", "--columns", "body.0.mass", "--limit", "1"))
         self.assertIn("attitude_error_max_rad\n", self.said("results/lanes", "--list"))
 
+    def test_numbers_below_zero_and_too_large_are_refused(self):
+        for program, arguments in (("results", ["results/top", "--limit"]), ("rerun", ["results/top", "--random"]),
+                                   ("rerun", ["results/top", "--random", "1", "--seed"])):
+            for number in ("-1", "99999999999999999999"):
+                with self.subTest(program, number=number):
+                    line = self.refused(*arguments, number, program=program)
+                    self.assertIn(f"{arguments[-1]}: {number} is not a whole number from 0 to", line)
+
+    def test_empty_values_are_refused(self):
+        for option in ("--sort", "--group", "--columns", "--show", "--out"):
+            self.assertIn(f"{option}: the value is empty", self.refused("results/top", option, ""))
+        for option in ("--by", "--at-most"):
+            self.assertIn(f"{option}: the value is empty", self.refused("best", "results/top", option, ""))
+
     def test_damaged_runs_are_said_and_never_shown(self):
         folder = self.copy("damaged")
         victim, other = self.top[0]["run"], self.top[1]["run"]

@@ -212,6 +212,7 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
       .group("Axes");
   line.add("--out", options.out, "folder of the results (default: results/<experiment>-<scenario>-<hash>)")
       .type_name("FOLDER")
+      .not_empty()
       .group("Results");
   line.add_flag("--force", options.force,
                 "overwrite the results of a different study in that folder; runs of the same one that failed are "

@@ -3,9 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
+#include <system_error>
+#include <type_traits>
 #include <utility>
 
 #include "experiments/study/text/input_error.hpp"
@@ -27,6 +31,14 @@ std::string unknown_word(const CLI::App& app, const std::string& word) {
   const auto first_letter = std::min(name.find_first_not_of('-'), name.size());
   const std::string near = did_you_mean(name.substr(first_letter), {known.begin(), known.end()}, "--");
   return "there is no option '" + name + "'" + (near.empty() ? "; see" : near + " See") + " --help";
+}
+
+/// The fault of a number that CLI11 makes another one of: it reads -1 as the largest number. Empty: none.
+std::string fault_of_count(const std::string& text) {
+  std::size_t count = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (!text.starts_with('-') && read.ec != std::errc::result_out_of_range) return {};
+  return text + " is not a whole number from 0 to " + std::to_string(std::numeric_limits<std::size_t>::max());
 }
 
 }  // namespace
@@ -56,6 +68,12 @@ template CommandLineOption CommandLineOption::range(double, double) const;
 template CommandLineOption CommandLineOption::range(std::int64_t, std::int64_t) const;
 template CommandLineOption CommandLineOption::range(std::size_t, std::size_t) const;
 
+CommandLineOption CommandLineOption::not_empty() const {
+  const auto fault = [](const std::string& text) { return std::string(text.empty() ? "the value is empty" : ""); };
+  option_->check(CLI::Validator(fault, ""));
+  return *this;
+}
+
 CommandLineOption CommandLineOption::one_value_each_time() const {
   option_->allow_extra_args(false);
   return *this;
@@ -84,7 +102,10 @@ CommandLine::~CommandLine() = default;
 
 template <class T>
 CommandLineOption CommandLine::add(const std::string& name, T& value, const std::string& meaning) {
-  return CommandLineOption(*app_->add_option(name, value, meaning));
+  CLI::Option* option = app_->add_option(name, value, meaning);
+  if constexpr (std::is_same_v<T, std::size_t> || std::is_same_v<T, std::optional<std::size_t>>)
+    option->check(CLI::Validator(fault_of_count, ""));
+  return CommandLineOption(*option);
 }
 #define POLHODE_VALUE(T) template CommandLineOption CommandLine::add(const std::string&, T&, const std::string&)
 POLHODE_VALUE(std::string);

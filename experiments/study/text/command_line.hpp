@@ -30,6 +30,8 @@ class CommandLineOption {
   /// Refuses values below `least` or above `most`. T: int, std::int64_t, std::size_t, double.
   template <class T>
   CommandLineOption range(T least, T most) const;
+  /// Refuses an empty value.
+  CommandLineOption not_empty() const;
   /// The option takes one value each time that it is given, also if it may be given several times.
   CommandLineOption one_value_each_time() const;
   /// The value may be left out.
@@ -58,7 +60,7 @@ class CommandLine {
 
   /// Adds an option whose value is kept in `value`; a name without dashes is that of the words that belong to no
   /// option. T: std::string, std::vector<std::string>, std::filesystem::path, int, std::size_t, double; an optional
-  /// std::string, int, std::int64_t, std::size_t or double.
+  /// std::string, int, std::int64_t, std::size_t or double. A std::size_t that is negative or too large is refused.
   template <class T>
   CommandLineOption add(const std::string& name, T& value, const std::string& meaning);
   /// Adds an option whose value is handed to `use`, which may throw InputError.
