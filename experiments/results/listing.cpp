@@ -11,6 +11,7 @@
 
 #include "experiments/results/groups.hpp"
 #include "experiments/results/output.hpp"
+#include "experiments/study/query/named_options.hpp"
 #include "experiments/study/query/run_columns.hpp"
 #include "experiments/study/record/metric_table.hpp"
 #include "experiments/study/record/run_options.hpp"
@@ -52,8 +53,9 @@ std::vector<RunColumn> all_columns(const ResultStores& stores, const RunColumns&
     return std::any_of(configurations.begin(), configurations.end(),
                        [&](const Configuration* c) { return c->contains(name); });
   };
+  const NamedOptions named = named_options(stores, configurations);
   for (const RunOption* option : options_by_column()) {
-    if (!option->column.empty() && (!option->on_demand || some_have(option->column)))
+    if (!option->column.empty() && (!option->on_demand || named.contains(option->name)))
       all.push_back(columns.find(option->column, "--columns"));
   }
   for (const std::string& key : selection.varied_keys) all.push_back(varied_key(key));

@@ -65,6 +65,34 @@ class Results(unittest.TestCase):
         self.assertEqual((self.folder / "all.csv").read_text(), self.said("results/top", "--format", "csv"))
         self.assertFalse((self.folder / "all.csv.new").exists())
 
+    def test_csv_of_all_runs_has_the_options_on_demand_that_the_study_gives(self):
+        joints = ["--scenario", "peters_hsu,double_pendulum", "--integrator", "rk4", "--dt", "0.01,0.02"]
+        top = ["--scenario", "lagrange_top", "--integrator", "rk4,arkode_erk", "--dt", "0.02", "--tolerance", "1e-6"]
+        cells = self.folder / "cells.csv"
+        cells.write_text("integrator,summation\nrk4,plain\nheun,plain\n", encoding="utf-8")
+        for k, (study, given) in enumerate((
+                (joints, []), ([*joints, "--stabilization", "none"], ["stabilization"]),
+                ([*joints, "--stabilization", "none,both"], ["stabilization"]),
+                ([*joints, "--stabilization", "both", "--projection-metric", "mass"], ["projection_metric", "stabilization"]),
+                ([*joints, "--zip", "stabilization=none,baumgarte baumgarte-alpha=10,5"], ["baumgarte_alpha_per_s", "stabilization"]),
+                (top, []), ([*top, "--order", "4"], ["order"]), ([*top, "--summation", "plain"], ["summation"]),
+                (["--scenario", "lagrange_top", "--dt", "0.02", "--cells", cells], ["summation"]))):
+            with self.subTest(study):
+                out = self.folder / f"on_demand_{k}"
+                call("energy_drift", *study, "--t-end", "0.1", "--no-figures", "--out", out, folder=self.folder)
+                runs = (out / "runs.csv").read_text()
+                self.assertEqual(self.said(out.name, "--format", "csv"), runs)
+                names = ("stabilization", "projection_metric", "baumgarte_alpha_per_s", "order", "summation")
+                self.assertEqual(sorted(set(runs.splitlines()[0].split(",")) & set(names)), given)
+
+    def test_csv_of_a_study_that_has_not_ended_has_the_options_of_which_a_run_has_an_unusual_value(self):
+        call("energy_drift", "--scenario", "double_pendulum", "--integrator", "rk4", "--dt", "0.01", "--t-end", "0.1",
+             "--stabilization", "none,both", "--out", "halves", "--shard", "1/1", folder=self.folder)
+        self.addCleanup(shutil.rmtree, self.folder / "halves")
+        columns = self.rows("halves")[0]
+        self.assertIn("stabilization", columns)
+        self.assertNotIn("projection_metric", columns)
+
     def test_the_summary(self):
         text = self.said("results")
         self.assertIn("results/lanes: 12 runs\n  energy_drift: ./run energy_drift --scenario dzhanibekov", text)

@@ -238,6 +238,7 @@ void write_manifest(const StudyView& study, const Options& options, const Plan& 
   if (studies.size() > 1 || !first.tables.empty() || !first.where.empty()) manifest["studies"] = studies;
   if (!options.study_file.empty())
     manifest["study_file"] = {{"path", options.study_file}, {"xxh3_64", options.study_file_hash}};
+  if (!plan.named.empty()) manifest["named"] = plan.named;
   if (!plan.further_axes.empty()) manifest["further_axes"] = plan.further_axes;
   if (has_references(study)) manifest["references"] = references_of(study);
   manifest.update(provenance());
