@@ -152,9 +152,10 @@ struct Headings {
 };
 
 std::vector<Point> read_points(const SelectedRuns& selection, const Headings& headings,
-                               const std::vector<RunColumn>& asked, std::size_t status, RunReader& reader) {
+                               const std::vector<RunColumn>& asked, std::size_t status, const ScenarioNames& scenarios,
+                               RunReader& reader) {
   std::vector<Point> points;
-  CellReader cells;
+  CellReader cells(scenarios);
   reader.read(selection, [&](const CheckedRow& row) {
     const auto* said = std::get_if<std::string_view>(&row.values[status]);
     if (!said || *said != "ok") return true;
@@ -201,7 +202,9 @@ int list_best(const ResultStores& stores, const ResultsOptions& options) {
   headings.sizes = columns_of(columns, {Role::size});
 
   RunReader reader(stores);
-  const std::vector<Point> points = read_points(selection, headings, question.asked(), columns.index("status"), reader);
+  const ScenarioNames scenarios(stores);
+  const std::vector<Point> points =
+      read_points(selection, headings, question.asked(), columns.index("status"), scenarios, reader);
   question.settle(points);
   const std::size_t by = question.by, other = question.other;
   const auto show_group = differing(points, &Point::group, headings.group);

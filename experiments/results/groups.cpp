@@ -120,7 +120,8 @@ int list_groups(const ResultStores& stores, const RunColumns& columns, std::span
   const SelectedRuns selection = select(stores, columns, conditions, {}, Order::stored);
   std::map<std::vector<OptionValue>, Group, RowLess> groups;
   RunReader reader(stores);
-  CellReader cells;
+  const ScenarioNames scenarios(stores);
+  CellReader cells(scenarios);
   std::vector<OptionValue> key(by.size());
   reader.read(selection, [&](const CheckedRow& row) {
     const auto value = [&](const RunColumn& column) {

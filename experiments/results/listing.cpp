@@ -67,7 +67,7 @@ std::vector<RunColumn> all_columns(const ResultStores& stores, const RunColumns&
 
 /// The columns for readers: what differs between the runs, and the metrics of the tables of runs.
 std::vector<RunColumn> short_columns(const ResultStores& stores, const RunColumns& columns,
-                                     const SelectedRuns& selection) {
+                                     const SelectedRuns& selection, bool with_scenario) {
   std::vector<RunColumn> all = {{.of = Of::run, .name = "run"}};
   if (stores.folders().size() > 1) all.push_back({.of = Of::folder, .name = "folder"});
   const auto configurations = configurations_of(stores, selection);
@@ -76,7 +76,9 @@ std::vector<RunColumn> short_columns(const ResultStores& stores, const RunColumn
     std::set<std::string> values;
     for (const Configuration* c : configurations) values.insert(value_in(*c, option->column));
     const bool always = option->role == RunOption::Role::method || option->role == RunOption::Role::size;
-    if (values.size() > 1 || (always && !values.contains(""))) all.push_back(columns.find(option->column, "--columns"));
+    const bool ambiguous = with_scenario && option->role == RunOption::Role::scenario;
+    if (values.size() > 1 || ambiguous || (always && !values.contains("")))
+      all.push_back(columns.find(option->column, "--columns"));
   }
   for (const std::string& key : selection.varied_keys) all.push_back(varied_key(key));
   for (const Metric* metric : in_table_order(metric_table())) {
@@ -87,8 +89,9 @@ std::vector<RunColumn> short_columns(const ResultStores& stores, const RunColumn
 }
 
 std::vector<RunColumn> chosen_columns(const ResultStores& stores, const RunColumns& columns,
-                                      const ResultsOptions& options, const SelectedRuns& selection, Format format) {
-  if (options.columns.empty() && format != Format::csv) return short_columns(stores, columns, selection);
+                                      const ResultsOptions& options, const SelectedRuns& selection, Format format,
+                                      bool with_scenario) {
+  if (options.columns.empty() && format != Format::csv) return short_columns(stores, columns, selection, with_scenario);
   if (options.columns.empty() || options.columns == std::vector<std::string>{"all"})
     return all_columns(stores, columns, selection);
   std::vector<RunColumn> chosen;
@@ -140,13 +143,15 @@ int list_runs(const ResultStores& stores, const ResultsOptions& options) {
   if (!options.group.empty()) return list_groups(stores, columns, conditions, options);
   const Format format = options.format.value_or(Format::table);
   const SelectedRuns selection = select(stores, columns, conditions, sort_keys_of(columns, options));
-  const std::vector<RunColumn> shown = chosen_columns(stores, columns, options, selection, format);
+  const ScenarioNames scenarios(stores);
+  const std::vector<RunColumn> shown =
+      chosen_columns(stores, columns, options, selection, format, scenarios.ambiguous());
   std::size_t most = selection.hits.size();
   if (options.limit) most = *options.limit;
   else if (format == Format::table && options.out.empty()) most = rows_of_terminal;
 
   RunReader reader(stores);
-  CellReader cells;
+  CellReader cells(scenarios);
   std::vector<OptionValue> row(shown.size());
   std::pair<const OpenStore*, std::int64_t> last;  // neighbours mostly have the same options
   const auto fill = [&](const CheckedRow& checked) {

@@ -292,6 +292,38 @@ class Results(unittest.TestCase):
         self.assertIn("a column and a number", self.refused("best", "results/top", "--at-most", "evaluations"))
         self.assertIn("belong to best", self.refused("results/top", "--by", "steps"))
 
+    def different_scenarios_of_one_name(self):
+        """The folders a and b with a scenario "my" each, and c with that of a; the inertia of each."""
+        inertia = {"a": "[1.0, 2.0, 3.0]", "b": "[1.0, 1.0, 1.0]", "c": "[1.0, 2.0, 3.0]"}
+        for name, moments in inertia.items():
+            file = self.folder / f"of_{name}/my.toml"
+            file.parent.mkdir()
+            self.addCleanup(shutil.rmtree, file.parent)
+            file.write_text(f't_end = 1.0\n[[body]]\nname = "top"\nmass = 1.0\ninertia = {moments}\n'
+                            "angular_velocity = [0.3, 3.0, 0.3]\n", encoding="utf-8")
+            call("energy_drift", "--scenario", file, "--integrator", "rk4,heun" if name == "c" else "rk4", "--dt", "0.01,0.02", "--t-end",
+                 "1", "--no-figures", "--out", name, folder=self.folder)
+            self.addCleanup(shutil.rmtree, self.folder / name)
+
+    def test_different_scenarios_of_one_name_are_told_apart(self):
+        self.different_scenarios_of_one_name()
+        of_folder = {name: {row["run"] for row in read(self.folder / name / "runs.csv")} for name in "abc"}
+        for arguments in ([], ["--at-most", "evaluations=1e9"], ["--at-most", "energy_drift_max_rel=1"]):
+            rows = self.rows("best", "a", "b", *arguments)
+            self.assertEqual({row["scenario"] for row in rows}, {"my (a)", "my (b)"})
+            for row in rows:
+                self.assertIn(row["run"], of_folder[row["scenario"][4]])
+        self.assertEqual([(g["scenario"], g["count"]) for g in self.rows("a", "b", "c", "--group", "scenario")],
+                         [("my (a)", "6"), ("my (b)", "2")], "c has the scenario of a")
+        self.assertEqual({(row["folder"], row["scenario"]) for row in self.rows("a", "b", "c")},
+                         {("a", "my (a)"), ("b", "my (b)"), ("c", "my (a)")})
+        self.assertRegex(self.said("a", "b", "--limit", "9"), r"\A *run +folder +scenario +")
+        self.assertEqual(len(self.rows("a", "b", "--where", "scenario == 'my'")), 4, "conditions take the name")
+        # Where no names collide, they stay as they are.
+        self.assertEqual({row["scenario"] for row in self.rows("best", "a", "c")}, {"my"})
+        self.assertNotIn("scenario", self.said("a", "c", "--limit", "9").splitlines()[0])
+        self.assertIn("  scenarios: my (2)\n", self.said("b"))
+
     # rerun.
 
     def test_reruns_have_the_same_digits(self):

@@ -218,7 +218,9 @@ OptionValue CellReader::value(const RunColumn& column, const RunPlace& run, cons
   const Configuration& options = *configuration;
   if (column.of == Of::option) {
     const auto found = options.find(column.key);
-    return found == options.end() ? OptionValue() : found->second;
+    if (found == options.end()) return {};
+    if (names_ && column.key == "scenario") return names_->of(text_of(found->second), *run.store);
+    return found->second;
   }
   const auto scenario = options.find("scenario");
   return scenario == options.end() ? OptionValue() : of_scenario(column.key, run, text_of(scenario->second));

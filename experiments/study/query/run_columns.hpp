@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "experiments/study/query/result_stores.hpp"
+#include "experiments/study/query/scenario_names.hpp"
 #include "experiments/study/store/value.hpp"
 
 namespace polhode::study::inline query {
@@ -66,6 +67,10 @@ struct RunPlace {
 /// Makes cells; keeps what it has read of scenarios.
 class CellReader {
  public:
+  CellReader() = default;
+  /// Cells have these names of scenarios. `names` must outlive this object.
+  explicit CellReader(const ScenarioNames& names) : names_(names.ambiguous() ? &names : nullptr) {}
+
   /// The value of a run in a column; std::monostate: it has none. `stored`: the value in the column of the store, of
   /// metrics and invariants.
   OptionValue value(const RunColumn& column, const RunPlace& run, const Value& stored);
@@ -80,6 +85,7 @@ class CellReader {
   const Known& known(const std::string& key, const OpenStore& store, const std::string& scenario);
   OptionValue of_scenario(const std::string& key, const RunPlace& run, const std::string& scenario);
 
+  const ScenarioNames* names_ = nullptr;
   const OpenStore* last_store_ = nullptr;  ///< neighbouring rows mostly have the same configuration
   std::int64_t last_key_ = 0;
   const Configuration* last_ = nullptr;
