@@ -177,6 +177,15 @@ int write_large_study(const Experiment& experiment, const Options& options, cons
   return status_of(experiment, false, population.outcomes());
 }
 
+/// Ids of the runs that the folder has. Throws InputError where the study would refuse the store.
+std::vector<std::uint64_t> ids_done_in(const std::filesystem::path& folder) {
+  try {
+    return Store::ids_in(folder);
+  } catch (const std::runtime_error& error) {
+    throw InputError(fmt::format("--out: {}; {}", error.what(), another_folder));
+  }
+}
+
 int run_study(const Experiment& experiment, const Options& options) {
   if (options.dry_run) {
     if (auto chosen = glance_at_plan(experiment, options)) {
@@ -189,7 +198,7 @@ int run_study(const Experiment& experiment, const Options& options) {
   choose_curves(options, plan);
   const std::filesystem::path folder = folder_of(experiment, options, plan);
   if (options.dry_run) {
-    const std::vector<std::uint64_t> done = Store::ids_in(folder);
+    const std::vector<std::uint64_t> done = ids_done_in(folder);
     fmt::print("{}{}", plan_text(experiment, plan, folder, done),
                time_needed_text(experiment, options, plan, folder, done));
     return 0;

@@ -607,6 +607,28 @@ class ResultFolders(StudyTest):
         (out / "results.sqlite").write_text("not a database, but someone's work " * 200)
         self.refused(*SMALL, "--out", out, say="--force")
 
+    def test_a_database_that_is_no_store_of_the_study_stays_as_it_is(self):
+        store = self.study(*SMALL) / "results.sqlite"
+        for name, sql in (("foreign", "CREATE TABLE mine (x); INSERT INTO mine VALUES (1)"),
+                          ("older", "PRAGMA user_version=1"), ("rollback", "PRAGMA journal_mode=DELETE"), ("empty", "")):
+            out = self.new_out()
+            out.mkdir()
+            if name in ("older", "rollback"):
+                shutil.copy(store, out)
+            with contextlib.closing(sqlite3.connect(out / "results.sqlite")) as db:
+                db.executescript(sql)
+            before = files_in(out)
+            for arguments in (SMALL, [*SMALL, "--dry-run"]):
+                with self.subTest(name, arguments=arguments):
+                    if name in ("foreign", "older"):
+                        done = self.call("energy_drift", *arguments, "--out", out, status=2)
+                        self.assertIn("--force", done.stderr)
+                        self.assertNotIn("kept", done.stderr)
+                    elif "--dry-run" in arguments:
+                        done = self.call("energy_drift", *arguments, "--out", out)
+                        self.assertIn("2 of 2 runs are there" if name == "rollback" else "2 runs", done.stdout)
+                    self.assertEqual({k: v for k, v in files_in(out).items() if k != "results.lock"}, before)
+
     def test_other_files_in_the_folder_are_left_alone(self):
         out = self.new_out()
         out.mkdir()

@@ -41,6 +41,13 @@ bool is_frozen(const std::filesystem::path& path) {
   return header[18] == 2;  // version of the file format that a writer needs: 2 is WAL (sqlite.org/fileformat2.html)
 }
 
+/// True if all of the content is in the file itself: no writer is at work, and none was killed. With a rollback journal
+/// a writer is not seen between its transactions.
+bool is_at_rest(const std::filesystem::path& path, Journal journal) {
+  return journal == Journal::write_ahead && !std::filesystem::exists(path.string() + "-wal") &&
+         !std::filesystem::exists(path.string() + "-journal");
+}
+
 /// The path as a URI, so that it can be opened as a file that does not change.
 std::string immutable_uri(const std::filesystem::path& path) {
   std::string uri = "file:";
@@ -62,11 +69,16 @@ Database::Database(std::filesystem::path path, Access access, Journal journal) :
     sqlite3_vfs* vfs = sqlite3_vfs_find(nullptr);
     return vfs->xSetSystemCall(vfs, "mmap", reinterpret_cast<sqlite3_syscall_ptr>(map_filled));
   }();
+  bool unchanged = access == Access::read && is_frozen(path_);
+  if (access == Access::look) {
+    unchanged = is_at_rest(path_, journal);
+    access = unchanged ? Access::read : Access::write;
+  }
   int flags = SQLITE_OPEN_NOMUTEX;  // one thread at a time uses a connection
   flags |= access == Access::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
   if (access == Access::create) flags |= SQLITE_OPEN_CREATE;
   std::string name = path_.string();
-  if (access == Access::read && is_frozen(path_)) {
+  if (unchanged) {
     name = immutable_uri(path_);
     flags |= SQLITE_OPEN_URI;
   }

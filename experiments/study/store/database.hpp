@@ -25,6 +25,9 @@ struct DiskFull : std::runtime_error {
 };
 
 enum class Access {
+  /// If all of the content is in the file itself, nothing is changed in the folder; else as `write`, since a writer is
+  /// at work or was killed.
+  look,
   read,    ///< the file is not changed; with write-ahead logging another program may write meanwhile
   write,   ///< the file must exist
   create,  ///< the file is created if it does not exist

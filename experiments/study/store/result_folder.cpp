@@ -76,7 +76,7 @@ bool holds_foreign_runs(const std::filesystem::path& path, const BelongsToStudy&
   std::vector<std::uint64_t> others = Store::ids_in(path);
   std::erase_if(others, belongs);
   if (others.empty()) return false;
-  const Store store(path, metric_table(), Access::write);
+  const Store store(path, metric_table(), Access::look);
   return std::any_of(others.begin(), others.end(), [&](std::uint64_t id) {
     const auto run = store.find(id_of_number(id), Curves::without);
     return run && run->damage.empty();
@@ -86,7 +86,7 @@ bool holds_foreign_runs(const std::filesystem::path& path, const BelongsToStudy&
 }  // namespace
 
 void refuse_other_study(const std::filesystem::path& path, const BelongsToStudy& belongs) {
-  const std::string remedy = "; name another folder with --out, or overwrite it with --force";
+  const std::string remedy = "; " + std::string(another_folder);
   for (const auto& at : misplaced(path)) {
     throw InputError("--out: " + at.string() + " is a " +
                      (std::filesystem::is_directory(at) ? "folder where the study writes a file"

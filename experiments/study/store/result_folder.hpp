@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string_view>
 
 #include "experiments/study/store/folder_lock.hpp"
 
@@ -13,6 +14,9 @@ namespace polhode::study::inline store {
 
 /// True for the id of a run of the study.
 using BelongsToStudy = std::function<bool(std::uint64_t id)>;
+
+/// Remedy where a study cannot use a folder.
+constexpr std::string_view another_folder = "name another folder with --out, or overwrite it with --force";
 
 /// Throws InputError if the folder, or one of its shards, has results of runs that do not belong to the study.
 void refuse_other_study(const std::filesystem::path& path, const BelongsToStudy& belongs);

@@ -398,7 +398,7 @@ void Store::keep_study(const std::string& experiment, const std::string& command
 std::vector<std::uint64_t> Store::ids_in(const std::filesystem::path& folder, std::span<const Metric> metrics) {
   const std::filesystem::path path = folder / file_name;
   if (!std::filesystem::exists(path)) return {};
-  const Database db(path, Access::write, journal_of(folder));
+  const Database db(path, Access::look, journal_of(folder));
   Statement whole(db, "PRAGMA integrity_check(1)");
   const Value said = whole.step() ? whole.value(0) : Value();
   const auto* text = std::get_if<std::string_view>(&said);

@@ -107,7 +107,7 @@ class Store {
   void keep_study(const std::string& experiment, const std::string& command, const std::string& manifest);
 
   /// ids() of the store of a folder, empty if there is no store. Also throws if any part of the database is damaged in
-  /// its structure.
+  /// its structure. A file that no writer left half-written stays as it is.
   static std::vector<std::uint64_t> ids_in(const std::filesystem::path& folder,
                                            std::span<const Metric> metrics = metric_table());
 
