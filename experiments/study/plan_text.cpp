@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/study/plan/deal.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/report/tables/summary.hpp"
 #include "experiments/study/text/notation.hpp"
@@ -87,6 +88,18 @@ std::string plan_text(const Experiment& experiment, const Plan& plan, const std:
       text += fmt::format("  {}{}\n", study.name.empty() ? "" : study.name + ": ", table);
   }
   return text;
+}
+
+std::string shard_text(const Plan& plan, const Shard& shard, const std::vector<std::uint64_t>& done) {
+  const std::vector<std::size_t> shards = deal(plan, shard.count);
+  std::size_t own = 0, there = 0;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    if (shards[i] != shard.number) continue;
+    ++own;
+    there += std::binary_search(done.begin(), done.end(), plan.rows[i].id);
+  }
+  return fmt::format("shard {}/{}: {}, of which {} {} there already\n", shard.number, shard.count, count(own, "run"),
+                     there, there == 1 ? "is" : "are");
 }
 
 }  // namespace polhode::study

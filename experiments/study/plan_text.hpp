@@ -9,6 +9,7 @@
 
 #include "experiments/study/plan/experiment.hpp"
 #include "experiments/study/plan/plan.hpp"
+#include "experiments/study/plan/shard.hpp"
 
 namespace polhode::study {
 
@@ -21,5 +22,8 @@ std::string glance_text(const Experiment& experiment, const Plan& chosen);
 /// points of tables.
 std::string plan_text(const Experiment& experiment, const Plan& plan, const std::filesystem::path& folder,
                       const std::vector<std::uint64_t>& done);
+
+/// Number of runs of a shard, and how many of them are done. `done`: sorted ids of finished runs.
+std::string shard_text(const Plan& plan, const Shard& shard, const std::vector<std::uint64_t>& done);
 
 }  // namespace polhode::study

@@ -66,13 +66,14 @@ void write_reports(const StudyView& view, const Options& options, const Plan& pl
 }
 
 /// Carries out a shard, in a folder of its own.
-int run_shard(const Experiment& experiment, const Options& options, Plan plan, const std::filesystem::path& folder) {
+int run_shard(const Experiment& experiment, const Options& options, Plan plan, const std::filesystem::path& folder,
+              Interruption& interruption) {
   const std::filesystem::path own = shard_folder(folder, options.shard->number, options.shard->count);
   const BelongsToStudy belongs = runs_of_study(experiment, options, plan, folder);
   if (!options.force) refuse_other_study(folder, belongs);
   const ResultFolder held(own, belongs, options.force);
-  Interruption interruption;
   StudyRuns runs(experiment, options, plan, folder, own);
+  interruption.runs_begin();
   do {
     if (!runs.carry_out_missing(interruption)) return interrupted;
   } while (runs.missing() == 0 && runs.widen());
@@ -177,13 +178,35 @@ int write_large_study(const Experiment& experiment, const Options& options, cons
   return status_of(experiment, false, population.outcomes());
 }
 
-/// Ids of the runs that the folder has. Throws InputError where the study would refuse the store.
-std::vector<std::uint64_t> ids_done_in(const std::filesystem::path& folder) {
+/// The runs that a folder and its shards have.
+struct Done {
+  std::vector<std::filesystem::path> stores;  // folders that have some
+  std::vector<std::uint64_t> ids;             // sorted
+};
+
+/// Throws InputError where the study would refuse the store.
+Done done_in(const Experiment& experiment, const std::filesystem::path& folder) {
+  Done done;
+  const auto add = [&](const std::filesystem::path& store) {
+    const std::vector<std::uint64_t> ids = Store::ids_in(store);
+    if (!ids.empty()) done.stores.push_back(store);
+    done.ids.insert(done.ids.end(), ids.begin(), ids.end());
+  };
   try {
-    return Store::ids_in(folder);
+    add(folder);
   } catch (const std::runtime_error& error) {
     throw InputError(fmt::format("--out: {}; {}", error.what(), another_folder));
   }
+  for (const auto& shard : shard_folders(folder)) {
+    try {
+      add(shard);
+    } catch (const std::runtime_error& error) {  // damaged, or under way on a network file system
+      fmt::print(stderr, "{}: left out: {}\n", experiment.name, error.what());
+    }
+  }
+  std::sort(done.ids.begin(), done.ids.end());
+  done.ids.erase(std::unique(done.ids.begin(), done.ids.end()), done.ids.end());
+  return done;
 }
 
 int run_study(const Experiment& experiment, const Options& options) {
@@ -194,20 +217,24 @@ int run_study(const Experiment& experiment, const Options& options) {
       std::fflush(stdout);
     }
   }
+  Interruption interruption;
+  interruption.ends_at_once("interrupted before a run began; the same command begins\n");
   Plan plan = make_plan(experiment, options);
   choose_curves(options, plan);
   const std::filesystem::path folder = folder_of(experiment, options, plan);
   if (options.dry_run) {
-    const std::vector<std::uint64_t> done = ids_done_in(folder);
-    fmt::print("{}{}", plan_text(experiment, plan, folder, done),
-               time_needed_text(experiment, options, plan, folder, done));
+    if (options.slurm) read_slurm_jobs(*options.slurm, plan.size());
+    const Done done = done_in(experiment, folder);
+    fmt::print("{}{}{}", plan_text(experiment, plan, folder, done.ids),
+               options.shard ? shard_text(plan, *options.shard, done.ids) : "",
+               time_needed_text(experiment, options, plan, done.stores, done.ids));
     return 0;
   }
   if (options.slurm) return prepare_jobs(experiment, options, plan, folder);
-  if (options.shard) return run_shard(experiment, options, std::move(plan), folder);
+  if (options.shard) return run_shard(experiment, options, std::move(plan), folder, interruption);
   const ResultFolder held(folder, runs_of_study(experiment, options, plan, folder), options.force);
-  Interruption interruption;
   StudyRuns runs(experiment, options, plan, folder, folder);
+  interruption.runs_begin();
   do {
     runs.join();
     if (options.merge) {
@@ -222,7 +249,8 @@ int run_study(const Experiment& experiment, const Options& options) {
       return interrupted;
     }
   } while (runs.widen());
-  interruption.study_is_stored();
+  interruption.ends_at_once(
+      "interrupted while results were written; all runs are kept, and the same command writes them\n");
   return is_held(experiment, plan.size()) ? write_study(experiment, options, plan, runs)
                                           : write_large_study(experiment, options, plan, runs);
 }

@@ -8,7 +8,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -16,6 +18,7 @@
 
 #include "core/exact/exact_motion.hpp"
 #include "experiments/study/curves/curves.hpp"
+#include "experiments/study/plan/deal.hpp"
 #include "experiments/study/process/progress.hpp"
 #include "experiments/study/record/shown_runs.hpp"
 #include "experiments/study/report/figures/study_figures.hpp"
@@ -144,7 +147,7 @@ struct StoredTimes {
   std::vector<double> seconds;
 };
 
-StoredTimes stored_times(const Plan& plan, const std::filesystem::path& folder,
+StoredTimes stored_times(const Plan& plan, const std::vector<std::filesystem::path>& folders,
                          const std::vector<std::uint64_t>& done) {
   std::vector<std::size_t> there;
   for (const std::uint64_t id : done) {
@@ -153,11 +156,15 @@ StoredTimes stored_times(const Plan& plan, const std::filesystem::path& folder,
   std::sort(there.begin(), there.end());
   StoredTimes times;
   if (there.empty()) return times;
-  const Store store(folder, metric_table(), Access::read);
+  std::vector<std::unique_ptr<const Store>> stores;
+  for (const auto& folder : folders)
+    stores.push_back(std::make_unique<const Store>(folder, metric_table(), Access::look));
   Variants variants;
   for (const std::size_t k : evenly_spread(there.size(), most_looked_up)) {
     PlannedRun run = plan.run(there[k], &variants);
-    const auto stored = store.find(run.id, Curves::without);
+    std::optional<StoredRun> stored;
+    for (auto store = stores.begin(); store != stores.end() && !stored; ++store)
+      stored = (*store)->find(run.id, Curves::without);
     if (!stored || !stored->damage.empty() || !(stored->result.seconds > 0)) continue;
     times.runs.push_back(std::move(run));
     times.seconds.push_back(stored->result.seconds);
@@ -168,10 +175,14 @@ StoredTimes stored_times(const Plan& plan, const std::filesystem::path& folder,
 }  // namespace
 
 std::string time_needed_text(const Experiment& experiment, const Options& options, const Plan& plan,
-                             const std::filesystem::path& folder, const std::vector<std::uint64_t>& done) {
+                             const std::vector<std::filesystem::path>& stores, const std::vector<std::uint64_t>& done) {
   std::vector<std::size_t> missing;
+  std::size_t there = 0;
+  const auto shards = options.shard ? deal(plan, options.shard->count) : std::vector<std::size_t>();
   for (std::size_t i = 0; i < plan.size(); ++i) {
-    if (!plan.rows[i].refused && !std::binary_search(done.begin(), done.end(), plan.rows[i].id)) missing.push_back(i);
+    if (plan.rows[i].refused) continue;
+    if (std::binary_search(done.begin(), done.end(), plan.rows[i].id)) ++there;
+    else if (!options.merge && (!options.shard || shards[i] == options.shard->number)) missing.push_back(i);
   }
   std::vector<PlannedRun> runs;
   Variants variants(most_timed);
@@ -181,7 +192,7 @@ std::string time_needed_text(const Experiment& experiment, const Options& option
   for (const PlannedRun& run : runs) timed.push_back(&run);
   std::stable_sort(timed.begin(), timed.end(),
                    [](const PlannedRun* a, const PlannedRun* b) { return a->cost > b->cost; });  // run_all() does so
-  const StoredTimes stored = stored_times(plan, folder, done);
+  const StoredTimes stored = stored_times(plan, stores, done);
   std::vector<KnownTime> known;
   for (std::size_t k = 0; k < stored.runs.size(); ++k) known.push_back({&stored.runs[k], stored.seconds[k]});
   Timing timing;
@@ -192,17 +203,19 @@ std::string time_needed_text(const Experiment& experiment, const Options& option
   const RunTimes times = run_times(timed, known, timing);
   const double planned = time_of_all(times, static_cast<double>(missing.size()) * plan.runs_of_a_row,
                                      plan.most_true_motions(), timing.workers);
-  const double stored_times = mean(stored.seconds) * static_cast<double>(plan.size() - missing.size());
+  const double stored_times = mean(stored.seconds) * static_cast<double>(there);
   const Experiment::Needs& needs = experiment.needs;
   const double running = planned * (1 + needs.refined);
   const double analysis = needs.analysis * (running + stored_times / static_cast<double>(timing.workers));
-  const double after = analysis + work_after_runs(experiment, options, plan) * time_of_a_number() / usual_number;
+  const double after =
+      options.shard ? 0 : analysis + work_after_runs(experiment, options, plan) * time_of_a_number() / usual_number;
   if (times.known == 0 && !missing.empty())
     return fmt::format("at least {} with {} job{}: no run came far enough in {} to tell its time\n",
                        text_of_time(running + after), timing.workers, timing.workers == 1 ? "" : "s",
                        text_of_time(timing.budget));
-  std::string text = fmt::format("about {} with {} job{}, of which {} after the runs", text_of_time(running + after),
-                                 timing.workers, timing.workers == 1 ? "" : "s", text_of_time(after));
+  std::string text = fmt::format("about {} with {} job{}", text_of_time(running + after), timing.workers,
+                                 timing.workers == 1 ? "" : "s");
+  if (!options.shard) text += fmt::format(", of which {} after the runs", text_of_time(after));
   if (times.known < 0.995 && !missing.empty())
     text += fmt::format("; {:.0f} % of this is known from timed runs, and guessed from them for the rest",
                         100 * times.known);

@@ -17,6 +17,6 @@ namespace polhode::study {
 /// the wall times in the folder and from runs that are carried out for less than half a second in all. `done`: ids of
 /// the runs in the folder, in ascending order. Writes no file.
 std::string time_needed_text(const Experiment& experiment, const Options& options, const Plan& plan,
-                             const std::filesystem::path& folder, const std::vector<std::uint64_t>& done);
+                             const std::vector<std::filesystem::path>& stores, const std::vector<std::uint64_t>& done);
 
 }  // namespace polhode::study

@@ -54,6 +54,18 @@ class Shards(unittest.TestCase):
     def stores(self, place="parts"):
         return {path.parent.name: stored(path.parent) for path in (self.folder / place / "out/shards").glob("*/results.sqlite")}
 
+    def test_a_dry_run_counts_the_runs_of_all_stores(self):
+        study = [*LONG[:2], "--dt", "1e-3", *LONG[4:], "--t-end", "1"]
+        self.run_in("parts", *study, "--shard", "1/2")
+        for further, said in (([], "60 of 120 runs are there already"),
+                              (["--shard", "1/2"], "shard 1/2: 60 runs, of which 60 are there already"),
+                              (["--shard", "2/2"], "shard 2/2: 60 runs, of which 0 are there already"),
+                              (["--merge"], "60 of 120 runs are there already")):
+            with self.subTest(further):
+                self.assertIn(said, self.run_in("parts", *study, *further, "--dry-run").stdout)
+        done = self.run_in("parts", *study, "--shard", "1/2", "--dry-run").stdout
+        self.assertIn("about 0.01 s with", done)
+
     def test_shards_make_the_bytes_of_one_process(self):
         whole = self.whole(*STUDY)
         said = self.shards(*STUDY, count=3)

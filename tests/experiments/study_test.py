@@ -235,6 +235,18 @@ class Resuming(StudyTest):
             self.assertIn(f"{found[1]} of 240 runs are there already", done.stderr)
             self.assertEqual((out / "runs.csv").read_bytes(), self.runs)
 
+    def test_interrupted_while_the_runs_are_planned_it_ends_at_once(self):
+        for wanted in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1, signal.SIGXCPU):
+            out = self.new_out()
+            program = self.start("--integrator", "rk4", "--dt", "1e-2", "--no-figures", "--out", out, "--jobs", "1",
+                                 "--random", "n=3000000 seed=1 body.0.angular_velocity.1=uniform(1,5)")  # some 20 s
+            time.sleep(1)
+            program.send_signal(wanted)
+            _, text = program.communicate(timeout=PATIENCE)
+            self.assertEqual(program.returncode, 75, text)
+            self.assertIn("interrupted before a run began; the same command begins", text)
+            self.assertFalse(out.exists())
+
     def test_after_a_first_signal_a_short_run_ends_and_after_a_second_one_a_long_run_is_stopped(self):
         short = ["--integrator", "rk4", "--dt", "1e-6", "--t-end", "8", "--no-figures", "--jobs", "1"]  # about two seconds
         out = self.new_out()

@@ -12,7 +12,9 @@ namespace {
 
 static_assert(std::atomic<bool>::is_always_lock_free);  // so that a signal handler may access it
 static_assert(grace == 5);                              // the message states this number
-std::atomic<bool> no_more_runs{false}, stop_runs{false}, all_is_stored{false};
+static_assert(std::atomic<const char*>::is_always_lock_free);
+std::atomic<bool> no_more_runs{false}, stop_runs{false};
+std::atomic<const char*> last_words{nullptr};  // of a process that ends at once; null: it does not
 
 constexpr std::array warnings = {SIGINT, SIGTERM, SIGUSR1, SIGXCPU};
 std::array<struct sigaction, warnings.size()> former_warnings;
@@ -21,8 +23,8 @@ struct sigaction former_alarm;
 void say(const char* text) { [[maybe_unused]] const auto written = write(STDERR_FILENO, text, std::strlen(text)); }
 
 void on_warning(int) {
-  if (all_is_stored) {
-    say("interrupted while results were written; all runs are kept, and the same command writes them\n");
+  if (const char* message = last_words) {
+    say(message);
     _exit(interrupted);
   }
   if (no_more_runs.exchange(true)) {
@@ -38,7 +40,8 @@ void on_alarm(int) { stop_runs = true; }
 }  // namespace
 
 Interruption::Interruption() {
-  no_more_runs = stop_runs = all_is_stored = false;
+  no_more_runs = stop_runs = false;
+  last_words = nullptr;
   struct sigaction action = {};
   action.sa_flags = SA_RESTART;
   action.sa_handler = on_warning;
@@ -55,6 +58,7 @@ Interruption::~Interruption() {
 
 std::atomic<bool>& Interruption::no_more() { return no_more_runs; }
 std::atomic<bool>& Interruption::stop() { return stop_runs; }
-void Interruption::study_is_stored() { all_is_stored = true; }
+void Interruption::ends_at_once(const char* message) { last_words = message; }
+void Interruption::runs_begin() { last_words = nullptr; }
 
 }  // namespace polhode::study::process

@@ -16,8 +16,7 @@ inline constexpr unsigned grace = 5;
 /// Handles the signals while it lives; restores their former actions at the end. At most one object at a time.
 ///   first signal:  no further run begins; runs under way have `grace` seconds to finish
 ///   second signal: runs under way are stopped at once; finished runs are kept
-/// After study_is_stored() a signal ends the process at once with the exit status `interrupted`, because nothing is
-/// left that could be lost.
+/// Where no run is under way, ends_at_once() makes a signal end the process at once.
 class Interruption {
  public:
   Interruption();
@@ -30,7 +29,11 @@ class Interruption {
   /// True: runs under way must end.
   std::atomic<bool>& stop();
 
-  void study_is_stored();
+  /// From now on a signal prints the message, which ends with a newline, and ends the process with the exit status
+  /// `interrupted`: nothing is under way that could be lost. `message` must outlive the object.
+  void ends_at_once(const char* message);
+  /// From now on signals are handled as above.
+  void runs_begin();
 };
 
 }  // namespace polhode::study::process
