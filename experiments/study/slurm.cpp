@@ -7,7 +7,9 @@
 #include <charconv>
 #include <functional>
 #include <map>
+#include <optional>
 #include <regex>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -45,6 +47,35 @@ std::size_t whole_number(const std::string& text, const std::string& label) {
   throw InputError(label + ": '" + text + "' is no positive whole number");
 }
 
+/// Minutes of a time limit as Slurm takes it (sbatch(1), --time), rounded up; absent if it is none.
+std::optional<std::size_t> minutes_of(const std::string& time) {
+  // minutes, minutes:seconds, hours:minutes:seconds, days-hours, days-hours:minutes, days-hours:minutes:seconds
+  static const std::regex form("(?:([0-9]{1,5})-)?([0-9]{1,9})(?::([0-9]{1,9}))?(?::([0-9]{1,9}))?");
+  std::smatch part;
+  if (!std::regex_match(time, part, form)) return std::nullopt;
+  const auto number = [&](std::size_t k) { return part[k].matched ? std::stoul(part[k]) : 0; };
+  if (part[1].matched) return number(1) * 1440 + number(2) * 60 + number(3) + (number(4) + 59) / 60;
+  if (part[4].matched) return number(2) * 60 + number(3) + (number(4) + 59) / 60;
+  return number(2) + (number(3) + 59) / 60;
+}
+
+/// Throws InputError for what Slurm would refuse, or for a warning that takes the whole time.
+void check(const SlurmJobs& jobs) {
+  static const std::set<std::string> without_end = {"", "0", "infinite", "INFINITE", "unlimited", "UNLIMITED"};
+  if (!jobs.memory.empty() && !std::regex_match(jobs.memory, std::regex("[0-9]+[KMGTkmgt]?")))
+    throw InputError("--slurm mem: '" + jobs.memory + "' is no memory; it takes a number of megabytes, or 2G");
+  if (without_end.contains(jobs.time)) return;
+  const auto minutes = minutes_of(jobs.time);
+  if (!minutes || *minutes == 0) {
+    throw InputError("--slurm time: '" + jobs.time +
+                     "' is no time limit; it takes minutes, hours:minutes:seconds or days-hours, as in 2:00:00");
+  }
+  if (jobs.warning >= 60 * *minutes) {
+    throw InputError(fmt::format("--slurm warning: {} s before the end is all of time={}; take fewer, or more time",
+                                 jobs.warning, jobs.time));
+  }
+}
+
 /// A line "#SBATCH --NAME=VALUE"; nothing without a value.
 std::string directive(const std::string& name, const std::string& value) {
   return value.empty() ? "" : fmt::format("#SBATCH --{}={}\n", name, shell_word(value));
@@ -79,8 +110,10 @@ SlurmJobs read_slurm_jobs(const std::string& text, std::size_t runs) {
       {"account", [&](auto& value, auto&) { jobs.account = value; }},
       {"partition", [&](auto& value, auto&) { jobs.partition = value; }},
       {"option", [&](auto& value, auto&) { jobs.options.push_back(value); }}};
+  std::set<std::string> given;
   for (const auto& [key, value] : assignments(text, "--slurm")) {
     const auto known = keys.find(key);
+    if (!given.insert(key).second && key != "option") throw InputError("--slurm " + key + ": it is given twice");
     if (known == keys.end()) {
       std::vector<std::string_view> names;
       for (const auto& entry : keys) names.push_back(entry.first);
@@ -88,6 +121,7 @@ SlurmJobs read_slurm_jobs(const std::string& text, std::size_t runs) {
     }
     known->second(value, "--slurm " + key);
   }
+  check(jobs);
   const std::size_t most = largest_index();
   if (jobs.shards > most) {
     throw InputError(
@@ -135,8 +169,11 @@ void write_job_scripts(const SlurmJobs& jobs, const std::string& experiment, con
   write_script(
       scripts / "parallel.sh",
       fmt::format("#!/bin/bash\n# Carries out the study by GNU parallel, here or on hosts that share this "
-                  "folder.\n#   parallel.sh [FILE WITH A HOST A LINE]\nset -u\ncd {}\n"
-                  "seq {} | parallel --jobs 1 ${{1:+--sshloginfile \"$1\"}} --workdir {} {} --shard "
+                  "folder.\n# A host carries out one shard at a time, on as many cores as cpus= of --slurm says.\n"
+                  "#   parallel.sh [FILE WITH A HOST A LINE]\nset -u\n"
+                  "command -v parallel > /dev/null || {{ echo \"$0: there is no GNU parallel\" >&2; exit 127; }}\n"
+                  "hosts=${{1:+$(realpath -- \"$1\")}}\ncd {}\n"
+                  "seq {} | parallel --jobs 1 ${{hosts:+--sshloginfile \"$hosts\"}} --workdir {} {} --shard "
                   "'{{}}/{}' --jobs {}\nexec {} --merge\n",
                   shell_word(fs::current_path().string()), jobs.shards, shell_word(fs::current_path().string()),
                   shell_word(of_shard), jobs.shards, jobs.cpus, command));

@@ -54,6 +54,26 @@ class Scripts(Jobs):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assert_same(self.whole(STUDY))
 
+    def test_the_file_of_hosts_is_that_of_the_folder_of_the_call(self):
+        (self.folder / "hosts").mkdir()
+        stand_in = self.folder / "hosts/parallel"  # prints the file that it is given
+        stand_in.write_text('#!/bin/bash\nwhile [ "$1" != --sshloginfile ]; do shift; done\ncat "$2"\n')
+        stand_in.chmod(0o755)
+        (self.folder / "hosts/hosts.txt").write_text("a host of mine\n")
+        self.write(STUDY, "shards=3")
+        done = subprocess.run([self.folder / "jobs/out/slurm/parallel.sh", "hosts.txt"], cwd=self.folder / "hosts",
+                              env={**os.environ, "PATH": f"{self.folder / 'hosts'}:{os.environ['PATH']}"},
+                              capture_output=True, text=True, timeout=PATIENCE, stdin=subprocess.DEVNULL)
+        self.assertIn("a host of mine", done.stdout)
+        self.assertEqual(done.returncode, 75, done.stderr)  # no run was carried out
+
+    def test_without_gnu_parallel_its_script_says_so(self):
+        self.write(STUDY, "shards=3")
+        done = subprocess.run(["/bin/bash", self.folder / "jobs/out/slurm/parallel.sh"], cwd=self.folder, env={"PATH": ""},
+                              capture_output=True, text=True, timeout=PATIENCE, stdin=subprocess.DEVNULL)
+        self.assertIn("there is no GNU parallel", done.stderr)
+        self.assertEqual(done.returncode, 127)
+
     def test_options_pass_through(self):
         self.write(STUDY, "shards=4 cpus=2 time=2:00:00 mem=2G account=tops partition=long warning=90 rounds=5 option=--qos=low")
         script = (self.folder / "jobs/out/slurm/array.sh").read_text()
@@ -66,9 +86,18 @@ class Scripts(Jobs):
     def test_what_makes_no_sense_is_refused(self):
         for jobs, reason in [("shard=4", "--slurm shard: no such key; did you mean 'shards'?"),
                              ("shards=x", "--slurm shards: 'x' is no positive whole number"),
-                             ("shards=1000000", "MaxArraySize")]:
-            done = call("energy_drift", *STUDY, "--slurm", jobs, folder=self.folder / "jobs", status=2)
-            self.assertIn(reason, done.stderr)
+                             ("shards=1000000", "MaxArraySize"), ("shards=2 shards=3", "--slurm shards: it is given twice"),
+                             ("mem=lots", "--slurm mem: 'lots' is no memory"), ("time=soon", "--slurm time: 'soon' is no time limit"),
+                             ("time=0:50", "--slurm warning: 60 s before the end is all of time=0:50"),
+                             ("time=1", "--slurm warning: 60 s before the end is all of time=1")]:
+            for further in ([], ["--dry-run"]):
+                done = call("energy_drift", *STUDY, "--slurm", jobs, *further, folder=self.folder / "jobs", status=2)
+                self.assertIn(reason, done.stderr)
+        for further in (["--shard", "1/2"], ["--merge"]):
+            done = call("energy_drift", *STUDY, "--slurm", "shards=2", *further, folder=self.folder / "jobs", status=2)
+            self.assertIn("leave --shard and --merge out", done.stderr)
+        for time in ("2", "0", "1-0", "1-2:30", "1-2:30:15", "90:30", "1:00:30", "infinite"):
+            call("energy_drift", *STUDY, "--slurm", f"time={time}", "--dry-run", folder=self.folder / "jobs")
         done = call("energy_drift", *STUDY, "--submit", folder=self.folder / "jobs", status=2)
         self.assertIn("--submit: there is nothing to submit", done.stderr)
         self.assertFalse((self.folder / "jobs/out").exists())

@@ -280,6 +280,8 @@ ParsedOptions parse_options(const Experiment& experiment, int argc, const char* 
   options.words = words_without({"--shard", "--slurm"}, {"--merge", "--submit", "--force"}, argc, argv);
   if (options.submit && !options.slurm) throw InputError("--submit: there is nothing to submit; give --slurm too");
   if (shard) options.shard = read_shard(*shard, "--shard");
+  if (options.slurm && (shard || options.merge))
+    throw InputError("--slurm: its jobs carry out the shards and the merge; leave --shard and --merge out");
   if (shard && options.merge) throw InputError("--shard and --merge: a shard carries out runs, --merge does not");
   options.command = command_of(experiment, argc, argv);
   StudyAxes said = said_by(words, given, vary, options.seed);
