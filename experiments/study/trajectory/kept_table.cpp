@@ -35,6 +35,8 @@ class CsvRows final : public KeptTable {
       while (!names.empty()) columns_.emplace_back(next_cell(names));
       if (columns_.empty() || columns_.front() != "t_s") fault = path.string() + ":1: its first column is not t_s";
       bytes = read_;
+    } else {
+      cut = true;
     }
   }
 

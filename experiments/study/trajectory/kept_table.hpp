@@ -23,7 +23,7 @@ class KeptTable {
 
   std::uint64_t rows = 0;   ///< number of rows up to the present one
   std::uint64_t bytes = 0;  ///< length of a CSV file up to the end of the present row, bytes
-  bool cut = false;         ///< the last line of a CSV file has no end
+  bool cut = false;         ///< the last line of a CSV file has no end, or there is no line
   std::string fault;        ///< fault that ended the reading, with its place; empty at the end of the table
 };
 

@@ -164,6 +164,8 @@ TEST_F(KeptTrajectories, InCsvThatAreDamagedSayWhere) {
   put(energy, ledger.substr(0, ledger.size() - 5));
   EXPECT_THAT(in_words(kept(TrajectoryFormat::csv)), HasSubstr("damaged, 100 instants until t = 0.99 s"));
   put(energy, ledger);
+  put(events, "");
+  EXPECT_THAT(in_words(kept(TrajectoryFormat::csv)), HasSubstr("damaged, 101 instants until t = 1 s"));
   fs::remove(events);
   EXPECT_THAT(in_words(kept(TrajectoryFormat::csv)), HasSubstr("events.csv: no such file"));
   EXPECT_FALSE(has_trajectory(TrajectoryFormat::csv, folder_));
