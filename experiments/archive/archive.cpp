@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <vector>
@@ -51,11 +52,12 @@ Inventory check(const fs::path& folder) {
     inventory.all_well = inventory.all_well && kept.condition == Condition::whole;
   }
   inventory.text += sum_of(all);
-  if (!inventory.all_well) {
-    inventory.text +=
-        fmt::format("the command of the study makes them whole; ./run archive repair {} saves what there is of them\n",
-                    folder.string());
-  }
+  if (inventory.all_well) return inventory;
+  const bool damaged =
+      std::any_of(all.begin(), all.end(), [](const auto& kept) { return kept.condition == Condition::damaged; });
+  inventory.text += fmt::format(
+      "{}the command of the study makes them whole; {}./run archive repair {} saves what there is of them\n",
+      damaged ? "once the files named as damaged are removed, " : "", damaged ? "before that, " : "", folder.string());
   return inventory;
 }
 

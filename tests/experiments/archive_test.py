@@ -2,8 +2,9 @@
 """Trajectories of runs that are killed: what `archive` says and saves of them, that the same command makes the bytes of an
 uninterrupted run, and that other programs (h5py, h5dump, h5clear) read the HDF5 files.
 
-POLHODE_BIN_DIR is the folder of archive, energy_drift, judge, replay and simulate.
+POLHODE_BIN_DIR is the folder of archive, convergence, energy_drift, judge, replay and simulate.
 """
+import pathlib
 import random
 import re
 import shutil
@@ -196,6 +197,37 @@ class Archive(unittest.TestCase):
             self.assertIn(f"{out / name}: no such file", self.archive("check", out, status=1))
             call(*command, folder=self.folder)
             self.assertEqual({n: (out / n).read_bytes() for n in whole}, whole)
+
+    def test_a_study_makes_a_trajectory_that_is_cut_again(self):
+        for name, files in FILES.items():
+            out = self.folder / f"cut_study_{name}"
+            command = ["convergence", *CUBES, "--jobs", "1", "--trajectory", name, "--out", out]
+            call(*command, folder=self.folder)
+            for file in files:
+                path = next(out.glob(f"trajectories/*/{file}"))
+                whole = path.read_bytes()
+                for left in (b"", whole[:-7], b"text"):
+                    with self.subTest(file=file, left=len(left)):
+                        path.write_bytes(left)
+                        said = self.archive("check", out, status=1)
+                        self.assertIn("once the files named as damaged are removed, the command of the study makes them whole", said)
+                        call(*command, folder=self.folder)
+                        self.assertTrue(path.read_bytes() == whole)
+                        self.assertIn("1 trajectory: 1 whole", self.archive("check", out))
+
+    def test_damage_inside_a_trajectory_goes_with_its_file(self):
+        """Only `check` sees it, and what it says helps."""
+        out = self.folder / "damaged_inside"
+        command = ["convergence", *CUBES, "--jobs", "1", "--trajectory", "csv", "--out", out]
+        call(*command, folder=self.folder)
+        path = next(out.glob("trajectories/*/energy.csv"))
+        whole = path.read_bytes()
+        path.write_bytes(whole.replace(b"\n0.5,", b"\n0.5,x", 1))
+        named = re.search(r"^(\S+): damaged,", self.archive("check", out, status=1))[1]
+        self.assertEqual(pathlib.Path(named), path.with_name("trajectory.csv"))
+        pathlib.Path(named).unlink()
+        call(*command, folder=self.folder)
+        self.assertTrue(path.read_bytes() == whole)
 
     def test_a_run_with_an_impact_at_its_very_end_is_whole(self):
         """The time of the impact is rounded otherwise than that of the last instant, and comes after it."""

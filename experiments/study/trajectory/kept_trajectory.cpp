@@ -251,7 +251,9 @@ std::string in_words(const KeptTrajectory& kept) {
 }
 
 std::string remedy(const KeptTrajectory& kept) {
-  return fmt::format("the command of the study makes it whole; ./run archive repair {} saves what there is of it",
+  const bool damaged = kept.condition == Condition::damaged;
+  return fmt::format("{}the command of the study makes it whole; {}./run archive repair {} saves what there is of it",
+                     damaged ? "once the file is removed, " : "", damaged ? "before that, " : "",
                      kept.folder.empty() ? "." : kept.folder.string());
 }
 

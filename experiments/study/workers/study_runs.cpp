@@ -20,6 +20,7 @@
 #include "experiments/study/record/shown_runs.hpp"
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/store/shard_folders.hpp"
+#include "experiments/study/trajectory/quick_look.hpp"
 #include "experiments/study/trajectory/trajectory_files.hpp"
 #include "experiments/study/workers/workers.hpp"
 
@@ -178,7 +179,7 @@ bool StudyRuns::is_whole(std::size_t run, const RunResult& result) const {
   const PlanRow& row = plan_.rows[run];
   if (!is_complete(result, row)) return false;
   return options_.trajectory == TrajectoryFormat::none ||
-         has_trajectory(options_.trajectory, trajectory_folder(experiment_, folder_, id_of_number(row.id)));
+         seems_whole(options_.trajectory, trajectory_folder(experiment_, folder_, id_of_number(row.id)));
 }
 
 std::size_t StudyRuns::count(Place place) const {

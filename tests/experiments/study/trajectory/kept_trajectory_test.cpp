@@ -13,6 +13,7 @@
 
 #include "experiments/study/run/run.hpp"
 #include "experiments/study/scenario/scenario.hpp"
+#include "experiments/study/trajectory/quick_look.hpp"
 #include "experiments/study/trajectory/trajectory.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -189,6 +190,32 @@ TEST_F(KeptTrajectories, InHdf5ThatAreCutAreNotWholeAndOtherDamageIsSurvived) {
     for (int k = 0; k < 1 + trial % 16; ++k) bytes[random() % most] = static_cast<char>(random() % 256);
     put(unfinished(path), bytes);
     ASSERT_LE(kept(TrajectoryFormat::hdf5).instants, 1001u);
+  }
+}
+
+TEST_F(KeptTrajectories, SeemWholeUntilAFileIsCutOrOfAnotherKind) {
+  for (const auto format : {TrajectoryFormat::csv, TrajectoryFormat::hdf5}) {
+    EXPECT_FALSE(seems_whole(format, folder_));
+    write_cubes(format, folder_, 1e-3);
+    EXPECT_TRUE(seems_whole(format, folder_));
+    for (const std::string& name : trajectory_files(format)) {
+      const fs::path path = folder_ / name;
+      const std::string whole = bytes_of(path);
+      for (const std::size_t length : {std::size_t(0), std::size_t(3), whole.size() / 2, whole.size() - 1}) {
+        put(path, whole.substr(0, length));
+        EXPECT_FALSE(seems_whole(format, folder_)) << name << " of " << length << " bytes";
+      }
+      if (name != "events.csv") {
+        put(path, "this is a text\n");
+        EXPECT_FALSE(seems_whole(format, folder_)) << name;
+      }
+      if (name == "trajectory.csv") {
+        put(path, whole.substr(0, whole.rfind("\n1,0,") + 1));
+        EXPECT_FALSE(seems_whole(format, folder_)) << "cut between two lines";
+      }
+      put(path, whole);
+      EXPECT_TRUE(seems_whole(format, folder_));
+    }
   }
 }
 
