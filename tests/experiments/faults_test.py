@@ -267,7 +267,6 @@ class DamagedStores(FaultsTest):
                 self.assertEqual((self.out / "runs.csv").read_bytes(), self.runs)
                 self.call(*SMALL)
 
-
     def test_a_dry_run_refuses_a_store_with_other_tables(self):
         for sql in ("DROP TABLE scenarios", "ALTER TABLE runs DROP COLUMN steps"):
             with self.subTest(sql):
