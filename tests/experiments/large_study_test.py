@@ -4,7 +4,7 @@ import csv
 import re
 import unittest
 
-from programs import call, temporary_folder
+from programs import BIN, call, peak_memory, temporary_folder
 from shards_test import files
 
 STUDY = ["--integrator", "rk4", "--dt", "0.01", "--t-end", "0.03", "--vary", "body.0.angular_velocity.1=1:5:101", "--vary",
@@ -59,6 +59,18 @@ class LargeStudy(unittest.TestCase):
             self.run_in("parts", "--shard", f"{k}/2")
         self.run_in("parts", "--merge")
         self.assertEqual(files(self.folder / "parts/out"), self.files)
+
+    def test_memory_hardly_grows_with_the_number_of_runs(self):
+        """A run of two steps is carried out faster than it is stored, and one axis has all the values."""
+        if b"__asan_init" in (BIN / "energy_drift").read_bytes():
+            self.skipTest("skipped, because AddressSanitizer keeps memory that was freed")
+
+        def peak(runs):
+            return peak_memory("energy_drift", "--scenario", "dzhanibekov", "--integrator", "rk4", "--dt", "1e-3", "--t-end", "2e-3", "--vary",
+                               f"body.0.angular_velocity.1=1:5:{runs}", "--no-figures", "--out", self.folder / str(runs))
+
+        few, many = 20_000, 200_000
+        self.assertLess((peak(many) - peak(few)) * 1024 / (many - few), 400, "bytes for each further run")
 
     def test_a_study_that_grew_carries_out_what_is_new(self):
         fewer = [word.replace("1:5:101", "1:5:51") for word in STUDY]  # every other value

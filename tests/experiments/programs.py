@@ -26,6 +26,20 @@ def call(program, *arguments, folder, status=0, patience=PATIENCE):
     return done
 
 
+def peak_memory(program, *arguments):
+    """Runs a program, which must succeed. Returns its largest memory in kB, and not less than that of this Python."""
+    nowhere = os.open(os.devnull, os.O_RDWR)
+    try:
+        child = os.posix_spawn(str(BIN / program), [program, *map(str, arguments)], os.environ,
+                               file_actions=[(os.POSIX_SPAWN_DUP2, nowhere, 1), (os.POSIX_SPAWN_DUP2, nowhere, 2)])
+        _, status, usage = os.wait4(child, 0)
+    finally:
+        os.close(nowhere)
+    if status != 0:
+        raise AssertionError(f"{program}: wait status {status}")
+    return usage.ru_maxrss
+
+
 def read(path):
     """The rows of a CSV file, by the names of its columns."""
     with open(path, newline="", encoding="utf-8") as file:

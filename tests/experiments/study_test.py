@@ -20,6 +20,8 @@ import tempfile
 import time
 import unittest
 
+from programs import peak_memory
+
 BIN = pathlib.Path(os.environ.get("POLHODE_BIN_DIR", "."))
 PATIENCE = 120  # s; a loaded machine is slow, a hanging program is not waited for longer
 
@@ -813,19 +815,10 @@ class Results(StudyTest):
 
     def test_memory_does_not_grow_with_the_length_of_a_run(self):
         def peak(t_end):
-            arguments = [str(BIN / "energy_drift"), "--integrator", "rk4", "--dt", "1e-3", "--t-end", str(t_end), "--jobs",
-                         "1", "--no-figures", "--out", str(self.new_out())]
-            nowhere = os.open(os.devnull, os.O_RDWR)
-            try:
-                child = os.posix_spawn(arguments[0], arguments, os.environ,
-                                       file_actions=[(os.POSIX_SPAWN_DUP2, nowhere, 1), (os.POSIX_SPAWN_DUP2, nowhere, 2)])
-                _, status, usage = os.wait4(child, 0)
-            finally:
-                os.close(nowhere)
-            self.assertEqual(status, 0)
-            return usage.ru_maxrss
+            return peak_memory("energy_drift", "--integrator", "rk4", "--dt", "1e-3", "--t-end", t_end, "--jobs", "1",
+                               "--no-figures", "--out", self.new_out())
 
-        # The peak counts this Python before exec as well; 8 bytes kept of each of the 4e6 steps would still show.
+        # 8 bytes kept of each of the 4e6 steps would still show.
         short = peak(10)
         for t_end in (1000, 4000):
             self.assertLess(peak(t_end), 1.2 * short, f"kB, for {t_end} s; {short} kB for 10 s")

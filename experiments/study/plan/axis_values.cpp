@@ -55,15 +55,21 @@ std::vector<OptionValue> option_values(const RunOption& option, const std::strin
   return values;
 }
 
+std::vector<double> axis_numbers(const RunOption& option, const std::string& text, const std::string& label) {
+  std::vector<double> values = numbers(text, label);
+  for (const double x : values) option_value(option, x, label);
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
 std::vector<OptionValue> axis_values(const RunOption& option, const std::string& text, const std::string& label) {
-  std::vector<OptionValue> values = option_values(option, text, label);
-  if (option.kind != RunOption::Kind::name) {
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-    return values;
-  }
   std::vector<OptionValue> once;
-  for (OptionValue& value : values) {
+  if (option.kind != RunOption::Kind::name) {
+    for (const double x : axis_numbers(option, text, label)) once.push_back(option_value(option, x, label));
+    return once;
+  }
+  for (OptionValue& value : option_values(option, text, label)) {
     if (std::find(once.begin(), once.end(), value) == once.end()) once.push_back(std::move(value));
   }
   return once;

@@ -15,6 +15,10 @@ std::vector<OptionValue> option_values(const RunOption& option, const std::strin
 /// A number as a value of the option. Throws InputError, which begins with the label, if it is none.
 OptionValue option_value(const RunOption& option, double x, const std::string& label);
 
+/// The numbers of an option that is no name, in ascending order without duplicates. option_value() takes each of them.
+/// Throws InputError, which begins with the label, for an invalid one.
+std::vector<double> axis_numbers(const RunOption& option, const std::string& text, const std::string& label);
+
 /// The values without duplicates: names in the given order, numbers in ascending order.
 std::vector<OptionValue> axis_values(const RunOption& option, const std::string& text, const std::string& label);
 

@@ -65,17 +65,33 @@ void set_lists(Dimension& dimension, std::vector<Values> made) {
   dimension.look = [lists](std::size_t point, std::size_t key) { return lists->glances[key][point]; };
 }
 
+/// A dimension of one key whose values are made of numbers, each when it is needed: a range may have a million.
+void set_numbers(Dimension& dimension, std::vector<double> made, const std::function<OptionValue(double)>& value_of) {
+  dimension.size = made.size();
+  const auto numbers = std::make_shared<const std::vector<double>>(std::move(made));
+  dimension.value = [numbers, value_of](std::size_t point, std::size_t) { return value_of((*numbers)[point]); };
+  dimension.look = [numbers](std::size_t point, std::size_t) { return glance((*numbers)[point]); };
+}
+
 Dimension axis_of(const RunOption& option, const std::string& text, const std::string& label, bool counted) {
   Dimension dimension{{{&option, option.name, label}}};
-  if (counted && option.kind != RunOption::Kind::name) dimension.size = count_values(text);
-  else set_lists(dimension, {axis_values(option, text, label)});
+  if (option.kind == RunOption::Kind::name) {
+    set_lists(dimension, {axis_values(option, text, label)});
+  } else if (counted) {
+    dimension.size = count_values(text);
+  } else {
+    set_numbers(dimension, axis_numbers(option, text, label),
+                [&option, label](double x) { return option_value(option, x, label); });
+  }
   return dimension;
 }
 
 Dimension axis_of(const std::string& key, const std::string& text, const std::string& place, bool counted) {
   Dimension dimension{{{nullptr, key, place}}};
+  const std::string label = place.empty() ? "--vary " + key : place;
   if (counted) dimension.size = count_values(text);
-  else set_lists(dimension, {values_of_scenario_key(text, place.empty() ? "--vary " + key : place)});
+  else if (auto numbers = toml_numbers(text, label)) set_numbers(dimension, std::move(*numbers), exact);
+  else set_lists(dimension, {values_of_scenario_key(text, label)});
   return dimension;
 }
 

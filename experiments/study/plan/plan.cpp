@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -102,6 +103,20 @@ Draft draft_of(const RunConfig& config, const Scenario& scenario, std::shared_pt
           sort_key_of_varied(config.varied)};
 }
 
+/// Puts the rows in this order, of all their numbers, without a second copy of them.
+void put_in_order(std::vector<PlanRow>& rows, std::vector<std::uint32_t> order) {
+  for (std::uint32_t first = 0; first < order.size(); ++first) {
+    const PlanRow of_first = rows[first];
+    std::uint32_t place = first;
+    while (order[place] != first) {
+      rows[place] = rows[order[place]];
+      place = std::exchange(order[place], place);
+    }
+    rows[place] = of_first;
+    order[place] = place;
+  }
+}
+
 /// The rows of a plan in the making.
 class Rows {
  public:
@@ -128,21 +143,22 @@ class Rows {
     std::vector<bool> again(rows_.size());
     for (std::size_t i = 1; i < numbers.size(); ++i)
       again[numbers[i]] = motions_[numbers[i]] == motions_[numbers[i - 1]];
+    motions_ = std::vector<std::uint64_t>();
     numbers = order_.sorted([&](auto a, auto b) { return rows_[a].id < rows_[b].id; });
-    std::erase_if(numbers, [&](std::uint32_t i) { return again[i]; });
-    const auto values = order_.values(numbers, most_values);
-    std::vector<std::uint32_t> places(rows_.size());
-    plan.rows.reserve(numbers.size());
-    for (const std::uint32_t i : numbers) {
-      places[i] = static_cast<std::uint32_t>(plan.rows.size());
-      plan.rows.push_back(rows_[i]);
-    }
-    rows_ = {};
+    const auto dropped = std::stable_partition(numbers.begin(), numbers.end(), [&](auto i) { return !again[i]; });
+    const std::span<const std::uint32_t> kept(numbers.begin(), dropped);
+    const auto values = order_.values(kept, most_values);
+    order_ = RunOrder();
     const std::vector<std::string> columns = sort_columns(plan.varied_keys);
     for (std::size_t k = 0; k < columns.size(); ++k) {  // the last of several values of a column is its text
       Plan::Values& of_column = plan.values[columns[k]] = {values[k].count, {}};
-      for (const std::uint32_t i : values[k].runs) of_column.runs.push_back(places[i]);
+      for (const std::uint32_t i : values[k].runs)
+        of_column.runs.push_back(static_cast<std::uint32_t>(std::find(kept.begin(), kept.end(), i) - kept.begin()));
     }
+    const std::size_t count = kept.size();
+    put_in_order(rows_, std::move(numbers));
+    rows_.resize(count);
+    plan.rows = std::move(rows_);
     plan.kinds = kinds_;
   }
 
@@ -252,7 +268,7 @@ std::size_t add_cells(const Product& product, std::uint16_t number, std::size_t 
       if (!run.same_options) options = std::make_shared<const OptionsOfRuns>(run.config);
       made->drafts.push_back(draft_of(run.config, *run.scenario, options));
       made->drafts.back().row.product = number;
-      made->drafts.back().row.cell = at;
+      made->drafts.back().row.cell = static_cast<std::uint32_t>(at);
       made->drafts.back().row.own_presets = run.own_presets;
     });
     return [&, made] {
@@ -382,9 +398,9 @@ Plan make_plan(const Experiment& experiment, const Options& options) {
     const PlannedRun first = plan.run(0);
     throw InputError(first.config.integrator + " on " + first.config.scenario + ": " + first.refusal);
   }
-  std::string all;
-  for (const PlanRow& row : plan.rows) all += id_of_number(row.id);
-  plan.identity = text_hash(all);
+  TextHash ids;
+  for (const PlanRow& row : plan.rows) ids.add(id_of_number(row.id));
+  plan.identity = ids.text();
   return plan;
 }
 
@@ -458,7 +474,7 @@ std::size_t widen(Plan& plan, const std::vector<RunConfig>& configs) {
     if (plan.contains(row.id) || !added.insert(row.id).second) continue;
     row.kind = number_of_kind(draft.options->kind, plan.kinds);
     row.product = static_cast<std::uint16_t>(plan.products_.size());
-    row.cell = plan.further_.size();
+    row.cell = static_cast<std::uint32_t>(plan.further_.size());
     plan.further_.push_back({config, like->second});
     plan.rows.push_back(row);
     order.add(draft.options->key, draft.key);

@@ -75,7 +75,7 @@ std::vector<std::uint32_t> RunOrder::sorted(const std::function<bool(std::uint32
   return numbers;
 }
 
-std::vector<RunOrder::Values> RunOrder::values(const std::vector<std::uint32_t>& runs, std::size_t most) const {
+std::vector<RunOrder::Values> RunOrder::values(std::span<const std::uint32_t> runs, std::size_t most) const {
   std::vector<Values> all;
   for (const Column& column : columns_) {
     Values& values = all.emplace_back();

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -32,7 +33,7 @@ class RunOrder {
     std::vector<std::uint32_t> runs;
   };
   /// Values of each place of the keys, as they are met in these runs; at most `most` runs are named.
-  std::vector<Values> values(const std::vector<std::uint32_t>& runs, std::size_t most) const;
+  std::vector<Values> values(std::span<const std::uint32_t> runs, std::size_t most) const;
 
  private:
   /// Type of a value, and bits that are ordered like the values of that type; a text has the number of a word.

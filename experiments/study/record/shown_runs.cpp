@@ -2,10 +2,33 @@
 #include "experiments/study/record/shown_runs.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
-#include <unordered_map>
 
 namespace polhode::study::inline record {
+namespace {
+
+/// The number of the motion of each run, in the order of their first runs. `count`: receives the number of motions.
+/// `largest`: that of the runs of the motion that has most. Takes 8 bytes a run.
+std::vector<std::uint32_t> numbers_of_motions(std::span<const std::uint64_t> runs, std::size_t& count,
+                                              std::size_t& largest) {
+  std::vector<std::uint32_t> sorted(runs.size());
+  std::iota(sorted.begin(), sorted.end(), 0U);
+  std::sort(sorted.begin(), sorted.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return runs[a] != runs[b] ? runs[a] < runs[b] : a < b; });
+  std::vector<std::uint32_t> motions(runs.size());  // first the first run of the same motion, then its number
+  for (auto first = sorted.begin(); first != sorted.end();) {
+    const auto end = std::find_if(first, sorted.end(), [&](std::uint32_t run) { return runs[run] != runs[*first]; });
+    for (auto run = first; run != end; ++run) motions[*run] = *first;
+    largest = std::max(largest, static_cast<std::size_t>(end - first));
+    first = end;
+  }
+  for (std::uint32_t run = 0; run < motions.size(); ++run)
+    motions[run] = motions[run] == run ? static_cast<std::uint32_t>(count++) : motions[motions[run]];
+  return motions;
+}
+
+}  // namespace
 
 std::vector<std::size_t> evenly_spread(std::size_t n, std::size_t wanted) {
   std::vector<std::size_t> chosen(std::min(n, wanted));
@@ -20,16 +43,10 @@ std::vector<std::size_t> evenly_spread(std::size_t n, std::size_t wanted) {
 std::vector<std::size_t> shown_runs(std::span<const std::uint64_t> runs, std::size_t most) {
   if (runs.size() <= most) return evenly_spread(runs.size(), most);
   if (most == 0) return {};
-  std::unordered_map<std::uint64_t, std::uint32_t> numbers;  // numbers of the motions, in the order of their first runs
-  std::vector<std::uint32_t> motions;                        // motions of the runs
-  for (const std::uint64_t run : runs)
-    motions.push_back(numbers.try_emplace(run, static_cast<std::uint32_t>(numbers.size())).first->second);
-  std::vector<std::size_t> runs_of(numbers.size());
-  for (const std::uint32_t motion : motions) ++runs_of[motion];
-
-  const std::size_t largest = *std::max_element(runs_of.begin(), runs_of.end());
-  std::vector<bool> chosen(numbers.size());
-  for (const std::size_t i : evenly_spread(numbers.size(), std::max<std::size_t>(most / largest, 1))) chosen[i] = true;
+  std::size_t count = 0, largest = 0;
+  const std::vector<std::uint32_t> motions = numbers_of_motions(runs, count, largest);
+  std::vector<bool> chosen(count);
+  for (const std::size_t i : evenly_spread(count, std::max<std::size_t>(most / largest, 1))) chosen[i] = true;
   std::vector<std::size_t> shown;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (chosen[motions[i]]) shown.push_back(i);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/trimmed.hpp"
@@ -45,6 +46,7 @@ std::vector<double> range(const std::string& item, const std::string& option) {
   }
   const int n = static_cast<int>(count);
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) {
     const double s = static_cast<double>(i) / (n - 1);
     if (i == 0) values.push_back(first);
@@ -88,6 +90,23 @@ std::vector<std::string> toml_values(std::string_view text, const std::string& o
       values.push_back(item);
     } else {
       values.push_back('"' + item + '"');  // a bare word is a TOML string
+    }
+  }
+  return values;
+}
+
+std::optional<std::vector<double>> toml_numbers(std::string_view text, const std::string& option) {
+  if (is_list_of_toml(text)) return std::nullopt;
+  std::vector<double> values;
+  for (const std::string& item : split_list(text, ',', option)) {
+    if (item.find(':') != std::string::npos) {
+      std::vector<double> of_range = range(item, option);
+      if (values.empty()) values = std::move(of_range);
+      else values.insert(values.end(), of_range.begin(), of_range.end());
+    } else if (const auto x = to_number(item)) {
+      values.push_back(*x);
+    } else {
+      return std::nullopt;
     }
   }
   return values;

@@ -19,6 +19,9 @@ std::vector<double> numbers(std::string_view text, const std::string& option);
 /// TOML values for --vary: [1,2,3];[4,5,6], or numbers as above, or texts.
 std::vector<std::string> toml_values(std::string_view text, const std::string& option);
 
+/// The numbers of a text whose toml_values() are all exact() texts of numbers. Throws InputError as toml_values().
+std::optional<std::vector<double>> toml_numbers(std::string_view text, const std::string& option);
+
 /// The number of values that numbers() or toml_values() makes of the text, counted without making them. For a text that
 /// they refuse it is any number.
 std::size_t count_values(std::string_view text);

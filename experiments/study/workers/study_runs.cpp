@@ -239,6 +239,7 @@ bool StudyRuns::carry_out_missing(Interruption& interruption) {
 void StudyRuns::run(const std::vector<std::uint32_t>& runs, Interruption& interruption) {
   References references;
   std::vector<std::uint64_t> scenarios;
+  scenarios.reserve(runs.size());
   for (const std::uint32_t i : runs) scenarios.push_back(plan_.rows[i].scenario);
   references.expect(std::move(scenarios));
   const auto trajectory = [&](const std::string& id) {
@@ -372,6 +373,7 @@ void StudyRuns::check_found(std::size_t run, const std::optional<std::string>& d
 
 void choose_curves(const Options& options, Plan& plan) {
   std::vector<std::uint64_t> motions;
+  motions.reserve(plan.size());
   for (PlanRow& row : plan.rows) {
     row.keeps_curves = false;
     motions.push_back(row.scenario);

@@ -22,6 +22,8 @@ namespace polhode::study::inline workers {
 namespace {
 
 constexpr std::chrono::milliseconds between_commits{80};
+constexpr std::size_t commit_at_once = 4096;  // finished runs that are committed before that time
+constexpr std::size_t most_pending = 8192;    // finished runs in memory; a worker that has more of them waits
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -63,9 +65,11 @@ class Keeper {
 
   /// Receives the finished run of the plan with this number.
   void add(std::uint32_t number, RunRecord&& record) {
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
+    room_.wait(lock, [this] { return pending_.numbers.size() < most_pending; });
     pending_.numbers.push_back(number);
     pending_.records.push_back(std::move(record));
+    if (pending_.numbers.size() == commit_at_once) wake_.notify_one();
   }
 
   /// Marks the end of a worker's batch.
@@ -103,10 +107,12 @@ class Keeper {
       runs.records.clear();
       {
         std::unique_lock lock(mutex_);
-        wake_.wait_for(lock, between_commits, [this] { return finished_; });
+        wake_.wait_for(lock, between_commits,
+                       [this] { return finished_ || pending_.numbers.size() >= commit_at_once; });
         last = finished_;
         std::swap(runs, pending_);
       }
+      room_.notify_all();
       keep(runs);
       if (progress_.is_due()) report();
     }
@@ -137,7 +143,7 @@ class Keeper {
   Store& store_;
   std::atomic<bool>& no_more_;
   std::mutex mutex_;
-  std::condition_variable wake_;
+  std::condition_variable wake_, room_;  ///< the keeper's and the workers'
   std::vector<Desk> desks_;
   TimeLeft time_left_;
   Progress progress_;

@@ -51,7 +51,7 @@ TEST(RunOrder, CountsTheValuesAndNamesTheFirstRunsThatHaveThem) {
   order.add({1.0}, {"b", 5.0});
   order.add({std::int64_t{1}, {}, 5.0});
   order.add({{}, "b", 5.0});
-  const std::vector<RunOrder::Values> values = order.values({3, 2, 0, 1, 4}, 3);
+  const std::vector<RunOrder::Values> values = order.values(std::vector<std::uint32_t>{3, 2, 0, 1, 4}, 3);
   ASSERT_EQ(values.size(), 3u);
   EXPECT_EQ(values[0].count, 4u);
   EXPECT_EQ(values[0].runs, (std::vector<std::uint32_t>{3, 2, 1}));
