@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/plan/bound_conditions.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "experiments/study/plan/study_axes.hpp"
+#include "experiments/study/record/run_options.hpp"
 #include "experiments/study/text/input_error.hpp"
 #include "experiments/study/text/suggestion.hpp"
 #include "experiments/study/text/toml_value.hpp"
@@ -112,6 +117,17 @@ std::vector<std::string> parts_of_path(std::string_view path) {
   return parts;
 }
 
+/// Throws InputError for a word that is the value of an option: it lacks its quotes.
+void refuse_value(const std::string& word, const std::string& label) {
+  for (const RunOption& option : run_options()) {
+    if (!option.known) continue;
+    const std::vector<std::string> known = option.known();
+    if (std::find(known.begin(), known.end(), word) == known.end()) continue;
+    throw InputError(fmt::format("{}: {} is a value of {}; put it into quotes, as in {} == '{}'", label, word,
+                                 option.name, option.name, word));
+  }
+}
+
 }  // namespace
 
 BoundConditions::BoundConditions(std::span<const Where> conditions, const ScenarioSource& source,
@@ -148,6 +164,7 @@ void BoundConditions::check_keys(const Where& condition, std::span<const Scenari
   for (const std::string& key : condition.keys()) {
     if (option_named(key)) continue;
     const std::string label = label_of_key(condition, key);
+    refuse_value(key, condition.label());
     axis_key(key, condition.label() + ": " + key);  // throws if it cannot be a key
     std::string fault;
     const bool known = std::any_of(sources.begin(), sources.end(), [&](const ScenarioSource* source) {

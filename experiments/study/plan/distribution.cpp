@@ -177,6 +177,8 @@ Distribution Distribution::parse(const std::string& text, const RunOption* optio
     throw InputError(fmt::format(
         "{}: {} makes {}; {}", label, call.name, call.name == "sphere" ? "vectors, which no option takes" : "numbers",
         option->kind == RunOption::Kind::name ? "name the values, as in choice(a, b)" : "take another distribution"));
+  } else if (option && option->kind == RunOption::Kind::whole && call.name != "integer") {
+    throw InputError(fmt::format("{}: {} makes numbers that are not whole; take integer(from, to)", label, call.name));
   } else if (call.name == "sphere") {
     const double radius = parameters_of(call, label)[0];
     if (!(radius > 0)) throw InputError(label + ": sphere: the radius must be positive");

@@ -80,9 +80,11 @@ PointTable zip_of_words(const std::string& text) {
 
 PointTable random_of_words(const std::string& text, std::uint64_t seed) {
   PointTable table{.kind = PointTable::Kind::random, .label = "--random", .columns = {}, .seed = seed};
+  std::set<std::string> said;
   for (const auto& [key, value] : assignments(text, table.label)) {
     const std::string label = table.label + " " + key;
     if (key == "n" || key == "seed") {
+      if (!said.insert(key).second) throw InputError(label + ": it stands twice; leave one out");
       const auto x = to_number(value);
       if (!x) throw InputError(label + ": '" + value + "' is not a number");
       if (key == "n") table.n = number_of_points(*x, label);

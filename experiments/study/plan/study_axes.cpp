@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <string_view>
+#include <system_error>
 
 #include "experiments/study/plan/most_runs.hpp"
 #include "experiments/study/record/run_options.hpp"
@@ -114,6 +116,8 @@ std::uint64_t seed_from(double seed, const std::string& label) {
 }
 
 PointTable table_of_cells(const std::string& path, const std::string& label) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) throw InputError(fmt::format("{}: there is no file {}", label, path));
   PointTable table{.kind = PointTable::Kind::cells, .label = label, .columns = {}, .file = CellsFile::read(path)};
   for (std::size_t i = 0; i < table.file->keys().size(); ++i)
     table.columns.push_back({table.file->keys()[i], "", table.file->labels()[i]});

@@ -298,7 +298,7 @@ class StudyFileReader {
     std::string arguments;
     for (const std::string_view parameter : kind->parameters) {
       const TomlValue* given = value.find(parameter);
-      if (!given) throw InputError(named + ": " + name->text + " needs " + std::string(parameter));
+      if (!given) throw InputError(named + ": " + name->text + " needs its parameter '" + std::string(parameter) + "'");
       const bool list = given->type == Type::list && name->text == "choice";
       for (const TomlValue* one : list ? one_or_more(*given) : std::vector<const TomlValue*>{given})
         arguments += (arguments.empty() ? "" : ", ") + as_text(*one, named + ": ");
@@ -317,6 +317,8 @@ StudyFile read_study_file(const std::string& path, std::uint64_t seed) {
   const auto colon = path.rfind(':');
   std::error_code ignored;
   const bool whole = colon == std::string::npos || std::filesystem::exists(path, ignored);
+  if (!whole && colon + 1 == path.size())
+    throw InputError("--study " + path + ": no name stands after the colon; name a study of the file, or leave it out");
   StudyFileReader reader(path.substr(0, whole ? path.size() : colon), seed);
   StudyFile file = reader.run(whole ? "" : path.substr(colon + 1));
   file.path = path;

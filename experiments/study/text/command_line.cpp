@@ -140,6 +140,11 @@ std::optional<int> CommandLine::parse(int argc, const char* const* argv) {
     return app_->exit(help);
   } catch (const CLI::ExtrasError&) {
     throw InputError(unknown_word(*app_, app_->remaining().front()));
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string text = error.what();
+    const auto repeated = text.find(": At Most 1 required");
+    if (repeated == std::string::npos) throw InputError(text + "; see --help");
+    throw InputError(text.substr(0, repeated) + ": it is given more than once; give it once");
   } catch (const CLI::ParseError& error) {
     const std::string text = error.what();
     throw InputError(text.substr(0, text.find('\n')) + "; see --help");

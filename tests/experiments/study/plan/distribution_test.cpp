@@ -154,7 +154,7 @@ TEST(Distribution, ErrorsSayWhatIsRight) {
   EXPECT_THAT(error_of("uniform(1, 2)", &run_option("integrator")), HasSubstr("choice(a, b)"));
   EXPECT_THAT(error_of("choice(rk4, rk44)", &run_option("integrator")), HasSubstr("no 'rk44'"));
   EXPECT_THAT(error_of("sphere(1)", &run_option("dt")), HasSubstr("no option takes"));
-  EXPECT_THAT(error_of("uniform(1.2, 1.4)", &run_option("samples")), HasSubstr("is not a whole number"));
+  EXPECT_THAT(error_of("uniform(1.2, 1.4)", &run_option("samples")), HasSubstr("take integer(from, to)"));
 }
 
 }  // namespace

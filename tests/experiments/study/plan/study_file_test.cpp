@@ -70,6 +70,20 @@ class StudyFiles : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(StudyFiles, WhatIsSaidTwiceIsRefused) {
+  EXPECT_EQ(error_of({"--dt", "1", "--dt", "2"}), "--dt: it is given more than once; give it once");
+  EXPECT_EQ(error_of({"--random", "n=3 dt=uniform(1,2) n=4"}), "--random n: it stands twice; leave one out");
+  EXPECT_EQ(error_of({"--random", "seed=3 n=3 seed=3 dt=uniform(1,2)"}),
+            "--random seed: it stands twice; leave one out");
+}
+
+TEST_F(StudyFiles, AreNamedWithoutAColonOrWithAStudy) {
+  const std::string path = file("study.toml", "[study.first]\ndt = 1\n[study.second]\ndt = 2\n");
+  EXPECT_EQ(planned({"--study", path}).size(), 2U);
+  EXPECT_EQ(planned({"--study", path + ":second"}).size(), 1U);
+  EXPECT_THAT(error_of({"--study", path + ":"}), HasSubstr("no name stands after the colon"));
+}
+
 // A glance reads 10 000 scenarios, and a tenth of them where each has a hundred bodies.
 TEST_F(StudyFiles, AGlanceReadsFewerScenariosOfManyBodies) {
   const auto rows = [](const char* scenario) {
@@ -301,16 +315,21 @@ TEST_F(StudyFiles, ErrorsNameTheirPlace) {
   EXPECT_THAT(error_in("[random]\nn = 3\ndt = { distribution = \"uniform\", from = 1, too = 3 }\n"),
               AllOf(HasSubstr("study.toml:3:"), HasSubstr("too: no such parameter; did you mean 'to'?")));
   EXPECT_THAT(error_in("[random]\nn = 3\ndt = { distribution = \"uniform\", from = 1 }\n"),
-              HasSubstr("uniform needs to"));
+              HasSubstr("uniform needs its parameter 'to'"));
   EXPECT_THAT(error_in("\nwhere = \"dtt < 1\"\n"),
               StartsWith("study.toml:2:9: where: dtt: no such axis; did you mean 'dt'?"));
+  EXPECT_THAT(
+      error_in("where = \"integrator == rk4\"\n"),
+      StartsWith("study.toml:1:9: where: rk4 is a value of integrator; put it into quotes, as in integrator =="));
+  EXPECT_THAT(error_in("[random]\nn = 3\nsamples = \"uniform(1, 9)\"\n"),
+              StartsWith("study.toml:3:11: random.samples: uniform makes numbers that are not whole; take integer("));
   EXPECT_THAT(error_in("where = \"dt <\"\n"), StartsWith("study.toml:1:9: where: character 5: "));
   EXPECT_THAT(error_in("where = \"body.0.inertia < 1\"\n"), HasSubstr("body.0.inertia: it is a list"));
   EXPECT_THAT(error_in("where = \"body.0.weight < 1\"\n"), HasSubstr("weight"));
   EXPECT_THAT(error_in("where = \"dt < 0\"\n"), HasSubstr("it leaves out all"));
   EXPECT_THAT(error_in("dt = 1\n[study.a]\ndt = 2\n"), StartsWith("study.toml:1:6: dt: it stands beside [study.…]"));
   EXPECT_THAT(error_in("[defaults]\ndt = 1\n"), HasSubstr("there are defaults and no study"));
-  EXPECT_THAT(error_in("cells = \"none.csv\"\n"), HasSubstr("none.csv: no such file"));
+  EXPECT_THAT(error_in("cells = \"none.csv\"\n"), StartsWith("study.toml:1:9: cells: there is no file none.csv"));
   EXPECT_THAT(csv("dt,colour\n0.1,red\n"), StartsWith("cells.csv:1:4: colour: no such axis"));
   EXPECT_THAT(csv("dt,t_end\n0.1\n"), StartsWith("cells.csv:2:1: 1 cells under 2 column names"));
   EXPECT_THAT(csv("dt,t_end\n0.1,1\n0.1,-1\n"), StartsWith("cells.csv:3:5: t-end: -1 is not positive"));
