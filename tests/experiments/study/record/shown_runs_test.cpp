@@ -50,8 +50,7 @@ TEST(ShownRuns, AreThinnedWhereOneMotionHasTooMany) {
 
 TEST(ShownRuns, AreOfMotionsCountedByTheirFirstRuns) {
   // Motions with large numbers come first; each has runs far apart.
-  std::vector<std::uint64_t> runs;
-  for (const std::uint64_t motion : {90, 20, 90, 70, 20, 10, 70, 10, 50, 50}) runs.push_back(motion);
+  const std::vector<std::uint64_t> runs = {90, 20, 90, 70, 20, 10, 70, 10, 50, 50};
   EXPECT_EQ(shown_runs(runs, 4), (std::vector<std::size_t>{0, 2, 8, 9}));        // the first motion and the last one
   EXPECT_EQ(shown_runs(runs, 6), (std::vector<std::size_t>{0, 2, 3, 6, 8, 9}));  // and the third
 }
