@@ -72,7 +72,11 @@ TEST(Workers, DoNotWaitForAStoreThatHasFailed) {
                       [](Batch batch, std::atomic<double>&, const Finished& finished) {
                         for (std::size_t k = 0; k < batch.size(); ++k) finished(k, RunResult());
                       },
-                  .finish = [](const std::vector<RunRecord>&) { throw std::runtime_error("the disk is full"); }};
+                  .finish =
+                      [](const std::vector<RunRecord>&) {
+                        std::this_thread::sleep_for(std::chrono::milliseconds(300));  // until the workers wait
+                        throw std::runtime_error("the disk is full");
+                      }};
   const TemporaryFolder folder;
   Store store(folder.path());
   std::atomic<bool> no_more{false};
