@@ -71,9 +71,9 @@ int run_shard(const Experiment& experiment, const Options& options, Plan plan, c
   const std::filesystem::path own = shard_folder(folder, options.shard->number, options.shard->count);
   const BelongsToStudy belongs = runs_of_study(experiment, options, plan, folder);
   if (!options.force) refuse_other_study(folder, belongs);
+  interruption.runs_begin();  // from here on a signal lets go of the folder
   const ResultFolder held(own, belongs, options.force);
   StudyRuns runs(experiment, options, plan, folder, own);
-  interruption.runs_begin();
   do {
     if (!runs.carry_out_missing(interruption)) return interrupted;
   } while (runs.missing() == 0 && runs.widen());
@@ -232,9 +232,10 @@ int run_study(const Experiment& experiment, const Options& options) {
   }
   if (options.slurm) return prepare_jobs(experiment, options, plan, folder);
   if (options.shard) return run_shard(experiment, options, std::move(plan), folder, interruption);
-  const ResultFolder held(folder, runs_of_study(experiment, options, plan, folder), options.force);
+  const BelongsToStudy belongs = runs_of_study(experiment, options, plan, folder);
+  interruption.runs_begin();  // from here on a signal lets go of the folder
+  const ResultFolder held(folder, belongs, options.force);
   StudyRuns runs(experiment, options, plan, folder, folder);
-  interruption.runs_begin();
   do {
     runs.join();
     if (options.merge) {

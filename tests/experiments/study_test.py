@@ -249,6 +249,20 @@ class Resuming(StudyTest):
             self.assertIn("interrupted before a run began; the same command begins", text)
             self.assertFalse(out.exists())
 
+    def test_interrupted_as_soon_as_it_holds_its_folder_it_lets_go_of_it(self):
+        for _ in range(3):
+            out = self.new_out()
+            program = self.start("--scenario", "free_symmetric_top", "--integrator", "rk4", "--dt", "1e-4", "--t-end", "1e5",
+                                 "--no-figures", "--out", out)
+            while not (out / "results.lock").exists():  # without a pause: the program has just made it
+                self.assertIsNone(program.poll())
+            program.send_signal(signal.SIGINT)
+            program.send_signal(signal.SIGUSR1)  # two signals that differ are two signals
+            _, text = program.communicate(timeout=PATIENCE)
+            self.assertEqual(program.returncode, 75, text)
+            self.assertIn("0 of 1 runs are kept", text)
+            self.assertFalse((out / "results.lock").exists())
+
     def test_after_a_first_signal_a_short_run_ends_and_after_a_second_one_a_long_run_is_stopped(self):
         short = ["--integrator", "rk4", "--dt", "1e-6", "--t-end", "8", "--no-figures", "--jobs", "1"]  # about two seconds
         out = self.new_out()
