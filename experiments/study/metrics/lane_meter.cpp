@@ -79,15 +79,11 @@ void LaneMeter::on_samples(const LaneBlock& block, std::span<const bool> running
   }
 }
 
-/// Adds samples to what the meters keep against time: where they all fit into what is open there, in all lanes at once.
+/// Adds samples to the means over blocks: where they all fit into the open block, in all lanes at once.
 void LaneMeter::follow(const std::array<std::size_t, count>& seen, std::size_t n) {
-  LargestDrifts<Lanes> largest{columns_.t[0], columns_.energy[0], columns_.linear2[0], columns_.angular2[0],
-                               columns_.defect[0]};
   Lanes t = 0, energy = 0;
-  bool curves = false;
   for (std::size_t i = 0; i < count; ++i) {
     if (seen[i] == 0) continue;
-    curves = curves || meters_[i]->keeps_curves_;
     t.set(int(i), meters_[i]->blocks_.open_sums().t);
     energy.set(int(i), meters_[i]->blocks_.open_sums().value);
   }
@@ -95,23 +91,43 @@ void LaneMeter::follow(const std::array<std::size_t, count>& seen, std::size_t n
     t += columns_.t[k];
     energy += columns_.energy[k];
   }
-  for (std::size_t k = 1; curves && k < n; ++k)
-    largest.add(columns_.t[k], columns_.energy[k], columns_.linear2[k], columns_.angular2[k], columns_.defect[k]);
   for (std::size_t i = 0; i < count; ++i) {
     if (seen[i] == 0) continue;
     DriftMeter& meter = *meters_[i];
-    const DriftsOfRun drifts = DriftsOfRun::in(columns_, i);
-    const int lane = int(i);
     meter.samples_ += static_cast<std::int64_t>(seen[i]);
-    if (seen[i] == n && n <= meter.blocks_.room()) meter.blocks_.set_open_sums({t[lane], energy[lane]}, n);
-    else meter.blocks_.add(drifts.t, drifts.energy, seen[i]);
-    if (!meter.keeps_curves_) continue;
-    if (seen[i] == n && n <= meter.series_.room()) {
-      meter.series_.add(
-          {largest.t[lane], largest.energy[lane], largest.linear2[lane], largest.angular2[lane], largest.defect[lane]},
-          n);
+    if (seen[i] == n && n <= meter.blocks_.room()) {
+      meter.blocks_.set_open_sums({t[int(i)], energy[int(i)]}, n);
     } else {
-      meter.series_.add(drifts, seen[i]);
+      const DriftsOfRun drifts = DriftsOfRun::in(columns_, i);
+      meter.blocks_.add(drifts.t, drifts.energy, seen[i]);
+    }
+  }
+  add_to_curves(seen, n);
+}
+
+/// Adds samples to the curves that are kept: in all lanes at once up to the next sample that completes an interval of
+/// one of them.
+void LaneMeter::add_to_curves(const std::array<std::size_t, count>& seen, std::size_t n) {
+  std::array<std::size_t, count> whole{};  // the lanes whose run goes on after the samples
+  std::size_t wholes = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (seen[i] == 0 || !meters_[i]->keeps_curves_) continue;
+    if (seen[i] == n) whole[wholes++] = i;
+    else meters_[i]->series_.add(DriftsOfRun::in(columns_, i), seen[i]);
+  }
+  if (wholes == 0) return;
+  for (std::size_t k = 0; k < n;) {
+    std::size_t end = n;
+    for (std::size_t w = 0; w < wholes; ++w) end = std::min(end, k + meters_[whole[w]]->series_.room());
+    const std::size_t begin = k;
+    LargestDrifts<Lanes> largest{columns_.t[k], columns_.energy[k], columns_.linear2[k], columns_.angular2[k],
+                                 columns_.defect[k]};
+    while (++k < end)
+      largest.add(columns_.t[k], columns_.energy[k], columns_.linear2[k], columns_.angular2[k], columns_.defect[k]);
+    for (std::size_t w = 0; w < wholes; ++w) {
+      const int i = int(whole[w]);
+      meters_[whole[w]]->series_.add(
+          {largest.t[i], largest.energy[i], largest.linear2[i], largest.angular2[i], largest.defect[i]}, end - begin);
     }
   }
 }

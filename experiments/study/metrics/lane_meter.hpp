@@ -34,6 +34,7 @@ class LaneMeter {
   static constexpr auto count = std::size_t(lane_count);
 
   void follow(const std::array<std::size_t, count>& seen, std::size_t n);
+  void add_to_curves(const std::array<std::size_t, count>& seen, std::size_t n);
   void end_within(const LaneBlock& block, std::size_t lane, std::size_t seen, std::size_t accepted);
 
   std::array<DriftMeter*, count> meters_{};

@@ -237,7 +237,7 @@ std::string cell_of(const Column& column, const std::string& cell, bool best, bo
     case Column::Kind::number: {
       std::string number = tex_number(cell);
       if (!best) return number;
-      if (!is_printed_number(cell)) return fmt::format("\\textbf{{{}}}", number);
+      if (!printed_number(cell)) return fmt::format("\\textbf{{{}}}", number);
       return fmt::format("$\\mathbf{{{}}}$", number.substr(1, number.size() - 2));
     }
     case Column::Kind::name: return fmt::format("\\texttt{{{}}}", breaks ? tex_breakable(cell) : tex(cell));

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/plot/table.hpp"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
@@ -20,7 +21,7 @@ std::string header_of(const Column& column) {
   return column.unit.empty() ? column.header : fmt::format("{} ({})", column.header, column.unit);
 }
 
-std::string html_cell(const Column& column, const std::string& cell, bool heads_row) {
+void add_html_cell(std::string& out, const Column& column, const std::string& cell, bool heads_row) {
   constexpr std::size_t short_text = 24;  // length of a text that is not worth a line break
   const char* tag = heads_row ? "th" : "td";
   const char* kind = column.kind == Column::Kind::number ? "number"
@@ -28,17 +29,17 @@ std::string html_cell(const Column& column, const std::string& cell, bool heads_
                      : length(cell) <= short_text        ? "short"
                                                          : "text";
   const char* tie = cell.find(" ≈ ") == std::string::npos ? "" : " tie";
-  return fmt::format("<{}{} class=\"{}{}\">{}</{}>", tag, heads_row ? " scope=\"row\"" : "", kind, tie,
-                     cell.empty() ? "<span class=\"none\" title=\"not defined\">–</span>" : text::html(cell), tag);
+  fmt::format_to(std::back_inserter(out), FMT_COMPILE("<{}{} class=\"{}{}\">{}</{}>"), tag,
+                 heads_row ? " scope=\"row\"" : "", kind, tie,
+                 cell.empty() ? "<span class=\"none\" title=\"not defined\">–</span>" : text::html(cell), tag);
 }
 
 /// The number that a cell states: "2.3e-5", "≥ 60", "none to 317"; absent: none.
-std::optional<double> number_of_cell(std::string text) {
+std::optional<double> number_of_cell(std::string_view text) {
   for (const std::string_view before : {"≥ ", "≤ ", "none to "}) {
-    if (text.starts_with(before)) text.erase(0, before.size());
+    if (text.starts_with(before)) text.remove_prefix(before.size());
   }
-  if (!is_printed_number(text)) return std::nullopt;
-  return std::strtod(text.c_str(), nullptr);
+  return printed_number(text);
 }
 
 }  // namespace
@@ -67,7 +68,7 @@ std::string html(const Table& table, Caption caption) {
   out += "</tr></thead>\n<tbody>\n";
   for (const auto& row : table.rows) {
     out += "<tr>";
-    for (std::size_t c = 0; c < row.size(); ++c) out += html_cell(table.columns[c], row[c], c == 0);
+    for (std::size_t c = 0; c < row.size(); ++c) add_html_cell(out, table.columns[c], row[c], c == 0);
     out += "</tr>\n";
   }
   return out + "</tbody>\n</table>\n</div>\n";
@@ -125,7 +126,7 @@ std::string markdown(const Table& table) {
     out += "|";
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
       const char* mark = best[r][c] ? "**" : "";
-      out += fmt::format(" {0}{1}{0} |", mark, text::markdown(table.rows[r][c]));
+      fmt::format_to(std::back_inserter(out), FMT_COMPILE(" {}{}{} |"), mark, text::markdown(table.rows[r][c]), mark);
     }
     out += "\n";
   }

@@ -37,7 +37,7 @@ double tex_width(std::string_view utf8, double size, TexFont font) {
 
 double tex_number_width(std::string_view printed, double size, TexFont font) {
   const auto e = printed.find('e');
-  if (!is_printed_number(printed)) return tex_width(printed, size, font);
+  if (!printed_number(printed)) return tex_width(printed, size, font);
   const auto minus_as_wide_as = [](std::string_view text) { return text.starts_with('-') ? 0.45 : 0.0; };
   if (e == std::string_view::npos) return tex_width(printed, size, font) + size * minus_as_wide_as(printed);
   const auto mantissa = printed.substr(0, e), exponent = printed.substr(e + 1);

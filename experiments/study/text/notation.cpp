@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/study/text/notation.hpp"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <string>
+#include <system_error>
 #include <utility>
 
 namespace polhode::study::inline text {
@@ -21,7 +24,7 @@ std::string without_padding(const std::string& printed) {
     mantissa.erase(mantissa.find_last_not_of('0') + 1);
     if (mantissa.back() == '.') mantissa.pop_back();
   }
-  return fmt::format("{}e{}", mantissa, std::atoi(printed.c_str() + e + 1));
+  return fmt::format(FMT_COMPILE("{}e{}"), mantissa, std::atoi(printed.c_str() + e + 1));
 }
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
@@ -200,21 +203,22 @@ std::string tex(std::string_view text) {
   return out;
 }
 
-bool is_printed_number(std::string_view text) {
-  if (text.empty() || text.find_first_not_of("0123456789+-.e") != std::string_view::npos) return false;
-  const std::string copy(text);
-  char* end = nullptr;
-  std::strtod(copy.c_str(), &end);
-  return *end == '\0';
+std::optional<double> printed_number(std::string_view text) {
+  if (text.empty() || text.find_first_not_of("0123456789+-.e") != std::string_view::npos) return std::nullopt;
+  const std::string_view unsigned_text = text.substr(text.starts_with('+') && !text.starts_with("+-") ? 1 : 0);
+  double value = 0;
+  const auto [end, error] = std::from_chars(unsigned_text.data(), text.data() + text.size(), value);
+  if (error == std::errc::invalid_argument || end != text.data() + text.size()) return std::nullopt;
+  return error == std::errc() ? value : std::strtod(std::string(text).c_str(), nullptr);  // 0 or infinite
 }
 
 std::string tex_number(std::string_view printed) {
   const auto e = printed.find('e');
-  if (!is_printed_number(printed)) return tex(printed);
-  if (e == std::string_view::npos) return fmt::format("${}$", printed);
+  if (!printed_number(printed)) return tex(printed);
+  if (e == std::string_view::npos) return fmt::format(FMT_COMPILE("${}$"), printed);
   const auto mantissa = printed.substr(0, e), exponent = printed.substr(e + 1);
-  if (mantissa == "1") return fmt::format("$10^{{{}}}$", exponent);
-  return fmt::format("${}\\times10^{{{}}}$", mantissa, exponent);
+  if (mantissa == "1") return fmt::format(FMT_COMPILE("$10^{{{}}}$"), exponent);
+  return fmt::format(FMT_COMPILE("${}\\times10^{{{}}}$"), mantissa, exponent);
 }
 
 std::string gnuplot(std::string_view text) {

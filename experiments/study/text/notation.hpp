@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,8 +38,8 @@ std::string markdown(std::string_view text);  ///< the text for a cell of a tabl
 std::string tex(std::string_view text);
 /// A number printed by number() or exact_number() as LaTeX mathematics: "$3.25\times10^{-5}$".
 std::string tex_number(std::string_view printed);
-/// True for a text that tex_number() sets as a number.
-bool is_printed_number(std::string_view text);
+/// The value of a text that tex_number() sets as a number; absent: it sets it as a text.
+std::optional<double> printed_number(std::string_view text);
 /// A gnuplot string literal in single quotes, in which nothing is expanded. Print it `noenhanced`.
 std::string gnuplot(std::string_view text);
 /// Text for a comment: one line.
