@@ -51,16 +51,19 @@ std::filesystem::path folder_of(const Experiment& experiment, const Options& opt
 /// Writes what is made of the runs besides runs.csv and timings.csv, and prints the summary.
 void write_reports(const StudyView& view, const Options& options, const Plan& plan, StudyRuns& runs) {
   write_manifest(view, options, plan);
-  write_tables(view);
-  if (options.figures) {
-    const std::string skipped = write_figures(view);
+  const auto say = [&](const std::string& skipped) {
     if (!skipped.empty()) fmt::print(stderr, "{}: {}\n", view.experiment, skipped);
-  }
-  write_report(view);
-  if (options.article) {
-    const std::string skipped = write_article(view);
-    if (!skipped.empty()) fmt::print(stderr, "{}: {}\n", view.experiment, skipped);
-  }
+  };
+  const auto write_drawn = [&] {  // the page and the article contain the figures
+    if (options.figures) say(write_figures(view));
+    write_report(view);
+    if (options.article) say(write_article(view));
+  };
+  in_order(2, number_of_threads(options.jobs), [&](std::size_t part) -> UsePart {
+    if (part == 0) write_tables(view);
+    else write_drawn();
+    return [] {};
+  });
   runs.store().keep_study(view.experiment, view.command, read_file(view.folder / "manifest.json").value_or(""));
   fmt::print("{}\n{}\n", summary_table(view), (view.folder / "report.html").string());
 }

@@ -38,16 +38,6 @@ struct Parts {
   }
 };
 
-/// As many numbers as a SIMD register holds, since more do not stay in registers. No sum depends on how many these are.
-#if defined(__AVX512F__)
-constexpr Index wide = 8;
-#elif defined(__AVX__)
-constexpr Index wide = 4;
-#else
-constexpr Index wide = 2;
-#endif
-using Wide [[gnu::vector_size(wide * sizeof(double))]] = double;
-
 /// Sums of the products of each series' parts and `half` columns, for the 32 cosines of a column.
 template <std::size_t several>
 void add_columns(const double* columns, Index half, const std::array<Parts, several>& parts,
@@ -174,13 +164,8 @@ namespace {
 /// Sum of a_i b_i w_i over n numbers, in eight sums.
 double weighted_dot(const double* a, const double* b, const double* w, Index n) {
   Eight sums = {};
-  for_each_eight(n, [&](Index i, auto count) {
-    Eight left, right, weight;
-    read(left, a + i, count);
-    read(right, b + i, count);
-    read(weight, w + i, count);
-    sums += left * (right * weight);
-  });
+  for_each_eight(
+      n, [&](Index i, auto count) { sums += eight(a + i, count) * (eight(b + i, count) * eight(w + i, count)); });
   return total(sums);
 }
 
@@ -238,13 +223,11 @@ class Explained {
     constexpr int summed = columns - mirrored;
     Eight sums[several][summed] = {};
     for_each_eight(x.rows(), [&](Index i, auto count) {
-      Eight numbers[several], weight;
-      for (std::size_t s = 0; s < several; ++s) read(numbers[s], series[s] + i, count);
-      read(weight, weights + i, count);
+      Eight numbers[several];
+      for (std::size_t s = 0; s < several; ++s) numbers[s] = eight(series[s] + i, count);
+      const Eight weight = eight(weights + i, count);
       for (int j = 0; j < summed; ++j) {
-        Eight column;
-        read(column, columns_[j] + i, count);
-        const Eight weighted = column * weight;
+        const Eight weighted = eight(columns_[j] + i, count) * weight;
         for (std::size_t s = 0; s < several; ++s) sums[s][j] += weighted * numbers[s];
       }
     });
@@ -256,14 +239,9 @@ class Explained {
         // The place of k is k − 1: where it is even, the mirrored column has the other sign.
         if (j >= summed - mirrored) products[j + mirrored] = two.odd - two.even;
       }
-      Eight column, coefficients;
-      read(column, covariance);
-      coefficients = column * products[0];
-      for (int j = 1; j < columns; ++j) {
-        read(column, covariance + 8 * j);
-        coefficients += column * products[j];
-      }
-      std::memcpy(coefficients_[s], &coefficients, sizeof coefficients);
+      Eight coefficients = eight(covariance) * products[0];
+      for (int j = 1; j < columns; ++j) coefficients += eight(covariance + 8 * j) * products[j];
+      coefficients.write(coefficients_[s]);
     }
   }
 
@@ -272,11 +250,7 @@ class Explained {
   /// Takes it out of `numbers`, those of the s-th series from the i-th on.
   template <class Count>
   void take_out_of(Eight& numbers, std::size_t s, Index i, Count count) const {
-    for (int j = 0; j < columns; ++j) {
-      Eight column;
-      read(column, columns_[j] + i, count);
-      numbers -= coefficients_[s][j] * column;
-    }
+    for (int j = 0; j < columns; ++j) numbers -= coefficients_[s][j] * eight(columns_[j] + i, count);
   }
 
  private:
@@ -292,11 +266,9 @@ template <int columns, int mirrored>
 double squares_without(const Explained<columns, mirrored, 1>& explained, const double* weights, const Numbers& c) {
   Eight sums = {};
   for_each_eight(c.size(), [&](Index i, auto count) {
-    Eight rest, weight;
-    read(rest, c.data() + i, count);
+    Eight rest = eight(c.data() + i, count);
     explained.take_out_of(rest, 0, i, count);
-    read(weight, weights + i, count);
-    sums += rest * (rest * weight);
+    sums += rest * (rest * eight(weights + i, count));
   });
   return std::max(total(sums), least_squares);
 }
@@ -336,14 +308,13 @@ std::array<double, noise_shapes> Regression::squares(const OfShapes& all, const 
     }
     Eight sums[noise_shapes] = {};
     for_each_eight(x.rows(), [&](Index i, auto count) {
-      Eight numbers, column[number], weight;
-      read(numbers, c.data() + i, count);
-      for (int j = 0; j < columns; ++j) read(column[j], x.col(j).data() + i, count);
+      const Eight numbers = eight(c.data() + i, count);
+      Eight column[number];
+      for (int j = 0; j < columns; ++j) column[j] = eight(x.col(j).data() + i, count);
       for (std::size_t k = 0; k < noise_shapes; ++k) {
         Eight rest = numbers;
         for (int j = 0; j < columns; ++j) rest -= coefficients[k][j] * column[j];
-        read(weight, all[k]->weight_ + i, count);
-        sums[k] += rest * (rest * weight);
+        sums[k] += rest * (rest * eight(all[k]->weight_ + i, count));
       }
     });
     for (std::size_t k = 0; k < noise_shapes; ++k) squares[k] = std::max(total(sums[k]), least_squares);
@@ -358,17 +329,14 @@ FitBeside Regression::fit_beside(const Low& x, const Low& z, const Low& c) const
   with_sizes_of(x_, mirrored_, [&](auto columns, auto mirrored) {
     const Explained<columns, mirrored, 3> explained(x_, weight_, covariance_.data(), {x.data(), z.data(), c.data()});
     for_each_eight(n, [&](Index i, auto count) {
-      Eight x8, z8, c8, weight;
-      read(x8, x.data() + i, count);
-      read(z8, z.data() + i, count);
-      read(c8, c.data() + i, count);
+      Eight x8 = eight(x.data() + i, count), z8 = eight(z.data() + i, count), c8 = eight(c.data() + i, count);
       explained.take_out_of(x8, 0, i, count);
       explained.take_out_of(z8, 1, i, count);
       explained.take_out_of(c8, 2, i, count);
       x_free[i / 8] = x8;
       z_free[i / 8] = z8;
       c_free[i / 8] = c8;
-      read(weight, weight_ + i, count);
+      const Eight weight = eight(weight_ + i, count);
       const Eight x_weighted = x8 * weight, z_weighted = z8 * weight;
       sums[0] += x8 * x_weighted;
       sums[1] += x8 * z_weighted;
@@ -385,10 +353,8 @@ FitBeside Regression::fit_beside(const Low& x, const Low& z, const Low& c) const
   f.x = xc / xx - ratio * f.z;
   Eight squares = {};
   for_each_eight(n, [&](Index i, auto count) {
-    Eight weight;
-    read(weight, weight_ + i, count);
     const Eight rest = c_free[i / 8] - f.x * x_free[i / 8] - f.z * z_free[i / 8];
-    squares += rest * (rest * weight);
+    squares += rest * (rest * eight(weight_ + i, count));
   });
   f.squares = std::max(total(squares), least_squares);
   f.degrees = degrees() - 2;
@@ -401,13 +367,9 @@ const Spectrum& likeliest_weights(const Cosines& cosines, const Numbers& c) {
   const Index n = c.size();
   Eight sums[noise_shapes] = {};
   for_each_eight(n, [&](Index i, auto count) {
-    Eight numbers, weight;
-    read(numbers, c.data() + i, count);
-    const Eight squares = numbers * numbers;
-    for (std::size_t k = 0; k < noise_shapes; ++k) {
-      read(weight, cosines.shapes[k].inverse.data() + i, count);
-      sums[k] += squares * weight;
-    }
+    const Eight numbers = eight(c.data() + i, count), squares = numbers * numbers;
+    for (std::size_t k = 0; k < noise_shapes; ++k)
+      sums[k] += squares * eight(cosines.shapes[k].inverse.data() + i, count);
   });
   std::array<double, noise_shapes> means;
   for (std::size_t k = 0; k < noise_shapes; ++k) means[k] = total(sums[k]) / static_cast<double>(n);

@@ -2,22 +2,91 @@
 // Eight numbers side by side. Results are the same for every width of the SIMD registers.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <iterator>
 #include <type_traits>
 
 namespace polhode::study::inline statistics::spectral {
 
-using Eight [[gnu::vector_size(8 * sizeof(double))]] = double;
+/// As many numbers as a SIMD register holds: more do not stay in registers. No result depends on how many these are.
+#if defined(__AVX512F__)
+inline constexpr std::ptrdiff_t wide = 8;
+#elif defined(__AVX__)
+inline constexpr std::ptrdiff_t wide = 4;
+#else
+inline constexpr std::ptrdiff_t wide = 2;
+#endif
+using Wide [[gnu::vector_size(wide * sizeof(double))]] = double;
 
-/// Sets `eight` to the numbers from this one on. It is no result, since no register of every processor can return it.
-inline void read(Eight& eight, const double* numbers) { std::memcpy(&eight, numbers, sizeof eight); }
+struct TwoTotals {
+  double even = 0, odd = 0;
+};
 
-/// The same, where only `count` numbers are left; where these are fewer than eight, zeros follow them.
-inline void read(Eight& eight, const double* numbers, std::ptrdiff_t count) {
-  if (count >= 8) return read(eight, numbers);
-  eight = Eight{};
-  std::memcpy(&eight, numbers, static_cast<std::size_t>(count) * sizeof(double));
+class Eight {
+ public:
+  Eight() = default;
+  Eight(double everywhere) {  // NOLINT: a number stands for eight of itself
+    for (Wide& part : parts_) part = everywhere - Wide{};
+  }
+
+  void read(const double* numbers) {
+    for (Wide& part : parts_) std::memcpy(&part, numbers, sizeof part), numbers += wide;
+  }
+  void write(double* numbers) const {
+    for (const Wide& part : parts_) std::memcpy(numbers, &part, sizeof part), numbers += wide;
+  }
+
+  Eight& operator+=(const Eight& b) { return *this = *this + b; }
+  Eight& operator-=(const Eight& b) { return *this = *this - b; }
+  friend Eight operator+(const Eight& a, const Eight& b) {
+    return each(a, b, [](const Wide& x, const Wide& y) -> Wide { return x + y; });
+  }
+  friend Eight operator-(const Eight& a, const Eight& b) {
+    return each(a, b, [](const Wide& x, const Wide& y) -> Wide { return x - y; });
+  }
+  friend Eight operator*(const Eight& a, const Eight& b) {
+    return each(a, b, [](const Wide& x, const Wide& y) -> Wide { return x * y; });
+  }
+  /// Place by place b where it is larger, else a.
+  friend Eight larger(const Eight& a, const Eight& b) {
+    return each(a, b, [](const Wide& x, const Wide& y) -> Wide { return y > x ? y : x; });
+  }
+  friend Eight abs(const Eight& a) {
+    return each(a, a, [](const Wide& x, const Wide&) -> Wide { return x < 0 ? -x : x; });
+  }
+
+  /// The sums of the numbers at even and at odd places, (s0 + s4) + (s2 + s6) and (s1 + s5) + (s3 + s7).
+  friend TwoTotals two_totals(const Eight& s) {
+    double numbers[8];
+    s.write(numbers);
+    const auto of = [&](int i) { return (numbers[i] + numbers[i + 4]) + (numbers[i + 2] + numbers[i + 6]); };
+    return {of(0), of(1)};
+  }
+
+ private:
+  template <class F>
+  static Eight each(const Eight& a, const Eight& b, const F& f) {
+    Eight c;
+    for (std::size_t i = 0; i < std::size(c.parts_); ++i) c.parts_[i] = f(a.parts_[i], b.parts_[i]);
+    return c;
+  }
+
+  Wide parts_[8 / wide];
+};
+
+/// The numbers from this one on, of which `count` are left; where these are fewer than eight, zeros follow them.
+inline Eight eight(const double* numbers, std::ptrdiff_t count = 8) {
+  Eight read;
+  if (count >= 8) {
+    read.read(numbers);
+  } else {
+    double padded[8] = {};
+    std::memcpy(padded, numbers, static_cast<std::size_t>(count) * sizeof(double));
+    read.read(padded);
+  }
+  return read;
 }
 
 /// Calls use(i, count), i = 0, 8, …, for n numbers: `count` is the constant 8, and at last what is left. Calls with the
@@ -32,17 +101,6 @@ void for_each_eight(std::ptrdiff_t n, const Use& use) {
 /// The least multiple of eight that is not less than `count`.
 constexpr std::ptrdiff_t in_eights(std::ptrdiff_t count) { return (count + 7) / 8 * 8; }
 
-/// The sums of the numbers at even and at odd places, (s0 + s4) + (s2 + s6) and (s1 + s5) + (s3 + s7).
-struct TwoTotals {
-  double even = 0, odd = 0;
-};
-
-inline TwoTotals two_totals(const Eight& s) {
-  const auto four = __builtin_shufflevector(s, s, 0, 1, 2, 3) + __builtin_shufflevector(s, s, 4, 5, 6, 7);
-  const auto two = __builtin_shufflevector(four, four, 0, 1) + __builtin_shufflevector(four, four, 2, 3);
-  return {two[0], two[1]};
-}
-
 inline double total(const Eight& s) {
   const TwoTotals two = two_totals(s);
   return two.even + two.odd;
@@ -51,37 +109,29 @@ inline double total(const Eight& s) {
 /// The sum, in eight sums.
 inline double sum(const double* numbers, std::ptrdiff_t n) {
   Eight sums = {};
-  for_each_eight(n, [&](std::ptrdiff_t i, auto count) {
-    Eight next;
-    read(next, numbers + i, count);
-    sums += next;
-  });
+  for_each_eight(n, [&](std::ptrdiff_t i, auto count) { sums += eight(numbers + i, count); });
   return total(sums);
 }
 
 /// The largest distance of any of them from this number. NaN counts as nothing.
 inline double largest_distance(const double* numbers, std::ptrdiff_t n, double from) {
   Eight largest = {};
-  for_each_eight(n, [&](std::ptrdiff_t i, auto count) {
-    Eight next = Eight{} + from;
-    std::memcpy(&next, numbers + i, static_cast<std::size_t>(count) * sizeof(double));
-    next -= from;
-    next = next < 0 ? -next : next;
-    largest = next > largest ? next : largest;
-  });
-  double size = 0;
-  for (int i = 0; i < 8; ++i) size = largest[i] > size ? largest[i] : size;
+  const std::ptrdiff_t whole = n / 8 * 8;
+  for (std::ptrdiff_t i = 0; i < whole; i += 8) largest = larger(largest, abs(eight(numbers + i) - from));
+  double sizes[8], size = 0;
+  largest.write(sizes);
+  for (const double x : sizes) size = x > size ? x : size;
+  for (std::ptrdiff_t i = whole; i < n; ++i) {
+    const double x = std::abs(numbers[i] - from);
+    size = x > size ? x : size;
+  }
   return size;
 }
 inline double largest_size(const double* numbers, std::ptrdiff_t n) { return largest_distance(numbers, n, 0); }
 
 inline bool all_finite(const double* numbers, std::ptrdiff_t n) {
   Eight sums = {};
-  for_each_eight(n, [&](std::ptrdiff_t i, auto count) {
-    Eight next;
-    read(next, numbers + i, count);
-    sums += 0 * next;
-  });
+  for_each_eight(n, [&](std::ptrdiff_t i, auto count) { sums += 0 * eight(numbers + i, count); });
   return total(sums) == 0;
 }
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 #include "experiments/study/statistics/eight.hpp"
@@ -76,13 +75,12 @@ class Oscillations {
 
   Products products(double omega) {
     const double c = std::cos(omega), s = std::sin(omega);
-    Eight cosine, sine;
-    cosine[0] = std::cos(omega / 2);
-    sine[0] = std::sin(omega / 2);
+    double cosines[8] = {std::cos(omega / 2)}, sines[8] = {std::sin(omega / 2)};
     for (int i = 1; i < 8; ++i) {
-      cosine[i] = c * cosine[i - 1] - s * sine[i - 1];
-      sine[i] = s * cosine[i - 1] + c * sine[i - 1];
+      cosines[i] = c * cosines[i - 1] - s * sines[i - 1];
+      sines[i] = s * cosines[i - 1] + c * sines[i - 1];
     }
+    Eight cosine = eight(cosines), sine = eight(sines);
     double c8 = c, s8 = s;  // cosine and sine of 8ω, by doubling the angle three times
     for (int i = 0; i < 3; ++i) {
       const double twice = 2 * s8 * c8;
@@ -92,19 +90,21 @@ class Oscillations {
     Eight cos_cos = {}, cos_sin = {}, sin_sin = {}, cos_rest = {}, sin_rest = {}, cos_trend[trends] = {},
           sin_trend[trends] = {};
     for (Index i = 0; i < padded_; i += 8) {
-      for (Index k = n_ - i; k < 8; ++k) cosine[k] = sine[k] = 0;
-      std::memcpy(&x_(i, 0), &cosine, sizeof cosine);
-      std::memcpy(&x_(i, 1), &sine, sizeof sine);
+      cosine.write(&x_(i, 0));
+      sine.write(&x_(i, 1));
+      if (n_ - i < 8) {
+        x_.bottomRows(padded_ - n_).setZero();
+        cosine = eight(&x_(i, 0));
+        sine = eight(&x_(i, 1));
+      }
       cos_cos += cosine * cosine;
       cos_sin += cosine * sine;
       sin_sin += sine * sine;
-      Eight rest;
-      read(rest, &rest_[i]);
+      const Eight rest = eight(&rest_[i]);
       cos_rest += cosine * rest;
       sin_rest += sine * rest;
       for (int j = 0; j < trends; ++j) {
-        Eight trend;
-        read(trend, &trend_(i, j));
+        const Eight trend = eight(&trend_(i, j));
         cos_trend[j] += cosine * trend;
         sin_trend[j] += sine * trend;
       }
