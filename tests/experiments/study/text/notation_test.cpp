@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <optional>
 
 namespace polhode::study::report_tests::notation_test {
 namespace {
@@ -21,6 +23,17 @@ TEST(ReportNotation, PrintsNumbersShortly) {
   EXPECT_EQ(exact_number(1.0 / 3), "0.3333333333333333");
   EXPECT_EQ(tex_number("3.25e-5"), "$3.25\\times10^{-5}$");
   EXPECT_EQ(tex_number("1e-5"), "$10^{-5}$");
+}
+
+TEST(ReportNotation, TellsNumbersFromTexts) {
+  for (const char* text : {"0", "-0.0", "3.25e-5", "1e6", "+7", "-1.5e+3", ".5", "5.", "1e400", "-1e400", "1e-400"}) {
+    const std::optional<double> value = printed_number(text);
+    ASSERT_TRUE(value) << text;
+    EXPECT_EQ(*value, std::strtod(text, nullptr)) << text;
+  }
+  for (const char* text : {"", "-", "+", ".", "e5", "1e", "1e+", "1-2", "--1", "+-1", "1 ", " 1", "0x1", "inf", "nan",
+                           "1E5", "1,2", "none to 3"})
+    EXPECT_FALSE(printed_number(text)) << text;
 }
 
 TEST(ReportNotation, EscapesWhatEachFormatWouldRead) {
