@@ -81,6 +81,23 @@ class CommandLine(unittest.TestCase):
         self.assertRegex(self.refused("--study", file), r"study\.toml:3:\d+: tolerance: it has no effect")
         file.write_text('integrators = "rk4"\n', encoding="utf-8")
         self.assertIn("no such axis; did you mean 'integrator'?", self.refused("--study", file))
+        file.write_text('integrator = "rk4"\nscenario = "nope/x.toml"\n', encoding="utf-8")
+        self.assertRegex(self.refused("--study", file), r"study\.toml:2:\d+: scenario: there is no file nope/x\.toml$")
+
+    def test_a_study_file_names_the_command_line_for_its_options(self):
+        file = self.folder / "study.toml"
+        of_studies = {"--vary", "--grid", "--zip", "--random", "--cells", "--where"}
+        options = re.findall(r"^ +(--[a-z-]+)", call("energy_drift", "--help", folder=self.folder).stdout, re.MULTILINE)
+        self.assertGreater(len(options), 40)
+        of_calls = 0
+        for option in set(options) - of_studies:
+            file.write_text(f'integrator = "rk4"\n{option[2:].replace("-", "_")} = ["?"]\n', encoding="utf-8")
+            line = self.refused("--study", file)
+            self.assertNotIn("no such axis", line)
+            if "give it on the command line" in line:
+                of_calls += 1
+                self.assertRegex(line, rf"study\.toml:2:\d+: \w+: is no axis; give it on the command line, as {option}$")
+        self.assertGreater(of_calls, 15)
 
     def test_drag_without_a_coefficient_is_refused(self):
         file = self.folder / "s.toml"

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -124,6 +125,21 @@ PointTable table_of_cells(const std::string& path, const std::string& label) {
   return table;
 }
 
+namespace {
+
+/// True for options of the command line that belong to one call, and not to a study.
+bool belongs_to_call(std::string_view name) {
+  constexpr std::string_view others[] = {
+      "study",  "out",          "force",       "trajectory",   "curves",          "article", "no-figures",
+      "figure", "figure-width", "figure-font", "figure-title", "figure-language", "jobs",    "seed",
+      "shard",  "merge",        "slurm",       "submit",       "dry-run",         "list"};
+  const auto of_runs = options_of_role(RunOption::Role::call);
+  return std::find(std::begin(others), std::end(others), name) != std::end(others) ||
+         std::any_of(of_runs.begin(), of_runs.end(), [&](const RunOption* option) { return option->name == name; });
+}
+
+}  // namespace
+
 std::string axis_key(const std::string& written, const std::string& label) {
   std::string name = written;
   std::replace(name.begin(), name.end(), '_', '-');
@@ -133,6 +149,7 @@ std::string axis_key(const std::string& written, const std::string& label) {
   for (const RunOption& option : run_options()) {
     if (is_axis(option)) known.push_back(option.name);
   }
+  if (belongs_to_call(name)) throw InputError(label + ": is no axis; give it on the command line, as --" + name);
   throw InputError(label + ": no such axis" + suggestion(name, "There are", known) +
                    ", and the keys of the scenario, such as body.0.mass");
 }

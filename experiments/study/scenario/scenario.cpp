@@ -58,14 +58,13 @@ std::vector<std::string_view> builtin_names() {
 
 bool is_path(const std::string& name) { return name.find('/') != std::string::npos || name.ends_with(".toml"); }
 
-std::string text_of(const std::string& path) {
+std::string text_of(const std::string& path, const std::string& label) {
   std::error_code error;
-  if (path.find('/') == std::string::npos && !std::filesystem::exists(path, error)) {
-    const std::string stem = std::filesystem::path(path).stem().string();
-    throw InputError(path + ": no such file, or it cannot be read" +
-                     suggestion_of_many(stem, builtin_names(), list_scenarios));
-  }
-  return read_text(path);
+  if (std::filesystem::exists(path, error)) return read_text(path);
+  const std::string stem = std::filesystem::path(path).stem().string();
+  throw InputError(
+      label + ": there is no file " + path +
+      (path.find('/') == std::string::npos ? suggestion_of_many(stem, builtin_names(), list_scenarios) : ""));
 }
 
 /// True if an error at `at`, which may be above `path`, belongs to the override that set `path`.
@@ -142,7 +141,7 @@ std::uint64_t number_of(const Scenario& scenario) {
 ScenarioSource ScenarioSource::open(const std::string& name_or_path, const std::string& label) {
   if (is_path(name_or_path)) {
     const std::string stem = std::filesystem::path(name_or_path).stem().string();
-    return ScenarioSource(std::make_unique<Parsed>(stem, name_or_path, text_of(name_or_path)));
+    return ScenarioSource(std::make_unique<Parsed>(stem, name_or_path, text_of(name_or_path, label)));
   }
   for (const BuiltinScenario& scenario : builtin_scenarios()) {
     if (scenario.name != name_or_path) continue;
