@@ -635,6 +635,21 @@ class ResultFolders(StudyTest):
         (out / "results.sqlite").write_text("not a database, but someone's work " * 200)
         self.refused(*SMALL, "--out", out, say="--force")
 
+    def test_a_pipe_or_a_device_is_no_store(self):
+        for make in (os.mkfifo, lambda path: path.symlink_to("/dev/zero")):
+            out = self.new_out()
+            out.mkdir()
+            make(out / "results.sqlite")
+            for program, *arguments in (("energy_drift", *SMALL, "--out", out), ("energy_drift", *SMALL, "--out", out, "--dry-run"),
+                                        ("results", out)):
+                with self.subTest(program, arguments=arguments):
+                    done = self.call(program, *arguments, status=2)
+                    self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+                    self.assertIn("results.sqlite: is no regular file", done.stderr)
+            self.assertEqual([path.name for path in out.iterdir()], ["results.sqlite"])
+            self.call("energy_drift", *SMALL, "--out", out, "--force")
+            self.assertTrue((out / "results.sqlite").is_file())
+
     def test_a_database_that_is_no_store_of_the_study_stays_as_it_is(self):
         store = self.study(*SMALL) / "results.sqlite"
         for name, sql in (("foreign", "CREATE TABLE mine (x); INSERT INTO mine VALUES (1)"),

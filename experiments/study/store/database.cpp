@@ -32,6 +32,12 @@ void* map_filled(void* at, std::size_t length, int protection, int flags, int fi
   return mmap(at, length, protection, flags, file, offset);
 }
 
+/// Throws std::runtime_error for a pipe, a socket or a device: reading it may never end.
+void refuse_special_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_other(path, ignored)) throw std::runtime_error(path.string() + ": is no regular file");
+}
+
 /// True if the file is in WAL mode, all of its content is in the file itself, and the folder takes no file: SQLite then
 /// cannot make the shared memory that it reads such a file with.
 bool is_frozen(const std::filesystem::path& path) {
@@ -69,6 +75,7 @@ Database::Database(std::filesystem::path path, Access access, Journal journal) :
     sqlite3_vfs* vfs = sqlite3_vfs_find(nullptr);
     return vfs->xSetSystemCall(vfs, "mmap", reinterpret_cast<sqlite3_syscall_ptr>(map_filled));
   }();
+  refuse_special_file(path_);
   bool unchanged = access == Access::read && is_frozen(path_);
   if (access == Access::look) {
     unchanged = is_at_rest(path_, journal);
