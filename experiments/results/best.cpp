@@ -151,12 +151,12 @@ struct Headings {
   std::vector<RunColumn> group, method, sizes;
 };
 
-std::vector<Point> read_points(const SelectedRuns& selection, const Headings& headings,
+std::vector<Point> read_points(const ResultStores& stores, const SelectedRuns& selection, const Headings& headings,
                                const std::vector<RunColumn>& asked, std::size_t status, const ScenarioNames& scenarios,
-                               RunReader& reader) {
+                               Damage& damage) {
   std::vector<Point> points;
   CellReader cells(scenarios);
-  reader.read(selection, [&](const CheckedRow& row) {
+  damage = RunReader(stores).read(selection, [&](const CheckedRow& row) {
     const auto* said = std::get_if<std::string_view>(&row.values[status]);
     if (!said || *said != "ok") return true;
     const auto value = [&](const RunColumn& column) {
@@ -201,10 +201,10 @@ int list_best(const ResultStores& stores, const ResultsOptions& options) {
   headings.method = columns_of(columns, {Role::method, Role::variant});
   headings.sizes = columns_of(columns, {Role::size});
 
-  RunReader reader(stores);
+  Damage damage;
   const ScenarioNames scenarios(stores);
   const std::vector<Point> points =
-      read_points(selection, headings, question.asked(), columns.index("status"), scenarios, reader);
+      read_points(stores, selection, headings, question.asked(), columns.index("status"), scenarios, damage);
   question.settle(points);
   const std::size_t by = question.by, other = question.other;
   const auto show_group = differing(points, &Point::group, headings.group);
@@ -287,7 +287,7 @@ int list_best(const ResultStores& stores, const ResultsOptions& options) {
     fmt::print(stderr, "results: no run that is ok has both {} and {}; choose others with --by and --at-most\n",
                question.asked()[by].name, question.asked()[other].name);
   }
-  return say_damage(reader);
+  return say_damage(damage);
 }
 
 }  // namespace polhode::study::results

@@ -119,11 +119,10 @@ int list_groups(const ResultStores& stores, const RunColumns& columns, std::span
 
   const SelectedRuns selection = select(stores, columns, conditions, {}, Order::stored);
   std::map<std::vector<OptionValue>, Group, RowLess> groups;
-  RunReader reader(stores);
   const ScenarioNames scenarios(stores);
   CellReader cells(scenarios);
   std::vector<OptionValue> key(by.size());
-  reader.read(selection, [&](const CheckedRow& row) {
+  const Damage damage = RunReader(stores).read(selection, [&](const CheckedRow& row) {
     const auto value = [&](const RunColumn& column) {
       return cells.value(column, row.place, column.in_store() ? row.values[column.index] : Value());
     };
@@ -163,7 +162,7 @@ int list_groups(const ResultStores& stores, const RunColumns& columns, std::span
   Output output(options.format.value_or(Format::table), options.out, names);
   for (std::size_t k = 0; k < rows.size() && k < options.limit.value_or(rows.size()); ++k) output.add(rows[k]);
   output.finish();
-  return say_damage(reader);
+  return say_damage(damage);
 }
 
 }  // namespace polhode::study::results

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <set>
 #include <utility>
 
@@ -15,6 +17,7 @@
 #include "experiments/study/query/run_columns.hpp"
 #include "experiments/study/record/metric_table.hpp"
 #include "experiments/study/record/run_options.hpp"
+#include "experiments/study/text/in_order.hpp"
 #include "experiments/study/text/notation.hpp"
 
 namespace polhode::study::results {
@@ -23,6 +26,7 @@ namespace {
 using Of = RunColumn::Of;
 
 constexpr std::size_t rows_of_terminal = 100;
+constexpr std::size_t hits_of_a_part = 5000;  // a thread reads a part at a time
 
 /// The configurations of the hits, each once.
 std::vector<const Configuration*> configurations_of(const ResultStores& stores, const SelectedRuns& selection) {
@@ -120,6 +124,76 @@ void write_without_empty_columns(Output& output, const std::vector<std::vector<O
   }
 }
 
+/// Makes the rows of a table of runs.
+class RowMaker {
+ public:
+  RowMaker(const ScenarioNames& scenarios, const std::vector<RunColumn>& shown)
+      : shown_(shown), cells_(scenarios), row_(shown.size()) {}
+
+  /// Valid until the next call.
+  const std::vector<OptionValue>& of(const CheckedRow& checked) {
+    const std::pair configuration(checked.place.store, checked.place.configuration);
+    const bool same = configuration == std::exchange(last_, configuration);
+    for (std::size_t k = 0; k < shown_.size(); ++k) {
+      const RunColumn& column = shown_[k];
+      if (same && column.of == Of::option) continue;
+      row_[k] = cells_.value(column, checked.place, column.in_store() ? checked.values[column.index] : Value());
+    }
+    return row_;
+  }
+
+ private:
+  const std::vector<RunColumn>& shown_;
+  CellReader cells_;
+  std::vector<OptionValue> row_;
+  std::pair<const OpenStore*, std::int64_t> last_;  // neighbours mostly have the same options
+};
+
+/// Writes all rows as CSV, read and printed on all threads.
+Damage write_all(const ResultStores& stores, const ScenarioNames& scenarios, const SelectedRuns& selection,
+                 const std::vector<RunColumn>& shown, Output& output) {
+  struct Worker {
+    RunReader reader;
+    RowMaker rows;
+  };
+  std::mutex mutex;
+  std::vector<std::unique_ptr<Worker>> idle;  // kept from part to part, since they have opened stores
+  const auto worker = [&]() -> std::unique_ptr<Worker> {
+    const std::lock_guard lock(mutex);
+    if (idle.empty())
+      return std::make_unique<Worker>(
+          Worker{RunReader(stores, RunReader::Connections::own), RowMaker(scenarios, shown)});
+    std::unique_ptr<Worker> last = std::move(idle.back());
+    idle.pop_back();
+    return last;
+  };
+  Damage damage;
+  const std::vector<std::size_t> parts = RunReader(stores).parts(selection, hits_of_a_part);
+  in_order(parts.size() - 1, number_of_threads(0), [&](std::size_t k) -> UsePart {
+    struct Part {
+      std::string text;
+      std::size_t rows = 0;
+      Damage damage;
+    };
+    const auto part = std::make_shared<Part>();
+    std::unique_ptr<Worker> busy = worker();
+    part->damage = busy->reader.read(selection, parts[k], parts[k + 1], [&](const CheckedRow& checked) {
+      add_csv_row(part->text, busy->rows.of(checked));
+      ++part->rows;
+      return true;
+    });
+    {
+      const std::lock_guard lock(mutex);
+      idle.push_back(std::move(busy));
+    }
+    return [&output, &damage, part] {
+      output.add_csv_rows(part->text, part->rows);
+      damage.add(part->damage);
+    };
+  });
+  return damage;
+}
+
 }  // namespace
 
 std::vector<Where> conditions_of(const ResultsOptions& options) {
@@ -128,12 +202,12 @@ std::vector<Where> conditions_of(const ResultsOptions& options) {
   return conditions;
 }
 
-int say_damage(const RunReader& reader) {
-  if (reader.damaged() == 0) return 0;
+int say_damage(const Damage& damage) {
+  if (damage.runs == 0) return 0;
   fmt::print(stderr,
              "results: {} damaged and left out (the first: {}); the command of the study carries {} out again\n",
-             reader.damaged() == 1 ? "1 run is" : fmt::format("{} runs are", reader.damaged()), reader.first_damaged(),
-             reader.damaged() == 1 ? "it" : "them");
+             damage.runs == 1 ? "1 run is" : fmt::format("{} runs are", damage.runs), damage.first,
+             damage.runs == 1 ? "it" : "them");
   return damaged_runs;
 }
 
@@ -150,36 +224,30 @@ int list_runs(const ResultStores& stores, const ResultsOptions& options) {
   if (options.limit) most = *options.limit;
   else if (format == Format::table && options.out.empty()) most = rows_of_terminal;
 
-  RunReader reader(stores);
-  CellReader cells(scenarios);
-  std::vector<OptionValue> row(shown.size());
-  std::pair<const OpenStore*, std::int64_t> last;  // neighbours mostly have the same options
-  const auto fill = [&](const CheckedRow& checked) {
-    const std::pair configuration(checked.place.store, checked.place.configuration);
-    const bool same = configuration == std::exchange(last, configuration);
-    for (std::size_t k = 0; k < shown.size(); ++k) {
-      if (same && shown[k].of == Of::option) continue;
-      row[k] = cells.value(shown[k], checked.place, shown[k].in_store() ? checked.values[shown[k].index] : Value());
-    }
-  };
+  Damage damage;
   std::vector<std::string> names;
   for (const RunColumn& column : shown) names.push_back(column.name);
   if (format == Format::csv || !options.columns.empty()) {
     Output output(format, options.out, names);
-    reader.read(selection, [&](const CheckedRow& checked) {
-      if (output.rows() == most) return false;
-      fill(checked);
-      output.add(row);
-      return true;
-    });
+    if (format == Format::csv && most == selection.hits.size()) {
+      damage = write_all(stores, scenarios, selection, shown, output);
+    } else {
+      RowMaker rows(scenarios, shown);
+      damage = RunReader(stores).read(selection, [&](const CheckedRow& checked) {
+        if (output.rows() == most) return false;
+        output.add(rows.of(checked));
+        return true;
+      });
+    }
     output.finish();
     most = output.rows();
   } else {
     std::vector<std::vector<OptionValue>> rows;
     std::vector<bool> kept(shown.size());
-    reader.read(selection, [&](const CheckedRow& checked) {
+    RowMaker maker(scenarios, shown);
+    damage = RunReader(stores).read(selection, [&](const CheckedRow& checked) {
       if (rows.size() == most) return false;
-      fill(checked);
+      const std::vector<OptionValue>& row = maker.of(checked);
       for (std::size_t k = 0; k < row.size(); ++k) kept[k] = kept[k] || !text_of(row[k]).empty();
       rows.push_back(row);
       return true;
@@ -195,11 +263,11 @@ int list_runs(const ResultStores& stores, const ResultsOptions& options) {
     most = rows.size();
   }
   if (format == Format::table && options.out.empty()) {
-    const std::size_t left_out = selection.runs - most - reader.damaged();
+    const std::size_t left_out = selection.runs - most - damage.runs;
     if (left_out > 0 && !options.limit) fmt::print("({} of {} runs; --limit shows more)\n", most, most + left_out);
     else fmt::print("{}\n", count(most, "run"));
   }
-  return say_damage(reader);
+  return say_damage(damage);
 }
 
 }  // namespace polhode::study::results

@@ -21,6 +21,6 @@ int list_runs(const ResultStores& stores, const ResultsOptions& options);
 std::vector<Where> conditions_of(const ResultsOptions& options);
 
 /// Prints on stderr how many runs are damaged and left out, if any. Returns the exit status.
-int say_damage(const RunReader& reader);
+int say_damage(const Damage& damage);
 
 }  // namespace polhode::study::results

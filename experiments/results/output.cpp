@@ -22,11 +22,6 @@ namespace {
 constexpr std::pair<const char*, Format> formats[] = {
     {"table", Format::table}, {"csv", Format::csv}, {"markdown", Format::markdown}, {"latex", Format::latex}};
 
-std::string exact_cell(const OptionValue& value) {
-  const double* x = std::get_if<double>(&value);
-  return x ? csv_cell(*x) : text_of(value);
-}
-
 std::string rounded_cell(const OptionValue& value) {
   const double* x = std::get_if<double>(&value);
   if (!x) return text_of(value);
@@ -42,6 +37,15 @@ Format format_of(const std::string& name) {
   return found->second;
 }
 
+void add_csv_row(std::string& text, const std::vector<OptionValue>& row) {
+  CsvRow cells(text);
+  for (const OptionValue& value : row) {
+    if (const double* x = std::get_if<double>(&value)) cells.add(*x);
+    else cells.add(text_of(value));
+  }
+  cells.end();
+}
+
 Output::Output(Format format, const std::string& file, std::vector<std::string> names)
     : format_(format), names_(std::move(names)), is_text_(names_.size()) {
   if (!file.empty()) file_.emplace(file);
@@ -54,15 +58,23 @@ void Output::write(const std::string& text) {
 }
 
 void Output::add(const std::vector<OptionValue>& row) {
+  if (format_ == Format::csv) {
+    std::string text;
+    add_csv_row(text, row);
+    return add_csv_rows(text, 1);
+  }
   ++count_;
-  std::vector<std::string> cells;
+  std::vector<std::string>& cells = rows_.emplace_back();
   cells.reserve(row.size());
   for (std::size_t k = 0; k < row.size(); ++k) {
-    cells.push_back(format_ == Format::csv ? exact_cell(row[k]) : rounded_cell(row[k]));
+    cells.push_back(rounded_cell(row[k]));
     if (std::holds_alternative<std::string>(row[k])) is_text_[k] = true;
   }
-  if (format_ == Format::csv) write(csv_row(cells));
-  else rows_.push_back(std::move(cells));
+}
+
+void Output::add_csv_rows(const std::string& text, std::size_t rows) {
+  count_ += rows;
+  write(text);
 }
 
 void Output::finish() {

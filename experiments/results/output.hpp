@@ -16,6 +16,9 @@ enum class Format { table, csv, markdown, latex };
 /// The format with this name. Throws std::logic_error if there is none.
 Format format_of(const std::string& name);
 
+/// Adds a row of CSV, with all digits of its numbers, to a text.
+void add_csv_row(std::string& text, const std::vector<OptionValue>& row);
+
 class Output {
  public:
   /// `file`: empty for standard output. Rows of CSV are written at once, those of the others by finish(). Throws
@@ -24,6 +27,8 @@ class Output {
 
   /// Values of one row, as many as names. CSV has all digits, the others have five.
   void add(const std::vector<OptionValue>& row);
+  /// Rows of CSV, as add_csv_row() has made them.
+  void add_csv_rows(const std::string& text, std::size_t rows);
   void finish();  ///< gives the file its name
   std::size_t rows() const { return count_; }
 

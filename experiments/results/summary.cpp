@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -14,18 +13,16 @@
 #include <vector>
 
 #include "experiments/results/listing.hpp"
-#include "experiments/study/record/metric_table.hpp"
+#include "experiments/study/query/row_parts.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/store/run_rows.hpp"
 #include "experiments/study/store/store.hpp"
-#include "experiments/study/text/in_order.hpp"
 #include "experiments/study/text/notation.hpp"
 
 namespace polhode::study::results {
 namespace {
 
 constexpr std::size_t most_names = 12;
-constexpr std::int64_t rows_of_a_part = 20'000, most_parts = 64;  // a thread reads a part by a connection of its own
 
 /// Ids met in the stores of a folder that has several.
 struct Met {
@@ -94,18 +91,12 @@ class RowCounter {
   std::size_t status_, configuration_;
 };
 
-/// Counts the rows of a folder with one store, on all threads.
-Counts count_in_parts(const OpenStore& open, std::int64_t last) {
-  // The number of a damaged row may be any: the parts are few, and the first one has all numbers up to its end.
-  const std::int64_t length = std::max(rows_of_a_part, (last - 1) / most_parts + 1), parts = (last - 1) / length + 1;
+/// Counts the rows of a folder with one store.
+Counts count_in_parts(const OpenStore& open) {
   Counts all;
-  in_order(static_cast<std::size_t>(parts), number_of_threads(0), [&](std::size_t k) -> UsePart {
-    const Store store(open.file.parent_path(), metric_table(), Access::read);
-    const RunRows rows(store);
+  for_each_part(open, [&](const RowPart& part) -> UsePart {
     Counts counts;
-    const auto part = static_cast<std::int64_t>(k);
-    rows.for_each(part == 0 ? std::numeric_limits<std::int64_t>::min() : part * length,
-                  part + 1 == parts ? last : (part + 1) * length, RowCounter(open, rows, nullptr, counts));
+    part.rows.for_each(part.after, part.last, RowCounter(open, part.rows, nullptr, counts));
     return [&all, counts = std::move(counts)] { all.add(counts); };
   });
   return all;
@@ -113,10 +104,13 @@ Counts count_in_parts(const OpenStore& open, std::int64_t last) {
 
 void read(const OpenStore& open, bool several, Content& content) {
   for (const StoredStudy& study : open.store.studies()) content.studies.insert(study.experiment + ": " + study.command);
-  const RunRows rows(open.store);
   Counts counts;
-  if (several) rows.for_each(RowCounter(open, rows, &content.met, counts));
-  else counts = count_in_parts(open, rows.last());
+  if (several) {
+    const RunRows rows(open.store);
+    rows.for_each(RowCounter(open, rows, &content.met, counts));
+  } else {
+    counts = count_in_parts(open);
+  }
   for (const auto& [key, runs] : counts.by_configuration) {
     const Configuration& options = open.configurations.at(key);
     const auto name = [&](const char* option) {

@@ -224,6 +224,32 @@ class Results(unittest.TestCase):
         sound = len(self.top) - 2
         self.assertIn(f"{sound} of {len(self.top)} runs repeated: {sound} the same, 0 different, 2 not repeated", done.stdout)
 
+    def test_many_runs_are_read_in_parts(self):
+        # More runs than several threads read at a time, each in the store of a shard and in that of the study.
+        study = ["energy_drift", "--scenario", "dzhanibekov", "--integrator", "rk4", "--dt", "0.01", "--t-end", "0.01", "--no-figures",
+                 "--vary", "body.0.angular_velocity.1=1:5:24001", "--out", "many"]
+        for shard in ("1/2", "2/2"):
+            call(*study, "--shard", shard, folder=self.folder)
+        call(*study, "--merge", folder=self.folder)
+        runs = (self.folder / "many/runs.csv").read_text(encoding="utf-8")
+        lines = runs.splitlines()
+        first = lines[1].split(",")[0]
+        for shard in (self.folder / "many/shards").iterdir():  # the other runs stand there at odd places and twice
+            change(shard, f"DELETE FROM runs WHERE printf('%016x', id) = '{first}'")
+        self.assertEqual(self.said("many", "--format", "csv", "--columns", "all"), runs)
+        column = lines[0].split(",").index("body.0.angular_velocity.1")
+        chosen = [line for line in lines[1:] if float(line.split(",")[column]) > 4.3]
+        self.assertEqual(self.said("many", "--format", "csv", "--where", "body.0.angular_velocity.1 > 4.3").splitlines()[1:], chosen)
+        self.assertEqual(self.said("many", "--format", "csv", "--limit", "17001").splitlines(), lines[:17002])
+        shutil.rmtree(self.folder / "many/shards")
+        self.assertEqual(self.said("many", "--format", "csv"), runs)
+        victims = [lines[k].split(",")[0] for k in (9000, 20000)]  # in this order in runs.csv
+        for victim in victims:
+            change(self.folder / "many", f"UPDATE runs SET steps = steps + 1 WHERE printf('%016x', id) = '{victim}'")
+        done = call("results", "many", "--format", "csv", folder=self.folder, status=1)
+        self.assertEqual(done.stdout.splitlines(), [line for line in lines if line.split(",")[0] not in victims])
+        self.assertRegex(done.stderr, rf"results: 2 runs are damaged and left out \(the first: run {victims[0]} of \S+: runs.checksum\)")
+
     def test_shards_belong_to_their_study(self):
         study = ["energy_drift", *LANES, "--out", "sharded"]
         for k in (1, 2, 3):

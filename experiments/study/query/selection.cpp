@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -13,7 +14,9 @@
 #include <utility>
 #include <variant>
 
+#include "experiments/study/query/row_parts.hpp"
 #include "experiments/study/query/stored_run.hpp"
+#include "experiments/study/record/metric_table.hpp"
 #include "experiments/study/record/run_options.hpp"
 #include "experiments/study/text/value_lists.hpp"
 
@@ -108,6 +111,21 @@ class Filter {
   std::vector<Bound> conditions_;
 };
 
+/// What was chosen in a part of a store.
+struct Chosen {
+  explicit Chosen(std::size_t sort_keys) : sort_values(sort_keys) {}
+
+  std::vector<Hit> hits;            ///< Hit::varied is an index in `varied`
+  std::vector<std::string> varied;  ///< texts of `runs.varied`
+  std::vector<std::vector<OptionValue>> sort_values;
+
+  /// The index of a text. Neighbours mostly have the same one or one of their own.
+  std::uint32_t number_of(std::string_view text) {
+    if (varied.empty() || varied.back() != text) varied.emplace_back(text);
+    return static_cast<std::uint32_t>(varied.size() - 1);
+  }
+};
+
 /// The position of each item in the ascending order of the items; equal items have equal ranks.
 template <class Item>
 std::vector<std::uint32_t> ranks(const std::vector<Item>& items) {
@@ -161,7 +179,7 @@ int compare(const OptionValue& a, const OptionValue& b) {
 
 SelectedRuns select(const ResultStores& stores, const RunColumns& columns, std::span<const Where> conditions,
                     std::span<const SortKey> sort, Order wanted_order) {
-  Filter filter(columns, conditions);
+  const Filter filter(columns, conditions);
   const std::size_t at_configuration = columns.index(configuration_column), at_varied = columns.index(varied_column);
   std::set<std::size_t> wanted = {at_configuration, at_varied};
   filter.add_columns(wanted);
@@ -177,23 +195,40 @@ SelectedRuns select(const ResultStores& stores, const RunColumns& columns, std::
   SelectedRuns selection;
   std::unordered_map<std::string, std::uint32_t> known_varied;
   std::vector<std::vector<OptionValue>> sort_values(sort.size());  // values by sort key and hit
-  CellReader cells;
   for (std::size_t s = 0; s < stores.all().size(); ++s) {
     const OpenStore& open = *stores.all()[s];
-    RunRows(open.store).scan(chosen, [&](const RunRows::Part& part) {
-      const auto stored = [&](std::size_t index) -> const Value& { return part.values[place_of[index]]; };
-      const auto* configuration = std::get_if<std::int64_t>(&stored(at_configuration));
-      const auto* varied = std::get_if<std::string_view>(&stored(at_varied));
-      const RunPlace run{&open, part.id, configuration ? *configuration : 0, varied ? *varied : std::string_view()};
-      if (!filter.holds(run, cells, stored)) return;
-      const auto [at, is_new] =
-          known_varied.try_emplace(std::string(run.varied), static_cast<std::uint32_t>(selection.varied.size()));
-      if (is_new) selection.varied.push_back(at->first);
-      selection.hits.push_back({static_cast<std::uint32_t>(s), at->second, part.number, part.id, run.configuration});
-      for (std::size_t k = 0; k < sort.size(); ++k) {
-        const RunColumn& column = sort[k].column;
-        sort_values[k].push_back(cells.value(column, run, column.in_store() ? stored(column.index) : Value()));
-      }
+    for_each_part(open, [&](const RowPart& of_rows) -> UsePart {
+      const auto part = std::make_shared<Chosen>(sort.size());
+      Filter own = filter;
+      CellReader cells;
+      of_rows.rows.scan(chosen, of_rows.after, of_rows.last, [&](const RunRows::Part& row) {
+        const auto stored = [&](std::size_t index) -> const Value& { return row.values[place_of[index]]; };
+        const auto* configuration = std::get_if<std::int64_t>(&stored(at_configuration));
+        const auto* varied = std::get_if<std::string_view>(&stored(at_varied));
+        const RunPlace run{&open, row.id, configuration ? *configuration : 0, varied ? *varied : std::string_view()};
+        if (!own.holds(run, cells, stored)) return;
+        part->hits.push_back(
+            {static_cast<std::uint32_t>(s), part->number_of(run.varied), row.number, row.id, run.configuration});
+        for (std::size_t k = 0; k < sort.size(); ++k) {
+          const RunColumn& column = sort[k].column;
+          part->sort_values[k].push_back(cells.value(column, run, column.in_store() ? stored(column.index) : Value()));
+        }
+      });
+      return [&, part] {
+        std::vector<std::uint32_t> number_of;  // those of the part's texts among all
+        for (std::string& text : part->varied) {
+          const auto [at, is_new] =
+              known_varied.try_emplace(std::move(text), static_cast<std::uint32_t>(selection.varied.size()));
+          if (is_new) selection.varied.push_back(at->first);
+          number_of.push_back(at->second);
+        }
+        for (Hit& hit : part->hits) {
+          hit.varied = number_of[hit.varied];
+          selection.hits.push_back(hit);
+        }
+        for (std::size_t k = 0; k < sort.size(); ++k)
+          std::move(part->sort_values[k].begin(), part->sort_values[k].end(), std::back_inserter(sort_values[k]));
+      };
     });
   }
 
@@ -256,36 +291,64 @@ SelectedRuns select(const ResultStores& stores, const RunColumns& columns, std::
   return selection;
 }
 
-RunReader::RunReader(const ResultStores& stores) : stores_(&stores) {
-  for (const auto& open : stores.all()) rows_.push_back(std::make_unique<RunRows>(open->store));
+RunReader::RunReader(const ResultStores& stores, Connections connections)
+    : stores_(&stores), connections_(connections), own_(stores.all().size()), rows_(stores.all().size()) {}
+
+bool RunReader::are_one_run(const Hit& a, const Hit& b) const {
+  return a.id == b.id && stores_->all()[a.store]->folder == stores_->all()[b.store]->folder;
 }
 
-void RunReader::read(const SelectedRuns& selection, const std::function<bool(const CheckedRow&)>& use) {
-  const auto& stores = stores_->all();
-  const auto same_run = [&](const Hit& a, const Hit& b) {
-    return a.id == b.id && stores[a.store]->folder == stores[b.store]->folder;
-  };
-  for (std::size_t k = 0; k < selection.hits.size();) {
+RunRows& RunReader::rows_of(std::size_t store) {
+  std::unique_ptr<RunRows>& rows = rows_[store];
+  if (!rows) {
+    const OpenStore& open = *stores_->all()[store];
+    if (connections_ == Connections::own)
+      own_[store] = std::make_unique<Store>(open.file.parent_path(), metric_table(), Access::read);
+    rows = std::make_unique<RunRows>(own_[store] ? *own_[store] : open.store);
+  }
+  return *rows;
+}
+
+std::vector<std::size_t> RunReader::parts(const SelectedRuns& selection, std::size_t length) const {
+  const std::vector<Hit>& hits = selection.hits;
+  std::vector<std::size_t> begins = {0};
+  while (hits.size() - begins.back() > length) {
+    std::size_t next = begins.back() + length;
+    while (next < hits.size() && are_one_run(hits[next - 1], hits[next])) ++next;
+    begins.push_back(next);
+  }
+  if (begins.back() < hits.size()) begins.push_back(hits.size());
+  return begins;
+}
+
+Damage RunReader::read(const SelectedRuns& selection, const std::function<bool(const CheckedRow&)>& use) {
+  return read(selection, 0, selection.hits.size(), use);
+}
+
+Damage RunReader::read(const SelectedRuns& selection, std::size_t first, std::size_t end,
+                       const std::function<bool(const CheckedRow&)>& use) {
+  Damage damage;
+  for (std::size_t k = first; k < end;) {
     bool shown = false;
     std::string why;
-    const std::size_t first = k;
-    for (; k < selection.hits.size() && same_run(selection.hits[k], selection.hits[first]); ++k) {
+    const std::size_t first_of_run = k;
+    for (; k < end && are_one_run(selection.hits[k], selection.hits[first_of_run]); ++k) {
       if (shown) continue;
       const Hit& hit = selection.hits[k];
-      const OpenStore& open = *stores[hit.store];
-      const RunRows::Row row = rows_[hit.store]->at(hit.number);
+      const OpenStore& open = *stores_->all()[hit.store];
+      const RunRows::Row row = rows_of(hit.store).at(hit.number);
       const bool known = open.configurations.contains(hit.configuration);
       shown = row.damage.empty() && known;
       if (!shown) {
         why = fmt::format("{} of {}: {}", row.run.name(), open.file.string(),
                           row.damage.empty() ? "runs.configuration" : row.damage);
       } else if (!use({{&open, row.run.id, hit.configuration, selection.varied[hit.varied]}, row.values})) {
-        return;
+        return damage;
       }
     }
-    if (shown) continue;
-    if (damaged_++ == 0) first_ = why;
+    if (!shown) damage.add({1, why});
   }
+  return damage;
 }
 
 }  // namespace polhode::study::query

@@ -54,25 +54,43 @@ struct CheckedRow {
   std::span<const Value> values;  ///< values in the order of RunRows::columns(), valid until the next row
 };
 
+/// Runs that were left out, because they are damaged.
+struct Damage {
+  std::size_t runs = 0;
+  std::string first;  ///< "run 0123456789abcdef of FILE: runs.checksum", "row 7 of FILE: runs.id"
+
+  void add(const Damage& more) {
+    if (runs == 0) first = more.first;
+    runs += more.runs;
+  }
+};
+
 /// Reads chosen runs.
 class RunReader {
  public:
-  explicit RunReader(const ResultStores& stores);  ///< `stores` must outlive this object
+  /// With connections of its own a reader may be used beside others, on another thread.
+  enum class Connections { of_stores, own };
+  /// `stores` must outlive this object.
+  explicit RunReader(const ResultStores& stores, Connections connections = Connections::of_stores);
 
   /// Calls use(row) for each run that is not damaged, in the order of the hits, until it returns false. A run that
   /// stands in several stores of a study comes once.
-  void read(const SelectedRuns& selection, const std::function<bool(const CheckedRow&)>& use);
-
-  std::size_t damaged() const { return damaged_; }  ///< runs that were left out
-  const std::string& first_damaged() const {
-    return first_;
-  }  ///< "run 0123456789abcdef of FILE: runs.checksum", "row 7 of FILE: runs.id"
+  Damage read(const SelectedRuns& selection, const std::function<bool(const CheckedRow&)>& use);
+  /// The same for the hits of a part, from the index `first` to that before `end`.
+  Damage read(const SelectedRuns& selection, std::size_t first, std::size_t end,
+              const std::function<bool(const CheckedRow&)>& use);
+  /// The indices at which parts of at least `length` hits begin, and the number of all hits. No run stands in two
+  /// parts.
+  std::vector<std::size_t> parts(const SelectedRuns& selection, std::size_t length) const;
 
  private:
+  bool are_one_run(const Hit& a, const Hit& b) const;
+  RunRows& rows_of(std::size_t store);
+
   const ResultStores* stores_;
-  std::vector<std::unique_ptr<RunRows>> rows_;
-  std::size_t damaged_ = 0;
-  std::string first_;
+  Connections connections_;
+  std::vector<std::unique_ptr<Store>> own_;     // opened when they are read first
+  std::vector<std::unique_ptr<RunRows>> rows_;  // likewise
 };
 
 /// Order of values: numbers, then texts; std::monostate last. Negative, 0 or positive.

@@ -59,10 +59,14 @@ class Eight {
 
   /// The sums of the numbers at even and at odd places, (s0 + s4) + (s2 + s6) and (s1 + s5) + (s3 + s7).
   friend TwoTotals two_totals(const Eight& s) {
-    double numbers[8];
-    s.write(numbers);
-    const auto of = [&](int i) { return (numbers[i] + numbers[i + 4]) + (numbers[i + 2] + numbers[i + 6]); };
-    return {of(0), of(1)};
+    using Two [[gnu::vector_size(2 * sizeof(double))]] = double;
+    const auto two = [&](std::size_t i) -> Two {
+      Two numbers;
+      std::memcpy(&numbers, reinterpret_cast<const char*>(s.parts_) + i * sizeof numbers, sizeof numbers);
+      return numbers;
+    };
+    const Two sums = (two(0) + two(2)) + (two(1) + two(3));
+    return {sums[0], sums[1]};
   }
 
  private:

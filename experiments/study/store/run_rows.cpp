@@ -2,6 +2,7 @@
 #include "experiments/study/store/run_rows.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "experiments/study/record/metric_table.hpp"
@@ -25,13 +26,22 @@ std::int64_t RunRows::count() const { return db_->number("SELECT count(*) FROM r
 std::int64_t RunRows::last() const { return db_->number("SELECT coalesce(max(number), 0) FROM runs"); }
 
 void RunRows::scan(std::span<const std::size_t> chosen, const std::function<void(const Part&)>& use) const {
+  constexpr std::int64_t above_none = std::numeric_limits<std::int64_t>::min();
+  scan(chosen, above_none, std::numeric_limits<std::int64_t>::max(), use);
+}
+
+void RunRows::scan(std::span<const std::size_t> chosen, std::int64_t after, std::int64_t last,
+                   const std::function<void(const Part&)>& use) const {
   std::string names = "runs.number, runs.id", tables = "runs";
   for (const std::size_t column : chosen) {
     const bool timed = column >= runs_.columns.size();
     names += (timed ? ", timings." : ", runs.") + quoted_name(columns_[column]);
     if (timed && tables == "runs") tables += " LEFT JOIN timings ON timings.number = runs.number";
   }
-  Statement rows(*db_, "SELECT " + names + " FROM " + tables + " ORDER BY runs.number");
+  Statement rows(
+      *db_, "SELECT " + names + " FROM " + tables + " WHERE runs.number > ? AND runs.number <= ? ORDER BY runs.number");
+  rows.bind(1, after);
+  rows.bind(2, last);
   std::vector<Value> values(chosen.size());
   while (rows.step()) {
     for (std::size_t k = 0; k < values.size(); ++k) values[k] = rows.value(2 + static_cast<int>(k));

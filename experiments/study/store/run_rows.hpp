@@ -39,6 +39,9 @@ class RunRows {
   };
   /// Calls use(part) for each row, in the order of numbers. `chosen`: indices in columns().
   void scan(std::span<const std::size_t> chosen, const std::function<void(const Part&)>& use) const;
+  /// The same for the rows whose numbers are above `after` and at most `last`.
+  void scan(std::span<const std::size_t> chosen, std::int64_t after, std::int64_t last,
+            const std::function<void(const Part&)>& use) const;
 
   /// A row whose checksum was checked.
   struct Row {
