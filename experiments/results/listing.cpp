@@ -7,13 +7,13 @@
 #include <cstdio>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <set>
 #include <utility>
 
 #include "experiments/results/groups.hpp"
 #include "experiments/results/output.hpp"
 #include "experiments/study/query/named_options.hpp"
+#include "experiments/study/query/pool.hpp"
 #include "experiments/study/query/run_columns.hpp"
 #include "experiments/study/record/metric_table.hpp"
 #include "experiments/study/record/run_options.hpp"
@@ -156,17 +156,7 @@ Damage write_all(const ResultStores& stores, const ScenarioNames& scenarios, con
     RunReader reader;
     RowMaker rows;
   };
-  std::mutex mutex;
-  std::vector<std::unique_ptr<Worker>> idle;  // kept from part to part, since they have opened stores
-  const auto worker = [&]() -> std::unique_ptr<Worker> {
-    const std::lock_guard lock(mutex);
-    if (idle.empty())
-      return std::make_unique<Worker>(
-          Worker{RunReader(stores, RunReader::Connections::own), RowMaker(scenarios, shown)});
-    std::unique_ptr<Worker> last = std::move(idle.back());
-    idle.pop_back();
-    return last;
-  };
+  Pool<Worker> workers;  // kept from part to part, since they have opened stores
   Damage damage;
   const std::vector<std::size_t> parts = RunReader(stores).parts(selection, hits_of_a_part);
   in_order(parts.size() - 1, number_of_threads(0), [&](std::size_t k) -> UsePart {
@@ -176,16 +166,15 @@ Damage write_all(const ResultStores& stores, const ScenarioNames& scenarios, con
       Damage damage;
     };
     const auto part = std::make_shared<Part>();
-    std::unique_ptr<Worker> busy = worker();
-    part->damage = busy->reader.read(selection, parts[k], parts[k + 1], [&](const CheckedRow& checked) {
-      add_csv_row(part->text, busy->rows.of(checked));
+    const auto worker = workers.take([&] {
+      return std::make_unique<Worker>(
+          Worker{RunReader(stores, RunReader::Connections::own), RowMaker(scenarios, shown)});
+    });
+    part->damage = worker->reader.read(selection, parts[k], parts[k + 1], [&](const CheckedRow& checked) {
+      add_csv_row(part->text, worker->rows.of(checked));
       ++part->rows;
       return true;
     });
-    {
-      const std::lock_guard lock(mutex);
-      idle.push_back(std::move(busy));
-    }
     return [&output, &damage, part] {
       output.add_csv_rows(part->text, part->rows);
       damage.add(part->damage);

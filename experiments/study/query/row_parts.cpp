@@ -4,13 +4,22 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <memory>
 
+#include "experiments/study/query/pool.hpp"
 #include "experiments/study/record/metric_table.hpp"
 
 namespace polhode::study::inline query {
 namespace {
 
-constexpr std::int64_t rows_of_a_part = 20'000, most_parts = 64;  // a thread reads a part by a connection of its own
+constexpr std::int64_t rows_of_a_part = 20'000, most_parts = 64;
+
+struct Connection {
+  explicit Connection(const OpenStore& open) : store(open.file.parent_path(), metric_table(), Access::read) {}
+
+  Store store;
+  RunRows rows{store};
+};
 
 }  // namespace
 
@@ -24,11 +33,11 @@ void for_each_part(const OpenStore& open, const std::function<UsePart(const RowP
     make({all, first, last})();
     return;
   }
+  Pool<Connection> connections;
   in_order(static_cast<std::size_t>(parts), number_of_threads(0), [&](std::size_t k) {
-    const Store store(open.file.parent_path(), metric_table(), Access::read);
-    const RunRows rows(store);
+    const auto connection = connections.take([&] { return std::make_unique<Connection>(open); });
     const auto part = static_cast<std::int64_t>(k);
-    return make({rows, part == 0 ? first : part * length, part + 1 == parts ? last : (part + 1) * length});
+    return make({connection->rows, part == 0 ? first : part * length, part + 1 == parts ? last : (part + 1) * length});
   });
 }
 
