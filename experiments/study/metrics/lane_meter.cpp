@@ -108,7 +108,7 @@ void LaneMeter::follow(const std::array<std::size_t, count>& seen, std::size_t n
 /// Adds samples to the curves that are kept: in all lanes at once up to the next sample that completes an interval of
 /// one of them.
 void LaneMeter::add_to_curves(const std::array<std::size_t, count>& seen, std::size_t n) {
-  std::array<std::size_t, count> whole{};  // the lanes whose run goes on after the samples
+  std::array<std::size_t, count> whole{};  // the lanes that take all samples
   std::size_t wholes = 0;
   for (std::size_t i = 0; i < count; ++i) {
     if (seen[i] == 0 || !meters_[i]->keeps_curves_) continue;
