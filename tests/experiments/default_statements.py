@@ -1,12 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Statements of the default studies that take minutes, counted again."""
+"""Statements of the default studies of default_studies_slow_test.py, counted again."""
 import re
-import unittest
 
-from programs import call, read, temporary_folder
+from programs import read
 from statements import Recount, Wrong, names, number, statements
-
-PATIENCE = 1400  # s
 
 
 def close(said, found):
@@ -160,35 +157,16 @@ class OfPrecision:
                  lambda listed: expect(all(item.endswith(" in long_double") for item in names(listed)), listed))]
 
 
-class SlowStatements(unittest.TestCase):
-    def check(self, program, of, status=0, durations_follow_steps=False):
-        folder = temporary_folder(self.addCleanup)
-        call(program, "--no-figures", "--out", "out", folder=folder, status=status, patience=PATIENCE)
-        recount = Recount(read(folder / "out/runs.csv"), of(folder / "out").tests(), durations_follow_steps)
-        wrong = []
-        for sentence in statements((folder / "out/report.html").read_text(encoding="utf-8")):
-            try:
-                recount.check(sentence)
-            except Wrong as fault:
-                wrong.append(f"{fault} << {sentence[:300]}")
-        self.assertEqual(wrong, [])
-        self.assertGreaterEqual(recount.counted["analysis"], 3)
-
-    def test_stack(self):
-        self.check("stack", OfStack)
-
-    def test_pile(self):
-        self.check("pile", OfPile)
-
-    def test_certificate(self):
-        self.check("certificate", OfCertificate)
-
-    def test_stability(self):
-        self.check("stability", OfStability, durations_follow_steps=True)
-
-    def test_precision(self):
-        self.check("precision", OfPrecision)
+OF = {"stack": OfStack, "pile": OfPile, "certificate": OfCertificate, "stability": OfStability, "precision": OfPrecision}
 
 
-if __name__ == "__main__":
-    unittest.main()
+def faults(experiment, folder):
+    """The statements of a page that are not what the files beside it say, and the number of statements of the analysis."""
+    recount = Recount(read(folder / "runs.csv"), OF[experiment](folder).tests(), experiment == "stability")
+    wrong = []
+    for sentence in statements((folder / "report.html").read_text(encoding="utf-8")):
+        try:
+            recount.check(sentence)
+        except Wrong as fault:
+            wrong.append(f"{fault} << {sentence[:300]}")
+    return wrong, recount.counted["analysis"]
