@@ -96,7 +96,7 @@ Draft draft_of(const RunConfig& config, const Scenario& scenario, std::shared_pt
   const std::uint64_t motion =
       options->motion_numbers ? options->motion_numbers->of(config.varied, scenario.canonical) : id;
   const bool refused = !refusal(config, scenario).empty();
-  const double cost = options->cost;
+  const auto cost = static_cast<float>(options->cost);
   return {{.id = id, .scenario = number_of(scenario), .cost = cost, .refused = refused},
           std::move(options),
           motion,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Plan of a study: all runs of its cells, with their identities, made before anything is run or written. Of each run
-// one row of 40 bytes is held; the run is made from its cell when it is requested.
+// one row of 32 bytes is held; the run is made from its cell when it is requested.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ struct PlannedRun {
 struct PlanRow {
   std::uint64_t id = 0;        ///< id as a number: number_of_id()
   std::uint64_t scenario = 0;  ///< number_of() its scenario, with the varied keys set
-  double cost = 0;             ///< estimated work, in evaluations of the right-hand side
+  float cost = 0;              ///< estimated work, in evaluations of the right-hand side
   std::uint32_t cell = 0;      ///< number of its cell in its product, or of its run among the further ones
   std::uint16_t product = 0;   ///< index of its product; that after the last one: the further runs
   std::uint16_t kind = 0;      ///< index in Plan::kinds

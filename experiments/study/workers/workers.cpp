@@ -22,8 +22,8 @@ namespace polhode::study::inline workers {
 namespace {
 
 constexpr std::chrono::milliseconds between_commits{80};
-constexpr std::size_t commit_at_once = 4096;  // finished runs that are committed before that time
-constexpr std::size_t most_pending = 8192;    // finished runs in memory; workers wait until some go to the store
+constexpr std::size_t commit_at_once = 2048;  // finished runs that are committed before that time
+constexpr std::size_t most_pending = 4096;    // finished runs in memory; workers wait until some go to the store
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }

@@ -13,7 +13,7 @@
 namespace polhode::study::deal_test {
 namespace {
 
-Plan plan_of_costs(const std::vector<double>& costs) {
+Plan plan_of_costs(const std::vector<float>& costs) {
   Plan plan;
   for (std::size_t i = 0; i < costs.size(); ++i) {
     PlanRow row;
@@ -31,8 +31,8 @@ std::vector<double> loads(const Plan& plan, const std::vector<std::size_t>& numb
 }
 
 TEST(Shards, HaveEveryRunOnceAndNearlyEqualCosts) {
-  std::vector<double> costs;
-  for (int i = 0; i < 500; ++i) costs.push_back(1 + i % 37 * (i % 5));
+  std::vector<float> costs;
+  for (int i = 0; i < 500; ++i) costs.push_back(static_cast<float>(1 + i % 37 * (i % 5)));
   const Plan plan = plan_of_costs(costs);
   for (const std::size_t count : {1u, 2u, 7u, 64u}) {
     const auto numbers = deal(plan, count);

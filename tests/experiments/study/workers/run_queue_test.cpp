@@ -11,7 +11,7 @@
 namespace polhode::study::run_queue_test {
 namespace {
 
-Plan plan_of(const std::vector<double>& costs, const std::vector<std::uint16_t>& kinds) {
+Plan plan_of(const std::vector<float>& costs, const std::vector<std::uint16_t>& kinds) {
   Plan plan;
   for (std::size_t i = 0; i < costs.size(); ++i) {
     PlanRow row;
@@ -35,15 +35,15 @@ std::vector<std::vector<std::uint32_t>> all_taken(const Plan& plan, std::size_t 
 }
 
 TEST(RunQueue, GivesEachRunOnceTheLongestFirst) {
-  std::vector<double> costs;
+  std::vector<float> costs;
   std::vector<std::uint16_t> kinds;
   for (int k = 0; k < 1000; ++k) {
-    costs.push_back(1 + k % 13);
+    costs.push_back(static_cast<float>(1 + k % 13));
     kinds.push_back(k % 3 == 0 ? 1 : 0);
   }
   const Plan plan = plan_of(costs, kinds);
   std::vector<std::uint32_t> order;
-  std::vector<double> left = costs;
+  std::vector<float> left = costs;
   for (const auto& taken : all_taken(plan, 2, {1, 8})) {
     EXPECT_EQ(plan.rows[taken.front()].cost, *std::max_element(left.begin(), left.end()));
     for (const std::uint32_t i : taken) {
@@ -60,12 +60,12 @@ TEST(RunQueue, GivesEachRunOnceTheLongestFirst) {
 }
 
 TEST(RunQueue, GivesLongRunsOneByOne) {
-  for (const auto& taken : all_taken(plan_of(std::vector<double>(6, 1e9), std::vector<std::uint16_t>(6)), 2, {1, 8}))
+  for (const auto& taken : all_taken(plan_of(std::vector<float>(6, 1e9F), std::vector<std::uint16_t>(6)), 2, {1, 8}))
     EXPECT_EQ(taken.size(), 1u);
 }
 
 TEST(RunQueue, FillsTheLanesOfABatchAndKeepsWorkForTheOthers) {
-  const auto all = all_taken(plan_of(std::vector<double>(200, 1e9), std::vector<std::uint16_t>(200, 1)), 2, {1, 8});
+  const auto all = all_taken(plan_of(std::vector<float>(200, 1e9F), std::vector<std::uint16_t>(200, 1)), 2, {1, 8});
   EXPECT_GT(all.size(), 4u);
   EXPECT_LE(all.front().size(), 64u);
   for (std::size_t k = 0; k + 1 < all.size(); ++k) {
@@ -75,7 +75,7 @@ TEST(RunQueue, FillsTheLanesOfABatchAndKeepsWorkForTheOthers) {
 }
 
 TEST(RunQueue, GivesManyShortRunsAtATime) {
-  const auto all = all_taken(plan_of(std::vector<double>(100'000, 1), std::vector<std::uint16_t>(100'000)), 2, {1, 8});
+  const auto all = all_taken(plan_of(std::vector<float>(100'000, 1), std::vector<std::uint16_t>(100'000)), 2, {1, 8});
   EXPECT_EQ(all.front().size(), 64u);
   EXPECT_EQ(all.back().size(), 1u);
 }
