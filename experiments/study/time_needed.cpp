@@ -19,6 +19,7 @@
 #include "core/exact/exact_motion.hpp"
 #include "experiments/study/curves/curves.hpp"
 #include "experiments/study/plan/deal.hpp"
+#include "experiments/study/plot/draw_figures.hpp"
 #include "experiments/study/process/progress.hpp"
 #include "experiments/study/record/shown_runs.hpp"
 #include "experiments/study/report/figures/study_figures.hpp"
@@ -35,8 +36,9 @@ constexpr std::size_t most_drawn = 5000;     // runs of one body that are taken 
 constexpr std::size_t most_timed = 10'000;   // runs whose times are summed up; others take as long in the mean
 constexpr double budget_of_a_glance = 0.25;  // s; with the plan itself and twice this the answer takes less than 1 s
 
-// Times measured where a number is written in `usual_number`, s.
+// Times measured where a number is written in `usual_number` and gnuplot starts in `usual_start`, s.
 constexpr double usual_number = 4.4e-8;
+constexpr double usual_start = 0.01;
 constexpr double fixed_work = 0.02;             // store, summary, page
 constexpr double work_of_a_run = 8e-5;          // its rows in the store, in tables and in the page
 constexpr double work_of_a_run_of_many = 2e-5;  // the same where runs are too many to be held, on all threads
@@ -131,14 +133,16 @@ double work_of_figures(const Experiment& experiment, const Plan& plan) {
   return work / std::clamp<double>(std::thread::hardware_concurrency(), 1, figures_at_a_time);
 }
 
-/// The work after the runs, besides the analysis, s.
-double work_after_runs(const Experiment& experiment, const Options& options, const Plan& plan) {
+/// The time after the runs on this machine, besides the analysis, s.
+double time_after_runs(const Experiment& experiment, const Options& options, const Plan& plan) {
   const double planned = static_cast<double>(plan.size()) * plan.runs_of_a_row;
   const double runs = planned * (1 + experiment.needs.refined);
   const double of_a_run = is_held(experiment, static_cast<std::size_t>(planned))
                               ? work_of_a_run
                               : work_of_a_run_of_many / static_cast<double>(number_of_threads(options.jobs));
-  return fixed_work + of_a_run * runs + (options.figures ? work_of_figures(experiment, plan) : 0);
+  const double own = (fixed_work + of_a_run * runs) * time_of_a_number() / usual_number;
+  const std::optional<double> start = options.figures ? time_of_gnuplot() : std::nullopt;
+  return start ? own + work_of_figures(experiment, plan) * *start / usual_start : own;
 }
 
 /// Finished runs with their wall times, of an even choice of these.
@@ -207,8 +211,7 @@ std::string time_needed_text(const Experiment& experiment, const Options& option
   const Experiment::Needs& needs = experiment.needs;
   const double running = planned * (1 + needs.refined);
   const double analysis = needs.analysis * (running + stored_times / static_cast<double>(timing.workers));
-  const double after =
-      options.shard ? 0 : analysis + work_after_runs(experiment, options, plan) * time_of_a_number() / usual_number;
+  const double after = options.shard ? 0 : analysis + time_after_runs(experiment, options, plan);
   if (times.known == 0 && !missing.empty())
     return fmt::format("at least {} with {} job{}: no run came far enough in {} to tell its time\n",
                        text_of_time(running + after), timing.workers, timing.workers == 1 ? "" : "s",

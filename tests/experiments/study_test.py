@@ -1055,6 +1055,20 @@ class Asking(StudyTest):
         self.assertEqual(list(self.folder.iterdir()), [self.work])
         self.assertEqual(list(self.work.iterdir()), [])
 
+    def test_a_dry_run_knows_how_fast_gnuplot_starts(self):
+        def after_the_runs(gnuplot):
+            path = self.folder / "path"
+            path.mkdir(exist_ok=True)
+            if gnuplot:
+                (path / "gnuplot").write_text(gnuplot, encoding="utf-8")
+                (path / "gnuplot").chmod(0o755)
+            said = self.call("energy_drift", "--integrator", "rk4", "--dt", "1e-2,5e-3", "--dry-run",
+                             env={**os.environ, "PATH": str(path)}).stdout
+            return float(re.search(r"of which ([\d.]+) s after the runs", said)[1])
+
+        without = after_the_runs(None)
+        self.assertGreater(after_the_runs("#!/bin/sh\n/bin/sleep 0.3\n"), 5 * without)
+
     def test_the_default_folder_names_the_study(self):
         done = self.call("energy_drift", *SMALL)
         folders = list((self.work / "results").iterdir())

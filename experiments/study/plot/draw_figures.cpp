@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <deque>
 #include <filesystem>
 #include <set>
@@ -171,6 +173,19 @@ std::string draw_space_figures(const std::vector<SpaceFigure>& figures, const fs
     names.push_back(figure.name);
   }
   return joined(draw_scripts(names, folder, where), untranslated(figures.front().look, missing));
+}
+
+std::optional<double> time_of_gnuplot() {
+  std::array<double, 5> seconds{};
+  for (double& of_trial : seconds) {
+    const auto start = std::chrono::steady_clock::now();
+    auto child = ChildProcess::start({"gnuplot", "-d", "--version"}, ".", {});
+    if (!child) return std::nullopt;
+    child->wait();
+    of_trial = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  std::nth_element(seconds.begin(), seconds.begin() + 2, seconds.end());
+  return seconds[2];
 }
 
 }  // namespace polhode::study::plot

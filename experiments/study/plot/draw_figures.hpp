@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ std::string draw_figures(const FigureSet& set, const std::filesystem::path& stud
 /// The same for figures in three dimensions, as SVG and PDF.
 std::string draw_space_figures(const std::vector<SpaceFigure>& figures, const std::filesystem::path& study_folder,
                                const std::string& where);
+
+/// Time in which gnuplot starts and ends without drawing, s: the median of five. Absent if it is not installed.
+std::optional<double> time_of_gnuplot();
 
 /// Names of the figures in a folder, sorted.
 std::vector<std::string> figures_in(const std::filesystem::path& folder);
