@@ -57,6 +57,11 @@ class Wrong(AssertionError):
     pass
 
 
+def expect(true, what):
+    if not true:
+        raise Wrong(what)
+
+
 def orders():
     """The declared order of each method, as --list prints it."""
     text = subprocess.run([str(BIN / "energy_drift"), "--list", "integrators"], capture_output=True, text=True, check=True).stdout

@@ -4,7 +4,7 @@ import re
 import unittest
 
 from programs import call, read, temporary_folder
-from statements import Recount, Wrong, names, number, statements
+from statements import Recount, Wrong, expect, names, number, statements
 
 
 def close(said, found):
@@ -13,11 +13,6 @@ def close(said, found):
 
 def some(text, found, what):
     Recount([]).some(text, set(found), what)
-
-
-def expect(true, what):
-    if not true:
-        raise Wrong(what)
 
 
 class OfConvergence:

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <set>
@@ -26,6 +27,8 @@
 
 namespace polhode::study::inline plan {
 namespace {
+
+static_assert(sizeof(PlanRow) == 32);
 
 constexpr std::size_t most_values = 24;  // largest number of values of an axis that have runs in Plan::values
 
@@ -96,7 +99,7 @@ Draft draft_of(const RunConfig& config, const Scenario& scenario, std::shared_pt
   const std::uint64_t motion =
       options->motion_numbers ? options->motion_numbers->of(config.varied, scenario.canonical) : id;
   const bool refused = !refusal(config, scenario).empty();
-  const auto cost = static_cast<float>(options->cost);
+  const auto cost = static_cast<float>(std::min(options->cost, double{std::numeric_limits<float>::max()}));
   return {{.id = id, .scenario = number_of(scenario), .cost = cost, .refused = refused},
           std::move(options),
           motion,
