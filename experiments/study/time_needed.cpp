@@ -35,6 +35,9 @@ constexpr std::size_t most_looked_up = 500;  // stored wall times that are read
 constexpr std::size_t most_drawn = 5000;     // runs of one body that are taken for the figures
 constexpr std::size_t most_timed = 10'000;   // runs whose times are summed up; others take as long in the mean
 constexpr double budget_of_a_glance = 0.25;  // s; with the plan itself and twice this the answer takes less than 1 s
+// Time for which runs of a long study are timed, over the time of its runs, and the most of it, s. A machine changes
+// its speed from one tenth of a second to the next.
+constexpr double share_of_long_study = 0.2, most_of_long_study = 2;
 
 // Times measured where a number is written in `usual_number` and gnuplot starts in `usual_start`, s.
 constexpr double usual_number = 4.4e-8;
@@ -204,12 +207,22 @@ std::string time_needed_text(const Experiment& experiment, const Options& option
   timing.in_lanes = options.trajectory == TrajectoryFormat::none;
   timing.workers = number_of_threads(options.jobs);
   if (plan.runs_of_a_row > 1) timing.budget = budget_of_a_glance;
-  const RunTimes times = run_times(timed, known, timing);
-  const double planned = time_of_all(times, static_cast<double>(missing.size()) * plan.runs_of_a_row,
-                                     plan.most_true_motions(), timing.workers);
-  const double stored_times = mean(stored.seconds) * static_cast<double>(there);
   const Experiment::Needs& needs = experiment.needs;
-  const double running = planned * (1 + needs.refined);
+  RunTimes times;
+  double running = 0;
+  const auto time_runs = [&] {
+    times = run_times(timed, known, timing);
+    running = (1 + needs.refined) * time_of_all(times, static_cast<double>(missing.size()) * plan.runs_of_a_row,
+                                                plan.most_true_motions(), timing.workers);
+  };
+  time_runs();
+  const double longer =
+      times.known > 0 ? std::min(running * share_of_long_study, most_of_long_study) : most_of_long_study;
+  if (plan.runs_of_a_row == 1 && !runs.empty() && longer > timing.budget) {
+    timing.budget = longer;
+    time_runs();
+  }
+  const double stored_times = mean(stored.seconds) * static_cast<double>(there);
   const double analysis = needs.analysis * (running + stored_times / static_cast<double>(timing.workers));
   const double after = options.shard ? 0 : analysis + time_after_runs(experiment, options, plan);
   if (times.known == 0 && !missing.empty())

@@ -78,7 +78,8 @@ struct RunKind {
   std::vector<std::size_t> runs;
   double cost = 0;  ///< cost of all runs together
   std::size_t least = 0, largest = 0;
-  std::vector<Timed> timed{};
+  std::vector<Timed> timed{};    ///< the least and the largest, or all whose times are known
+  std::vector<Timed> between{};  ///< a few others
 };
 
 bool in_contact(const PlannedRun& run) { return run.config.contact.has_value(); }
@@ -157,8 +158,9 @@ class Calibration {
     std::map<ResponseKey, Known> like;
     for (const RunKind& kind : kinds_) {
       if (kind.timed.empty()) continue;
+      const double off = off_the_law(kind);
       double seconds = 0;
-      for (const std::size_t i : kind.runs) seconds += times.seconds[i] = seconds_of(kind, *runs_[i]);
+      for (const std::size_t i : kind.runs) seconds += times.seconds[i] = off * seconds_of(kind, *runs_[i]);
       all_kinds.add(seconds, kind.cost);
       like[response_key_of(*runs_[kind.largest])].add(seconds, kind.cost);
     }
@@ -179,15 +181,37 @@ class Calibration {
   }
 
  private:
-  /// First the largest run of each kind, then the least.
+  /// A run that is carried out for a while.
+  struct Trial {
+    RunKind* kind;
+    std::size_t run;
+    std::vector<Timed> RunKind::*into = &RunKind::timed;
+  };
+
+  /// First the largest run of each kind, then the least, then a few between these where runs of the same cost differ:
+  /// joints have several stabilizations.
+  std::vector<Trial> trials() {
+    constexpr std::size_t many = 8, between = 3;
+    std::vector<Trial> all;
+    std::vector<RunKind*> untimed;
+    for (RunKind& kind : kinds_) {
+      if (kind.timed.size() < 2) untimed.push_back(&kind);
+    }
+    for (RunKind* kind : untimed) all.push_back({kind, kind->largest});
+    for (RunKind* kind : untimed) {
+      if (kind->least != kind->largest) all.push_back({kind, kind->least});
+    }
+    for (RunKind* kind : untimed) {
+      const std::size_t count = kind->runs.size();
+      if (count < many || !runs_[kind->largest]->config.joints) continue;
+      for (std::size_t k = 0; k < between; ++k)
+        all.push_back({kind, kind->runs[count * (2 * k + 1) / (2 * between)], &RunKind::between});
+    }
+    return all;
+  }
+
   void measure() {
-    std::vector<std::pair<RunKind*, std::size_t>> work;
-    for (RunKind& kind : kinds_) {
-      if (kind.timed.size() < 2) work.emplace_back(&kind, kind.largest);
-    }
-    for (RunKind& kind : kinds_) {
-      if (kind.timed.size() < 2 && kind.least != kind.largest) work.emplace_back(&kind, kind.least);
-    }
+    const std::vector<Trial> work = trials();
     if (work.empty()) return;
     const std::size_t workers = std::min(std::max<std::size_t>(timing_.workers, 1), work.size());
     end_ = Alarm::Clock::now() +
@@ -199,7 +223,7 @@ class Calibration {
         if (left <= 0) return;
         const double share = static_cast<double>(workers) / static_cast<double>(work.size() - i);
         const double slice = left * std::min(share, 1.0);
-        time(*work[i].first, work[i].second, std::max(slice, shortest_slice), number);
+        time(work[i], std::max(slice, shortest_slice), number);
       }
     };
     std::vector<std::thread> others;
@@ -210,10 +234,10 @@ class Calibration {
 
   double seconds_left() const { return std::chrono::duration<double>(end_ - Alarm::Clock::now()).count(); }
 
-  void time(RunKind& kind, std::size_t index, double slice, std::size_t worker) {
-    const PlannedRun& run = *runs_[index];
+  void time(const Trial& trial, double slice, std::size_t worker) {
+    const PlannedRun& run = *runs_[trial.run];
     bool has_truth = time_true_motion(run, slice, worker);
-    const std::vector<const PlannedRun*> batch = batch_of(kind, index);
+    const std::vector<const PlannedRun*> batch = batch_of(*trial.kind, trial.run);
     for (const PlannedRun* other : batch) has_truth = has_truth && time_true_motion(*other, slice, worker);
     RunConfig config = run.config;
     if (!has_truth) config.reference = false;
@@ -240,7 +264,7 @@ class Calibration {
     if (share < (run.config.dt ? least_share : least_adaptive_share)) return;
     if (in_contact(run)) seconds = share * time_of_whole(seconds, share, share_at_half);
     const std::lock_guard lock(mutex_);
-    kind.timed.push_back({&run, share, seconds});
+    (trial.kind->*trial.into).push_back({&run, share, seconds});
     if (share == 1) overhead_ = std::min(overhead_, seconds);
   }
 
@@ -322,13 +346,25 @@ class Calibration {
     }
   }
 
-  /// Time of a run without repetitions, s.
-  double seconds_of(const RunKind& kind, const PlannedRun& run) const {
-    return run.config.dt ? seconds_at_step(kind, run) : seconds_at_tolerance(kind, run);
+  /// What the timed runs of a kind took, over what seconds_of() gives for them, which follows two of them.
+  double off_the_law(const RunKind& kind) const {
+    double taken = 0, by_law = 0;
+    for (const auto* runs : {&kind.timed, &kind.between}) {
+      for (const Timed& timed : *runs) {
+        taken += timed.seconds;
+        by_law += seconds_of(kind, *timed.run, timed.share);
+      }
+    }
+    return by_law > 0 ? taken / by_law : 1;
+  }
+
+  /// Time of this share of a run without repetitions, s.
+  double seconds_of(const RunKind& kind, const PlannedRun& run, double share = 1) const {
+    return run.config.dt ? seconds_at_step(kind, run, share) : seconds_at_tolerance(kind, run, share);
   }
 
   /// Time in proportion to the number of steps, with a part that each run has, s.
-  double seconds_at_step(const RunKind& kind, const PlannedRun& run) const {
+  double seconds_at_step(const RunKind& kind, const PlannedRun& run, double share) const {
     const auto done = [](const Timed& timed) { return timed.run->cost * timed.share; };
     const auto [low, high] = std::minmax_element(kind.timed.begin(), kind.timed.end(),
                                                  [&](const Timed& a, const Timed& b) { return done(a) < done(b); });
@@ -338,11 +374,11 @@ class Calibration {
       const double rest = low->seconds - slope * done(*low);
       if (rest > 0) rate = slope, fixed = rest;
     }
-    return fixed + rate * run.cost;
+    return fixed + rate * run.cost * share;
   }
 
   /// Time in proportion to the duration, and by a power of the tolerance, s.
-  double seconds_at_tolerance(const RunKind& kind, const PlannedRun& run) const {
+  double seconds_at_tolerance(const RunKind& kind, const PlannedRun& run, double share) const {
     const auto rate = [&](const Timed& timed) {  // logarithm of the rate
       const double least = timed.seconds / 10;
       return std::log(std::max(timed.seconds - overhead_, least) / (timed.share * timed.run->config.t_end));
@@ -356,7 +392,7 @@ class Calibration {
     if (place(*a.run) != place(*b.run))
       at += (rate(b) - rate(a)) * (place(run) - place(*a.run)) / (place(*b.run) - place(*a.run));
     else at += std::log(run.cost / run.config.t_end / (a.run->cost / a.run->config.t_end));
-    return std::min(overhead_, a.seconds) + std::exp(at) * run.config.t_end;
+    return std::min(overhead_, a.seconds) + std::exp(at) * run.config.t_end * share;
   }
 
   /// RunTimes::true_motions. `seconds`: the times of the runs.

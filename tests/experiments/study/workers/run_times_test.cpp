@@ -56,6 +56,18 @@ TEST(RunTimes, AreAPowerOfTheTolerance) {
   EXPECT_NEAR(times.seconds[1], 40, 0.01);
 }
 
+TEST(RunTimes, OfAKindComeToWhatItsKnownRunsTookBetweenTheEndsToo) {
+  const Plan plan = planned({"--dt", "0.01,0.02,0.04"});
+  const std::vector<PlannedRun> runs = plan.runs();
+  const std::vector<const PlannedRun*> missing = pointers_to(runs);
+  const std::vector<KnownTime> known = {{missing[0], 9}, {missing[1], 13.5}, {missing[2], 3}};  // 5 by the line
+  const RunTimes times = run_times(missing, known, {});
+  const double off = (9 + 13.5 + 3) / (9 + 5 + 3);
+  EXPECT_NEAR(times.seconds[0], 9 * off, 1e-9);
+  EXPECT_NEAR(times.seconds[1], 5 * off, 1e-9);
+  EXPECT_NEAR(times.seconds[2], 3 * off, 1e-9);
+}
+
 TEST(RunTimes, OfShortRunsAreRepeatedForBestTimes) {
   const Plan plan = planned({"--dt", "0.01,0.02,0.04"});
   Timing timing;
