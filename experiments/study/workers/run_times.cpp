@@ -78,8 +78,7 @@ struct RunKind {
   std::vector<std::size_t> runs;
   double cost = 0;  ///< cost of all runs together
   std::size_t least = 0, largest = 0;
-  std::vector<Timed> timed{};    ///< the least and the largest, or all whose times are known
-  std::vector<Timed> between{};  ///< a few others
+  std::vector<Timed> timed{};
 };
 
 bool in_contact(const PlannedRun& run) { return run.config.contact.has_value(); }
@@ -185,7 +184,6 @@ class Calibration {
   struct Trial {
     RunKind* kind;
     std::size_t run;
-    std::vector<Timed> RunKind::*into = &RunKind::timed;
   };
 
   /// First the largest run of each kind, then the least, then a few between these where runs of the same cost differ:
@@ -204,8 +202,7 @@ class Calibration {
     for (RunKind* kind : untimed) {
       const std::size_t count = kind->runs.size();
       if (count < many || !runs_[kind->largest]->config.joints) continue;
-      for (std::size_t k = 0; k < between; ++k)
-        all.push_back({kind, kind->runs[count * (2 * k + 1) / (2 * between)], &RunKind::between});
+      for (std::size_t k = 0; k < between; ++k) all.push_back({kind, kind->runs[count * (2 * k + 1) / (2 * between)]});
     }
     return all;
   }
@@ -264,7 +261,7 @@ class Calibration {
     if (share < (run.config.dt ? least_share : least_adaptive_share)) return;
     if (in_contact(run)) seconds = share * time_of_whole(seconds, share, share_at_half);
     const std::lock_guard lock(mutex_);
-    (trial.kind->*trial.into).push_back({&run, share, seconds});
+    trial.kind->timed.push_back({&run, share, seconds});
     if (share == 1) overhead_ = std::min(overhead_, seconds);
   }
 
@@ -349,11 +346,9 @@ class Calibration {
   /// What the timed runs of a kind took, over what seconds_of() gives for them, which follows two of them.
   double off_the_law(const RunKind& kind) const {
     double taken = 0, by_law = 0;
-    for (const auto* runs : {&kind.timed, &kind.between}) {
-      for (const Timed& timed : *runs) {
-        taken += timed.seconds;
-        by_law += seconds_of(kind, *timed.run, timed.share);
-      }
+    for (const Timed& timed : kind.timed) {
+      taken += timed.seconds;
+      by_law += seconds_of(kind, *timed.run, timed.share);
     }
     return by_law > 0 ? taken / by_law : 1;
   }

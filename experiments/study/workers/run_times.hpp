@@ -34,9 +34,10 @@ struct KnownTime {
 };
 
 /// Runs are of one kind if they agree in method, scenario, arithmetic, contact algorithms and number of bodies. Of each
-/// kind the run of largest and the run of least cost are carried out for a while, the most expensive kinds first, until
-/// the budget has passed; a kind that was not reached gets the mean rate of those with its method and response, or of
-/// all. Of a kind with several known times no run is carried out. Writes no file.
+/// kind the run of largest and the run of least cost are carried out for a while, and with joints three others, which
+/// differ in their stabilization; the most expensive kinds first, until the budget has passed. A kind that was not
+/// reached gets the mean rate of those with its method and response, or of all. Of a kind with several known times no
+/// run is carried out. Writes no file.
 RunTimes run_times(std::span<const PlannedRun* const> runs, std::span<const KnownTime> known, const Timing& timing);
 
 /// Time of a whole run of which a part was carried out in so many seconds, s. `share`: that part, 0 to 1;
