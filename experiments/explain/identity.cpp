@@ -106,7 +106,7 @@ void compare_lines(const std::string& a, const std::string& b, std::vector<KeyDi
 
 /// Keys of the scenario that differ, without those that both runs vary: they are named as varied keys.
 void compare_scenarios(const ExplainedRun& a, const ExplainedRun& b, std::vector<KeyDifference>& found) {
-  if (a.read.scenario->canonical == b.read.scenario->canonical) return;
+  if (a.read.scenario->canonical() == b.read.scenario->canonical()) return;
   const std::size_t before = found.size();
   const Tree first = tree_of(a), second = tree_of(b);
   std::set<std::string> paths, varied = first.varied;
@@ -122,7 +122,7 @@ void compare_scenarios(const ExplainedRun& a, const ExplainedRun& b, std::vector
     if (std::none_of(varied.begin(), varied.end(), [&](const std::string& v) { return overlap(v, path); }))
       found.push_back({path, x, y});
   }
-  if (found.size() == before && !said) compare_lines(a.read.scenario->canonical, b.read.scenario->canonical, found);
+  if (found.size() == before && !said) compare_lines(a.read.scenario->canonical(), b.read.scenario->canonical(), found);
 }
 
 std::string version_of(const ExplainedRun& run) {
@@ -149,7 +149,7 @@ ExplainedRun explained(const FoundRun& found) {
 
 std::vector<std::pair<std::string, std::string>> identity_of_run(const ExplainedRun& run) {
   std::vector<std::pair<std::string, std::string>> keys = {{"results version", version_of(run)},
-                                                           {"scenario text", text_hash(run.read.scenario->canonical)}};
+                                                           {"scenario text", text_hash(run.read.scenario->canonical())}};
   const auto parts = identity_parts(run.read.config);
   keys.insert(keys.end(), parts.begin(), parts.end());
   return keys;

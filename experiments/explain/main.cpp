@@ -20,7 +20,7 @@ void print_one(const ExplainedRun& run) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& [key, value] : identity_of_run(run)) rows.push_back({key, one_line(value)});
   fmt::print("run {}\n{}", run.id, aligned(rows, {true, true}));
-  fmt::print("The scenario text, in which the varied keys are set:\n{}", run.read.scenario->canonical);
+  fmt::print("The scenario text, in which the varied keys are set:\n{}", run.read.scenario->canonical());
 }
 
 void print_both(const ExplainedRun& a, const ExplainedRun& b) {

@@ -76,7 +76,7 @@ int judge(const JudgeOptions& options) {
     const TrajectoryScore& s = one.score;
     view.runs.push_back(s.record);
     // The id is the hash of the score, which differs between trajectories.
-    std::string text = scenario.canonical + s.record.config.integrator + std::to_string(s.instants);
+    std::string text = scenario.canonical() + s.record.config.integrator + std::to_string(s.instants);
     for (const ErrorPoint& p : s.errors) text += exact(p.t) + csv_cell(p.attitude) + csv_cell(p.position);
     for (const SeriesPoint& p : s.record.result.series) text += exact(p.t) + exact(p.energy_drift_rel);
     view.runs.back().id = identity_of(text);

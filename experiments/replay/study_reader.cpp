@@ -178,8 +178,8 @@ ScenarioSource open_scenario(const Json& manifest, const std::string& name, cons
 void check_same(const Json& manifest, const Scenario& scenario, const std::string& name) {
   const auto kept = manifest.find("scenarios");
   if (kept == manifest.end() || !kept->contains(name)) return;
-  const Json& resolved = (*kept)[name].contains("resolved") ? (*kept)[name]["resolved"] : Json(scenario.canonical);
-  if (resolved == scenario.canonical) return;
+  const Json& resolved = (*kept)[name].contains("resolved") ? (*kept)[name]["resolved"] : Json(scenario.canonical());
+  if (resolved == scenario.canonical()) return;
   throw InputError(
       "the scenario " + name +
       " has changed since the study was made; name the one it was with --scenario, or make the study again");

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <future>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -255,8 +256,11 @@ int run_study(const Experiment& experiment, const Options& options) {
   } while (runs.widen());
   interruption.ends_at_once(
       "interrupted while results were written; all runs are kept, and the same command writes them\n");
-  return is_held(experiment, plan.size()) ? write_study(experiment, options, plan, runs)
-                                          : write_large_study(experiment, options, plan, runs);
+  std::future<void> settled = std::async(std::launch::async, [&runs] { runs.store().settle(); });
+  const int status = is_held(experiment, plan.size()) ? write_study(experiment, options, plan, runs)
+                                                      : write_large_study(experiment, options, plan, runs);
+  settled.get();
+  return status;
 }
 
 }  // namespace

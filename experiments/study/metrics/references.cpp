@@ -23,9 +23,13 @@ void References::expect(std::vector<std::uint64_t> scenarios) {
   }
 }
 
-std::shared_ptr<References::Motion> References::motion_of(std::uint64_t scenario, double t_end) {
-  const std::lock_guard lock(mutex_);
-  const auto found = shared_.find(scenario);
+std::shared_ptr<References::Motion> References::motion_of(const Scenario& scenario, double t_end) {
+  std::unique_lock lock(mutex_);
+  if (shared_.empty()) return std::make_shared<Motion>();
+  lock.unlock();
+  const std::uint64_t number = number_of(scenario);
+  lock.lock();
+  const auto found = shared_.find(number);
   if (found == shared_.end()) return std::make_shared<Motion>();
   Shared& shared = found->second;
   std::shared_ptr<Motion> motion;
@@ -45,7 +49,7 @@ std::shared_ptr<References::Motion> References::motion_of(std::uint64_t scenario
 }
 
 TrueMotion References::of(const RunConfig& config, const Scenario& scenario, const std::atomic<bool>* stop) {
-  const std::shared_ptr<Motion> entry = motion_of(number_of(scenario), config.t_end);
+  const std::shared_ptr<Motion> entry = motion_of(scenario, config.t_end);
   const std::lock_guard lock(entry->making);
   if (!entry->scales) {
     MotionScales scales = motion_scales(scenario, config.t_end, stop);
@@ -61,7 +65,7 @@ TrueMotion References::of(const RunConfig& config, const Scenario& scenario, con
 }
 
 void References::assume(const Scenario& scenario, double t_end, MotionScales scales) {
-  const std::shared_ptr<Motion> entry = motion_of(number_of(scenario), t_end);
+  const std::shared_ptr<Motion> entry = motion_of(scenario, t_end);
   const std::lock_guard lock(entry->making);
   entry->scales = std::move(scales);
 }

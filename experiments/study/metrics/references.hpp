@@ -31,8 +31,8 @@ class References {
   References(const References&) = delete;
   References& operator=(const References&) = delete;
 
-  /// Announces runs by number_of() their scenarios. The motions of a scenario that
-  /// is announced more than once are kept until of() was called as often, but at most 20 000 motions at a time.
+  /// Announces runs by number_of() their scenarios. The motions of a scenario that is announced more than once are kept
+  /// until of() was called as often, but at most 20 000 motions at a time.
   void expect(std::vector<std::uint64_t> scenarios);
 
   /// The true motion of the run. Thread-safe: calls wait while another thread computes it. If `stop` is set
@@ -53,7 +53,7 @@ class References {
     std::size_t expected = 0;
     std::map<double, std::shared_ptr<Motion>> motions;  ///< motions by their duration, s
   };
-  std::shared_ptr<Motion> motion_of(std::uint64_t scenario, double t_end);
+  std::shared_ptr<Motion> motion_of(const Scenario& scenario, double t_end);
 
   std::mutex mutex_;
   std::unordered_map<std::uint64_t, Shared> shared_;  ///< motions by the number of the scenario

@@ -95,12 +95,13 @@ struct Draft {
 
 /// Throws std::invalid_argument for an impossible step.
 Draft draft_of(const RunConfig& config, const Scenario& scenario, std::shared_ptr<const OptionsOfRuns> options) {
-  const std::uint64_t id = options->numbers.of(config.varied, scenario.canonical);
+  const std::string canonical = scenario.canonical();
+  const std::uint64_t id = options->numbers.of(config.varied, canonical);
   const std::uint64_t motion =
-      options->motion_numbers ? options->motion_numbers->of(config.varied, scenario.canonical) : id;
+      options->motion_numbers ? options->motion_numbers->of(config.varied, canonical) : id;
   const bool refused = !refusal(config, scenario).empty();
   const auto cost = static_cast<float>(std::min(options->cost, double{std::numeric_limits<float>::max()}));
-  return {{.id = id, .scenario = number_of(scenario), .cost = cost, .refused = refused},
+  return {{.id = id, .scenario = study::number_of(scenario.name, canonical), .cost = cost, .refused = refused},
           std::move(options),
           motion,
           sort_key_of_varied(config.varied)};
@@ -179,7 +180,7 @@ void add_product(Plan& plan, const Product& product) {
     const auto known = std::find_if(plan.scenarios.begin(), plan.scenarios.end(),
                                     [&](const Scenario& other) { return other.name == s.name; });
     if (known == plan.scenarios.end()) plan.scenarios.push_back(s);
-    else if (known->canonical != s.canonical)
+    else if (known->canonical() != s.canonical())
       throw InputError("two files are both named " + s.name + ".toml; rename one of them");
     auto& names = plan.scenario_names;
     if (std::find(names.begin(), names.end(), opened->name) == names.end()) names.push_back(opened->name);

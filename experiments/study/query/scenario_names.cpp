@@ -13,7 +13,7 @@ namespace {
 /// otherwise.
 std::string canonical_of(const OpenStore& store, const std::string& name) {
   try {
-    return source_of(store.scenarios, name).resolve().canonical;
+    return source_of(store.scenarios, name).resolve().canonical();
   } catch (const std::runtime_error&) {
     return store.scenarios.at(name).canonical;
   }

@@ -79,7 +79,7 @@ ReadRun read_run(const StoredRun& run, const std::map<std::int64_t, Configuratio
   const ScenarioSource source = source_of(scenarios, read.config.scenario);
   read.scenario = std::make_shared<const Scenario>(source.resolve(read.config.varied));
   for (int version = results_version; version > 0 && !read.version; --version) {
-    if (run_id(read.config, read.scenario->canonical, version) == run.id) read.version = version;
+    if (run_id(read.config, read.scenario->canonical(), version) == run.id) read.version = version;
   }
   return read;
 }

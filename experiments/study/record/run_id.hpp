@@ -27,7 +27,7 @@ class RunNumbers {
   IdentityText text_;
 };
 
-/// `canonical`: Scenario::canonical with the varied keys set. Varied keys with an empty value, which the run leaves
+/// `canonical`: Scenario::canonical() with the varied keys set. Varied keys with an empty value, which the run leaves
 /// unchanged, are no part of the id.
 std::uint64_t run_number(const RunConfig& config, std::string_view canonical, int version = results_version);
 /// The same as 16 hexadecimal digits.

@@ -11,7 +11,7 @@
 
 namespace polhode::study::inline scenario {
 
-/// Adds the text of Scenario::canonical to `out`. Bodies and forces are in their order; the keys of a force and the
+/// Adds the text of Scenario::canonical(), but for contact and the scale of the energy, to `out`. Bodies and forces are in their order; the keys of a force and the
 /// invariants are sorted.
 void add_canonical_text(const Problem& problem, const std::vector<std::string>& invariants, std::string& out);
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "experiments/study/scenario/builtin_scenarios.hpp"
+#include "experiments/study/scenario/canonical_text.hpp"
 #include "experiments/study/scenario/scenario_override.hpp"
 #include "experiments/study/scenario/scenario_reader.hpp"
 #include "experiments/study/scenario/scenario_variant.hpp"
@@ -13,6 +14,7 @@
 #include "experiments/study/text/text_file.hpp"
 #include "experiments/study/text/text_hash.hpp"
 #include "experiments/study/text/toml_cursor.hpp"
+#include "experiments/study/text/value_lists.hpp"
 
 namespace polhode::study::inline scenario {
 
@@ -132,10 +134,18 @@ Scenario ScenarioSource::Parsed::resolve(std::span<const Override> overrides, co
 
 // The interface.
 
-std::uint64_t number_of(const Scenario& scenario) {
+std::string Scenario::canonical() const {
   std::string text;
-  text.reserve(scenario.name.size() + 1 + scenario.canonical.size());
-  return text_number(text.append(scenario.name).append("\n").append(scenario.canonical));
+  add_canonical_text(problem, invariants, text);
+  text += contact_text;
+  if (energy_scale) text += "energy_scale " + exact(*energy_scale) + "\n";
+  return text;
+}
+
+std::uint64_t number_of(std::string_view name, std::string_view canonical) {
+  std::string text;
+  text.reserve(name.size() + 1 + canonical.size());
+  return text_number(text.append(name).append("\n").append(canonical));
 }
 
 ScenarioSource ScenarioSource::open(const std::string& name_or_path, const std::string& label) {

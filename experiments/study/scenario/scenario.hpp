@@ -44,15 +44,19 @@ struct Scenario {
   /// Notes for a user about the scenario as it was read: bodies that were moved to close joints, joints that repeat
   /// each other's equations. One line each.
   std::vector<std::string> notes;
-  /// Everything that affects the results, and nothing else, as text with every default filled in and numbers that read
-  /// back exactly. t_end is not included, since it is an option of the run. Part of the identity of a run.
-  std::string canonical;
+  std::string contact_text;  ///< the lines of canonical() about contact
   /// The TOML text that it was read from, without the varied keys.
   std::shared_ptr<const std::string> source{};
+
+  /// Everything that affects the results, and nothing else, as text with every default filled in and numbers that read
+  /// back exactly. t_end is not included, since it is an option of the run. Part of the identity of a run. Made anew by
+  /// each call: only the plan of a large study reads that of each run.
+  std::string canonical() const;
 };
 
-/// Hash of the scenario's name and of its canonical text.
-std::uint64_t number_of(const Scenario& scenario);
+/// Hash of a scenario's name and of its canonical text.
+std::uint64_t number_of(std::string_view name, std::string_view canonical);
+inline std::uint64_t number_of(const Scenario& scenario) { return number_of(scenario.name, scenario.canonical()); }
 
 /// A key of a scenario.
 struct FoundKey {

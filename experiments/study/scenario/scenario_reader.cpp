@@ -9,7 +9,6 @@
 #include "experiments/study/scenario/body_index.hpp"
 #include "experiments/study/scenario/body_reader.hpp"
 #include "experiments/study/scenario/body_repeat.hpp"
-#include "experiments/study/scenario/canonical_text.hpp"
 #include "experiments/study/scenario/joint_reader.hpp"
 #include "experiments/study/scenario/parameter_reader.hpp"
 #include "experiments/study/scenario/scenario_keys.hpp"
@@ -43,8 +42,8 @@ std::vector<ReadBody> read_all_bodies(const TomlCursor& list, bool contact) {
   return bodies;
 }
 
-/// Reads the bodies. With contact, shapes that can touch go into the scenario too, and their lines into `canonical`.
-BodyIndex read_bodies(const TomlCursor& root, Scenario& scenario, std::string& canonical) {
+/// Reads the bodies. With contact, shapes that can touch go into the scenario too, and their lines of canonical text.
+BodyIndex read_bodies(const TomlCursor& root, Scenario& scenario) {
   Problem& problem = scenario.problem;
   const TomlCursor contact = key(root, "contact");
   const TomlCursor list = root.at("body", "a list of tables, each under its own [[body]]");
@@ -58,7 +57,7 @@ BodyIndex read_bodies(const TomlCursor& root, Scenario& scenario, std::string& c
     problem.starts.push_back(b.start);
     scenario.shapes.push_back(std::move(b.shape));
     if (!contact.value().boolean) continue;
-    canonical += "contact " + (b.collider.shape ? b.canonical_collider : std::string("none\n"));
+    scenario.contact_text += "contact " + (b.collider.shape ? b.canonical_collider : std::string("none\n"));
     scenario.colliders.push_back(std::move(b.collider));
   }
   const auto touches = [](const Collider& c) { return c.shape != nullptr; };
@@ -69,7 +68,7 @@ BodyIndex read_bodies(const TomlCursor& root, Scenario& scenario, std::string& c
   scenario.end_at_contact = end.boolean();
   if (!scenario.end_at_contact) return index;
   if (!contact.value().boolean) end.fail("needs contact = true");
-  canonical += "end_at_contact\n";
+  scenario.contact_text += "end_at_contact\n";
   return index;
 }
 
@@ -204,14 +203,10 @@ std::vector<std::string> read_invariants(const TomlCursor& root, const Problem& 
 
 }  // namespace
 
-void complete(Scenario& scenario, const TomlCursor& root, std::string_view contact) {
+void complete(Scenario& scenario, const TomlCursor& root) {
   scenario.invariants = read_invariants(root, scenario.problem);
-  scenario.canonical.clear();
-  add_canonical_text(scenario.problem, scenario.invariants, scenario.canonical);
-  scenario.canonical += contact;
-  if (!root.has("energy_scale")) return;
-  scenario.energy_scale = root.at("energy_scale", "").number("J", Parameter::Range::positive);
-  scenario.canonical += "energy_scale " + exact(*scenario.energy_scale) + "\n";
+  if (root.has("energy_scale"))
+    scenario.energy_scale = root.at("energy_scale", "").number("J", Parameter::Range::positive);
 }
 
 Scenario read_scenario(const TomlValue& tree, const std::string& name) {
@@ -223,13 +218,12 @@ Scenario read_scenario(const TomlValue& tree, const std::string& name) {
   scenario.title = root.has("title") ? root.at("title", "").text("a text of one line") : name;
   scenario.description = key(root, "description").text("a text of one line");
   scenario.t_end = root.at("t_end", "a positive number of s").number("s", Parameter::Range::positive);
-  std::string contact;
-  const BodyIndex index = read_bodies(root, scenario, contact);
-  scenario.compliance = read_compliance(root, contact);
+  const BodyIndex index = read_bodies(root, scenario);
+  scenario.compliance = read_compliance(root, scenario.contact_text);
   read_gravity(root, scenario.problem);
   read_forces(root, index, scenario.problem);
   read_joints(root, index, scenario);
-  complete(scenario, root, contact);
+  complete(scenario, root);
   return scenario;
 }
 

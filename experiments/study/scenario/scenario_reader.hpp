@@ -14,8 +14,8 @@ namespace polhode::study::inline scenario {
 /// Reads the tree. `name` is the name of the scenario, and its title if it has none. Throws a Fault.
 Scenario read_scenario(const TomlValue& root, const std::string& name);
 
-/// The last step of reading, when bodies, forces and joints are read: sets the invariants, the scale of the energy and
-/// the canonical text, of which `contact` are the lines about contact. Throws a Fault.
-void complete(Scenario& scenario, const TomlCursor& root, std::string_view contact);
+/// The last step of reading, when bodies, forces and joints are read: sets the invariants and the scale of the energy.
+/// Throws a Fault.
+void complete(Scenario& scenario, const TomlCursor& root);
 
 }  // namespace polhode::study::scenario

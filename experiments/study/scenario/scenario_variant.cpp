@@ -76,7 +76,7 @@ std::optional<Scenario> variant_of(const Scenario& plain, const TomlValue& tree,
       const TomlCursor table = bodies.item(one.table);
       if (!read_again(table, one, scenario)) return std::nullopt;
     }
-    complete(scenario, root, "");
+    complete(scenario, root);
     return scenario;
   } catch (const Fault&) {
     return std::nullopt;

@@ -253,7 +253,8 @@ class Store::Reader {
 
 Store::Store(const std::filesystem::path& folder, std::span<const Metric> metrics, Access access,
              std::optional<Journal> journal)
-    : db_(folder / file_name, access, journal ? *journal : journal_of(folder)),
+    : journal_(journal ? *journal : journal_of(folder)),
+      db_(folder / file_name, access, journal_),
       tables_(std::make_unique<const Tables>(metrics)) {
   if (access == Access::create && is_empty(db_)) tables_->create(db_);
   tables_->check(db_);
@@ -337,6 +338,11 @@ void Store::forget(std::span<const std::int64_t> numbers) {
   transaction.commit();
 }
 
+void Store::settle() const {
+  if (journal_ == Journal::write_ahead)
+    Database(db_.path(), Access::write, journal_).execute("PRAGMA wal_checkpoint(PASSIVE)");
+}
+
 void Store::keep(std::span<const RunRecord> records) {
   Transaction transaction(db_);
   if (!writer_) writer_ = std::make_unique<Writer>(db_, *tables_);
@@ -358,7 +364,8 @@ void Store::keep_scenarios(std::span<const Scenario> scenarios) {
   Statement insertion(db_, "INSERT OR REPLACE INTO scenarios (name, canonical, source, checksum) VALUES (?,?,?,?)");
   for (const Scenario& scenario : scenarios) {
     const std::string_view source = scenario.source ? std::string_view(*scenario.source) : std::string_view();
-    Value row[] = {std::string_view(scenario.name), std::string_view(scenario.canonical), source, {}};
+    const std::string canonical = scenario.canonical();
+    Value row[] = {std::string_view(scenario.name), std::string_view(canonical), source, {}};
     row[3] = checksum_of(0, std::span(row).first(3));
     insertion.run(row);
   }

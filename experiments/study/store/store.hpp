@@ -39,7 +39,7 @@ struct StoredRun {
 
 /// A scenario as it stands in the store.
 struct StoredScenario {
-  std::string canonical;  ///< Scenario::canonical, without varied keys
+  std::string canonical;  ///< Scenario::canonical(), without varied keys
   std::string source;     ///< its TOML text
 };
 
@@ -92,6 +92,9 @@ class Store {
   /// stored without curves. Throws std::logic_error for a value that could not be read back.
   void keep(std::span<const RunRecord> records);
   void forget(std::span<const std::int64_t> numbers);  ///< deletes the rows of the runs with these numbers
+  /// Moves what stands in SQLite's log into the file, for which closing the store waits otherwise. Through a connection
+  /// of its own, so that another thread may read the store meanwhile.
+  void settle() const;
 
   /// The configurations of the runs, by key (`runs.configuration`). Damaged ones are left out.
   std::map<std::int64_t, Configuration> configurations() const;
@@ -126,6 +129,7 @@ class Store {
   class Writer;
   class Reader;
 
+  Journal journal_;
   Database db_;
   std::unique_ptr<const Tables> tables_;
   std::unique_ptr<Writer> writer_;                             ///< made at the first keep()

@@ -156,7 +156,7 @@ study::Scenario scenario_of(const TomlCursor& root, const std::string& origin) {
   if (is_path(from)) from = (std::filesystem::path(origin).parent_path() / from).string();
   study::Scenario scenario = study::ScenarioSource::open(from, label).resolve(overrides);
   const TomlCursor said = root.at("scenario_digest", "16 hexadecimal digits");
-  if (said.text("16 hexadecimal digits") != digest(scenario.canonical)) {
+  if (said.text("16 hexadecimal digits") != digest(scenario.canonical())) {
     said.fail("the scenario is not the one that was recorded; take its old version");
   }
   return scenario;

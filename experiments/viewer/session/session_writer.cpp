@@ -59,7 +59,7 @@ SessionWriter::SessionWriter(const std::filesystem::path& path, const SessionSet
   file_ = std::fopen(path_.c_str(), "wb");
   if (!file_) throw std::runtime_error("cannot write " + path_ + ": " + std::strerror(errno));
   std::string text = "# A session of polhode's viewer, as it went; it can be carried out again.\nversion = 1\n";
-  text += line("scenario", seen_from(path, setup.scenario)) + line("scenario_digest", digest(scenario.canonical));
+  text += line("scenario", seen_from(path, setup.scenario)) + line("scenario_digest", digest(scenario.canonical()));
   for (const study::Override& o : setup.overrides) {
     text += "\n[[override]]\n" + line("key", o.key) + line("value", o.value);
   }

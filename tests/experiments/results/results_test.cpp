@@ -125,9 +125,9 @@ TEST(RunRows, ScenariosAndStudiesComeBackUnlessTheyAreDamaged) {
     Store store(folder.path());
     store.keep_scenarios({&scenario, 1});
     store.keep_study("energy_drift", "./run energy_drift", "{}");
-    EXPECT_EQ(store.scenarios().at("lagrange_top").canonical, scenario.canonical);
+    EXPECT_EQ(store.scenarios().at("lagrange_top").canonical, scenario.canonical());
     const std::string source = store.scenarios().at("lagrange_top").source;
-    EXPECT_EQ(ScenarioSource::parse(source, "lagrange_top.toml").resolve().canonical, scenario.canonical);
+    EXPECT_EQ(ScenarioSource::parse(source, "lagrange_top.toml").resolve().canonical(), scenario.canonical());
     ASSERT_EQ(store.studies().size(), 1u);
     EXPECT_EQ(store.studies()[0].command, "./run energy_drift");
     store.database().execute("UPDATE scenarios SET source = source || ' '");

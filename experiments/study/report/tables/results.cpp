@@ -228,7 +228,7 @@ void write_manifest(const StudyView& study, const Options& options, const Plan& 
   if (studies.size() > 1 || !axes.contains("scenario"))
     axes["scenario"] = fmt::format("{}", fmt::join(plan.scenario_names, ","));
   Json scenarios = Json::object();
-  for (const Scenario& s : study.scenarios) scenarios[s.name] = {{"title", s.title}, {"resolved", s.canonical}};
+  for (const Scenario& s : study.scenarios) scenarios[s.name] = {{"title", s.title}, {"resolved", s.canonical()}};
   Json manifest = {{"experiment", study.experiment},  {"command", study.command},
                    {"study", plan.identity},          {"runs", study.size()},
                    {"options", options_of(options)},  {"axes", axes},

@@ -118,7 +118,7 @@ TEST_F(StudyFiles, ConfigurationsAreThoseOfTheRuns) {
       own += plan.rows[i].own_presets;
       const PlannedRun run = plan.run(i);
       for (const RunConfig& config : {run.config, plan.config(i), plan.config(i, &last), plan.run(i, &variants).config})
-        EXPECT_EQ(run_number(config, run.scenario->canonical), plan.rows[i].id) << i;
+        EXPECT_EQ(run_number(config, run.scenario->canonical()), plan.rows[i].id) << i;
     }
     EXPECT_EQ(own, with_own_presets);
   };

@@ -18,7 +18,7 @@ namespace {
 void keep_top(const std::filesystem::path& folder, const std::string& text, const std::string& added = "") {
   std::filesystem::create_directories(folder);
   Scenario scenario = ScenarioSource::parse(text, "top.toml").resolve();
-  scenario.canonical += added;
+  scenario.contact_text += added;
   Store(folder).keep_scenarios({&scenario, 1});
 }
 

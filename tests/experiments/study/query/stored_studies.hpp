@@ -32,7 +32,7 @@ inline RunRecord run_of(const std::string& text, const RunConfig& config) {
   const ScenarioSource source = ScenarioSource::parse(text, config.scenario + ".toml");
   RunRecord run{.id = {}, .config = config, .result = {}};
   run.scenario = std::make_shared<const Scenario>(source.resolve(config.varied));
-  run.id = run_id(config, run.scenario->canonical);
+  run.id = run_id(config, run.scenario->canonical());
   run.result.status = "ok";
   return run;
 }

@@ -43,7 +43,7 @@ TEST(ScenarioCopies, AreOffTheGridAsFarAsTheyMay) {
   const std::string keys =
       "orientation = [0, 1, 0, 0]\nrepeat = [10, 10, 1]\nspacing = [1, 1, 0]\njitter = 0.25\njitter_angle = 0.5\n";
   const Scenario s = resolved(keys), again = resolved(keys);
-  EXPECT_EQ(s.canonical, again.canonical);
+  EXPECT_EQ(s.canonical(), again.canonical());
   double most = 0, most_angle = 0;
   for (std::size_t i = 0; i < 100; ++i) {
     const BodyStart& start = s.problem.starts[1 + i];

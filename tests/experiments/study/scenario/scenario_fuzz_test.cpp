@@ -141,7 +141,7 @@ void expect_sound(const Scenario& s) {
   const State<double> state = system->start();
   VectorX<double> rate = state.y;
   system->rate(0, state.y.data(), rate.data());
-  ASSERT_FALSE(s.canonical.empty());
+  ASSERT_FALSE(s.canonical().empty());
 }
 
 /// Returns 1 if it was read, 0 if it was refused in the way it must be.

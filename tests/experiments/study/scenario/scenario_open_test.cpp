@@ -41,7 +41,7 @@ TEST(ScenarioOpen, FilesByPath) {
   std::ofstream(path) << base;
   const ScenarioSource source = ScenarioSource::open(path);
   EXPECT_EQ(source.name(), "my top");
-  EXPECT_EQ(source.resolve().canonical, resolved(base).canonical);
+  EXPECT_EQ(source.resolve().canonical(), resolved(base).canonical());
   std::ofstream(path) << changed("mass = 2.0", "mass = 0");
   EXPECT_THAT(open_error(path), StartsWith(path + ":7:8: body.0.mass: 0 is not a valid mass"));
 }

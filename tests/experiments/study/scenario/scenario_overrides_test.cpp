@@ -40,10 +40,10 @@ TEST(ScenarioOverrides, SetWhatTheFileLeavesOut) {
 
 TEST(ScenarioOverrides, LeaveTheSourceAsItWas) {
   const ScenarioSource source = ScenarioSource::parse(base, "test.toml");
-  const std::string before = source.resolve().canonical;
+  const std::string before = source.resolve().canonical();
   const std::vector<Override> overrides = {{"body.0.mass", "7"}, {"body.0.velocity.1", "3"}};
-  EXPECT_NE(source.resolve(overrides).canonical, before);
-  EXPECT_EQ(source.resolve().canonical, before);
+  EXPECT_NE(source.resolve(overrides).canonical(), before);
+  EXPECT_EQ(source.resolve().canonical(), before);
 }
 
 TEST(ScenarioOverrides, ErrorsNameTheOverride) {
@@ -110,9 +110,9 @@ TEST(ScenarioOverrides, SurfacesDecideWhereThereIsContact) {
       "shape = { kind = \"half_space\", normal = [0, 0, 1] }\n";
   EXPECT_EQ(resolved(text, {{"body.0.restitution", "0.25"}}).colliders[0].restitution, 0.25);
   EXPECT_EQ(resolved(text, {{"body.1.friction", "0.5"}}).colliders[1].friction, 0.5);
-  EXPECT_NE(resolved(text, {{"body.0.shape.radius", "0.25"}}).canonical, resolved(text).canonical);
+  EXPECT_NE(resolved(text, {{"body.0.shape.radius", "0.25"}}).canonical(), resolved(text).canonical());
   EXPECT_TRUE(resolved(text, {{"end_at_contact", "true"}}).end_at_contact);
-  EXPECT_NE(resolved(text, {{"end_at_contact", "true"}}).canonical, resolved(text).canonical);
+  EXPECT_NE(resolved(text, {{"end_at_contact", "true"}}).canonical(), resolved(text).canonical());
   EXPECT_EQ(error_of(base, {{"body.0.friction", "0.5"}}),
             "--vary body.0.friction: the friction decides nothing about a run without contact = true");
   EXPECT_THAT(error_of("end_at_contact = true\n" + base), HasSubstr("end_at_contact: needs contact = true"));

@@ -79,7 +79,7 @@ point_masses = [{ mass = 1, position = [1, 0, 0] }, { mass = 1, position = [0, 1
 TEST(Scenario, QuaternionNearUnitLengthIsUsedAsGiven) {
   const Scenario s = resolved(changed("[1.0, 0.0, 0.0, 0.0]", "[-1.0000009, 0.0, 0.0, 0.0]"));
   EXPECT_EQ(s.problem.starts[0].orientation[0], -1.0000009);
-  EXPECT_THAT(s.canonical, HasSubstr("orientation=-1.0000009,0,0,0"));
+  EXPECT_THAT(s.canonical(), HasSubstr("orientation=-1.0000009,0,0,0"));
 }
 
 TEST(Scenario, UnphysicalInertiaOnRequest) {

@@ -19,7 +19,7 @@ std::string text_of(const ScenarioSource& source, const std::vector<Override>& o
     const Scenario scenario = source.resolve(overrides, plain);
     std::string text = scenario.name + "\n" + scenario.title + "\n" + scenario.description + "\n";
     text += std::to_string(scenario.t_end) + "\n" + std::to_string(scenario.end_at_contact) + "\n";
-    text += std::to_string(scenario.energy_scale.value_or(0)) + "\n" + scenario.canonical;
+    text += std::to_string(scenario.energy_scale.value_or(0)) + "\n" + scenario.canonical();
     text += std::to_string(scenario.compliance.slip_speed) + " " + std::to_string(scenario.compliance.stiffness) + "\n";
     for (const Body& body : scenario.problem.bodies) text += body.name + "\n";
     for (const ShapePointer& shape : scenario.shapes) {
