@@ -755,7 +755,7 @@ class Results(StudyTest):
         self.assertGreaterEqual(manifest["cores"], 1)
         self.assertIn(platform.machine(), manifest["operating_system"])
         self.assertEqual(set(manifest["libraries"]), {"Eigen", "SUNDIALS", "Boost", "HDF5", "SQLite", "toml++", "CLI11",
-                                                      "nlohmann-json", "fmt", "TBB", "Qhull", "xxHash"})
+                                                      "nlohmann-json", "fmt", "TBB", "Qhull", "xxHash", "jemalloc"})
         for library, version in manifest["libraries"].items():
             self.assertRegex(version, r"^\d+(\.\d+)+", library)
         with contextlib.closing(sqlite3.connect(out / "results.sqlite")) as store:

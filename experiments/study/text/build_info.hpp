@@ -17,7 +17,7 @@ struct BuildInfo {
   std::string_view compiler;
   std::string_view flags;
   std::string_view build_type;
-  std::array<Library, 12> libraries;  // libraries that were found when the build was configured
+  std::array<Library, 13> libraries;  // libraries that were found when the build was configured
 
   /// True if the checkout had changes that the commit does not have.
   bool dirty() const { return commit.ends_with("-dirty"); }
