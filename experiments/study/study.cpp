@@ -144,15 +144,15 @@ int write_study(const Experiment& experiment, const Options& options, const Plan
   return status_of(experiment, view.analysis && view.analysis->alone, outcomes);
 }
 
-/// Writes all files of a study whose runs are too many to be held: from a few runs at a time, and a sample of them.
-int write_large_study(const Experiment& experiment, const Options& options, const Plan& plan, StudyRuns& runs) {
-  std::vector<std::uint64_t> motions;
-  for (const PlanRow& row : plan.rows) motions.push_back(row.scenario);
-  StudyView sample = runs.view(shown_runs(motions, rows_of_large_tables));
-  Population population(sample);
-  RunsCsv results(sample);
-  TimingsCsv timings(sample);
-  runs.for_each_part([&](std::vector<RunRecord>&& records) -> UsePart {
+/// A study whose runs are too many to be held. Its files are written from a few runs at a time, and a sample of them.
+class LargeStudy {
+ public:
+  /// `shown`: numbers of the runs of the sample. `sample`: these, without results.
+  LargeStudy(const Plan& plan, std::vector<std::size_t> shown, const StudyView& sample)
+      : plan_(plan), shown_(std::move(shown)), population_(sample), results_(sample), timings_(sample) {}
+
+  /// Makes the rows of these runs, which follow those of the parts before. Thread-safe.
+  UsePart part(std::vector<RunRecord>&& records) {
     struct Part {
       std::vector<RunRecord> records;
       std::vector<std::vector<std::string>> cells;
@@ -160,26 +160,48 @@ int write_large_study(const Experiment& experiment, const Options& options, cons
     };
     const auto part = std::make_shared<Part>();
     part->records = std::move(records);
-    ConfigCells cells(plan.named);
+    ConfigCells cells(plan_.named);
     for (const RunRecord& run : part->records) {
       part->cells.push_back(cells.of(run.config));
-      results.write(run, part->cells.back(), part->results);
+      results_.write(run, part->cells.back(), part->results);
       TimingsCsv::write(run, part->timings);
     }
-    return [&, part] {
-      results.add(part->results);
-      timings.add(part->timings);
-      for (std::size_t k = 0; k < part->records.size(); ++k) population.add(part->records[k], part->cells[k]);
+    return [this, part] {
+      results_.add(part->results);
+      timings_.add(part->timings);
+      for (std::size_t k = 0; k < part->records.size(); ++k) population_.add(part->records[k], part->cells[k]);
     };
-  });
-  results.finish();
-  timings.finish();
-  for (const auto& [status, outcome] : population.outcomes()) sample.all_runs[status] = outcome.runs;
-  sample.figure_choice = options.figure_choice;
-  sample.analysis = population.analysis();
-  choose_figures(sample.figure_choice, sample.analysis->figures);
-  write_reports(sample, options, plan, runs);
-  return status_of(experiment, false, population.outcomes());
+  }
+
+  /// Writes all files, once all runs of the plan are there.
+  int write(const Experiment& experiment, const Options& options, StudyRuns& runs) {
+    runs.for_each_part([this](std::vector<RunRecord>&& records) { return part(std::move(records)); });
+    results_.finish();
+    timings_.finish();
+    StudyView sample = runs.view(shown_);
+    for (const auto& [status, outcome] : population_.outcomes()) sample.all_runs[status] = outcome.runs;
+    sample.figure_choice = options.figure_choice;
+    sample.analysis = population_.analysis();
+    choose_figures(sample.figure_choice, sample.analysis->figures);
+    write_reports(sample, options, plan_, runs);
+    return status_of(experiment, false, population_.outcomes());
+  }
+
+ private:
+  const Plan& plan_;
+  std::vector<std::size_t> shown_;
+  Population population_;
+  RunsCsv results_;
+  TimingsCsv timings_;
+};
+
+/// Opens the files of a study with too many runs to be held; absent if they are not too many.
+std::unique_ptr<LargeStudy> large_study(const Experiment& experiment, const Plan& plan, const StudyRuns& runs) {
+  if (is_held(experiment, plan.size())) return nullptr;
+  std::vector<std::uint64_t> motions;
+  for (const PlanRow& row : plan.rows) motions.push_back(row.scenario);
+  const std::vector<std::size_t> shown = shown_runs(motions, rows_of_large_tables);
+  return std::make_unique<LargeStudy>(plan, shown, runs.planned(shown));
 }
 
 /// The runs that a folder and its shards have.
@@ -240,6 +262,9 @@ int run_study(const Experiment& experiment, const Options& options) {
   interruption.runs_begin();  // from here on a signal lets go of the folder
   const ResultFolder held(folder, belongs, options.force);
   StudyRuns runs(experiment, options, plan, folder, folder);
+  const std::unique_ptr<LargeStudy> large = large_study(experiment, plan, runs);
+  MakePart part;
+  if (large) part = [&](std::vector<RunRecord>&& records) { return large->part(std::move(records)); };
   do {
     runs.join();
     if (options.merge) {
@@ -250,15 +275,14 @@ int run_study(const Experiment& experiment, const Options& options) {
                    experiment.name, missing, plan.size(), folder.string());
         return interrupted;
       }
-    } else if (!runs.carry_out_missing(interruption)) {
+    } else if (!runs.carry_out_missing(interruption, part)) {
       return interrupted;
     }
   } while (runs.widen());
   interruption.ends_at_once(
       "interrupted while results were written; all runs are kept, and the same command writes them\n");
   std::future<void> settled = std::async(std::launch::async, [&runs] { runs.store().settle(); });
-  const int status = is_held(experiment, plan.size()) ? write_study(experiment, options, plan, runs)
-                                                      : write_large_study(experiment, options, plan, runs);
+  const int status = large ? large->write(experiment, options, runs) : write_study(experiment, options, plan, runs);
   settled.get();
   return status;
 }

@@ -60,6 +60,19 @@ class LargeStudy(unittest.TestCase):
         self.run_in("parts", "--merge")
         self.assertEqual(files(self.folder / "parts/out"), self.files)
 
+    def test_runs_that_finish_in_another_order_than_the_plans_make_the_same_bytes(self):
+        """The longest runs are carried out first; made again, all runs are read back from the store."""
+        study = ["--integrator", "explicit_euler,rk4", "--dt", "0.01,0.03", "--t-end", "0.06", "--vary",
+                 "body.0.angular_velocity.1=1:5:2600", "--no-figures"]  # 10400 runs
+        self.run_in("ordered", study=study)
+        first, out = files(self.folder / "ordered/out"), self.folder / "ordered/out"
+        (out / "runs.csv").unlink()
+        (out / "timings.csv").rename(out / "before.csv")
+        self.run_in("ordered", study=study)
+        self.assertEqual((out / "timings.csv").read_bytes(), (out / "before.csv").read_bytes())
+        (out / "before.csv").unlink()
+        self.assertEqual(files(out), first)
+
     def test_memory_hardly_grows_with_the_number_of_runs(self):
         """A run of two steps is carried out faster than it is stored, and one axis has all the values."""
         if b"__asan_init" in (BIN / "energy_drift").read_bytes():

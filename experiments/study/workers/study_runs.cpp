@@ -212,7 +212,7 @@ void StudyRuns::join() {
   keep();
 }
 
-bool StudyRuns::carry_out_missing(Interruption& interruption) {
+bool StudyRuns::carry_out_missing(Interruption& interruption, const MakePart& make) {
   std::vector<std::uint32_t> runs;
   const auto shards = options_.shard ? deal(plan_, options_.shard->count) : std::vector<std::size_t>();
   std::size_t elsewhere = 0;  // missing runs of other shards
@@ -228,7 +228,7 @@ bool StudyRuns::carry_out_missing(Interruption& interruption) {
                plan_.size() - runs.size() - elsewhere, plan_.size());
   }
   begun_ = true;
-  run(runs, interruption);
+  run(runs, interruption, make);
   if (!interruption.no_more()) return true;
   fmt::print(stderr, "{}: interrupted; {} of {} runs are kept in {}; the same command goes on from there\n",
              experiment_.name, count(Place::own_store) + count(Place::other_store), plan_.size(), folder_.string());
@@ -236,8 +236,10 @@ bool StudyRuns::carry_out_missing(Interruption& interruption) {
 }
 
 /// Carries out these runs, until no more may begin.
-void StudyRuns::run(const std::vector<std::uint32_t>& runs, Interruption& interruption) {
+void StudyRuns::run(const std::vector<std::uint32_t>& runs, Interruption& interruption, const MakePart& make) {
   References references;
+  std::optional<RunsInOrder> ordered;
+  if (make && runs.size() == plan_.size()) ordered.emplace(runs.size(), make);
   std::vector<std::uint64_t> scenarios;
   scenarios.reserve(runs.size());
   for (const std::uint32_t i : runs) scenarios.push_back(plan_.rows[i].scenario);
@@ -246,7 +248,7 @@ void StudyRuns::run(const std::vector<std::uint32_t>& runs, Interruption& interr
     if (options_.trajectory == TrajectoryFormat::none) return TrajectoryRequest{};
     return TrajectoryRequest{options_.trajectory, trajectory_folder(experiment_, folder_, id)};
   };
-  const Work work{
+  Work work{
       .key = [&](const PlannedRun& run) { return ensemble_key(run.config, *run.scenario, trajectory(run.id)); },
       .carry_out =
           [&](Batch batch, std::atomic<double>& share, const Finished& finished) {
@@ -266,11 +268,18 @@ void StudyRuns::run(const std::vector<std::uint32_t>& runs, Interruption& interr
             for (const RunRecord& record : records) folders.push_back(trajectory(record.id).folder);
             finish_trajectories(options_.trajectory, folders);
           }};
+  if (ordered) {
+    work.stored = [&](std::span<const std::uint32_t> numbers, std::span<RunRecord> records) {
+      ordered->add(numbers, records);
+    };
+    work.between = [&] { ordered->work(); };
+  }
   const std::string name =
       options_.shard ? fmt::format("{} {}/{}", experiment_.name, options_.shard->number, options_.shard->count)
                      : experiment_.name;
   for (const std::uint32_t i : run_all(name, plan_, runs, work, options_.jobs, store_, interruption.no_more()))
     places_[i] = Place::own_store;
+  if (ordered) used_parts_ = ordered->used();
 }
 
 bool StudyRuns::widen() {
@@ -326,14 +335,19 @@ StudyView StudyRuns::view(const std::vector<std::size_t>& runs) const {
                  [&](std::size_t i) { return std::optional(result(i, Curves::with)); });
 }
 
-void StudyRuns::for_each_part(const std::function<UsePart(std::vector<RunRecord>&& runs)>& make) const {
-  constexpr std::size_t at_a_time = 256;
+StudyView StudyRuns::planned(const std::vector<std::size_t>& runs) const {
+  return view_of(experiment_, options_, plan_, folder_, runs, [](std::size_t) { return std::optional<RunResult>({}); });
+}
+
+void StudyRuns::for_each_part(const MakePart& make) const {
   std::mutex reading;
-  in_order((plan_.size() + at_a_time - 1) / at_a_time, number_of_threads(options_.jobs), [&](std::size_t part) {
+  const std::size_t parts = (plan_.size() + runs_of_a_part - 1) / runs_of_a_part;
+  in_order(parts - used_parts_, number_of_threads(options_.jobs), [&](std::size_t part) {
     std::vector<RunRecord> records;
     Variants variants;
     LastOptions last;
-    const std::size_t first = part * at_a_time, end = std::min(first + at_a_time, plan_.size());
+    const std::size_t first = (used_parts_ + part) * runs_of_a_part;
+    const std::size_t end = std::min(first + runs_of_a_part, plan_.size());
     records.reserve(end - first);
     for (std::size_t i = first; i < end; ++i) {
       RunRecord& record = records.emplace_back();

@@ -18,7 +18,7 @@
 #include "experiments/study/record/study_view.hpp"
 #include "experiments/study/store/result_folder.hpp"
 #include "experiments/study/store/store.hpp"
-#include "experiments/study/text/in_order.hpp"
+#include "experiments/study/workers/runs_in_order.hpp"
 
 namespace polhode::study::inline workers {
 
@@ -41,8 +41,10 @@ class StudyRuns {
   /// Copies results of the plan's runs from the other stores of the study into the own one.
   void join();
 
-  /// Carries out the runs that no store has yet; of a shard its own. Returns false if interrupted.
-  bool carry_out_missing(Interruption& interruption);
+  /// Carries out the runs that no store has yet; of a shard its own. Returns false if interrupted. `make`:
+  /// for_each_part will be called with it. Where all runs of the plan are carried out, parts are made and used
+  /// meanwhile.
+  bool carry_out_missing(Interruption& interruption, const MakePart& make = {});
 
   /// Adds the further runs that the experiment requests, given the results of the plan. Returns false if there are
   /// none.
@@ -53,9 +55,12 @@ class StudyRuns {
   /// The study with all runs that are there or refused. To be called once, after the last widen().
   StudyView view();
 
-  /// Calls make(runs) for a few runs of the plan at a time, without curves and scenarios, on several threads, and what
-  /// it returns in the order of the plan.
-  void for_each_part(const std::function<UsePart(std::vector<RunRecord>&& runs)>& make) const;
+  /// The study with these runs of the plan, whose results are empty.
+  StudyView planned(const std::vector<std::size_t>& runs) const;
+
+  /// Calls make(runs) for the parts of the plan that carry_out_missing has not used, without scenarios, on several
+  /// threads, and what it returns in the order of the plan.
+  void for_each_part(const MakePart& make) const;
 
   /// The result of a run that is in the own store.
   RunResult result(std::size_t run, Curves curves) const;
@@ -67,7 +72,7 @@ class StudyRuns {
   void hold_results();
   bool is_whole(std::size_t run, const RunResult& result) const;
   std::size_t count(Place place) const;
-  void run(const std::vector<std::uint32_t>& runs, Interruption& interruption);
+  void run(const std::vector<std::uint32_t>& runs, Interruption& interruption, const MakePart& make);
   void check_found(std::size_t run, const std::optional<std::string>& damage) const;
 
   const Experiment& experiment_;
@@ -79,6 +84,7 @@ class StudyRuns {
   std::vector<Place> places_;                    // places of the runs of the plan
   ResultsById held_;                             // results of all stores, from one widen() to the next and to view()
   std::unordered_set<std::uint64_t> elsewhere_;  // those of held_ that only other stores have
+  std::size_t used_parts_ = 0;                   // parts that for_each_part leaves out
   bool begun_ = false;                           // runs have been carried out
 };
 

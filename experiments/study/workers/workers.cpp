@@ -127,12 +127,13 @@ class Keeper {
     progress_.report(stored_.size(), time_left_.share(under_way), time_left_.seconds(under_way, desks_.size()));
   }
 
-  void keep(const Runs& runs) {
+  void keep(Runs& runs) {
     if (runs.numbers.empty() || failure_) return;
     try {
       work_.finish(runs.records);
       store_.keep(runs.records);
       stored_.insert(stored_.end(), runs.numbers.begin(), runs.numbers.end());
+      if (work_.stored) work_.stored(runs.numbers, runs.records);
     } catch (...) {
       failure_ = std::current_exception();
       no_more_ = true;
@@ -230,9 +231,10 @@ std::vector<std::uint32_t> run_all(const std::string& name, const Plan& plan, co
   const auto work_on = [&](int number) {
     Worker worker(plan, work, keeper, no_more, static_cast<std::size_t>(number));
     while (!no_more) {
-      const std::vector<std::uint32_t> taken = queue.take();
-      if (taken.empty()) return;
       try {
+        if (work.between) work.between();
+        const std::vector<std::uint32_t> taken = queue.take();
+        if (taken.empty()) return;
         worker.carry_out(taken);
       } catch (...) {
         const std::lock_guard lock(failure_mutex);

@@ -29,6 +29,10 @@ struct Work {
   std::function<void(Batch, std::atomic<double>& share, const Finished&)> carry_out;
   /// Does what must be done before the results of runs are put into the store.
   std::function<void(const std::vector<RunRecord>&)> finish;
+  /// Receives runs that were stored, with their numbers in the plan, and may move them elsewhere. May be empty.
+  std::function<void(std::span<const std::uint32_t> numbers, std::span<RunRecord> runs)> stored{};
+  /// Called by a worker before it takes further runs. May be empty.
+  std::function<void()> between{};
 };
 
 /// Carries out these runs of the plan, the longest first, `jobs` at a time (0: one for each core), and puts the results
