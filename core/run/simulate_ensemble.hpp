@@ -73,7 +73,7 @@ struct EnsembleParts {
   std::function<std::vector<LaneQuantity>(std::span<const Problem>)> watched{};
 };
 
-/// Carries out runs side by side until there are no more. Their systems must have equal non-empty keys (lane_key),
+/// Carries out runs side by side until there are no more. Their problems must have equal non-empty keys (lane_key),
 /// their schedules must agree on `normalize`. Each run gets samples that are bitwise equal to those of simulate(), and
 /// ends as under simulate(). `stop`: if given, requests the end of all runs; it is read after every call of the method.
 void simulate_ensemble(const EnsembleParts& parts, EnsembleObserver& observer, const std::atomic<bool>* stop = nullptr);

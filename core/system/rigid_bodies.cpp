@@ -174,14 +174,15 @@ std::shared_ptr<const ManyBodies<S>> many_bodies_form(const System<S>& system) {
   });
 }
 
-std::string lane_key(const System<double>& system) {
-  if (system.problem().bodies.size() != 1 || !fits_one_body_form(system.problem())) return {};
-  std::string key = system.problem().bodies.front().inertia.isDiagonal(0) ? "principal" : "general";
-  if (system.problem().starts.front().angular_velocity_in_body) key += " body";
-  for (std::size_t k = 0; k < system.forces().size(); ++k) {
-    if (k >= system.problem().forces.size()) return {};  // added by add_force()
-    const auto& force = *system.forces()[k];
-    key += ' ' + system.problem().forces[k].kind;
+std::string lane_key(const Problem& problem) {
+  if (problem.bodies.size() != 1 || !fits_one_body_form(problem)) return {};
+  std::string key = problem.bodies.front().inertia.isDiagonal(0) ? "principal" : "general";
+  if (problem.starts.front().angular_velocity_in_body) key += " body";
+  if (problem.forces.empty()) return key;
+  const auto system = make_system<double>(problem, {});
+  for (std::size_t k = 0; k < system->forces().size(); ++k) {
+    const auto& force = *system->forces()[k];
+    key += ' ' + problem.forces[k].kind;
     for (const bool fact : {force.does_work(), force.effect_on(0).torque, force.reads_rotation()})
       key += fact ? '1' : '0';
   }

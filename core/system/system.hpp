@@ -124,10 +124,11 @@ class System : public Ode<S> {
 template <class S>
 std::unique_ptr<System<S>> make_system(const Problem& problem, const Formulation& formulation);
 
-/// Compatibility key for ensembles. Systems with equal non-empty keys can run side by side in lanes: each has one free
-/// body and the same kinds of forces. Inertias, initial states and parameters may differ.
-std::string lane_key(const System<double>& system);
-/// Builds an ensemble of lane_count problems, one per lane. Their systems must have equal non-empty keys.
+/// Compatibility key for ensembles. Systems of problems with equal non-empty keys can run side by side in lanes, unless
+/// forces were added to them: each has one free body and the same kinds of forces. Inertias, initial states and
+/// parameters may differ.
+std::string lane_key(const Problem& problem);
+/// Builds an ensemble of lane_count problems, one per lane. They must have equal non-empty keys.
 std::unique_ptr<System<Lanes>> make_ensemble(std::span<const Problem> problems, const Formulation& formulation);
 
 }  // namespace polhode::core::system

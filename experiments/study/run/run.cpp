@@ -343,7 +343,7 @@ std::string ensemble_key(const RunConfig& config, const Scenario& scenario, cons
                      config.precision == Precision::double_precision && usual &&
                      trajectory.format == TrajectoryFormat::none;
   if (!plain || !find_integrator(config.integrator)->make_lanes) return {};
-  const std::string key = lane_key(*make_system<double>(scenario.problem, formulation_of(config)));
+  const std::string key = lane_key(scenario.problem);
   if (key.empty()) return {};
   const Formulation& f = config.formulation;
   return fmt::format("{} {} {} {} {} {} {} {}", key, config.integrator, name(f.orientation), name(f.angular_state),
