@@ -148,8 +148,8 @@ ExplainedRun explained(const FoundRun& found) {
 }
 
 std::vector<std::pair<std::string, std::string>> identity_of_run(const ExplainedRun& run) {
-  std::vector<std::pair<std::string, std::string>> keys = {{"results version", version_of(run)},
-                                                           {"scenario text", text_hash(run.read.scenario->canonical())}};
+  std::vector<std::pair<std::string, std::string>> keys = {
+      {"results version", version_of(run)}, {"scenario text", text_hash(run.read.scenario->canonical())}};
   const auto parts = identity_parts(run.read.config);
   keys.insert(keys.end(), parts.begin(), parts.end());
   return keys;

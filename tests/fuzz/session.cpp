@@ -45,7 +45,8 @@ constexpr std::array<std::string_view, 30> session_words = {"version = 1\n",
 std::string first_lines() {
   const std::string name = "bouncing_ball";
   const study::Scenario scenario = study::ScenarioSource::open(name).resolve();
-  return "version = 1\nscenario = \"" + name + "\"\nscenario_digest = \"" + viewer::digest(scenario.canonical()) + "\"\n";
+  return "version = 1\nscenario = \"" + name + "\"\nscenario_digest = \"" + viewer::digest(scenario.canonical()) +
+         "\"\n";
 }
 
 /// Reads the bytes alone, and behind the first lines of a record.

@@ -97,8 +97,7 @@ struct Draft {
 Draft draft_of(const RunConfig& config, const Scenario& scenario, std::shared_ptr<const OptionsOfRuns> options) {
   const std::string canonical = scenario.canonical();
   const std::uint64_t id = options->numbers.of(config.varied, canonical);
-  const std::uint64_t motion =
-      options->motion_numbers ? options->motion_numbers->of(config.varied, canonical) : id;
+  const std::uint64_t motion = options->motion_numbers ? options->motion_numbers->of(config.varied, canonical) : id;
   const bool refused = !refusal(config, scenario).empty();
   const auto cost = static_cast<float>(std::min(options->cost, double{std::numeric_limits<float>::max()}));
   return {{.id = id, .scenario = study::number_of(scenario.name, canonical), .cost = cost, .refused = refused},

@@ -11,8 +11,8 @@
 
 namespace polhode::study::inline scenario {
 
-/// Adds the text of Scenario::canonical(), but for contact and the scale of the energy, to `out`. Bodies and forces are in their order; the keys of a force and the
-/// invariants are sorted.
+/// Adds the text of Scenario::canonical(), but for contact and the scale of the energy, to `out`. Bodies and forces are
+/// in their order; the keys of a force and the invariants are sorted.
 void add_canonical_text(const Problem& problem, const std::vector<std::string>& invariants, std::string& out);
 
 /// The line of a body that can collide, with the sizes of its shape.

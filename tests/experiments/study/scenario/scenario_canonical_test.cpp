@@ -122,8 +122,9 @@ TEST(ScenarioCanonical, SeesEveryKeyOfAForce) {
         text += p.key + (std::holds_alternative<double>(p.value) ? " = 0.5\n" : " = [0.5, 0.5, 0.5]\n");
       }
       const std::string canonical = resolved(text).canonical();
-      EXPECT_NE(resolved(text, {{"force.0.bodies", bodies == 2 ? "[\"body1\", \"body0\"]" : "[\"body1\"]"}}).canonical(),
-                canonical);
+      EXPECT_NE(
+          resolved(text, {{"force.0.bodies", bodies == 2 ? "[\"body1\", \"body0\"]" : "[\"body1\"]"}}).canonical(),
+          canonical);
       for (const Parameter& p : kind.parameters) {
         if (p.needs_bodies != 0 && p.needs_bodies != bodies) continue;
         const std::string value = std::holds_alternative<double>(p.value)   ? "0.25"
