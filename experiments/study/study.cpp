@@ -175,6 +175,7 @@ class LargeStudy {
 
   /// Writes all files, once all runs of the plan are there.
   int write(const Experiment& experiment, const Options& options, StudyRuns& runs) {
+    std::future<void> settled = std::async(std::launch::async, [&runs] { runs.store().settle(); });
     runs.for_each_part([this](std::vector<RunRecord>&& records) { return part(std::move(records)); });
     results_.finish();
     timings_.finish();
@@ -184,6 +185,7 @@ class LargeStudy {
     sample.analysis = population_.analysis();
     choose_figures(sample.figure_choice, sample.analysis->figures);
     write_reports(sample, options, plan_, runs);
+    settled.get();
     return status_of(experiment, false, population_.outcomes());
   }
 
@@ -281,10 +283,7 @@ int run_study(const Experiment& experiment, const Options& options) {
   } while (runs.widen());
   interruption.ends_at_once(
       "interrupted while results were written; all runs are kept, and the same command writes them\n");
-  std::future<void> settled = std::async(std::launch::async, [&runs] { runs.store().settle(); });
-  const int status = large ? large->write(experiment, options, runs) : write_study(experiment, options, plan, runs);
-  settled.get();
-  return status;
+  return large ? large->write(experiment, options, runs) : write_study(experiment, options, plan, runs);
 }
 
 }  // namespace
