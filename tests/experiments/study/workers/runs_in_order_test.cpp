@@ -95,13 +95,13 @@ TEST(RunsInOrder, AreForgottenOnceTooManyWait) {
 }
 
 TEST(RunsInOrder, MayBeMadeOnSeveralThreads) {
-  constexpr std::size_t count = 64 * runs_of_a_part;
+  constexpr std::size_t count = RunsInOrder::most_waiting, parts = count / runs_of_a_part;  // none is forgotten
   std::vector<std::string> used;
   RunsInOrder runs(count, into(used));
   std::vector<std::thread> threads;
   for (int k = 0; k < 3; ++k) {
     threads.emplace_back([&] {
-      while (runs.used() < 64) runs.work();
+      while (runs.used() < parts) runs.work();
     });
   }
   const std::vector<std::uint32_t> order = numbers_to(count);
