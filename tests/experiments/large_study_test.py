@@ -2,6 +2,8 @@
 """A study with more runs than are held: what it writes, however it was carried out."""
 import csv
 import re
+import subprocess
+import time
 import unittest
 
 from programs import BIN, call, peak_memory, temporary_folder
@@ -72,6 +74,20 @@ class LargeStudy(unittest.TestCase):
         self.assertEqual((out / "timings.csv").read_bytes(), (out / "before.csv").read_bytes())
         (out / "before.csv").unlink()
         self.assertEqual(files(out), first)
+
+    def test_a_kill_while_rows_are_written_loses_and_doubles_nothing(self):
+        study = [{"0.01": "0.001", "0.03": "1"}.get(word, word) for word in STUDY]
+        self.run_in("undisturbed", study=study)
+        (self.folder / "killed").mkdir()
+        rows = self.folder / "killed/out/runs.csv.new"
+        with subprocess.Popen([BIN / "energy_drift", *study, "--out", "out"], cwd=self.folder / "killed",
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+            while process.poll() is None and not (rows.exists() and rows.stat().st_size > 0):
+                time.sleep(0.001)
+            process.kill()
+        self.assertEqual(process.returncode, -9, "it ended before it was killed")
+        self.assertRegex(self.run_in("killed", study=study).stderr, r"\d+ of 10201 runs are there already")
+        self.assertEqual(files(self.folder / "killed/out"), files(self.folder / "undisturbed/out"))
 
     def test_memory_hardly_grows_with_the_number_of_runs(self):
         """A run of two steps is carried out faster than it is stored, and one axis has all the values."""
