@@ -50,7 +50,7 @@ struct Scenario {
 
   /// Everything that affects the results, and nothing else, as text with every default filled in and numbers that read
   /// back exactly. t_end is not included, since it is an option of the run. Part of the identity of a run. Made anew by
-  /// each call: only the plan of a large study reads that of each run.
+  /// each call: most runs need it in the plan alone.
   std::string canonical() const;
 };
 
