@@ -771,6 +771,13 @@ class Results(StudyTest):
         self.assertEqual(manifest["axes"]["integrator"], "rk4")
         self.assertIn("energy_drift --integrator rk4", manifest["command"])
 
+    def test_the_allocator_uses_huge_pages(self):
+        out = self.study(*SMALL)
+        if "-fsanitize" in json.loads((out / "manifest.json").read_text(encoding="utf-8"))["flags"]:
+            self.skipTest("skipped, because a sanitizer has an allocator of its own")
+        shown = self.call("energy_drift", "--help", env={**os.environ, "MALLOC_CONF": "stats_print:true"})
+        self.assertIn('opt.thp: "always"', shown.stderr)
+
     def test_the_store_has_the_configuration_of_each_run(self):
         out = self.study("--scenario", "lagrange_top,peters_hsu", "--integrator", "rk4,odeint_dopri5", "--dt", "1e-2", "--tolerance",
                          "1e-6", "--orientation", "quaternion,matrix", "--vary", "body.0.mass=1,2", "--no-figures")

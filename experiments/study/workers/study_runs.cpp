@@ -60,6 +60,7 @@ StudyView view_of(const Experiment& experiment, const Options& options, const Pl
   view.invariants = plan.invariants;
   view.folder = folder;
   view.durations_follow_steps = static_cast<bool>(experiment.duration);
+  view.runs.reserve(runs.size());
   Variants variants(runs.size());
   for (const std::size_t i : runs) {
     std::optional<RunResult> result;
