@@ -42,13 +42,14 @@ constexpr double share_of_long_study = 0.2, most_of_long_study = 2;
 // Times measured where a number is written in `usual_number` and gnuplot starts in `usual_start`, s.
 constexpr double usual_number = 4.4e-8;
 constexpr double usual_start = 0.01;
-constexpr double fixed_work = 0.02;             // store, summary, page
+constexpr double fixed_work = 0.04;             // start, store, summary, page
 constexpr double work_of_a_run = 8e-5;          // its rows in the store, in tables and in the page
 constexpr double work_of_a_run_of_many = 2e-5;  // the same where runs are too many to be held, on all threads
 constexpr double work_of_a_figure = 0.022;      // a start of gnuplot
 constexpr double work_of_a_panel = 0.0035;
 constexpr double work_of_a_point = 2e-5;
 constexpr double figures_at_a_time = 2;
+constexpr double drawn_like_a_start = 0.8;  // share of the time of panels and points that a slow system prolongs
 
 /// Time in which this machine writes a number as text, s.
 double time_of_a_number() {
@@ -122,17 +123,27 @@ FigureSet usual_figures(const Plan& plan) {
   return figures_of(view, group(view));
 }
 
-double work_of_figures(const Experiment& experiment, const Plan& plan) {
-  double work = static_cast<double>(experiment.needs.figures) * (work_of_a_figure + 4 * work_of_a_panel);
+/// How long this machine takes, over the time that was usual where the constants above were measured.
+struct Slowness {
+  double of_numbers = 1;  ///< to write a number as text
+  double of_starts = 1;   ///< to start gnuplot
+};
+
+double time_of_figures(const Experiment& experiment, const Plan& plan, const Slowness& slowness) {
+  auto figures = static_cast<double>(experiment.needs.figures);
+  double panels = 4 * figures, points = 0;
   if (!experiment.analysis_alone) {
     for (const Figure& figure : usual_figures(plan).figures) {
-      double points = 0;
+      figures += 1;
+      panels += static_cast<double>(figure.panels.size());
       for (const Panel& panel : figure.panels) {
         for (const PlottedCurve& curve : panel.curves) points += static_cast<double>(curve.points.size());
       }
-      work += work_of_a_figure + work_of_a_panel * static_cast<double>(figure.panels.size()) + work_of_a_point * points;
     }
   }
+  const double of_drawing = std::lerp(slowness.of_numbers, slowness.of_starts, drawn_like_a_start);
+  const double work = work_of_a_figure * figures * slowness.of_starts +
+                      (work_of_a_panel * panels + work_of_a_point * points) * of_drawing;
   return work / std::clamp<double>(std::thread::hardware_concurrency(), 1, figures_at_a_time);
 }
 
@@ -143,9 +154,13 @@ double time_after_runs(const Experiment& experiment, const Options& options, con
   const double of_a_run = is_held(experiment, static_cast<std::size_t>(planned))
                               ? work_of_a_run
                               : work_of_a_run_of_many / static_cast<double>(number_of_threads(options.jobs));
-  const double own = (fixed_work + of_a_run * runs) * time_of_a_number() / usual_number;
+  Slowness slowness;
+  slowness.of_numbers = time_of_a_number() / usual_number;
+  const double own = (fixed_work + of_a_run * runs) * slowness.of_numbers;
   const std::optional<double> start = options.figures ? time_of_gnuplot() : std::nullopt;
-  return start ? own + work_of_figures(experiment, plan) * *start / usual_start : own;
+  if (!start) return own;
+  slowness.of_starts = *start / usual_start;
+  return own + time_of_figures(experiment, plan, slowness);
 }
 
 /// Finished runs with their wall times, of an even choice of these.
