@@ -46,10 +46,15 @@ def size(path, left=None):
     return 0 if left and left.st_mtime_ns == is_now.st_mtime_ns else is_now.st_size
 
 
+def whole_lines(path):
+    """Number of whole lines. They are read one by one: all at once need fresh memory, and may take as long as their run."""
+    with open(path, "rb") as file:
+        return sum(line.endswith(b"\n") for line in file)
+
+
 def instants_in_csv(folder):
     """Whole lines of numbers that both tables have; one body moves."""
-    lines = [there(folder / name).read_bytes().count(b"\n") - 1 for name in ("trajectory.csv", "energy.csv")
-             if there(folder / name).exists()]
+    lines = [whole_lines(there(folder / name)) - 1 for name in ("trajectory.csv", "energy.csv") if there(folder / name).exists()]
     return max(0, min(lines)) if len(lines) == 2 else 0
 
 

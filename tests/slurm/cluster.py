@@ -127,16 +127,17 @@ class Cluster:
 
     def wait_for_task(self, patience=PATIENCE):
         """A task of an array that runs."""
-        self.wait(self.tasks, "a running task", patience)
-        return self.tasks()[0]
+        return self.wait(self.tasks, "a running task", patience)[0]
 
     def wait(self, ready, what, patience=PATIENCE):
+        """What `ready` returns, once that is true."""
         end = time.monotonic() + patience
-        while not ready():
+        while not (found := ready()):
             if time.monotonic() > end:
                 logs = "".join(f"{path.name}: {path.read_text(errors='replace')[-800:]}\n" for path in self.folder.glob("*.log"))
                 raise AssertionError(f"waited in vain for {what}\n{logs}")
             time.sleep(0.1)
+        return found
 
     def call(self, *command, **settings):
         return subprocess.run(command, env=self.environment, capture_output=True, text=True, timeout=PATIENCE, **settings)
