@@ -65,7 +65,9 @@ std::optional<std::array<std::string, 3>> texts_of(std::span<const Value, 3> val
   return texts;
 }
 
-class Transaction {
+}  // namespace
+
+class Store::Transaction {
  public:
   explicit Transaction(const Database& db) : db_(db) { db_.execute("BEGIN IMMEDIATE"); }
   ~Transaction() {
@@ -82,8 +84,6 @@ class Transaction {
   const Database& db_;
   bool committed_ = false;
 };
-
-}  // namespace
 
 std::string StoredRun::name() const {
   return RunKey{static_cast<std::int64_t>(number_of_id(id)), number, damage != id_damage}.name();
@@ -343,17 +343,28 @@ void Store::settle() const {
     Database(db_.path(), Access::write, journal_).execute("PRAGMA wal_checkpoint(PASSIVE)");
 }
 
+Store::Keeping::Keeping(Store& store) : store_(store), transaction_(std::make_unique<Transaction>(store.db_)) {
+  if (!store_.writer_) store_.writer_ = std::make_unique<Writer>(store_.db_, *store_.tables_);
+  store_.writer_->begin();
+}
+
+Store::Keeping::~Keeping() {
+  if (transaction_) store_.writer_.reset();  // it takes configurations and columns for stored that are rolled back
+}
+
+void Store::Keeping::add(std::span<const RunRecord> records) {
+  for (const RunRecord& record : records) store_.writer_->write(record);
+}
+
+void Store::Keeping::commit() {
+  transaction_->commit();
+  transaction_.reset();
+}
+
 void Store::keep(std::span<const RunRecord> records) {
-  Transaction transaction(db_);
-  if (!writer_) writer_ = std::make_unique<Writer>(db_, *tables_);
-  writer_->begin();
-  try {
-    for (const RunRecord& record : records) writer_->write(record);
-    transaction.commit();
-  } catch (...) {
-    writer_.reset();  // it takes configurations and columns for stored that are rolled back
-    throw;
-  }
+  Keeping keeping(*this);
+  keeping.add(records);
+  keeping.commit();
 }
 
 std::map<std::int64_t, Configuration> Store::configurations() const { return read_configurations(db_); }

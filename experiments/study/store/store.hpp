@@ -54,6 +54,8 @@ enum class Curves { without, with };
 /// Every function throws std::runtime_error with the file and the reason (disk full, locked, damaged, of another
 /// version) in one line.
 class Store {
+  class Transaction;
+
  public:
   /// Opens the store in the folder. `metrics` must outlive the store. `journal`: absent for the one that suits the file
   /// system; a store that was in another mode changes to it.
@@ -88,9 +90,23 @@ class Store {
   /// Ids of the runs, damaged ones too, that begin with these 1 to 16 hexadecimal digits, in ascending order.
   std::vector<std::string> ids_with(const std::string& beginning) const;
 
-  /// Stores the runs in one transaction; replaces rows of the same id. A run without series and attitude errors is
-  /// stored without curves. Throws std::logic_error for a value that could not be read back.
-  void keep(std::span<const RunRecord> records);
+  /// Stores runs in one transaction, part by part. What is not committed is gone with the object.
+  class Keeping {
+   public:
+    explicit Keeping(Store& store);
+    ~Keeping();
+    Keeping(const Keeping&) = delete;
+    Keeping& operator=(const Keeping&) = delete;
+    /// Stores the runs; replaces rows of the same id. A run without series and attitude errors is stored without
+    /// curves. Throws std::logic_error for a value that could not be read back.
+    void add(std::span<const RunRecord> records);
+    void commit();  ///< must be called once, after the last add()
+
+   private:
+    Store& store_;
+    std::unique_ptr<Transaction> transaction_;  // absent once it is committed
+  };
+  void keep(std::span<const RunRecord> records);       ///< stores the runs in one transaction, as Keeping does
   void forget(std::span<const std::int64_t> numbers);  ///< deletes the rows of the runs with these numbers
   /// Moves what stands in SQLite's log into the file, for which closing the store waits otherwise. Through a connection
   /// of its own, so that another thread may read the store meanwhile.
@@ -132,7 +148,7 @@ class Store {
   Journal journal_;
   Database db_;
   std::unique_ptr<const Tables> tables_;
-  std::unique_ptr<Writer> writer_;                             ///< made at the first keep()
+  std::unique_ptr<Writer> writer_;                             ///< made by the first Keeping
   mutable std::unique_ptr<Reader> finder_, finder_of_curves_;  ///< made at the first find()
   mutable std::unique_ptr<Reader> from_number_;                ///< made by the first Reading
 };

@@ -10,6 +10,7 @@
 #include <exception>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "core/math/lanes.hpp"
@@ -21,11 +22,15 @@
 namespace polhode::study::inline workers {
 namespace {
 
-constexpr std::chrono::milliseconds between_commits{80};
-constexpr std::size_t commit_at_once = 2048;  // finished runs that are committed before that time
-constexpr std::size_t most_pending = 4096;    // finished runs in memory; workers wait until some go to the store
-
 using Clock = std::chrono::steady_clock;
+
+// Ids of runs are in no order: a commit rewrites the pages of their index that it changes, in a large store all of it.
+constexpr Clock::duration between_commits = std::chrono::milliseconds{80};
+constexpr Clock::duration longest_between_commits = std::chrono::seconds{1};
+constexpr int between_by_last = 10;          // time to the next commit / time that the last one took
+constexpr std::size_t store_at_once = 2048;  // finished runs that go to the store before that time
+constexpr std::size_t most_pending = 4096;   // finished runs in memory; workers wait until some go to the store
+
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// The batch that a worker carries out.
@@ -37,7 +42,7 @@ struct Desk {
   std::atomic<double> share{0};
 };
 
-/// The thread that commits finished runs to the store and reports the progress.
+/// The thread that stores finished runs and reports the progress.
 class Keeper {
  public:
   Keeper(const std::string& name, const Plan& plan, const std::vector<std::uint32_t>& runs, std::size_t workers,
@@ -69,7 +74,7 @@ class Keeper {
     room_.wait(lock, [this] { return pending_.numbers.size() < most_pending; });
     pending_.numbers.push_back(number);
     pending_.records.push_back(std::move(record));
-    if (pending_.numbers.size() == commit_at_once) wake_.notify_one();
+    if (pending_.numbers.size() == store_at_once) wake_.notify_one();
   }
 
   /// Marks the end of a worker's batch.
@@ -80,7 +85,8 @@ class Keeper {
     desk.busy = false;
   }
 
-  /// Waits for the last commit. Returns the numbers of the runs that were stored. Rethrows an exception of the thread.
+  /// Waits for the last commit. Returns the numbers of the runs that were committed. Rethrows an exception of the
+  /// thread.
   std::vector<std::uint32_t> finish() {
     {
       const std::lock_guard lock(mutex_);
@@ -90,7 +96,7 @@ class Keeper {
     thread_.join();
     progress_.finish();
     if (failure_) std::rethrow_exception(failure_);
-    return std::move(stored_);
+    return std::move(committed_);
   }
 
  private:
@@ -107,13 +113,12 @@ class Keeper {
       runs.records.clear();
       {
         std::unique_lock lock(mutex_);
-        wake_.wait_for(lock, between_commits,
-                       [this] { return finished_ || pending_.numbers.size() >= commit_at_once; });
+        wake_.wait_for(lock, between_commits, [this] { return finished_ || pending_.numbers.size() >= store_at_once; });
         last = finished_;
         std::swap(runs, pending_);
       }
       room_.notify_all();
-      keep(runs);
+      keep(runs, last);
       if (progress_.is_due()) report();
     }
   }
@@ -124,20 +129,43 @@ class Keeper {
     for (const Desk& desk : desks_) {
       if (desk.busy) under_way.push_back({desk.kind, desk.cost, desk.share, seconds_since(desk.started)});
     }
-    progress_.report(stored_.size(), time_left_.share(under_way), time_left_.seconds(under_way, desks_.size()));
+    progress_.report(committed_.size(), time_left_.share(under_way), time_left_.seconds(under_way, desks_.size()));
   }
 
-  void keep(Runs& runs) {
-    if (runs.numbers.empty() || failure_) return;
+  /// Stores the runs, and commits what is stored once it is time.
+  void keep(Runs& runs, bool last) {
+    if (failure_) return;
     try {
-      work_.finish(runs.records);
-      store_.keep(runs.records);
-      stored_.insert(stored_.end(), runs.numbers.begin(), runs.numbers.end());
-      if (work_.stored) work_.stored(runs.numbers, runs.records);
+      if (!runs.numbers.empty()) add(runs);
+      if (keeping_ && (last || Clock::now() >= next_commit_)) commit();
     } catch (...) {
       failure_ = std::current_exception();
       no_more_ = true;
+      keeping_.reset();
     }
+  }
+
+  void add(Runs& runs) {
+    try {
+      work_.finish(runs.records);
+    } catch (...) {
+      if (keeping_) commit();
+      throw;
+    }
+    if (!keeping_) keeping_.emplace(store_);
+    keeping_->add(runs.records);
+    uncommitted_.insert(uncommitted_.end(), runs.numbers.begin(), runs.numbers.end());
+    if (work_.stored) work_.stored(runs.numbers, runs.records);
+  }
+
+  void commit() {
+    const Clock::time_point start = Clock::now();
+    keeping_->commit();
+    keeping_.reset();
+    committed_.insert(committed_.end(), uncommitted_.begin(), uncommitted_.end());
+    uncommitted_.clear();
+    const Clock::time_point end = Clock::now();
+    next_commit_ = end + std::clamp(between_by_last * (end - start), between_commits, longest_between_commits);
   }
 
   const Work& work_;
@@ -149,7 +177,9 @@ class Keeper {
   TimeLeft time_left_;
   Progress progress_;
   Runs pending_;
-  std::vector<std::uint32_t> stored_;
+  std::vector<std::uint32_t> committed_, uncommitted_;  ///< numbers of the runs in the store
+  std::optional<Store::Keeping> keeping_;               ///< what is not yet committed
+  Clock::time_point next_commit_ = Clock::now() + between_commits;
   bool finished_ = false;
   std::exception_ptr failure_;
   std::thread thread_;

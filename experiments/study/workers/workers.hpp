@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Carries out runs of a plan on several cores and stores finished runs at least ten times a second. A run is made when
-// a worker begins it, and forgotten when it is stored.
+// Carries out runs of a plan on several cores and commits finished runs to the store ten times a second, and less
+// often, down to once a second, where commits would take more than a tenth of the time. A run is made when a worker
+// begins it, and forgotten when it is stored.
 #pragma once
 
 #include <atomic>
@@ -29,7 +30,8 @@ struct Work {
   std::function<void(Batch, std::atomic<double>& share, const Finished&)> carry_out;
   /// Does what must be done before the results of runs are put into the store.
   std::function<void(const std::vector<RunRecord>&)> finish;
-  /// Receives runs that were stored, with their numbers in the plan, and may move them elsewhere. May be empty.
+  /// Receives runs that were stored but perhaps not yet committed, with their numbers in the plan, and may move them
+  /// elsewhere. May be empty.
   std::function<void(std::span<const std::uint32_t> numbers, std::span<RunRecord> runs)> stored{};
   /// Called by a worker before it takes further runs. May be empty.
   std::function<void()> between{};
@@ -37,7 +39,7 @@ struct Work {
 
 /// Carries out these runs of the plan, the longest first, `jobs` at a time (0: one for each core), and puts the results
 /// into the store. No batch begins once no_more is set, which an exception does as well; finished runs are kept.
-/// Returns the numbers of the runs that were stored. Rethrows exceptions of `work` and of the store.
+/// Returns the numbers of the runs that were committed. Rethrows exceptions of `work` and of the store.
 std::vector<std::uint32_t> run_all(const std::string& name, const Plan& plan, const std::vector<std::uint32_t>& runs,
                                    const Work& work, int jobs, Store& store, std::atomic<bool>& no_more);
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -108,6 +109,29 @@ TEST(Store, RunsAreReadOneAfterAnotherInAnyOrder) {
       EXPECT_EQ(text_of_result(result), text_of_result(bare)) << k;
     }
   }
+}
+
+TEST(Store, RunsThatAreNotCommittedAreGone) {
+  const TemporaryFolder folder;
+  const auto runs = made_up_runs(4);
+  Store store(folder.path());
+  {
+    Store::Keeping keeping(store);
+    keeping.add(runs);
+  }
+  EXPECT_TRUE(store.ids().empty());
+  {
+    Store::Keeping keeping(store);
+    keeping.add(std::span(runs).first(1));
+    keeping.add(std::span(runs).subspan(1));
+    EXPECT_TRUE(Store::ids_in(folder.path()).empty()) << "before the commit";
+    keeping.commit();
+  }
+  const auto loaded = load(Store(folder.path()));
+  ASSERT_EQ(loaded.runs.size(), runs.size());
+  for (const RunRecord& run : runs) EXPECT_EQ(text_of_result(loaded.runs.at(run.id)), text_of_result(run.result));
+  const auto configurations = store.configurations();
+  store.for_each(Curves::without, [&](StoredRun&& run) { EXPECT_TRUE(configurations.contains(run.configuration)); });
 }
 
 TEST(Store, ARowWithoutAnIdIsOneDamagedRun) {

@@ -84,5 +84,51 @@ TEST(Workers, DoNotWaitForAStoreThatHasFailed) {
   EXPECT_TRUE(no_more);
 }
 
+void finish_at_once(Batch batch, std::atomic<double>&, const Finished& finished) {
+  RunResult result;
+  result.status = "ok";
+  for (std::size_t k = 0; k < batch.size(); ++k) finished(k, RunResult(result));
+}
+
+TEST(Workers, CommitRunsWhileOthersAreUnderWay) {
+  const Plan plan = planned(2);
+  const TemporaryFolder folder;
+  Store store(folder.path());
+  store.keep_scenarios(plan.scenarios);
+  std::size_t batches = 0, committed = 0;
+  const Work work{.key = [](const PlannedRun&) { return std::string(); },
+                  .carry_out =
+                      [&](Batch batch, std::atomic<double>& share, const Finished& finished) {
+                        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+                        while (batches == 1 && committed == 0 && std::chrono::steady_clock::now() < end)
+                          committed = Store(folder.path(), metric_table(), Access::read).ids().size();
+                        ++batches;
+                        finish_at_once(batch, share, finished);
+                      },
+                  .finish = [](const std::vector<RunRecord>&) {}};
+  std::atomic<bool> no_more{false};
+  EXPECT_EQ(run_all("tops", plan, all_runs(plan), work, 1, store, no_more).size(), 2u);
+  EXPECT_EQ(committed, 1u);
+}
+
+TEST(Workers, KeepFinishedRunsWhereLaterOnesCannotBeFinished) {
+  const Plan plan = planned(30'000);
+  std::size_t finished = 0;
+  const Work work{.key = [](const PlannedRun&) { return std::string("together"); },
+                  .carry_out = finish_at_once,
+                  .finish =
+                      [&](const std::vector<RunRecord>& runs) {
+                        if (finished > 0) throw std::runtime_error("the disk is full");
+                        finished = runs.size();
+                      }};
+  const TemporaryFolder folder;
+  Store store(folder.path());
+  store.keep_scenarios(plan.scenarios);
+  std::atomic<bool> no_more{false};
+  EXPECT_THROW(run_all("tops", plan, all_runs(plan), work, 2, store, no_more), std::runtime_error);
+  EXPECT_GT(finished, 0u);
+  EXPECT_EQ(store.ids().size(), finished);
+}
+
 }  // namespace
 }  // namespace polhode::study::workers_test
