@@ -18,12 +18,13 @@ namespace polhode::study::inline text {
 namespace {
 
 constexpr std::string_view blanks = " \t";
+constexpr std::size_t first_buffer = 4096;  // bytes; doubled for a longer line until it has 1 MiB
 
 std::string shown(std::string_view text) { return "'" + shortened(text) + "'"; }
 
 }  // namespace
 
-CsvReader::CsvReader(const std::string& path, std::size_t most) : path_(path), most_(most), buffer_(mebibyte) {
+CsvReader::CsvReader(const std::string& path, std::size_t most) : path_(path), most_(most), buffer_(first_buffer) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw InputError(path + " is a folder; name a CSV file in it");
   file_.open(path, std::ios::binary);
@@ -80,9 +81,15 @@ bool CsvReader::next_line() {
 }
 
 bool CsvReader::read_line() {
-  file_.getline(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
-  const auto count = static_cast<std::size_t>(file_.gcount());
-  if (count == 0) return false;
+  std::size_t count = 0;
+  for (;;) {
+    file_.getline(buffer_.data() + count, static_cast<std::streamsize>(buffer_.size() - count));
+    count += static_cast<std::size_t>(file_.gcount());
+    if (count == 0) return false;
+    if (!file_.fail() || buffer_.size() == mebibyte) break;
+    buffer_.resize(2 * buffer_.size());  // the line is longer
+    file_.clear();
+  }
   const std::size_t length = count - (file_.eof() || file_.fail() ? 0 : 1);
   const auto refuse = [&](const std::string& what) {
     throw InputError(fmt::format("{}:{}:1: {}", path_, line_number_ + 1, what));

@@ -149,6 +149,30 @@ TEST_F(InputFiles, ATableHasAnEnd) {
   EXPECT_THAT(refusal_of([&] { read("/dev/zero", mebibyte); }), HasSubstr("/dev/zero:1:1: a zero byte"));
 }
 
+TEST_F(InputFiles, ALineOfATableMayHaveAnyLengthBelowAMebibyte) {
+  for (std::size_t buffer = 4096; buffer <= mebibyte; buffer *= 2) {
+    for (const std::size_t length : {buffer - 2, buffer - 1, buffer, buffer + 1}) {
+      const std::string cell = std::string(length - 3, 'x') + 'y';
+      for (const char* end : {"\n3,4\n", "\n3,4", "\n", ""}) {
+        CsvReader table(file("a,b\n1," + cell + end));
+        if (length >= mebibyte) {
+          EXPECT_THAT(refusal_of([&] { table.next(); }), HasSubstr("file:2:1: a line of more than 1 MiB"));
+          continue;
+        }
+        ASSERT_TRUE(table.next());
+        EXPECT_TRUE(table.text(1) == cell) << length;
+        if (end[0] == '\0' || end[1] == '\0') {
+          EXPECT_FALSE(table.next());
+        } else {
+          ASSERT_TRUE(table.next());
+          EXPECT_EQ(table.text(1), "4");
+          EXPECT_FALSE(table.next());
+        }
+      }
+    }
+  }
+}
+
 TEST_F(InputFiles, ATableIsReadByItsNames) {
   CsvReader table(file("z,y,x\n3,2,1\n"));
   const auto places = table.columns({"x", "y", "z"});
