@@ -5,11 +5,9 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <exception>
 #include <map>
 #include <optional>
 #include <random>
-#include <thread>
 #include <utility>
 
 #include "experiments/study/metrics/references.hpp"
@@ -31,7 +29,6 @@ struct Task {
   Repeated repeated;
   ReadRun run;
   RunResult stored, again;
-  std::exception_ptr failure;
 };
 
 std::string words_of_run(const RunConfig& config) {
@@ -85,28 +82,18 @@ void repeat(const std::vector<FoundRun>& runs, int jobs, const std::atomic<bool>
     }
     References references;
     references.expect(std::move(scenarios));
-    std::atomic<std::size_t> next{0};
-    const auto work = [&] {
-      for (std::size_t k = next++; k < tasks.size() && !no_more; k = next++) {
-        Task& task = tasks[k];
-        if (!task.repeated.why_not.empty()) continue;
-        try {
-          task.again = carry_out(task.run.config, *task.run.scenario, {}, &stop, &references);
-          task.repeated.differences = differences(task.stored, task.again);
-        } catch (...) {
-          task.failure = std::current_exception();
-        }
+    const auto repeat_one = [&](std::size_t k) -> UsePart {
+      Task& task = tasks[k];
+      if (task.repeated.why_not.empty() && !no_more) {
+        task.again = carry_out(task.run.config, *task.run.scenario, {}, &stop, &references);
+        task.repeated.differences = differences(task.stored, task.again);
       }
+      return [&task, &done] {
+        const bool carried_out = !task.again.status.empty() && task.again.status != "interrupted";
+        if (carried_out || !task.repeated.why_not.empty()) done(task.repeated);
+      };
     };
-    std::vector<std::thread> others;
-    for (std::size_t t = 1; t < std::min(threads, tasks.size()); ++t) others.emplace_back(work);
-    work();
-    for (std::thread& other : others) other.join();
-    for (const Task& task : tasks) {
-      if (task.failure) std::rethrow_exception(task.failure);
-      const bool carried_out = !task.again.status.empty() && task.again.status != "interrupted";
-      if (carried_out || !task.repeated.why_not.empty()) done(task.repeated);
-    }
+    in_order(tasks.size(), threads, repeat_one, at_a_time);
   }
 }
 

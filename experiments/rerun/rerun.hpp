@@ -23,8 +23,8 @@ struct Repeated {
 };
 
 /// Repeats the runs, `jobs` at a time (0: one for each core), each alone in its thread, and calls done(result) for each
-/// in the order of `runs`, from the thread that called. No run begins once `no_more` is set; `stop` ends those under
-/// way, which are left out.
+/// in the order of `runs`, one at a time, as soon as it and those before it have ended. No run begins once `no_more` is
+/// set; `stop` ends those under way, which are left out.
 void repeat(const std::vector<FoundRun>& runs, int jobs, const std::atomic<bool>& no_more,
             const std::atomic<bool>& stop, const std::function<void(const Repeated&)>& done);
 

@@ -15,7 +15,8 @@ std::size_t number_of_threads(int jobs) {
   return jobs > 0 ? static_cast<std::size_t>(jobs) : std::max(1U, std::thread::hardware_concurrency());
 }
 
-void in_order(std::size_t parts, std::size_t threads, const std::function<UsePart(std::size_t part)>& make) {
+void in_order(std::size_t parts, std::size_t threads, const std::function<UsePart(std::size_t part)>& make,
+              std::size_t ahead) {
   if (threads < 2 || parts < 2) {
     for (std::size_t part = 0; part < parts; ++part) make(part)();
     return;
@@ -48,9 +49,10 @@ void in_order(std::size_t parts, std::size_t threads, const std::function<UsePar
   };
   tbb::task_arena arena(static_cast<int>(threads));
   arena.execute([&] {
-    tbb::parallel_pipeline(2 * threads, tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, number) &
-                                            tbb::make_filter<std::size_t, UsePart>(tbb::filter_mode::parallel, made) &
-                                            tbb::make_filter<UsePart, void>(tbb::filter_mode::serial_in_order, use));
+    tbb::parallel_pipeline(ahead > 0 ? ahead : 2 * threads,
+                           tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, number) &
+                               tbb::make_filter<std::size_t, UsePart>(tbb::filter_mode::parallel, made) &
+                               tbb::make_filter<UsePart, void>(tbb::filter_mode::serial_in_order, use));
   });
   if (failure) std::rethrow_exception(failure);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -63,6 +64,27 @@ TEST(Rerun, ADigitThatIsNotTheSameIsNamedWithBothValues) {
   const auto other = repeated({stores.find("0123")});
   ASSERT_EQ(other.size(), 1u);
   EXPECT_NE(other[0].why_not.find("its id is not that of what the store says of it"), std::string::npos);
+}
+
+TEST(Rerun, ARunIsToldAsSoonAsItHasEnded) {
+  const TemporaryFolder folder;
+  for (const double dt : {0.125, 0.25, 0.5}) {
+    RunConfig config;
+    config.scenario = "top";
+    config.integrator = "rk4";
+    config.dt = dt;
+    query_tests::keep_in(folder.path(), query_tests::top, query_tests::run_of(query_tests::top, config));
+  }
+  const ResultStores stores({folder.path().string()});
+  ASSERT_EQ(all_runs(stores).size(), 3u);
+  std::atomic<bool> no_more{false};
+  const std::atomic<bool> stop{false};
+  std::size_t told = 0;
+  repeat(all_runs(stores), 1, no_more, stop, [&](const Repeated&) {
+    ++told;
+    no_more = true;
+  });
+  EXPECT_EQ(told, 1u) << "the others had not begun";
 }
 
 TEST(Rerun, EveryMetricAndCurveIsCompared) {

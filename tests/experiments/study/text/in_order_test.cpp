@@ -47,6 +47,25 @@ TEST_P(InOrder, FewPartsAreMadeAhead) {
   EXPECT_LE(most, 2 * GetParam());
 }
 
+TEST_P(InOrder, AsManyPartsAreMadeAheadAsIsSaid) {
+  if (std::min<std::size_t>(GetParam(), std::thread::hardware_concurrency()) < 2)
+    GTEST_SKIP() << "skipped, because one thread makes no part ahead";
+  std::atomic<std::size_t> made{0}, most{0};
+  std::size_t used = 0;
+  const auto make = [&](std::size_t part) -> UsePart {
+    ++made;
+    for (int wait = 0; part == 0 && made < 40 && wait < 10000; ++wait)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return [&] {
+      most = std::max<std::size_t>(most, made - used);
+      ++used;
+    };
+  };
+  in_order(300, GetParam(), make, 40);
+  EXPECT_EQ(most, 40U);
+  EXPECT_EQ(used, 300U);
+}
+
 TEST_P(InOrder, TheFirstFailureIsRethrownAfterThePartsBeforeIt) {
   for (const std::string fails : {"make", "use"}) {
     std::size_t used = 0;
