@@ -123,10 +123,11 @@ std::vector<std::pair<double, double>> places_along(const Panel& panel) {
     for (std::size_t i = 0; i < curve.points.size(); ++i) {
       const auto& a = curve.points[i];
       const auto& b = curve.points[std::min(i + 1, curve.points.size() - 1)];
+      const double ax = panel.x.place(a.x), ay = panel.y.place(a.drawn);
+      const double bx = panel.x.place(b.x), by = panel.y.place(b.drawn);
       for (int k = 0; k < between; ++k) {
         const double s = k / static_cast<double>(between);
-        places.emplace_back(panel.x.place(a.x) * (1 - s) + panel.x.place(b.x) * s,
-                            panel.y.place(a.drawn) * (1 - s) + panel.y.place(b.drawn) * s);
+        places.emplace_back(ax * (1 - s) + bx * s, ay * (1 - s) + by * s);
       }
     }
   }
