@@ -15,8 +15,8 @@ import time
 import unittest
 from contextlib import closing
 
-from programs import BIN, PATIENCE, call, temporary_folder
-from shards_test import files, stored
+from programs import BIN, PATIENCE, call, stored, temporary_folder
+from shards_test import files
 
 KILLS = int(os.environ.get("POLHODE_KILLS", "20"))
 SEED = os.environ.get("POLHODE_SEED", "1")

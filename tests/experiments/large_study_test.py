@@ -6,7 +6,7 @@ import subprocess
 import time
 import unittest
 
-from programs import BIN, call, peak_memory, temporary_folder
+from programs import BIN, call, peak_memory, stored, temporary_folder
 from shards_test import files
 
 STUDY = ["--integrator", "rk4", "--dt", "0.01", "--t-end", "0.03", "--vary", "body.0.angular_velocity.1=1:5:101", "--vary",
@@ -79,15 +79,16 @@ class LargeStudy(unittest.TestCase):
         study = [{"0.01": "0.001", "0.03": "1"}.get(word, word) for word in STUDY]
         self.run_in("undisturbed", study=study)
         (self.folder / "killed").mkdir()
-        rows = self.folder / "killed/out/runs.csv.new"
+        out = self.folder / "killed/out"
+        rows = out / "runs.csv.new"
         with subprocess.Popen([BIN / "energy_drift", *study, "--out", "out"], cwd=self.folder / "killed",
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
-            while process.poll() is None and not (rows.exists() and rows.stat().st_size > 0):
+            while process.poll() is None and not (rows.exists() and rows.stat().st_size > 0 and stored(out) > 0):
                 time.sleep(0.001)
             process.kill()
         self.assertEqual(process.returncode, -9, "it ended before it was killed")
         self.assertRegex(self.run_in("killed", study=study).stderr, r"\d+ of 10201 runs are there already")
-        self.assertEqual(files(self.folder / "killed/out"), files(self.folder / "undisturbed/out"))
+        self.assertEqual(files(out), files(self.folder / "undisturbed/out"))
 
     def test_memory_hardly_grows_with_the_number_of_runs(self):
         """A run of two steps is carried out faster than it is stored, and one axis has all the values."""

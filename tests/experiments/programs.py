@@ -3,6 +3,7 @@
 import csv
 import os
 import pathlib
+import sqlite3
 import subprocess
 import tempfile
 
@@ -24,6 +25,21 @@ def call(program, *arguments, folder, status=0, patience=PATIENCE):
     if done.returncode != status:
         raise AssertionError(f"exit status {done.returncode}, not {status}: {done.stderr[-1500:]}")
     return done
+
+
+def stored(folder):
+    """How many runs the store holds; looked at from outside while a program writes."""
+    path = folder / "results.sqlite"
+    if not path.exists():
+        return 0
+    try:
+        store = sqlite3.connect(f"file:{path}?mode=ro", uri=True, timeout=1)
+        try:
+            return store.execute("SELECT count(*) FROM runs").fetchone()[0]
+        finally:
+            store.close()
+    except sqlite3.Error:
+        return 0  # not made yet, or just now busy
 
 
 def peak_memory(program, *arguments):

@@ -1,28 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Studies in shards: every run once, whatever is killed or done twice, and the files of a study in one process."""
 import signal
-import sqlite3
 import subprocess
 import time
 import unittest
 
-from programs import BIN, PATIENCE, call, temporary_folder
+from programs import BIN, PATIENCE, call, stored, temporary_folder
 
 STUDY = ["--integrator", "rk4,dmv,cvode_adams", "--dt", "1e-3,2e-3", "--tolerance", "1e-6", "--vary",
          "body.0.angular_velocity.1=1:5:12", "--t-end", "1", "--no-figures"]  # 60 runs
 LONG = ["--integrator", "rk4,explicit_midpoint", "--dt", "2e-5", "--vary", "body.0.angular_velocity.1=1:5:60", "--no-figures",
         "--jobs", "1"]  # 120 runs
-
-
-def stored(folder):
-    """The number of runs in the store of a folder."""
-    path = folder / "results.sqlite"
-    if not path.exists():
-        return 0
-    try:
-        return sqlite3.connect(f"file:{path}?mode=ro", uri=True).execute("SELECT count(*) FROM runs").fetchone()[0]
-    except sqlite3.Error:
-        return 0
 
 
 def files(folder):

@@ -20,7 +20,7 @@ import tempfile
 import time
 import unittest
 
-from programs import peak_memory
+from programs import peak_memory, stored
 
 BIN = pathlib.Path(os.environ.get("POLHODE_BIN_DIR", "."))
 PATIENCE = 120  # s; a loaded machine is slow, a hanging program is not waited for longer
@@ -69,21 +69,6 @@ def rows_by_run(path):
 
 def files_in(folder):
     return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
-
-
-def stored(folder):
-    """How many runs the store holds; looked at from outside while a program writes."""
-    path = folder / "results.sqlite"
-    if not path.exists():
-        return 0
-    try:
-        store = sqlite3.connect(f"file:{path}?mode=ro", uri=True, timeout=1)
-        try:
-            return store.execute("SELECT count(*) FROM runs").fetchone()[0]
-        finally:
-            store.close()
-    except sqlite3.Error:
-        return 0  # not made yet, or just now busy
 
 
 def norm(v):
