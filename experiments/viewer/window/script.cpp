@@ -8,6 +8,7 @@
 
 #include <charconv>
 #include <map>
+#include <memory>
 #include <sstream>
 #include <utility>
 
@@ -190,7 +191,8 @@ std::string Script::value(Stage& stage, const std::string& of) const {
     name = of.substr(0, of.size() - 2);
   }
   if (k >= stage.size()) fail("there are " + std::to_string(stage.size()) + " runs");
-  const View& view = *stage.session(k).view();
+  const std::shared_ptr<const View> latest = stage.session(k).view();  // lives on when the session publishes the next
+  const View& view = *latest;
   const study::RunConfig& run = view.configuration.run;
   const auto truth = [](bool x) { return std::string(x ? "true" : "false"); };
   const std::map<std::string, std::function<std::string()>> values = {
